@@ -153,8 +153,8 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     file_path = check_path(path, "file")
     if file_path.is_dir():
         raise InputError(
-            f"file: {str(path)!r} is a folder; a NetCDF file, or the store of a map or of demands as "
-            "`store` of the call that wrote it, is accepted"
+            f"file: {str(path)!r} is a folder; a NetCDF file, or the store of a map or of demands "
+            "as `store` of the call that wrote it, is accepted"
         )
     if not file_path.is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")

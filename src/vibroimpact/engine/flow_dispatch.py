@@ -34,7 +34,7 @@ from vibroimpact.engine.motion import Motion
 from vibroimpact.engine.series import library
 from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
-from vibroimpact.engine.taylor import frame
+from vibroimpact.engine.taylor import frame, power
 from vibroimpact.engine.taylor import growth as taylor_growth
 from vibroimpact.engine.taylor import laws as taylor_laws
 from vibroimpact.engine.taylor import pieces as taylor_pieces
@@ -141,6 +141,7 @@ _LAWS |= dict.fromkeys(_YIELDING.values(), par.YIELDING)
 _TAYLOR = (
     taylor_plan,
     frame,
+    power,
     taylor_laws,
     taylor_pieces,
     taylor_advance,

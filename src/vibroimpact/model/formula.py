@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import ast
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import cache
 from typing import ClassVar, NamedTuple, NoReturn, TypeAlias
 
@@ -85,12 +85,12 @@ class Formula(NamedTuple):
 
     def value(self, x: float, v: float) -> float:
         """Return the force (N) at a displacement or deformation (m) and a velocity (m/s)."""
-        return _value(self.tree, dict(zip(self.variables, (x, v), strict=True)))[0]
+        return value_of(self.tree, dict(zip(self.variables, (x, v), strict=True)))[0]
 
     def slope(self, x: float, v: float, which: int) -> float:
         """Return the derivative by the displacement (0) or the velocity (1)."""
         values = dict(zip(self.variables, (x, v), strict=True))
-        return _value(self.tree, values, self.variables[which])[1]
+        return value_of(self.tree, values, self.variables[which])[1]
 
 
 def read_formula(
@@ -121,7 +121,7 @@ def read_formula(
         tree = ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
         column = error.offset if error.offset and error.offset > 0 else len(text.strip()) + 1
-        _refuse(column, f"it cannot be read ({error.msg})")
+        refuse_at(column, f"it cannot be read ({error.msg})")
     except (ValueError, RecursionError, MemoryError):
         raise InputError(
             f"formula: {shown(text)} cannot be read; a formula such as 'k*u + k3*u**3' is accepted"
@@ -136,13 +136,20 @@ def read_formula(
         )
     unit = reader.dimension(made)
     if unit is not None and not _same(unit, FORCE):
-        _refuse(1, f"the formula is {_words(unit)}, not a force")
+        refuse_at(1, f"the formula is {_words(unit)}, not a force")
     if made.kind == "number":
-        _refuse(1, f"{text.strip()!r} does not depend on {variables[0]} or {variables[1]}")
+        refuse_at(1, f"{text.strip()!r} does not depend on {variables[0]} or {variables[1]}")
     return Formula(text.strip(), variables, made)
 
 
-def _refuse(column: int, problem: str) -> NoReturn:
+def refuse_at(column: int, problem: str) -> NoReturn:
+    """Refuse a formula for what stands in a column.
+
+    Raises
+    ------
+    InputError
+        Always.
+    """
     raise InputError(f"formula: column {column}: {problem}")
 
 
@@ -186,9 +193,9 @@ class _Reader:
         if isinstance(part, ast.Constant):
             value = part.value
             if isinstance(value, bool) or not isinstance(value, int | float):
-                _refuse(at, f"{shown(value)} is not a number")
+                refuse_at(at, f"{shown(value)} is not a number")
             if not abs(value) < 1e300:
-                _refuse(at, f"{text} is not a finite number")
+                refuse_at(at, f"{text} is not a finite number")
             return Node("number", (), at, text, float(value))
         if isinstance(part, ast.Name):
             return self.named(part.id, at)
@@ -204,10 +211,12 @@ class _Reader:
                 return self.power(*both, at, text)
             return self.made(sign, both, at, text)
         if isinstance(part, ast.BinOp) and isinstance(part.op, ast.BitXor):
-            _refuse(at, f"{text!r}: ^ is not a power here; ** is accepted")
+            refuse_at(at, f"{text!r}: ^ is not a power here; ** is accepted")
         if isinstance(part, ast.Call):
             return self.called(part, at, text)
-        _refuse(at, f"{text or 'this'} is not a formula; + - * / ** ( ) and functions are accepted")
+        refuse_at(
+            at, f"{text or 'this'} is not a formula; + - * / ** ( ) and functions are accepted"
+        )
 
     def named(self, name: str, at: int) -> Node:
         """Read a variable or a declared number."""
@@ -216,12 +225,12 @@ class _Reader:
         if name not in self.numbers:
             known = (*self.variables, *self.numbers)
             if name == "d":
-                _refuse(
+                refuse_at(
                     at, "'d' is the deformation of a stop, whose law has a gap; 'u' is accepted"
                 )
             if name == "u":
-                _refuse(at, "'u' is the displacement, of an isolator; 'd' is accepted with a gap")
-            _refuse(
+                refuse_at(at, "'u' is the displacement, of an isolator; 'd' is accepted with a gap")
+            refuse_at(
                 at,
                 f"{name!r} is not declared; {meant(name, known)}{', '.join(known)} are accepted, "
                 f"or {name}=... beside the formula",
@@ -236,17 +245,17 @@ class _Reader:
         """Read a function's value."""
         name = part.func.id if isinstance(part.func, ast.Name) else ""
         if name in _REFUSED:
-            _refuse(at, f"{name} is not accepted: {_REFUSED[name]}")
+            refuse_at(at, f"{name} is not accepted: {_REFUSED[name]}")
         if name not in FUNCTIONS or part.keywords or len(part.args) != 1:
             what = (
                 f"{name!r} is not a function of formulas"
                 if name and name not in FUNCTIONS
                 else f"{text!r} cannot be read"
             )
-            _refuse(at, f"{what}; {', '.join(FUNCTIONS)} of one argument are accepted")
+            refuse_at(at, f"{what}; {', '.join(FUNCTIONS)} of one argument are accepted")
         inner = self.read(part.args[0])
         if name == "abs" and inner.kind not in ("number", "variable"):
-            _refuse(
+            refuse_at(
                 at,
                 f"the absolute value of {inner.text!r} is not accepted, for its zero may lie "
                 f"anywhere; abs({self.variables[0]}) and abs({self.variables[1]}) are",
@@ -256,14 +265,16 @@ class _Reader:
     def power(self, base: Node, exponent: Node, at: int, text: str) -> Node:
         """Read a power, whose exponent is a number."""
         if exponent.kind != "number":
-            _refuse(exponent.column, f"the exponent {exponent.text!r} varies; a number is accepted")
+            refuse_at(
+                exponent.column, f"the exponent {exponent.text!r} varies; a number is accepted"
+            )
         unit = self.dimension(exponent)
         if unit is not None and not _same(unit, NONE):
-            _refuse(
+            refuse_at(
                 exponent.column, f"the exponent {exponent.text!r} is {_words(unit)}, not a number"
             )
         if not abs(exponent.number) <= LARGEST:
-            _refuse(
+            refuse_at(
                 exponent.column,
                 f"the exponent is {exponent.number:g}; from -{LARGEST} to {LARGEST} is accepted",
             )
@@ -274,9 +285,9 @@ class _Reader:
         node = Node(kind, parts, at, text)
         unit = self.dimension(node)
         if all(part.kind == "number" for part in parts):
-            value = _value(node, {})[0]
+            value = value_of(node, {})[0]
             if not math.isfinite(value):
-                _refuse(at, f"{text!r} is not a finite number")
+                refuse_at(at, f"{text!r} is not a finite number")
             node = Node("number", (), at, text, value)
             self.units[node] = unit
         return node
@@ -298,7 +309,7 @@ class _Reader:
         if kind in ("+", "-"):
             one, other = units
             if one is not None and other is not None and not _same(one, other):
-                _refuse(
+                refuse_at(
                     parts[1].column,
                     f"{parts[1].text!r} is {_words(other)} and is added to {parts[0].text!r}, "
                     f"{_words(one)}",
@@ -323,7 +334,7 @@ class _Reader:
         if kind == "sqrt":
             return None if inner is None else tuple(0.5 * a for a in inner)  # type: ignore[return-value]
         if inner is not None and not _same(inner, NONE):
-            _refuse(
+            refuse_at(
                 parts[0].column,
                 f"{kind} of {parts[0].text!r}, {_words(inner)}; one without a unit is accepted",
             )
@@ -336,14 +347,14 @@ def _literal(node: Node) -> bool:
     return node.kind == "number" and all(one in "0123456789.eE+-*/() " for one in node.text)
 
 
-def _value(node: Node, values: Mapping[str, float], by: str = "") -> tuple[float, float]:
+def value_of(node: Node, values: Mapping[str, float], by: str = "") -> tuple[float, float]:
     """Return the value of a node and its derivative by a variable."""
     kind = node.kind
     if kind == "number":
         return node.number, 0.0
     if kind == "variable":
         return values[node.text], 1.0 if node.text == by else 0.0
-    found = [_value(part, values, by) for part in node.parts]
+    found = [value_of(part, values, by) for part in node.parts]
     a, da = found[0]
     try:
         if kind == "+":
@@ -385,221 +396,3 @@ _SLOPES: dict[str, Callable[[float], float]] = {
     "cos": lambda x: -math.sin(x),
 }
 """Derivatives of the functions."""
-
-
-def parity(node: Node) -> int:
-    """Return ODD, EVEN or NEITHER."""
-    kind = node.kind
-    if kind == "number":
-        return EVEN
-    if kind == "variable":
-        return ODD
-    found = [parity(part) for part in node.parts]
-    if kind in ("+", "-"):
-        return found[0] if found[0] == found[1] else NEITHER
-    if kind in ("*", "/"):
-        return found[0] * found[1]
-    if kind == "neg":
-        return found[0]
-    if kind == "**":
-        n = node.parts[1].number
-        if found[0] == EVEN:
-            return EVEN
-        return NEITHER if n != int(n) else (found[0] if int(n) % 2 else abs(found[0]))
-    return EVEN if found[0] == EVEN else (FUNCTIONS[kind] if found[0] == ODD else NEITHER)
-
-
-def terms(node: Node) -> list[tuple[float, Node]]:
-    """Split a sum into its terms, each with its sign."""
-    if node.kind == "+":
-        return terms(node.parts[0]) + terms(node.parts[1])
-    if node.kind == "-":
-        return terms(node.parts[0]) + [(-sign, one) for sign, one in terms(node.parts[1])]
-    if node.kind == "neg":
-        return [(-sign, one) for sign, one in terms(node.parts[0])]
-    return [(1.0, node)]
-
-
-def monomial(node: Node, variables: Sequence[str]) -> tuple[float, tuple[float, ...]] | None:
-    """Return the factor and the powers of x, v, |x| and |v| of a product; None if it is none."""
-    kind = node.kind
-    if kind == "number":
-        return node.number, (0.0, 0.0, 0.0, 0.0)
-    if kind == "variable":
-        i = variables.index(node.text)
-        return 1.0, tuple(1.0 if j == i else 0.0 for j in range(4))
-    found = [monomial(part, variables) for part in node.parts]
-    one = found[0]
-    if one is None:
-        return None
-    if kind == "neg":
-        return -one[0], one[1]
-    if kind == "abs":
-        i = variables.index(node.parts[0].text)
-        return 1.0, tuple(1.0 if j == i + 2 else 0.0 for j in range(4))
-    if kind in ("*", "/"):
-        other = found[1]
-        if other is None or (kind == "/" and (any(other[1]) or other[0] == 0.0)):
-            return None
-        powers = tuple(a + b for a, b in zip(one[1], other[1], strict=True))
-        return (one[0] * other[0] if kind == "*" else one[0] / other[0]), powers
-    if kind == "**" and one[0] == 1.0:
-        n = node.parts[1].number
-        return 1.0, tuple(a * n for a in one[1])
-    return None
-
-
-def everywhere(node: Node) -> Iterator[Node]:
-    """All parts of a formula, itself first."""
-    yield node
-    for part in node.parts:
-        yield from everywhere(part)
-
-
-_SIZES = [10.0 ** (0.05 * i) for i in range(-180, 81)]
-"""Of displacements (m) and velocities (m/s) at which a divisor must not have come to 0."""
-
-
-def check_divisors(formula: Formula, both_ways: bool) -> None:
-    """Refuse a divisor, or the base of a broken or negative power, that comes to 0.
-
-    Parameters
-    ----------
-    formula
-        What is checked.
-    both_ways
-        Whether the first variable may be below 0.
-
-    Raises
-    ------
-    InputError
-        The line names the column and where the divisor is 0.
-    """
-    for node in everywhere(formula.tree):
-        if node.kind == "/":
-            part, above = node.parts[1], False
-        elif node.kind == "sqrt":
-            part, above = node.parts[0], True
-        elif node.kind == "**":
-            n = node.parts[1].number
-            part, above = node.parts[0], n != int(n)
-            if (n >= 0.0 and not above) or (n >= 1.0 and part.text == "d"):
-                continue
-        else:
-            continue
-        _check_nonzero(formula, node, part, above, both_ways)
-
-
-def _check_nonzero(formula: Formula, node: Node, part: Node, above: bool, both_ways: bool) -> None:
-    what = "divisor" if node.kind == "/" else "base"
-
-    def at(x: float, v: float) -> float:
-        return _value(part, dict(zip(formula.variables, (x, v), strict=True)))[0]
-
-    rest = at(0.0, 0.0)
-    if not rest > 0.0 if above else rest == 0.0:
-        _refuse(
-            part.column,
-            f"the {what} {part.text!r} is {rest:g} at rest; one that "
-            f"{'stays above' if above else 'is never'} 0 is accepted",
-        )
-    way = math.copysign(1.0, rest)
-    rays = [(1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (1.0, -1.0), (1.0, 30.0), (1.0, -30.0)]
-    if both_ways:
-        rays += [(-x, v) for x, v in rays if x]
-    for x, v in rays:
-        before = 0.0
-        for size in _SIZES:
-            value = at(x * size, v * size)
-            if value * way <= 0.0:
-                for _ in range(60):
-                    middle = 0.5 * (before + size)
-                    before, size = (
-                        (middle, size)
-                        if at(x * middle, v * middle) * way > 0.0
-                        else (before, middle)
-                    )
-                place = [
-                    f"{name} = {one * size:.3g} {unit}"
-                    for name, one, unit in zip(formula.variables, (x, v), ("m", "m/s"), strict=True)
-                    if one
-                ]
-                _refuse(
-                    part.column,
-                    f"the {what} {part.text!r} is 0 at {' and '.join(place)}; one that "
-                    f"{'stays above' if above else 'is never'} 0 is accepted",
-                )
-            before = size
-
-
-def operations(
-    signed: Sequence[tuple[float, Node]], variables: Sequence[str]
-) -> tuple[list[str | int], list[float]]:
-    """Write a sum of terms in reverse Polish notation.
-
-    Returns
-    -------
-    operations, numbers
-        Names of operations as of `engine.series.program`; behind some stands an index of the
-        numbers, or a whole exponent.
-
-    Raises
-    ------
-    InputError
-        If it has more than there is room for.
-    """
-    found: list[str | int] = []
-    numbers: list[float] = []
-
-    def number(value: float) -> int:
-        if value not in numbers:
-            numbers.append(value)
-        return numbers.index(value)
-
-    def write(node: Node) -> None:
-        kind, parts = node.kind, node.parts
-        if kind == "number":
-            found.extend(("number", number(node.number)))
-        elif kind == "variable":
-            found.append("xv"[variables.index(node.text)])
-        elif kind == "abs":
-            found.append(("|x|", "|v|")[variables.index(parts[0].text)])
-        elif kind == "**":
-            raise_to(*parts)
-        else:
-            for part in parts:
-                write(part)
-            found.append(kind)
-
-    def raise_to(base: Node, exponent: Node) -> None:
-        n = exponent.number
-        if n < 0.0:
-            found.extend(("number", number(1.0)))
-            raise_to(base, exponent._replace(number=-n))
-            found.append("/")
-            return
-        if n == 0.0:
-            found.extend(("number", number(1.0)))
-            return
-        write(base)
-        if n != int(n):
-            found.extend(("real power", number(n)))
-        elif n > 1.0:
-            found.extend(("power", int(n)))
-
-    for i, (sign, term) in enumerate(signed):
-        write(term)
-        if i:
-            found.append("+" if sign > 0.0 else "-")
-        elif sign < 0.0:
-            found.append("neg")
-    for what, count, most in (
-        ("operations", len(found), MOST_OPERATIONS),
-        ("numbers", len(numbers), MOST_NUMBERS),
-    ):
-        if count > most:
-            raise InputError(
-                f"formula: it has {count} {what}; at most {most} are accepted beside terms of "
-                "u, u**3, u**5 and v"
-            )
-    return found, numbers

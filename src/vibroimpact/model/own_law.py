@@ -16,12 +16,14 @@ from vibroimpact.model.formula import (
     Dimension,
     Formula,
     Node,
+    read_formula,
+)
+from vibroimpact.model.formula_terms import (
     check_divisors,
     everywhere,
     monomial,
     operations,
     parity,
-    read_formula,
     terms,
 )
 from vibroimpact.model.law_registry import Named

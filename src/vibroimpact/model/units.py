@@ -15,7 +15,7 @@ import numbers
 import re
 from collections.abc import Sequence
 from decimal import Decimal
-from functools import cache, lru_cache
+from functools import lru_cache
 from typing import Any
 
 from vibroimpact.errors import InputError, shown, warn_of_input
@@ -28,7 +28,7 @@ from vibroimpact.model.quantities import (
     MASS,
     Quantity,
 )
-from vibroimpact.model.unit_names import FRACTIONS, accepted_unit, two_meanings
+from vibroimpact.model.unit_registry import RefusalError, check_used, unit_text, with_unit
 
 _TWO_PI = Decimal("6.283185307179586476925286766559")
 
@@ -56,19 +56,6 @@ _SLOWEST, _FASTEST = 1e-100, 1e100
 """Frequencies (Hz) of a motion beyond have no period, or accelerations, in the range of numbers."""
 _NOT_FINITE = re.compile(r"[+-]?(?:inf|infinity|∞|nan)\b|[+-]?∞", re.IGNORECASE)
 
-# Only products of powers with small exponents: pint evaluates what it is given, and an exponent
-# tower such as m^9^9^9 would never return. Laws of contact and damping have units such as N/m^1.5.
-_NAME = r"[A-Za-zµμΩ°%]+(?:_[A-Za-z]+)*"
-_BROKEN = r"\d?\.\d{1,6}"
-_POWER = rf"(?:(?:\^|\*\*)-?{_BROKEN}(?![\d.])|(?:\^|\*\*)?-?[1-9](?![\d.])|⁻?[¹²³])"
-_FACTOR = rf"{_NAME}{_POWER}?"
-_TIMES = r"(?: ?[*/·⋅] ?| )"
-_GROUP = rf"\({_FACTOR}(?:{_TIMES}{_FACTOR})*\){_POWER}?"
-_UNITS = re.compile(
-    rf"(?:1 ?/ ?)?(?:{_FACTOR}|{_GROUP})(?:{_TIMES}(?:{_FACTOR}|{_GROUP}))*", re.ASCII
-)
-_NAMES_IN = re.compile(_NAME, re.ASCII)
-_BARE_POWER = re.compile(r"(?<=[A-Za-z)])(-?[1-9])")
 _GAL = re.compile(r"(?<![A-Za-z_])(m?)gal(?![A-Za-z_])", re.IGNORECASE)
 """To pint ``gal`` is a gallon, and its ``Gal`` has capitals."""
 _GRAVITY_SYMBOL = re.compile(r"(?<![A-Za-z_])(m?)[gG](?![A-Za-z_])")
@@ -173,16 +160,16 @@ def read(
     try:
         number = _number(value, quantity)
         if not math.isfinite(number):
-            raise _RefusalError("is not finite")
+            raise RefusalError("is not finite")
         if above is not None and not number > above:
-            raise _RefusalError(f"is not greater than {above:g}")
+            raise RefusalError(f"is not greater than {above:g}")
         if above == 0.0 and quantity is FREQUENCY and not _SLOWEST <= number <= _FASTEST:
-            raise _RefusalError(f"is not between {_SLOWEST:g} and {_FASTEST:g} Hz")
+            raise RefusalError(f"is not between {_SLOWEST:g} and {_FASTEST:g} Hz")
         if minimum is not None and not number >= minimum:
-            raise _RefusalError(f"is less than {minimum:g}")
+            raise RefusalError(f"is less than {minimum:g}")
         if maximum is not None and not number <= maximum:
-            raise _RefusalError(f"is greater than {maximum:g}")
-    except _RefusalError as refusal:
+            raise RefusalError(f"is greater than {maximum:g}")
+    except RefusalError as refusal:
         wanted = accepted(quantity, above=above, minimum=minimum, maximum=maximum)
         raise InputError(f"{shown(value)} {refusal}; {wanted}") from None
     # A negative zero equals zero but prints differently; adding 0.0 removes its sign.
@@ -229,21 +216,21 @@ def to_si_of_any(value: object, field: str) -> tuple[float, tuple[float, float, 
     match = _NUMBER.match(clean)
     try:
         if match is None or len(clean) > _LONGEST:
-            raise _RefusalError("does not start with a number")
-        rest = _unit_text(clean[match.end() :].strip())
-        base = _with_unit(Decimal(match[0]), rest).to_base_units()
-        _check_used(rest)
+            raise RefusalError("does not start with a number")
+        rest = unit_text(clean[match.end() :].strip())
+        base = with_unit(Decimal(match[0]), rest).to_base_units()
+        check_used(rest)
         powers = {str(name): float(power) for name, power in base.unit_items()}
         powers.pop("radian", None)
         mass, length, time = (powers.pop(name, 0.0) for name in ("kilogram", "meter", "second"))
         if powers:
-            raise _RefusalError("is not a mechanical quantity")
+            raise RefusalError("is not a mechanical quantity")
         number = float(base.magnitude)
         if not math.isfinite(number):
-            raise _RefusalError("is not finite")
+            raise RefusalError("is not finite")
     except ArithmeticError:
         raise InputError(f"{field}: {shown(value)} is not finite") from None
-    except _RefusalError as refusal:
+    except RefusalError as refusal:
         raise InputError(
             f"{field}: {shown(value)} {refusal}; a number with its unit is accepted, such as "
             '"26 kN/m"'
@@ -293,10 +280,6 @@ def pretty(value: float, quantity: Quantity, digits: int = 6) -> str:
     return f"{plain(value / unit.size, digits)} {unit.symbol}".rstrip()
 
 
-class _RefusalError(Exception):
-    """Why a value cannot be used, in words that follow the value."""
-
-
 def _number(value: Any, quantity: Quantity) -> float:
     """Return the SI value of anything that can be read as one; it may be infinite or NaN."""
     if type(value) is float:  # as nearly always
@@ -318,40 +301,40 @@ def _number(value: Any, quantity: Quantity) -> float:
     ):
         if quantity is ACCELERATION and value.dimensionality == {"[mass]": 1}:
             # Of a text the g is read as gravity; pint itself has made a gram of it.
-            raise _RefusalError(
+            raise RefusalError(
                 "is a mass (pint's g is the gram); gravity is its standard_gravity, or the g of a "
                 'text such as "0.05 g"'
             )
         return float(_from_pint(value, quantity))
-    raise _RefusalError("is not a number")
+    raise RefusalError("is not a number")
 
 
 def _from_text(text: str, quantity: Quantity) -> float:
     # str.split also takes the no-break spaces that typeset tables hold.
     clean = " ".join(text.replace("−", "-").split())
     if not clean:
-        raise _RefusalError("is empty")
+        raise RefusalError("is empty")
     if len(clean) > _LONGEST:
-        raise _RefusalError(f"has {len(clean)} letters, more than the {_LONGEST} of any quantity")
+        raise RefusalError(f"has {len(clean)} letters, more than the {_LONGEST} of any quantity")
     match = _NUMBER.match(clean)
     if match is None:
         finite = _NOT_FINITE.match(clean) is None
-        raise _RefusalError("does not start with a number" if finite else "is not finite")
+        raise RefusalError("does not start with a number" if finite else "is not finite")
     rest = clean[match.end() :].strip()
     digits = re.split("[eE]", match[0])[0]
     if not float(match[0]) and digits.strip("+-.0"):
-        raise _RefusalError("is smaller than any number that can be kept")
+        raise RefusalError("is smaller than any number that can be kept")
     if not rest:
         return float(clean)
     if rest.startswith(","):
-        raise _RefusalError("has a comma; write a decimal point")
+        raise RefusalError("has a comma; write a decimal point")
     try:
         # Decimal raises an error for exponents beyond its range, also for that of a zero.
         number = Decimal(match[0] if float(match[0]) else 0)
         return float(number * _size(rest, quantity))
     except ArithmeticError:
-        raise _RefusalError("is not finite") from None
-    except _RefusalError:
+        raise RefusalError("is not finite") from None
+    except RefusalError:
         return float(_measured(number, rest, quantity))  # whose words may name the number
 
 
@@ -366,7 +349,7 @@ def _size(unit: str, quantity: Quantity) -> Decimal:
 
 def _measured(number: Decimal, rest: str, quantity: Quantity) -> Decimal | float:
     """A number with a unit in SI units."""
-    rest = _unit_text(rest)
+    rest = unit_text(rest)
     if quantity is ACCELERATION:
         rest = _GRAVITY_SYMBOL.sub(
             lambda m: ("milli" if m[1] else "") + "standard_gravity",
@@ -374,58 +357,19 @@ def _measured(number: Decimal, rest: str, quantity: Quantity) -> Decimal | float
         )
         rest = _GAL.sub(lambda m: ("milli" if m[1] else "") + "galileo", rest)
     if quantity is MASS and _GRAVITY_SYMBOL.search(rest):
-        raise _RefusalError("has a g, which is gravity here; write gram, kg or t")
-    magnitude = _from_pint(_with_unit(number, rest), quantity)
-    _check_used(rest)
+        raise RefusalError("has a g, which is gravity here; write gram, kg or t")
+    magnitude = _from_pint(with_unit(number, rest), quantity)
+    check_used(rest)
     return magnitude
-
-
-def _unit_text(rest: str) -> str:
-    """A unit as pint writes it."""
-    if _UNITS.fullmatch(rest) is None:
-        raise _RefusalError(f"has a unit that cannot be read, '{rest}'")
-    return _BARE_POWER.sub(r"**\1", rest.replace("·", "*").replace("⋅", "*"))
-
-
-def _with_unit(number: Decimal, rest: str) -> Any:
-    """A number with a unit, as pint's quantity."""
-    names = _NAMES_IN.findall(rest)
-    if rest not in FRACTIONS:
-        for fraction in FRACTIONS:
-            if any(fraction in name for name in names):
-                raise _RefusalError(f"has a {fraction} and a unit; one of the two is accepted")
-    for name in names:
-        if meant := two_meanings(name):
-            raise _RefusalError(f"has the ambiguous unit '{name}'; write {meant}")
-    registry = _registry()
-    try:
-        unit = registry.parse_units(rest)
-        return registry.Quantity(number, unit)
-    except AttributeError:  # pint.UndefinedUnitError, without importing pint by name
-        raise _RefusalError("has an unknown unit") from None
-    except Exception:
-        # pint raises whatever its tokenizer and arithmetic raise; for text from a user
-        # every one of them means the same.
-        raise _RefusalError("has a unit that cannot be read") from None
-
-
-def _check_used(rest: str) -> None:
-    """Refuse units that pint knows and nobody here means."""
-    registry = _registry()
-    for name in _NAMES_IN.findall(rest):
-        # pint takes the first of several readings. It finds none for a sign such as °.
-        readings = registry.parse_unit_name(name)
-        if readings and not accepted_unit(readings[0][1]):
-            raise _RefusalError(f"has a unit that is not used here, '{name}'")
 
 
 def _from_pint(measured: Any, quantity: Quantity) -> Decimal | float:
     try:
         base = measured.to_base_units()
     except ArithmeticError:
-        raise _RefusalError("is not finite") from None
+        raise RefusalError("is not finite") from None
     except Exception:  # logarithmic and offset units, which no quantity here takes
-        raise _RefusalError(f"is not {quantity.phrase}") from None
+        raise RefusalError(f"is not {quantity.phrase}") from None
     # An exponent that is no decimal fraction, such as 1/3, is written with six digits.
     powers = ((str(name), round(float(power), 5)) for name, power in base.unit_items())
     dimension = tuple(sorted((name, power) for name, power in powers if power))
@@ -439,18 +383,7 @@ def _from_pint(measured: Any, quantity: Quantity) -> Decimal | float:
     if dimension != tuple((name, round(power, 5)) for name, power in quantity.base):
         if quantity is MASS and dimension == FORCE.base and magnitude > 0:
             weighing = pretty(float(magnitude) / GRAVITY, MASS)
-            raise _RefusalError(f"is a force, the weight of {weighing}")
-        raise _RefusalError(f"is {_NAMES.get(dimension, 'not ' + quantity.phrase)}")
+            raise RefusalError(f"is a force, the weight of {weighing}")
+        raise RefusalError(f"is {_NAMES.get(dimension, 'not ' + quantity.phrase)}")
     within: Decimal | float = magnitude
     return within
-
-
-@cache
-def _registry() -> Any:
-    """Return pint's registry, made on first use.
-
-    With decimal arithmetic a prefix is exact: 26.8 kN/m is 26800 N/m, not 26800.000000000004.
-    """
-    import pint
-
-    return pint.UnitRegistry(non_int_type=Decimal)

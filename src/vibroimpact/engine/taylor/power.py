@@ -1,0 +1,70 @@
+"""Power of stop and isolator forces, and the level at which friction rests."""
+
+from __future__ import annotations
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.forcing.dispatch import value
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.motion import (
+    RIGHT,
+    Motion,
+)
+from vibroimpact.engine.taylor.frame import (
+    branch_of,
+    curved_stop,
+    face,
+    own_force,
+    own_push,
+    stop_push,
+    without_friction,
+)
+
+
+@kernel
+def stop_power(plan: Vector, motion: Motion, side: int) -> float:
+    """What a stop that pushes loses, per unit mass and time: what it takes and does not keep."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    closing = motion.v if side == RIGHT else -motion.v
+    if not curved_stop(plan, side):
+        return plan[at + par.BUMPER_DAMPING] * closing * closing  # type: ignore[no-any-return]
+    push = stop_push(plan, motion, side)
+    if push == 0.0:
+        return 0.0
+    depth = face(plan, motion, side)
+    if plan[at + par.KIND] == par.FORMULA:
+        spring = own_push(plan, side, depth, 0.0)[0]
+    else:
+        spring = plan[at + par.BUMPER_STIFFNESS] * depth ** plan[at + par.EXPONENT]
+    lost: float = (push - spring) * closing
+    return lost
+
+
+@kernel
+def isolator_power(plan: Vector, motion: Motion) -> float:
+    """What the isolator loses, per unit mass and time.
+
+    Drag, friction, and of the spring that yields in series what it does not keep.
+    """
+    v = motion.v
+    if v == 0.0:
+        return 0.0
+    power = plan[par.DAMPING] * abs(v) ** (plan[par.DRAG] + 1.0) + plan[par.FRICTION] * abs(v)
+    if plan[par.OWN] != 0.0:
+        power += v * (own_force(plan, motion.u, v)[0] - own_force(plan, motion.u, 0.0)[0])
+    if plan[par.HYSTERETIC] != 0.0:
+        branch = branch_of(plan, motion, 1.0)
+        kept = (branch.slope - branch.bend * motion.z ** int(plan[par.SHARPNESS])) / plan[par.SLOPE]
+        power += plan[par.HYSTERETIC] * motion.z * v * (1.0 - kept)
+    return power  # type: ignore[no-any-return]
+
+
+@kernel
+def rest_level(plan: Vector, motion: Motion, side: int) -> float:
+    """What presses a resting mass on the rigid stop of a side, but for what shakes it.
+
+    Friction holds first.
+    """
+    s, c = motion.clock
+    push: float = without_friction(plan, motion) + value(plan, s, c)
+    pressed: float = (push if side == RIGHT else -push) - plan[par.FRICTION]
+    return pressed

@@ -1,0 +1,238 @@
+"""Terms of a formula: parity, divisors, and the list of operations that the engine emits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.formula import (
+    EVEN,
+    FUNCTIONS,
+    MOST_NUMBERS,
+    MOST_OPERATIONS,
+    NEITHER,
+    ODD,
+    Formula,
+    Node,
+    refuse_at,
+    value_of,
+)
+
+
+def parity(node: Node) -> int:
+    """Return ODD, EVEN or NEITHER."""
+    kind = node.kind
+    if kind == "number":
+        return EVEN
+    if kind == "variable":
+        return ODD
+    found = [parity(part) for part in node.parts]
+    if kind in ("+", "-"):
+        return found[0] if found[0] == found[1] else NEITHER
+    if kind in ("*", "/"):
+        return found[0] * found[1]
+    if kind == "neg":
+        return found[0]
+    if kind == "**":
+        n = node.parts[1].number
+        if found[0] == EVEN:
+            return EVEN
+        return NEITHER if n != int(n) else (found[0] if int(n) % 2 else abs(found[0]))
+    return EVEN if found[0] == EVEN else (FUNCTIONS[kind] if found[0] == ODD else NEITHER)
+
+
+def terms(node: Node) -> list[tuple[float, Node]]:
+    """Split a sum into its terms, each with its sign."""
+    if node.kind == "+":
+        return terms(node.parts[0]) + terms(node.parts[1])
+    if node.kind == "-":
+        return terms(node.parts[0]) + [(-sign, one) for sign, one in terms(node.parts[1])]
+    if node.kind == "neg":
+        return [(-sign, one) for sign, one in terms(node.parts[0])]
+    return [(1.0, node)]
+
+
+def monomial(node: Node, variables: Sequence[str]) -> tuple[float, tuple[float, ...]] | None:
+    """Return the factor and the powers of x, v, |x| and |v| of a product; None if it is none."""
+    kind = node.kind
+    if kind == "number":
+        return node.number, (0.0, 0.0, 0.0, 0.0)
+    if kind == "variable":
+        i = variables.index(node.text)
+        return 1.0, tuple(1.0 if j == i else 0.0 for j in range(4))
+    found = [monomial(part, variables) for part in node.parts]
+    one = found[0]
+    if one is None:
+        return None
+    if kind == "neg":
+        return -one[0], one[1]
+    if kind == "abs":
+        i = variables.index(node.parts[0].text)
+        return 1.0, tuple(1.0 if j == i + 2 else 0.0 for j in range(4))
+    if kind in ("*", "/"):
+        other = found[1]
+        if other is None or (kind == "/" and (any(other[1]) or other[0] == 0.0)):
+            return None
+        powers = tuple(a + b for a, b in zip(one[1], other[1], strict=True))
+        return (one[0] * other[0] if kind == "*" else one[0] / other[0]), powers
+    if kind == "**" and one[0] == 1.0:
+        n = node.parts[1].number
+        return 1.0, tuple(a * n for a in one[1])
+    return None
+
+
+def everywhere(node: Node) -> Iterator[Node]:
+    """All parts of a formula, itself first."""
+    yield node
+    for part in node.parts:
+        yield from everywhere(part)
+
+
+_SIZES = [10.0 ** (0.05 * i) for i in range(-180, 81)]
+"""Of displacements (m) and velocities (m/s) at which a divisor must not have come to 0."""
+
+
+def check_divisors(formula: Formula, both_ways: bool) -> None:
+    """Refuse a divisor, or the base of a broken or negative power, that comes to 0.
+
+    Parameters
+    ----------
+    formula
+        What is checked.
+    both_ways
+        Whether the first variable may be below 0.
+
+    Raises
+    ------
+    InputError
+        The line names the column and where the divisor is 0.
+    """
+    for node in everywhere(formula.tree):
+        if node.kind == "/":
+            part, above = node.parts[1], False
+        elif node.kind == "sqrt":
+            part, above = node.parts[0], True
+        elif node.kind == "**":
+            n = node.parts[1].number
+            part, above = node.parts[0], n != int(n)
+            if (n >= 0.0 and not above) or (n >= 1.0 and part.text == "d"):
+                continue
+        else:
+            continue
+        _check_nonzero(formula, node, part, above, both_ways)
+
+
+def _check_nonzero(formula: Formula, node: Node, part: Node, above: bool, both_ways: bool) -> None:
+    what = "divisor" if node.kind == "/" else "base"
+
+    def at(x: float, v: float) -> float:
+        return value_of(part, dict(zip(formula.variables, (x, v), strict=True)))[0]
+
+    rest = at(0.0, 0.0)
+    if not rest > 0.0 if above else rest == 0.0:
+        refuse_at(
+            part.column,
+            f"the {what} {part.text!r} is {rest:g} at rest; one that "
+            f"{'stays above' if above else 'is never'} 0 is accepted",
+        )
+    way = math.copysign(1.0, rest)
+    rays = [(1.0, 0.0), (0.0, 1.0), (0.0, -1.0), (1.0, 1.0), (1.0, -1.0), (1.0, 30.0), (1.0, -30.0)]
+    if both_ways:
+        rays += [(-x, v) for x, v in rays if x]
+    for x, v in rays:
+        before = 0.0
+        for size in _SIZES:
+            value = at(x * size, v * size)
+            if value * way <= 0.0:
+                for _ in range(60):
+                    middle = 0.5 * (before + size)
+                    before, size = (
+                        (middle, size)
+                        if at(x * middle, v * middle) * way > 0.0
+                        else (before, middle)
+                    )
+                place = [
+                    f"{name} = {one * size:.3g} {unit}"
+                    for name, one, unit in zip(formula.variables, (x, v), ("m", "m/s"), strict=True)
+                    if one
+                ]
+                refuse_at(
+                    part.column,
+                    f"the {what} {part.text!r} is 0 at {' and '.join(place)}; one that "
+                    f"{'stays above' if above else 'is never'} 0 is accepted",
+                )
+            before = size
+
+
+def operations(
+    signed: Sequence[tuple[float, Node]], variables: Sequence[str]
+) -> tuple[list[str | int], list[float]]:
+    """Write a sum of terms in reverse Polish notation.
+
+    Returns
+    -------
+    operations, numbers
+        Names of operations as of `engine.series.program`; behind some stands an index of the
+        numbers, or a whole exponent.
+
+    Raises
+    ------
+    InputError
+        If it has more than there is room for.
+    """
+    found: list[str | int] = []
+    numbers: list[float] = []
+
+    def number(value: float) -> int:
+        if value not in numbers:
+            numbers.append(value)
+        return numbers.index(value)
+
+    def write(node: Node) -> None:
+        kind, parts = node.kind, node.parts
+        if kind == "number":
+            found.extend(("number", number(node.number)))
+        elif kind == "variable":
+            found.append("xv"[variables.index(node.text)])
+        elif kind == "abs":
+            found.append(("|x|", "|v|")[variables.index(parts[0].text)])
+        elif kind == "**":
+            raise_to(*parts)
+        else:
+            for part in parts:
+                write(part)
+            found.append(kind)
+
+    def raise_to(base: Node, exponent: Node) -> None:
+        n = exponent.number
+        if n < 0.0:
+            found.extend(("number", number(1.0)))
+            raise_to(base, exponent._replace(number=-n))
+            found.append("/")
+            return
+        if n == 0.0:
+            found.extend(("number", number(1.0)))
+            return
+        write(base)
+        if n != int(n):
+            found.extend(("real power", number(n)))
+        elif n > 1.0:
+            found.extend(("power", int(n)))
+
+    for i, (sign, term) in enumerate(signed):
+        write(term)
+        if i:
+            found.append("+" if sign > 0.0 else "-")
+        elif sign < 0.0:
+            found.append("neg")
+    for what, count, most in (
+        ("operations", len(found), MOST_OPERATIONS),
+        ("numbers", len(numbers), MOST_NUMBERS),
+    ):
+        if count > most:
+            raise InputError(
+                f"formula: it has {count} {what}; at most {most} are accepted beside terms of "
+                "u, u**3, u**5 and v"
+            )
+    return found, numbers
