@@ -172,6 +172,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "Harmonic": {"amplitude": 1.0, "frequency": 1.0, "phase": 0.0, "of": "acceleration"},
         "Isolator": {"stiffness": 1.0, "damping": 1.0, "damping_exponent": 1.0},
         "JankowskiBumper": {"stiffness": 1.0, "gap": 0.1, "restitution": 0.5, "mass": 1.0},
+        "Law": {"formula": "k*u + c*v", "gap": None, "k": 100.0, "c": 1.0},
         "Oscillator": {
             "mass": 1.0,
             "isolator": vi.Isolator(1.0, 0.1),

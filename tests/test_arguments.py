@@ -27,6 +27,7 @@ QUICK = [
     "Harmonic",
     "Isolator",
     "JankowskiBumper",
+    "Law",
     "Oscillator",
     "Periodic",
     "PolynomialIsolator",
@@ -83,7 +84,7 @@ def test_every_public_function_has_a_valid_call(folder: Path) -> None:
     made = arguments.calls(folder)
     assert set(arguments.public()) - {"explore"} <= set(made)
     for name, (_, given) in made.items():
-        if "." not in name:
+        if "." not in name and name != "Law":  # whose numbers have any names
             assert set(given) == set(arguments.parameters(name)), name
 
 
