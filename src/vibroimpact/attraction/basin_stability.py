@@ -81,7 +81,7 @@ def basin_stability(
         Forcing frequency (Hz). Default: that of the rig.
     parameter, values
         Name of the parameter that is varied, such as "frequency" or "gap", and its values. A motion
-        keeps its number as long as its states lead to a nearby motion at the next value.
+        keeps its number at the next value if its states lead to a nearby motion there.
     states
         Number of random states, the same at each value of the parameter.
     seed
@@ -95,9 +95,9 @@ def basin_stability(
     Returns
     -------
     xarray.Dataset
-        Dim ``attractor``, and one of the parameter's name if there is one: ``share`` with its 95%
-        interval ``share_low`` to ``share_high``, ``states``, ``motion`` ("" where the motion does
-        not exist), ``period`` and sizes. ``given_up`` counts the states whose motion was not
+        Dim ``attractor``, and a dim named after the parameter if one is varied: ``share`` with its
+        95% interval ``share_low`` to ``share_high``, ``states``, ``motion`` ("" where the motion
+        does not exist), ``period`` and sizes. ``given_up`` counts the states whose motion was not
         followed to its end.
 
     Raises

@@ -77,12 +77,14 @@ def basins(
         states are computed between nodes that lead to the same motion, so stripes narrower than the
         spacing of the first grid may be missed.
     right_bumper, left_bumper
-        Initial deformation of the bumper (m; negative on the left), at least that by which the mass
-        presses it. 0 for a relaxed bumper and for other stops.
+        Initial deformation of the bumper (m; negative on the left). If the mass compresses the
+        bumper further at the initial displacement, that deformation is used. 0 for a relaxed bumper
+        and for other stops.
     isolator
         Initial memory of the isolator (m), if its law has one; see `State`.
     max_cycles
-        Number of forcing cycles after which a motion that has not settled counts as wandering.
+        Number of forcing cycles after which a motion that has not settled is treated as one that is
+        not periodic.
     max_events
         Number of contacts and detachments in one forcing cycle at which a state is given up.
     threads
@@ -98,11 +100,11 @@ def basins(
     -------
     xarray.Dataset
         Dims ``velocity``, ``displacement``: ``basin``, the number of the motion (-1: given up, -2:
-        beyond a rigid stop), ``capture_cycles``, the cycles until the motion was certain, and
-        ``level`` of refinement. Dim ``attractor``, the largest motion first: ``motion``,
-        ``period``, sizes, ``share`` of the states with its 95% interval, ``border_distance`` and
-        ``mirror_image``. Dim ``point``: the points of the motions at the section.
-        ``basin_entropy``, ``border_entropy``, ``uncertainty_exponent``.
+        beyond a rigid stop), ``capture_cycles``, the number of forcing cycles until the motion was
+        identified, and ``level`` of refinement. Dim ``attractor``, the largest motion first:
+        ``motion``, ``period``, sizes, ``share`` of the states with its 95% interval,
+        ``border_distance`` and ``mirror_image``. Dim ``point``: the points of the motions at the
+        section. ``basin_entropy``, ``border_entropy``, ``uncertainty_exponent``.
 
     Raises
     ------
@@ -121,7 +123,10 @@ def basins(
         raise InputError(f"refine: {refine}; a whole number of at most {MOST_REFINED} is accepted")
     plan = Nodes((((first[1] - 1) << refine) + 1, ((first[0] - 1) << refine) + 1), refine)
     if plan.shape[0] * plan.shape[1] > MOST_NODES:
-        raise InputError(f"nodes: {plan.shape[1]} × {plan.shape[0]}; fewer are accepted")
+        raise InputError(
+            f"nodes: {plan.shape[1]} × {plan.shape[0]} after refinement; at most {MOST_NODES} "
+            "in total are accepted"
+        )
     others = _others(rig.oscillator, right_bumper, left_bumper, isolator)
     stage = Stage(rig, max_events)
     search = Search(stage, max_cycles, workers)

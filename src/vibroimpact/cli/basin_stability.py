@@ -29,9 +29,9 @@ def basin_stability(
 ) -> int:
     """Compute the share of random states that leads to each steady motion, along a parameter.
 
-    A motion keeps its number as long as its states lead to a motion near it at the next value.
-    Prints the range of each motion, with its shares; writes NAME-PARAMETER-basin-stability.nc and
-    NAME-PARAMETER-basin-stability.png.
+    The motions are numbered. A motion keeps its number at the next value if its states lead to a
+    nearby motion there. Prints the range of each motion, with its shares; writes
+    NAME-PARAMETER-basin-stability.nc and NAME-PARAMETER-basin-stability.png.
 
     For example:
 

@@ -24,9 +24,9 @@ def basins(
 ) -> int:
     """Compute which initial states lead to which steady motion at one frequency.
 
-    The steady motions are found while the states are followed. Prints each motion with the share
-    of the states that lead to it, and how the basins are mixed; writes NAME-FREQUENCY-basins.nc
-    and NAME-FREQUENCY-basins.png.
+    The steady motions are found while the states are followed. Prints each motion with the share of
+    the states that lead to it, and measures of how the basins are intermingled (entropies). Writes
+    NAME-FREQUENCY-basins.nc and NAME-FREQUENCY-basins.png.
 
     For example:
 

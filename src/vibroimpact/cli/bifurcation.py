@@ -64,11 +64,11 @@ def bifurcation(
         Forcing frequency, such as 2Hz, if another parameter is varied. Default: that of the study
         ([simulate]).
     direction
-        Direction in which a motion is continued from value to value; none starts from random
-        states only.
+        Direction in which a motion is continued from value to value. With none, motions start from
+        random states only.
     quantity
-        Quantity of the section that the figure shows: once in each forcing cycle, or (impact-) at
-        the start of each contact.
+        Quantity that the figure shows. displacement and velocity: once per forcing cycle;
+        impact-velocity and impact-phase: at the start of each contact.
     phase
         Forcing phase of the section, such as 90deg. Default: that of the study, or 0.
     branches

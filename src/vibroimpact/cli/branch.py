@@ -58,16 +58,16 @@ def branch(
     Parameters
     ----------
     frequency
-        Forcing frequency, such as 2Hz; needed where another parameter is varied, and with --start
-        or --period. Default: that of the study ([simulate]).
+        Forcing frequency, such as 2Hz; required if another parameter is varied, and with --start or
+        --period. Default: that of the study ([simulate]).
     quantity
         Quantity that the figure shows.
     physical
         Draw the largest displacement (mm) instead of eta_d, and the largest acceleration (g)
         instead of eta_a.
     basins
-        Number of values of the parameter at which basins are computed, to find isolated branches
-        however small their basins are.
+        Number of values of the parameter at which basins are computed, to find isolated branches,
+        even those with small basins.
     begin
         Displacement and velocity near the first orbit, such as 5mm,100mm/s. Default: all branches
         are followed.

@@ -30,10 +30,11 @@ def classify(
     """Name the scenario of a rig, S0 to S6, with the evidence for it.
 
     Sweeps the rig forward and backward, reports what the resonance curves show, and names the
-    scenario: S0 free motion, S1 grazing, S2 primary resonance with right hysteresis, S3 as S2 with
-    a secondary resonance, S4 secondary resonances with left hysteresis or not regular, S5 bumpers
-    attached and smooth, S6 bent to the right without jumps; or unclassified. Writes
-    NAME-scenario.nc (the curves) and NAME-scenario.png.
+    scenario. S0: free motion. S1: grazing. S2: primary resonance with right hysteresis. S3: as S2,
+    with a secondary resonance. S4: secondary resonances that have left hysteresis or are not
+    regular. S5: smooth curves, with bumpers attached to the mass at rest. S6: curves bent to the
+    right, without jumps. Other curves are unclassified. Writes NAME-scenario.nc (the curves) and
+    NAME-scenario.png.
 
     For example:
 

@@ -63,7 +63,7 @@ def design(
         bumper-damping, isolator-period, damping-ratio, yield-force. Default: those of the study
         ([design]), or gaps up to the required gap, and the stiffness of linear bumpers.
     best
-        Also search the bumper with the least acceleration for the gap.
+        For the given gap, also search for the bumper with the least acceleration.
     limit
         Quantity and the value that no design may exceed: peak-force, penetration or
         peak-displacement, such as peak-force 5MN; may be repeated. Added to the limits of the study

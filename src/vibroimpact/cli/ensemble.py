@@ -53,8 +53,8 @@ def ensemble(
     uncertain
         Parameter and its distribution; may be repeated. Examples: gap normal:7.5mm:0.5mm, damping
         lognormal:0.2, stiffness uniform:5%. Also triangular:LOW:MODE:HIGH and
-        normal:MEAN:DEVIATION:LOW:HIGH. Shares refer to the rig's own value. Parameters are those
-        of vibroimpact branch. Default: those of the study ([ensemble]).
+        normal:MEAN:DEVIATION:LOW:HIGH. Percentages refer to the rig's own value. Parameters are
+        those of vibroimpact branch. Default: those of the study ([ensemble]).
     sensitivity
         Also compute which parameter contributes most to the variance of the peaks (Sobol indices).
     start

@@ -38,9 +38,10 @@ def identify(
 ) -> int:
     """Identify parameters of a rig from stepped-sine curves or time histories.
 
-    Prints the values with their intervals, what the data do not determine, what the model lacks,
-    and what to test next. Writes NAME.html and NAME.md with figures, NAME.nc with all numbers, and
-    NAME.toml, the fitted rig, which every other command accepts.
+    Prints the values with their intervals, the parameters that the data do not determine, signs of
+    an inadequate model, and the most informative next test. Writes NAME.html and NAME.md with
+    figures, NAME.nc with all numbers, and NAME.toml, the fitted rig, which every other command
+    accepts.
 
     For example:
 
@@ -69,7 +70,7 @@ def identify(
     group
         Name of the test, if a file holds several. Default: the only test.
     decimal
-        Decimal mark of a table. Default: the one that the table shows.
+        Decimal mark of a table. Default: detected from the table.
     compare
         Other models that are also fitted: hertz, softening or hertz,softening. Default: none.
     """

@@ -35,9 +35,9 @@ def scenario_map(
 ) -> int:
     """Map the scenarios of a rig over two of its parameters.
 
-    The rig gives all other parameters; without a rig they are those of the published rig B3-A3.
-    The map is written to NAME-X-Y-map.zarr block by block. If the command is stopped, the same
-    command completes the map. Prints the share of each scenario; draws NAME-X-Y-map.png.
+    All other parameters are those of the rig (default: the published rig B3-A3). The map is written
+    to NAME-X-Y-map.zarr block by block. If the command is stopped, the same command completes the
+    map. Prints the share of each scenario; draws NAME-X-Y-map.png.
 
     For example:
 
@@ -59,7 +59,7 @@ def scenario_map(
     y
         Parameter of the vertical axis and its range, as for --x. Default: gap-ratio 0:1.
     border
-        Also draw the exact border where jumps begin. This is the default.
+        Also draw the exact border between rigs with and without jumps. This is the default.
     where
         Where the work is done: threads, processes, or the address of a dask scheduler, such as
         tcp://10.0.0.1:8786. Default: processes if the first grid has at least 500 nodes, threads

@@ -52,7 +52,7 @@ class RecordOptions:
     """Time between samples, such as 10ms; replaces the times of the file. One for all records, or
     one for each."""
     decimal: Annotated[Literal[".", ","] | None, Parameter(group=READING)] = None
-    """Decimal mark of a table. Default: the one that the table shows."""
+    """Decimal mark of a table. Default: detected from the table."""
 
     def arguments(self) -> dict[str, Any]:
         """Return the options as arguments of `Record.read`, without the component."""
@@ -183,6 +183,6 @@ def records_or_sines(
     for option, value in (("--scale", scale), ("--peak", peak)):
         if value is not None and not records:
             raise InputError(
-                f"{option}: {value!r}, but no record is given; --amplitude is accepted"
+                f"{option}: {value!r}, but there is no record to scale; use --amplitude"
             )
     return scale_records(records, scale, peak) or None

@@ -68,7 +68,7 @@ def design_chart(
     limits
         Largest accepted values, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
         ``"peak_displacement"`` (m; ``_right``, ``_left``). A design that exceeds a limit is
-        reported as the others are, but is excluded from ``pareto``.
+        reported like the others, but is excluded from ``pareto``.
     fractile
         Share of the records below the reported value; 1 for the largest of all. It is computed for
         each quantity separately, by interpolation between records, and is compared with the limits.
@@ -94,16 +94,16 @@ def design_chart(
     xarray.Dataset
         One dim per parameter that is varied. ``peak_displacement`` (m; ``_right``, ``_left``),
         ``peak_acceleration`` (absolute, m/s²), ``peak_force`` of a stop (N), ``penetration`` beyond
-        a gap (m), ``hitting``: the share of the records with which the mass hits a stop, or whether
-        it hits one with any sine. ``pareto``: whether no other design has less displacement without
-        more acceleration, or less acceleration without more displacement; among designs with equal
-        responses, such as those that hit nothing, the first one counts. ``within_limits``, if there
-        are limits: whether the design keeps all of them. ``bumper_damping`` (N s/m), if a stiffness
-        of both bumpers is varied. For sines also the frequencies of the largest values
-        (``displacement_frequency``, ``acceleration_frequency``), and ``unsettled_count``, the
-        number of holds without a periodic motion, whose peaks are those of 100 cycles. ``status``
-        is 0 for a completed design. The values of a design that was given up are NaN; those of an
-        unbounded motion are infinite.
+        a gap (m), ``hitting``: the share of the records with which the mass hits a stop; for sines,
+        whether the mass hits a stop at any frequency. ``pareto``: whether no other design has less
+        displacement without more acceleration, or less acceleration without more displacement;
+        among designs with equal responses, such as those that hit nothing, the first one counts.
+        ``within_limits``, if there are limits: whether the design keeps all of them.
+        ``bumper_damping`` (N s/m), if a stiffness of both bumpers is varied. For sines also the
+        frequencies of the largest values (``displacement_frequency``, ``acceleration_frequency``),
+        and ``unsettled_count``, the number of holds without a periodic motion, whose peaks are
+        those of 100 cycles. ``status`` is 0 for a completed design. The values of a design that was
+        given up are NaN; those of an unbounded motion are infinite.
 
     Raises
     ------

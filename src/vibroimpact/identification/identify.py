@@ -62,10 +62,10 @@ def identify(
     Parameters
     ----------
     rig
-        The tested rig, with its known values and a guess of the others: a `Rig`, a laboratory
-        case, its code, or the path of a study file; or one per test, as a list or by name. If the
-        data state or contain the shaking, it is used, and an `Oscillator` alone is accepted; a
-        warning and a finding report a rig whose shaking differs.
+        The tested rig, with its known values and a guess of the others: a `Rig`, a laboratory case,
+        its code, or the path of a study file; or one per test, as a list or by name. If the data
+        state or contain the shaking, that shaking is used, and `rig` may be an `Oscillator` alone.
+        If the shaking of the rig differs from it, a warning and a finding report this.
     data
         A dataset of `read_measurement`, or of `sweep` or `simulate`, or the path of a file; or
         several, as a list or by name.
@@ -82,8 +82,8 @@ def identify(
     priors
         Mean and standard deviation of a normal prior, by name of the parameter. Default: none.
     noise
-        Standard deviation of a measured value, as a share of it, such as 0.02. Default:
-        estimated from the fit.
+        Standard deviation of the measured values, as a fraction of each value, such as 0.02.
+        Default: estimated from the fit.
     robust
         Whether outliers are given less weight than in least squares.
     confidence
@@ -94,17 +94,17 @@ def identify(
         Number of points over the ranges of the free parameters among which the starting points
         are chosen.
     profiles
-        Whether intervals are computed from profiles of the likelihood, which may be asymmetric
-        and end at a bound. Otherwise they are computed from the covariance.
+        Whether intervals are computed from profiles of the likelihood. Such intervals may be
+        asymmetric and end at a bound. Otherwise they are computed from the covariance.
     draws
         Number of bootstrap samples, drawn from the measured points.
     posterior
         Number of posterior samples of a fit to curves, drawn by emcee
         (``vibroimpact[posterior]``).
     window
-        Forcing cycles of a time history in one segment; the initial state of each segment is
-        fitted with the parameters. Default: 5. Use more for a regular motion, fewer for a
-        chaotic one.
+        Number of forcing cycles per segment of a time history. The initial state of each segment is
+        fitted with the parameters. Default: 5. Use more for a regular motion, fewer for a chaotic
+        one.
     steady
         Whether time histories are records of steady motions. They are then compared with the
         steady motion that is reached from the measured state, and no initial states are fitted.
@@ -118,12 +118,12 @@ def identify(
     Returns
     -------
     xarray.Dataset
-        Dim ``parameter``: ``fitted_value``, ``standard_error``, ``interval`` (``bound``: low,
-        high) and whether it is open at each end, ``covariance``, ``correlation``, the profiles
-        and the bootstrap values. Dim ``point``: measured value, fitted value, and residual as a
-        share. Dim ``test``: noise, and whether the residuals are systematic. The attribute
-        ``findings`` summarises the result in words, one finding per line. `fitted_rig` returns
-        the fitted rig.
+        Dim ``parameter``: ``fitted_value``, ``standard_error``, ``interval`` (``bound``: low, high)
+        and whether it is open at each end, ``covariance``, ``correlation``, the profiles and the
+        bootstrap values. Dim ``point``: measured value, fitted value, and residual (for curves, as
+        a fraction of the value). Dim ``test``: noise, and whether the residuals are systematic. The
+        attribute ``findings`` summarises the result in words, one finding per line. `fitted_rig`
+        returns the fitted rig.
 
     Raises
     ------
@@ -133,7 +133,7 @@ def identify(
     Warns
     -----
     InputWarning
-        If the shaking of the data is used, and that of the rig differs.
+        If the shaking of the data is used and differs from that of the rig.
     """
     check_progress(progress)
     starts, tried = whole(starts, "starts"), whole(tried, "tried", least=0)

@@ -55,13 +55,13 @@ def bumpers(name: str) -> tuple[Read, Vary]:
             told = (
                 "there is no bumper"
                 if not values
-                else f"they are {sorted(values)}"
+                else f"their values are {sorted(values)}"
                 if len(kinds) == 1
-                else f"they are in {' and '.join(sorted(kind.symbol for kind in kinds))}"
+                else f"their units are {' and '.join(sorted(kind.symbol for kind in kinds))}"
             )
             raise InputError(
-                f"parameter: {name!r} applies to both bumpers, but {told}; 'right_{name}' and "
-                f"'left_{name}' are accepted, or a rig with equal values"
+                f"parameter: {name!r} applies to both bumpers, but {told}; use 'right_{name}' "
+                f"or 'left_{name}', or a rig with equal values"
             )
         return float(values.pop())
 

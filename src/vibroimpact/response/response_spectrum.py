@@ -55,7 +55,7 @@ def response_spectrum(
     Returns
     -------
     xarray.Dataset
-        Dims ``damping_ratio`` and ``natural_period`` (s), except for a single number:
+        Dims ``damping_ratio`` and ``natural_period`` (s); a single number has no dim:
         ``spectral_displacement`` (m), ``spectral_velocity`` (m/s), ``spectral_acceleration``
         (m/s²), ``pseudo_velocity`` ω max|u| and ``pseudo_acceleration`` ω² max|u|. For two
         components, an additional first dim ``orientation``: ``"first"``, ``"second"``, and the
@@ -65,8 +65,8 @@ def response_spectrum(
     Raises
     ------
     InputError
-        If it is not a record, components differ in step or length, or a period or a damping ratio
-        is invalid.
+        If `record` is not a record, components differ in step or length, or a period or a damping
+        ratio is invalid.
     """
     check_progress(progress)
     components = _components(record)

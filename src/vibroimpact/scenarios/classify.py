@@ -82,7 +82,7 @@ def classify_scenario(
 
     The rig is swept forward and backward. Motions that did not become periodic are classified by
     the growth of disturbances. The branch of orbits through the primary resonance gives the exact
-    jumps, also of a hysteresis so narrow that it lies between two frequencies.
+    jumps, even if the hysteresis is so narrow that it lies between two frequencies.
 
     Parameters
     ----------
@@ -104,8 +104,8 @@ def classify_scenario(
     -------
     xarray.Dataset
         The resonance curves, as in `sweep`, with the number of the ``scenario`` and the features
-        that determine it, named as in `scenario_map`. ``confidence`` is the share of the variations
-        of the thresholds, each halved and each doubled, under which the scenario is the same.
+        that determine it, named as in `scenario_map`. Each threshold is halved and doubled:
+        ``confidence`` is the share of these variations that give the same scenario.
         ``fold_frequency`` holds the frequencies at which the branch of the primary resonance turns
         back. Attributes: ``label`` (``"S0"`` to ``"S6"``, or ``"unclassified"``), ``meaning``,
         ``evidence``, and ``alternatives``, which lists the variations that give another scenario.

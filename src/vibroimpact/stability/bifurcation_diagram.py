@@ -94,9 +94,10 @@ def bifurcation_diagram(
     starts
         Further initial states by name; every value is also started from each of them.
     random
-        Number of additional random initial states, the same at every value. Displacements and
-        velocities reach 1.5 times the largest displacement of the other motions, or the widest
-        gap.
+        Number of additional random initial states, the same at every value. Displacements reach 1.5
+        times the largest displacement of the other motions, or 1.5 times the widest gap if that is
+        larger. Velocities reach this value times the angular forcing frequency (its median, if the
+        frequency is varied).
     seed
         Random seed. The same seed gives the same initial states.
     section

@@ -77,7 +77,7 @@ def coexisting_motions(
         Further initial states by name.
     random
         Number of random initial states, with displacements and velocities up to 1.5 times the
-        largest of the motions that the other initial states lead to.
+        largest values of the motions reached from the other initial states.
     seed
         Random seed. The same seed gives the same initial states.
     window, max_cycles, exponent_cycles, max_events

@@ -75,8 +75,7 @@ def ensemble(
     seed
         Random seed. The same seed gives the same rigs.
     block
-        Number of rigs per call of the response. Default: 64, or as many as take two seconds, if
-        these are more.
+        Number of rigs per call of the response. Default: as many as take two seconds, at least 64.
     progress
         Function that is called with the number of rigs done and their total.
 
@@ -89,8 +88,8 @@ def ensemble(
     Raises
     ------
     InputError
-        If a value is invalid, the parameter does not accept a draw, or the response does not return
-        a dataset over rigs.
+        If a value is invalid, a drawn value is outside the range of its parameter, or the response
+        does not return a dataset over rigs.
     """
     check_progress(progress)
     drawn = uncertain(rig, distributions)
