@@ -83,7 +83,8 @@ def resonance_diagram(
         Datasets of `basins` at values of the parameter, whose motions are continued as well.
         Default: none.
     progress
-        Function that is called with the number of branches done and of branches known so far.
+        Function that is called with the number of branches done and of branches known so far, at
+        each point.
 
     Returns
     -------
@@ -134,7 +135,9 @@ def resonance_diagram(
         if len(followed) >= most_branches:
             complete = False
             break
-        done = follow_both_ways(first, ends, most_points)
+        # Called at each point as well: a branch may take minutes.
+        point = progress and (lambda *_: progress(len(followed), len(followed) + 1 + len(waiting)))
+        done = follow_both_ways(first, ends, most_points, point)
         followed.append(done)
         for found in done.bifurcations:
             if found.turns or found.kind not in (BREAKING, DOUBLING):
