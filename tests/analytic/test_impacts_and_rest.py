@@ -85,7 +85,7 @@ def test_rest_ends_exactly_when_nothing_presses(e: float) -> None:
     angle = math.asin(-gap / amplitude)
     assert left.time * shaken.angular_frequency == pytest.approx(angle + math.pi / 2, abs=1e-13)
     i = int(np.flatnonzero(data["event_contact"].values == 0)[0])
-    before, behind = (float(data[f"event_acceleration_{w}"][i]) for w in ("before", "behind"))
+    before, behind = (float(data[f"event_acceleration_{w}"][i]) for w in ("before", "after"))
     assert before == pytest.approx(behind, abs=1e-14)
     assert (left.u, left.v) == (gap, 0.0)
 

@@ -292,7 +292,10 @@ TO = ("--to", "20mm", "--frequency", "2Hz")
             ["--parameter", "gap", "--from", "10mm", *TO, "--period", "1"], "--from"
         ),  # without the rig's own gap
         (["--parameter", "right-gap", "--no-right", "--from", "1mm", *TO], "no right bumper"),
-        (["--parameter", "gap", "--left-gap", "9mm", "--from", "1mm", *TO], "'gap' is that of"),
+        (
+            ["--parameter", "gap", "--left-gap", "9mm", "--from", "1mm", *TO],
+            "'gap' applies to both",
+        ),
         (["--longest", "0"], "longest: 0"),
         (["--longest", "1.5"], "--longest"),
         (["--quantity", "velocity"], "--quantity"),

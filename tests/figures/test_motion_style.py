@@ -199,7 +199,7 @@ def test_other_motions_are_neither_red_nor_blue_and_differ():
 def test_portrait_and_cycle_pass_through_the_samples_and_events():
     for motion in (hitting(), across(), doubled(), chatter(), transient()):
         u = 1e3 * motion["event_displacement"].values
-        before, behind = (motion[f"event_acceleration_{n}"].values for n in ("before", "behind"))
+        before, behind = (motion[f"event_acceleration_{n}"].values for n in ("before", "after"))
         (cycle,) = curves(hysteresis_cycle(motion))
         (orbit,) = curves(phase_portrait(motion))
         for i in range(motion.sizes["event"]):

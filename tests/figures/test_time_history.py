@@ -86,7 +86,7 @@ def test_the_jump_of_acceleration_is_drawn_upright():
     data = motion()
     x, y = curve(time_history(data, cycles=20.0)[1])
     upright = np.flatnonzero(np.diff(x) == 0.0)
-    before, behind = (data[f"event_acceleration_{n}"].values for n in ("before", "behind"))
+    before, behind = (data[f"event_acceleration_{n}"].values for n in ("before", "after"))
     np.testing.assert_array_equal(y[upright], before)
     np.testing.assert_array_equal(y[upright + 1], behind)
 
@@ -119,7 +119,7 @@ def test_dots_at_the_events_and_stars_at_the_peaks():
         (
             1e3 * data["event_displacement"].values,
             # Where the acceleration jumps, the value in contact.
-            np.where(begins, *(data[f"event_acceleration_{n}"] for n in ("behind", "before"))),
+            np.where(begins, *(data[f"event_acceleration_{n}"] for n in ("after", "before"))),
             data["event_velocity"].values,
         ),
         strict=True,

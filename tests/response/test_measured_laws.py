@@ -71,7 +71,7 @@ def test_the_extremes_are_those_of_many_samples(isolator: str, stops: str) -> No
     ):
         values = [data[one].values]
         if one == "acceleration":
-            values += [data[f"event_acceleration_{side}"].values for side in ("before", "behind")]
+            values += [data[f"event_acceleration_{side}"].values for side in ("before", "after")]
         seen = np.concatenate(values)
         high, low = (float(exact[f"{one}_{end}"]) for end in ("max", "min"))
         size = high - low

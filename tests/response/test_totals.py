@@ -43,7 +43,7 @@ def test_the_extremes_are_those_of_ever_more_samples(name: str) -> None:
             values = [data[one].values]
             if one == "acceleration":
                 values += [
-                    data[f"event_acceleration_{side}"].values for side in ("before", "behind")
+                    data[f"event_acceleration_{side}"].values for side in ("before", "after")
                 ]
             seen = np.concatenate(values)
             slack = near * (high - low)
