@@ -39,7 +39,7 @@ def study(tmp_path, text, name="study.toml"):
         (RIG + "[ensemble]\nseed = 1" + "0" * 30, "ensemble.seed"),
         ('name = "a\\u0000b"' + RIG, "name: 'a\\x00b' has the control character"),
         ('name = "a\\u001b[2J"' + RIG, "name: 'a\\x1b[2J' has the control character"),
-        ('name = "' + "n" * 10_000 + '"' + RIG, "name: 10000 letters"),
+        ('name = "' + "n" * 10_000 + '"' + RIG, "name: 10000 characters"),
         ('"k\\u001b[31m" = 1' + RIG, "k\\x1b[31m: unknown key"),
     ],
 )

@@ -178,7 +178,7 @@ def test_what_has_no_bound_is_infinite() -> None:
         ({"vary": {}}, "vary: {}; values of one parameter"),
         ({"vary": {"length": [1.0]}}, "vary: 'length'; one of "),
         ({"vary": {"amplitude": [1.0]}}, "vary: 'amplitude' is that of a sine"),
-        ({"vary": {"gap": []}}, "gaps: no values"),
+        ({"vary": {"gap": []}}, "gaps: empty"),
         ({"vary": {"yield_force": [1.0]}}, "yield_force: unknown key"),
         ({"records": []}, "records: none given"),
         ({"records": [RECORDS["a"], 3]}, r"records\['1'\]: 3; a Record"),

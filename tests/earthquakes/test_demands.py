@@ -155,7 +155,10 @@ def test_what_was_stopped_is_completed_to_the_same(tmp_path) -> None:
 
 def test_runs_that_are_given_up_are_told() -> None:
     coarse = noise(8, step=0.5)
-    with pytest.warns(RuntimeWarning, match=r"demands: \d of 2 runs were given up: more contacts"):
+    with pytest.warns(
+        RuntimeWarning,
+        match=r"demands: \d of 2 runs were given up: one forcing cycle has more contacts",
+    ):
         data = vi.demands(RIGS["walls"], coarse, [1e-6, 1.0], max_events=1)
     assert data["status"].values.ravel().tolist() == [0, 2]
     assert np.isnan(data["peak_displacement"].values[0, 1])
@@ -186,7 +189,7 @@ def test_it_is_saved_and_read(tmp_path) -> None:
         ({"intensity": "PGV"}, 'intensity: \'PGV\'; "factor", "PGA"'),
         ({"intensity": (0.0, 0.05)}, r"intensity\[0\]: 0"),
         ({"gaps": 0.01}, "gaps: 0.01 is not a list"),
-        ({"gaps": []}, "gaps: no values"),
+        ({"gaps": []}, "gaps: empty"),
         ({"gaps": [0.01, 0.01]}, "gaps: a value is given twice"),
         ({"gaps": ["1 kg"]}, r"gaps\[0\]: "),
         ({"gaps": [0.1], "vary": {"gap": [0.1]}}, "gaps: given beside"),

@@ -208,7 +208,9 @@ def test_the_tail_is_two_periods_of_the_softest_spring() -> None:
 
 
 def test_what_is_given_up_is_told() -> None:
-    with pytest.warns(RuntimeWarning, match="seismic_response: more contacts and detachments"):
+    with pytest.warns(
+        RuntimeWarning, match="seismic_response: one forcing cycle has more contacts"
+    ):
         found = vi.seismic_response(vi.Rig(RIGS["walls"], noise(8, step=0.5)), max_events=1)
     assert int(found["status"]) != 0
     assert "max_events" in found.attrs["message"]

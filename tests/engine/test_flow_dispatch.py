@@ -72,7 +72,9 @@ def test_the_flow_follows_from_the_isolator(
     assert type(flow_of(one)) is flow
     curved = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0))
     assert carries(one, one.copy())
-    assert carries(curved, one) == carries(one, curved) == (law == Law(cubic=1.0))
+    assert carries(one, curved) == (law == Law(cubic=1.0))
+    # The curved flow follows branches of every law, but emits no series that it was not made for.
+    assert carries(curved, one) >= carries(one, curved)
 
 
 @pytest.mark.parametrize(

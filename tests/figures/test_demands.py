@@ -28,7 +28,7 @@ def test_incremental_curves() -> None:
     with pytest.raises(vi.InputError, match=r"^demands: one scale"):
         incremental_curves(data.isel(scale=[0]))
     several = data.expand_dims(gap=[0.01, 0.02]).transpose("record", "scale", "gap")
-    with pytest.raises(vi.InputError, match=r"^demands: over gap, too; .*isel\(gap=0\)"):
+    with pytest.raises(vi.InputError, match=r"^demands: over gap as well; .*isel\(gap=0\)"):
         incremental_curves(several)
 
 

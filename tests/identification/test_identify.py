@@ -191,7 +191,7 @@ def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
         ({"priors": {"damping": (1, 2)}}, "priors: 'damping' is not free"),
         ({"ties": {"left_gap": "nothing"}}, "ties: 'nothing'"),
         ({"noise": -1}, "noise"),
-        ({"data": {}}, "there is none"),
+        ({"data": {}}, "data: missing"),
         ({"data": 3}, "int is not a measurement"),
     ],
 )

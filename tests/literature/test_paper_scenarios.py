@@ -106,7 +106,7 @@ def test_the_evidence_for_s4():
     # Folds of the branch, found otherwise to 1e-5 (docs/how-to/follow-a-branch.md).
     for fold in (0.67402, 0.72864):
         assert min(abs(fold - other) for other in found.features.folds) < 2e-5
-    assert str(found).startswith("S4 (100%): right hysteresis 1.9–3.3 Hz")
+    assert found.evidence.startswith("right hysteresis 1.9–3.3 Hz")
 
 
 @pytest.mark.parametrize(

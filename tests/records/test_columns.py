@@ -56,7 +56,7 @@ def test_units(tmp_path):
         ("", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("words only\n", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("1\n2\n", None, "m/s^2", r"step: missing, and .* has no times"),
-        ("1\n2\n", 0.0, "m/s^2", r"step: .*greater than 0"),
+        ("1\n2\n", 0.0, "m/s^2", r"step: 0.0 is not greater than 0"),
         ("1\n2\nend\n", 0.1, "m/s^2", r"record: .*, line 3: 'end' is not a row of numbers"),
         ("1,2,3\n4,5,6\n7,8,9\n", None, "m/s^2", r"component: missing, and .* has 2; '1', '2', or"),
         ("1,2\n3\n", None, "m/s^2", r"record: .*, line 2: a row of 1 numbers, where"),

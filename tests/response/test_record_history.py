@@ -193,7 +193,7 @@ def test_what_makes_no_sense_with_a_record_is_refused(arguments: dict, line: str
 
 
 def test_a_tail_is_for_records() -> None:
-    with pytest.raises(vi.InputError, match=r"^tail: 2.0 is for a Record"):
+    with pytest.raises(vi.InputError, match=r"^tail: 2.0 is accepted for a Record only"):
         vi.simulate(vi.Rig(RIGS["bumpers"], vi.Harmonic(1.0, 1.0)), 3, tail=2.0)
     with pytest.raises(vi.InputError, match=r"^cycles: missing; a number greater than 0"):
         vi.simulate(vi.Rig(RIGS["bumpers"], vi.Harmonic(1.0, 1.0)))

@@ -157,7 +157,7 @@ def test_every_form_of_start_goes_on_the_same() -> None:
 
 def test_no_samples_no_memory() -> None:
     data = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 100_000, samples=0)
-    assert set(data.data_vars) == {"final_state"}
+    assert set(data.data_vars) == {"final_state", "status"}
 
 
 @pytest.mark.parametrize(
@@ -182,7 +182,9 @@ def test_bad_numbers(arguments: dict[str, object], field: str) -> None:
 
 def test_a_motion_that_is_given_up() -> None:
     slow = vi.Harmonic(CASE.amplitude, 0.3)
-    with pytest.warns(RuntimeWarning, match=r"^simulate stopped in cycle 0: more contacts"):
+    with pytest.warns(
+        RuntimeWarning, match=r"^simulate stopped in cycle 0: one forcing cycle has more contacts"
+    ):
         data = vi.simulate(vi.Rig(CASE.oscillator, slow), 5, samples=16, max_events=3)
     assert "raise max_events" in data.attrs["message"]
     assert data.sizes["time"] == 0

@@ -227,7 +227,7 @@ def test_what_has_not_settled_says_so():
         vi.Oscillator(1.0, vi.Isolator(1.0, 0.003), vi.Bumper(30.0, 0.0, 100.0)),
         vi.Harmonic(1.0, 0.2),
     )
-    with pytest.warns(RuntimeWarning, match="1 of 1 motions still approach"):
+    with pytest.warns(RuntimeWarning, match="1 of 1 motions were still converging"):
         data = vi.lyapunov_exponents({"slow": rig}, [0.2], 500, transient=0)
     assert data["settling"].item()
     settled = vi.lyapunov_exponents({"slow": rig}, [0.2], 500, transient=20_000)

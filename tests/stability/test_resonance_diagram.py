@@ -141,7 +141,7 @@ def test_the_bifurcations_of_a_branch_are_among_them():
     ("wrong", "told"),
     [
         ({"parameter": "gap"}, "frequency: missing"),
-        ({"frequency": 2.0}, "frequency: 2.0, but it is varied"),
+        ({"frequency": 2.0}, "frequency: 2.0, but the frequency is the varied"),
         ({"parameter": "colour", "frequency": 2.0}, "parameter: 'colour'"),
         ({"rig": vi.Rig(ONE_STOP, [0.1, 0.2])}, "shaking: a list"),
         ({"random": -1}, "random: -1"),

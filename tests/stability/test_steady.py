@@ -277,5 +277,5 @@ def test_a_motion_that_grows_between_a_wall_and_nothing_has_no_kind():
 
 def test_a_rig_too_fast_to_be_followed_is_one_line():
     oscillator = vi.Oscillator(1e-12, vi.Isolator(1e8, 0.1), vi.Bumper(1e8, 1.0, 0.01))
-    with pytest.raises(vi.InputError, match="nothing of the motion could be followed: the fastest"):
+    with pytest.raises(vi.InputError, match="the motion could not be simulated: the fastest"):
         vi.steady(vi.Rig(oscillator, vi.Harmonic(0.5, 1.0)), samples=16)

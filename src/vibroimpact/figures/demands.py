@@ -203,7 +203,7 @@ def _one_rig(values: xr.DataArray, what: str) -> None:
     others = [str(dim) for dim in values.dims if dim not in ("record", "scale")]
     if others:
         raise InputError(
-            f"{what}: over {', '.join(others)}as well; curves of one rig are accepted, such as "
+            f"{what}: over {', '.join(others)} as well; curves of one rig are accepted, such as "
             f"demands.isel({others[0]}=0)"
         )
     if values.sizes["scale"] < 2:

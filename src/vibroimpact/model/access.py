@@ -229,7 +229,7 @@ def relaxation_time() -> tuple[Read, Vary]:
             told = "there is no bumper" if not times else f"their C/K are {sorted(times)} s"
             raise InputError(
                 f"parameter: 'relaxation_time' applies to both bumpers, but {told}; "
-                "'right_damping' and 'left_damping' are accepted, or a rig with equal values"
+                "use 'right_damping' or 'left_damping', or a rig with equal values"
             )
         return oscillator.angular_frequency * times[0]
 

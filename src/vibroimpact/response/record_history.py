@@ -86,10 +86,10 @@ def through(
         events = listed(found, record.step, oscillator.isolator)
         # A record has steps, not cycles.
         variables |= {name: one for name, one in events.items() if "cycle" not in name}
+    variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
         warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=4)
-    data["status"] = int(told)
     data.attrs["message"] = told.advice
     parameters = {
         "oscillator": oscillator_parameters(oscillator),

@@ -166,10 +166,10 @@ def simulate(
         name, values = _shaking(excitation, phase, cycle, samples)
         variables[name] = ("time", values)
         variables |= listed(found, 1.0 / excitation.frequency, oscillator.isolator)
+    variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
         warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=3)
-    data["status"] = int(told)
     data.attrs["message"] = told.advice
     return describe(
         data,

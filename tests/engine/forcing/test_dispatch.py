@@ -19,7 +19,7 @@ WALL = (2.0, 1.0, 0.1, (0.5, 1.0), None, 3.0)
 
 @pytest.mark.parametrize("forcing", dispatch.FORCINGS)
 def test_each_has_what_is_asked_of_it(forcing: float) -> None:
-    assert len(NAMES) == 16
+    assert len(NAMES) == 17
     for name, arguments in NAMES:
         asked = getattr(dispatch.FORCINGS[forcing], name)
         given = list(inspect.signature(asked).parameters)
