@@ -9,7 +9,7 @@ from pathlib import Path
 import numba
 import pytest
 
-from vibroimpact.engine import emission, flows, jit
+from vibroimpact.engine import emission, flow_dispatch, jit
 
 _SCRIPT = """
 import sys
@@ -67,7 +67,7 @@ def test_only_the_entry_becomes_machine_code(tmp_path):
 
 def test_kernels_that_are_kept_apart_have_names_of_their_own() -> None:
     """They are found by name: another one of that name would be kept apart, and round otherwise."""
-    folder = Path(flows.__file__).parent  # which has all kernels defined
+    folder = Path(flow_dispatch.__file__).parent  # which has all kernels defined
     sources = [path.read_text(encoding="utf-8") for path in folder.rglob("*.py")]
     assert jit.APART
     for name in jit.APART:
