@@ -235,7 +235,7 @@ def test_which_of_several_have_no_curve_is_told() -> None:
             one = vi.fragility(lone, "peak_displacement", 1.0)
             assert float(one["median_capacity"]) == float(found["median_capacity"][i])
             assert "undetermined" not in one.attrs
-    with pytest.warns(RuntimeWarning, match=r"; likewise 4 more curves$"):
+    with pytest.warns(RuntimeWarning, match=r"; and 4 more curves$"):
         vi.fragility(_gaps(fine, *[(3.0,) * 6] * 9), "peak_displacement", 1.0)
     with pytest.raises(
         vi.InputError, match=r"^limit: 1.0; no curve for gap 200 mm: .*; no curve f"
