@@ -245,7 +245,5 @@ def test_a_saddle_that_presses_a_stop_with_a_restitution_is_refused_at_that_phas
     np.testing.assert_allclose(both, first, rtol=1e-6)
     # The same orbit where it presses the stop, given.
     there = vi.simulate(vi.Rig(rig, shaking), 1.0 - 1.6 / (2.0 * np.pi), saddle)
-    with pytest.raises(
-        vi.InputError, match="whose force depends on the impact speed"
-    ):
+    with pytest.raises(vi.InputError, match="whose force depends on the impact speed"):
         vi.manifolds(vi.Rig(rig, shaking), vi.orbit(vi.Rig(rig, shaking), there))

@@ -67,9 +67,7 @@ def test_the_base_may_stop_at_once() -> None:
 
 def test_wrong_input() -> None:
     rig = RIGS["bumpers"]
-    with pytest.raises(
-        vi.InputError, match=r"^motion: it is periodically forced; a motion"
-    ):
+    with pytest.raises(vi.InputError, match=r"^motion: it is periodically forced; a motion"):
         vi.floor_record(vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 1.0)), 3))
     with pytest.raises(vi.InputError, match=r"^motion: 3 samples; at least 4"):
         vi.floor_record(vi.simulate(vi.Rig(rig, RECORD.cut(0.0, 0.04))))
