@@ -142,7 +142,9 @@ def _runs(pid):
 )
 def test_no_process_outlives_what_started_it(tmp_path, sent, code, how):
     script = tmp_path / "script.py"
-    end = "vi.basins(vi.Rig(rig, shaken), (-3, 3), (-3, 3), nodes=3000, where='processes', threads=2)"
+    end = (
+        "vi.basins(vi.Rig(rig, shaken), (-3, 3), (-3, 3), nodes=3000, where='processes', threads=2)"
+    )
     if how == "command":
         end = (
             "main(['basins', 'B3-10mm-A3', '--frequency', '1.06Hz', '--nodes', '3000',"
