@@ -170,7 +170,7 @@ def test_without_overlap_there_is_no_curve() -> None:
     first, last = np.full(4, 2.0), np.full(4, 0.5)
     lone = suite(np.array([first, early, last, last]), scales)
     with pytest.warns(
-        RuntimeWarning, match=r"^fragility: no interval where fewer than two .*: lower and higher l"
+        RuntimeWarning, match=r"^fragility: no interval is given if fewer than two .*: lower and higher l"
     ):
         found = vi.fragility(lone, "peak_displacement", 1.0)
     assert found.attrs["unbounded"].endswith("what would give one: lower and higher levels")
