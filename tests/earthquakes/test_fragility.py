@@ -154,9 +154,7 @@ def test_without_overlap_there_is_no_curve() -> None:
         vi.fragility(one, "peak_displacement", 0.1)
     counted = one.assign(impact_count=one["peak_displacement"] * 0.0)
     counted["impact_count"].attrs["units"] = "1"
-    with pytest.raises(
-        vi.InputError, match=r"^demands: no record is above 0 in impact_"
-    ):
+    with pytest.raises(vi.InputError, match=r"^demands: no record is above 0 in impact_"):
         vi.fragility(counted, "impact_count")
     # Records that begin to exceed between the same two levels, beside others, are enough.
     scales = np.array([1.0, 2.0, 3.0, 4.0])
@@ -170,10 +168,11 @@ def test_without_overlap_there_is_no_curve() -> None:
     first, last = np.full(4, 2.0), np.full(4, 0.5)
     lone = suite(np.array([first, early, last, last]), scales)
     with pytest.warns(
-        RuntimeWarning, match=r"^fragility: no interval is given if fewer than two .*: lower and higher l"
+        RuntimeWarning,
+        match=r"^fragility: no interval is given if fewer than two .*: lower and higher l",
     ):
         found = vi.fragility(lone, "peak_displacement", 1.0)
-    assert found.attrs["unbounded"].endswith("what would give one: lower and higher levels")
+    assert found.attrs["unbounded"].endswith("needed for one: lower and higher levels")
     assert found["median_capacity_bound"].values.tolist() == [0.0, np.inf]
     assert found["dispersion_bound"].values.tolist() == [0.0, np.inf]
     assert found["fitted_probability_bound"].values.tolist() == [[0.0] * 4, [1.0] * 4]
