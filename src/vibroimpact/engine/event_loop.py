@@ -6,7 +6,7 @@ from typing import Any
 
 from vibroimpact.engine.flow_dispatch import advance
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import GIVEN_UP, LIMIT, Clock, Motion, Stretch, at_section
+from vibroimpact.engine.motion import GIVEN_UP, LIMIT, Clock, Motion, Stretch, at_section, finite
 from vibroimpact.engine.observe import observe
 
 
@@ -36,7 +36,8 @@ def cycle(
         before = motion
         event, step, arrival, motion = advance(plan, before, length - t)
         if event == GIVEN_UP:
-            events = max_events + 1
+            if finite(motion):  # otherwise it left the range of numbers, which its caller sees
+                events = max_events + 1
             break
         stretch = Stretch(before, t, event, step, arrival, motion)
         notes = observe(plan, notes, stretch)

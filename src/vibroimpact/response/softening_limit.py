@@ -27,12 +27,9 @@ def judged(oscillator: Oscillator, outcome: ArrayLike, farthest: ArrayLike) -> N
         return codes
     with np.errstate(invalid="ignore"):
         beyond = np.asarray(farthest) > reach
-    seen = np.isin(codes, (Status.DONE, Status.NOT_SETTLED)) & beyond
-    # A mass that is pushed away ever faster needs ever shorter steps.
-    lost = codes == Status.NOT_FINITE
-    if not oscillator.stops:  # nothing chatters
-        lost |= (codes == Status.TOO_MANY_EVENTS) & (beyond | np.isnan(farthest))
-    return np.where(seen | lost, int(Status.REVERSED), codes)
+    ended = np.isin(codes, (Status.DONE, Status.NOT_SETTLED)) & beyond
+    # What is pushed away farther and farther leaves the range of numbers.
+    return np.where(ended | (codes == Status.NOT_FINITE), int(Status.REVERSED), codes)
 
 
 def ended(oscillator: Oscillator, status: Status, *displacements: ArrayLike) -> Status:

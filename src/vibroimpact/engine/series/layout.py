@@ -25,13 +25,16 @@ ROOTS = LAWS + 1  # of each side: the exponent for which a stop has a kernel in 
 UNIT = ROOTS + 4  # s
 SHAKES_UNIT = UNIT + 1  # s, of what follows
 NUMBERS_UNIT = UNIT + 2  # s, of NUMBERS
-LACKING = UNIT + 3  # 1 if the kernels were made for other laws
+LACKING = UNIT + 3  # 0, or 1 where no series holds or no kernel was made, or OVERFLOWED
 SHAKES = UNIT + 4  # coefficients of what shakes the mass, but for two factors, in units of time
 X = SHAKES + ROOM  # the mode's own coordinate
 Z = X + ROOM  # the isolator's memory
 SHAKEN = Z + ROOM  # −A_t and the constant force
 V = SHAKEN + ROOM  # of a step in a stop's root: velocity and time
 T = V + ROOM
+
+OVERFLOWED = 2.0
+"""In the place of LACKING, where the terms of a series have left the range of numbers."""
 
 # Numbers of the forces in a mode, in units of time.
 NUMBERS = T + ROOM

@@ -26,6 +26,7 @@ from vibroimpact.engine.series.layout import (
     NAMES,
     NUMBERS,
     NUMBERS_UNIT,
+    OVERFLOWED,
     SHAKEN,
     SHAKES,
     SHAKES_UNIT,
@@ -227,7 +228,7 @@ def shortened(
         excess, after = excess_of(plan, by, lasts(plan, slot, h), size, fine)
         if excess <= 1.0 or not size < _GONE:
             return h, after
-    plan[LACKING] = 1.0  # no series holds here: the motion is given up
+    plan[LACKING] = 1.0 if excess < math.inf else OVERFLOWED
     return h, after
 
 

@@ -28,7 +28,7 @@ from vibroimpact.engine.motion import (
     Motion,
 )
 from vibroimpact.engine.series.events import state_near
-from vibroimpact.engine.series.layout import LACKING
+from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
 from vibroimpact.engine.series.march import headed
 from vibroimpact.engine.taylor.ahead import NOT_YET, ahead_of, branched, stepped_on, varies
 from vibroimpact.engine.taylor.frame import (
@@ -170,7 +170,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     if resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion):
         return still(plan, motion, limit)
     if plan[LACKING] != 0.0:
-        return GIVEN_UP, 0.0, motion.v, motion
+        return abandoned(plan, motion, 0.0)
     mode, _, _, _, right, left, _, age, _ = motion
     frame = frame_of(plan, mode)
     sign = frame.sign
@@ -194,6 +194,8 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
             ahead = ahead_of(plan, here, frame, x, limit - t, matters, anew)
             v = sign * here.v * ahead.unit
         h, after = stepped_on(plan, clock, x, v, z, ahead, (limit - t) * ahead.per_unit)
+        if plan[LACKING] != 0.0:
+            return abandoned(plan, freed(plan, placed(plan, here, x), t), t)
         ends = ends_of(plan, h, x, v, z, hysteretic)
         ways = ahead.way if matters else 0.0
         found = search(plan, here, frame, ways, ends, ahead.unit, t * ahead.per_unit)
@@ -216,6 +218,15 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         if anew:
             here = placed(plan, here, x)
     return GIVEN_UP, t, here.v, freed(plan, placed(plan, here, x), t)
+
+
+@apart
+def abandoned(plan: Vector, here: Motion, t: float) -> Ended:
+    """Give the motion up; where the terms of its series left the range of numbers, so did it."""
+    mode, fresh, u, v, right, left, z, age, clock = here
+    if plan[LACKING] == OVERFLOWED:
+        u = math.inf
+    return GIVEN_UP, t, v, Motion(mode, fresh, u, v, right, left, z, age, clock)
 
 
 @apart
