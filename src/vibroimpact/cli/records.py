@@ -183,6 +183,6 @@ def records_or_sines(
     for option, value in (("--scale", scale), ("--peak", peak)):
         if value is not None and not records:
             raise InputError(
-                f"{option}: {value!r}, but there is no record to scale; use --amplitude"
+                f"{option}: {value!r}, but no record is given; use --amplitude to scale a sine"
             )
     return scale_records(records, scale, peak) or None

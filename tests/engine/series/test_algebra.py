@@ -1,4 +1,4 @@
-"""Series of formulae against those of mpmath, and slopes against what they are slopes of."""
+"""Series of formulas against those of mpmath, and slopes against what they are slopes of."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ FORMULAE: dict[str, Callable[[Any, Any, Any], Any]] = {
 
 
 class Precise:
-    """A machine of mpmath's numbers, for formulae of plain values."""
+    """A machine of mpmath's numbers, for formulas of plain values."""
 
     def exponential(self, one: Any) -> Any:
         return mpmath.exp(one)

@@ -105,7 +105,7 @@ def test_machine_code_computes_what_floats_do(formula, shape) -> None:
     "shape", [one for formula, one in SHAPES if formula is step.begun], ids=str
 )
 def test_slopes_are_derivatives_of_the_forces(shape) -> None:
-    """Of the step's series, by machine code and floats; against differences of the formulae."""
+    """Of the step's series, by machine code and floats; against differences of the formulas."""
     plan, h = memory(), 0.3
     step.begun(Plain(plan, (0.4, 0.5, 0.1, 0.5, h, 0.2, -0.1)), shape)
     h = plan[at.FOUND + at.F_H]

@@ -58,7 +58,7 @@ class Slot(IntEnum):
     OTHER = 12
     ROOT_RIGHT = 30
     ROOT_LEFT = 33
-    OWN = 36  # of the isolator, and of each stop behind it
+    OWN = 36  # of the isolator, then of each stop
 
 
 def pushed(rig: Any, side: int) -> Any:
@@ -86,12 +86,12 @@ def kernels(rig: Any) -> dict[int, Kernel]:
         found[Slot.OTHER] = Shape(laws, 0, left)
         if right:
             found[Slot.BOTH] = Shape(laws, right, left)
-    formulae = step.begun, step.again, slopes.slopes
-    every: dict[int, Kernel] = {int(slot): (formulae, shape) for slot, shape in found.items()}
+    formulas = step.begun, step.again, slopes.slopes
+    every: dict[int, Kernel] = {int(slot): (formulas, shape) for slot, shape in found.items()}
     if laws[LAWS.index(drag)] == (0,):
         calm = tuple(() if module is drag else law for module, law in zip(LAWS, laws, strict=True))
         for slot, shape in found.items():
-            every[slot + CALM] = formulae, shape._replace(laws=calm)
+            every[slot + CALM] = formulas, shape._replace(laws=calm)
     for which in range(3):
         symbols = program.unpack(rig, which)
         if symbols:
@@ -110,7 +110,7 @@ def rooted(rig: Any, side: int, laws: tuple[Any, ...]) -> Rooted | None:
         return None
     at_stop = par.BUMPER + par.WIDTH * (side - 1)
     if laws[-1]:
-        return None  # how far a formula bends on a step is told by steps in time alone
+        return None  # only steps in time report how far a formula bends
     exponent = float(rig[at_stop + par.EXPONENT])
     for which in (2, 3, 4):
         power = round(which * exponent)
@@ -170,7 +170,7 @@ def drags_any_power(plan: Vector) -> bool:
 
 
 def operations(rig: Vector) -> Vector:
-    """The operations of a rig's own formulae, as its vector packs them."""
+    """The operations of a rig's own formulas, as its vector packs them."""
     blocks = rig[par.OWN : par.OWN + 3 * par.OWN_WIDTH].reshape(3, par.OWN_WIDTH)
     return blocks[:, : par.WORDS].ravel()
 
@@ -181,13 +181,13 @@ def prepare(memory: Vector, rig: Vector) -> None:
     memory[at.MADE : at.MADE + 3 * par.WORDS] = operations(rig)
     memory[at.ROOTS : at.ROOTS + 4] = np.nan
     addresses = memory.view(np.int64)
-    for slot, (formulae, shape) in kernels(rig).items():
+    for slot, (formulas, shape) in kernels(rig).items():
         if slot in (Slot.ROOT_RIGHT, Slot.ROOT_LEFT):
             side = 0 if slot == Slot.ROOT_RIGHT else 1
             exponent = rig[par.BUMPER + par.WIDTH * side + par.EXPONENT]
             memory[at.ROOTS + 2 * side : at.ROOTS + 2 * side + 2] = exponent, shape.root
         if not config.DISABLE_JIT:  # type: ignore[attr-defined]
-            for i, formula in enumerate(formulae):
+            for i, formula in enumerate(formulas):
                 addresses[at.KERNELS + slot + i] = address(formula, shape)
 
 
@@ -251,8 +251,8 @@ def run(
     after: float,
 ) -> None:
     """Call the kernel of a slot: FOUND of the plan is what it finds."""
-    formulae, shape = kernels(plan)[slot - slot % STRIDE]
-    formulae[slot % STRIDE](Plain(plan, (x, v, z, size, h, now, after)), shape)
+    formulas, shape = kernels(plan)[slot - slot % STRIDE]
+    formulas[slot % STRIDE](Plain(plan, (x, v, z, size, h, now, after)), shape)
 
 
 @intrinsic

@@ -80,8 +80,8 @@ FOUND = NUMBERS + len(NAMES)
 SLOT = FOUND + 20  # the kernel that made the step in hand
 
 OWN_FORCE = SLOT + 1  # of an isolator's formula: its value and slopes
-MADE = OWN_FORCE + 3  # operations of the formulae that the kernels were made for
-ASKED = MADE + 3 * WORDS  # what is asked of the motion: its acceleration, a force, a velocity
+MADE = OWN_FORCE + 3  # operations of the formulas that the kernels were made for
+ASKED = MADE + 3 * WORDS  # event functions in hand: an acceleration, a force, a velocity
 PUSH = ASKED + ROOM  # what the stops push with
 BY_X = PUSH + 2 * ROOM  # slopes of the forces: by displacement, by velocity, by the dissipations
 BY_V = BY_X + ROOM

@@ -194,7 +194,7 @@ def excess_of(plan: Vector, by: Shaken, t: float, size: float, fine: float) -> t
     s, c = stepped(plan, by.clock[0], by.clock[1], t * by.unit)
     pulled = by.sign * value(plan, s, c) * (by.unit * by.unit) - plan[_LOAD]
     off = abs(plan[FOUND + F_OWES] + pulled * plan[FOUND + F_WEIGHT])
-    # Of a size that is smaller than the displacement's own the velocity is asked to be right.
+    # Of a size that is smaller than the displacement's own, the velocity must be right.
     whole = BALANCED * (size if fine > 1.0 else max(size, abs(plan[FOUND + F_X])))
     excess: float = plan[FOUND + F_EXCESS]
     if not off <= whole:

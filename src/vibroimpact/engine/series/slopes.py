@@ -1,6 +1,6 @@
 """How the forces of a mode change with its state: series over the step in hand, from its formula.
 
-A `Varied` is a number or a series with its derivatives. The formulae of the laws, run with these,
+A `Varied` is a number or a series with its derivatives. The formulas of the laws, run with these,
 give the slopes by which disturbances grow, and what the stops push with.
 """
 
@@ -76,7 +76,7 @@ class Varied:
 
 
 class Varying(Law):
-    """As `Law`, for formulae that are run with `Varied`."""
+    """As `Law`, for formulas that are run with `Varied`."""
 
     def exp(self, one: Any) -> Any:
         """Return e to the power of a number or a series."""

@@ -53,7 +53,7 @@ class Shape(NamedTuple):
 
 
 class Law:
-    """The numbers of a mode's forces by name, and functions for formulae."""
+    """The numbers of a mode's forces by name, and functions for formulas."""
 
     def __init__(self, machine: Any) -> None:
         self._machine = machine
@@ -332,7 +332,7 @@ def ended(
 def bends_of(
     machine: Any, shape: Shape, law: Law, along: Series, reached: list[Any], inverse: Any
 ) -> Any:
-    """By how much users' formulae may bend on a step, over what a series shows; None if nowhere."""
+    """By how much users' formulas may bend on a step, over what a series shows; None if nowhere."""
     own_law = shape.laws[LAWS.index(own)]
     if not own_law and not any(isinstance(one, tuple) for one in (shape.push, shape.other)):
         return None

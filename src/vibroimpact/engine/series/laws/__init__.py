@@ -1,1 +1,1 @@
-"""Laws as formulae, one a file: what a force is made of, over numbers as over series."""
+"""Laws as formulas, one per file: forces, computed with numbers and with series alike."""
