@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import warnings
 from functools import cache
 from pathlib import Path
@@ -13,10 +12,10 @@ import xarray as xr
 
 import arguments
 import vibroimpact as vi
+from contributing import rows
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 
-PAGE = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text(encoding="utf-8")
 NO_DATASET = {
     "explore",
     "fit_report",
@@ -33,13 +32,7 @@ NO_DATASET = {
 """Functions that make a rig, a record, a file or a table; their docstrings say which."""
 
 
-def _table(heading: str) -> list[list[str]]:
-    section = re.split(r"^#+ ", PAGE.split(f"# {heading}\n")[1], flags=re.M)[0]
-    lines = [line for line in section.splitlines() if line.startswith("|")]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
-
-
-KINDS = {row[0].strip("`"): row[2] for row in _table("Words of results")}
+KINDS = {row[0].strip("`"): row[2] for row in rows("Words of results")}
 """Kind of the values of a variable or attribute."""
 
 

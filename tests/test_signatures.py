@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 import vibroimpact as vi
+from contributing import rows
 from vibroimpact import figures
 
-PAGE = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text(encoding="utf-8")
 REQUIRED = inspect.Parameter.empty
 FORBIDDEN = {"oscillator", "excitation", "amplitude", "shaking", "base", "guess", "low", "high"}
 """Parts of a rig, and names of the interface before rigs; `Rig` and spans took their place."""
@@ -34,22 +34,15 @@ def _functions() -> dict[str, inspect.Signature]:
 FUNCTIONS = _functions()
 
 
-def _rows(heading: str) -> list[list[str]]:
-    """Return the cells of the first table below a heading."""
-    section = re.split(r"^#+ ", PAGE.split(f"# {heading}\n")[1], flags=re.M)[0]
-    lines = [line for line in section.splitlines() if line.startswith("|")]
-    return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines[2:]]
-
-
 def _default(cell: str) -> object:
     """Read a default: "required", or a Python literal in backticks."""
     return REQUIRED if cell == "required" else ast.literal_eval(cell.strip("`"))
 
 
-WORDS = {row[0].strip("`"): _default(row[3]) for row in _rows("Words of signatures")}
+WORDS = {row[0].strip("`"): _default(row[3]) for row in rows("Words of signatures")}
 EXCEPTIONS = {
     (row[0].strip("`"), row[1].strip("`")): _default(row[2])
-    for row in _rows("Exceptions in signatures")
+    for row in rows("Exceptions in signatures")
 }
 
 
@@ -62,7 +55,7 @@ def test_the_tables_are_read():
     assert {"rig", "frequency", "span", "seed", "tolerance", "frequency_span"} <= set(WORDS)
     assert WORDS["seed"] == 0
     assert WORDS["span"] is REQUIRED
-    assert all(row[3] for row in _rows("Exceptions in signatures")), "an exception has a reason"
+    assert all(row[3] for row in rows("Exceptions in signatures")), "an exception has a reason"
 
 
 @pytest.mark.parametrize("function", FUNCTIONS)
@@ -93,7 +86,7 @@ def test_no_function_takes_a_rig_in_parts(function):
 def test_long_computations_take_what_is_listed():
     words = {"where", "threads", "progress"}
     listed = {}
-    for parameters, functions, reason in _rows("Long computations"):
+    for parameters, functions, reason in rows("Long computations"):
         assert reason
         for name in re.findall(r"`(\w+)`", functions):
             listed[name] = set(re.findall(r"`(\w+)`", parameters))

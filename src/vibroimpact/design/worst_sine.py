@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -34,6 +35,11 @@ _ALIKE = 1e-6
 """Difference of two largest holds that are one motion."""
 _FAR = 0.8
 """A sweep whose largest hold is smaller than this share of the other's is not refined."""
+_SIZES: tuple[Callable[[HoldRows], _Array], ...] = (
+    attrgetter("peak_displacement"),
+    attrgetter("peak_acceleration"),
+)
+"""By which the largest response is sought."""
 _TOLERANCE = 1e-9
 _LEAST_CYCLES, _WINDOW = 300, 100
 _SOUND = (int(Status.DONE), int(Status.NOT_SETTLED))
@@ -134,7 +140,7 @@ class _Search:
     def worst(self) -> Worst:
         swept = [self._held(np.ascontiguousarray(self.grid[::way]), self.start) for way in (1, -1)]
         every = list(swept)
-        for size in (_displacement, _acceleration):
+        for size in _SIZES:
             for about in _to_be_refined(swept, size):
                 for _ in range(_LEVELS):
                     at = _top(size(about.rows))
@@ -213,11 +219,3 @@ def _to_be_refined(swept: list[_Holds], size: Callable[[HoldRows], _Array]) -> l
 def _top(size: _Array) -> int:
     """Where it is largest, of what is known."""
     return int(np.argmax(np.nan_to_num(size, nan=-1.0)))
-
-
-def _displacement(rows: HoldRows) -> _Array:
-    return rows.peak_displacement
-
-
-def _acceleration(rows: HoldRows) -> _Array:
-    return rows.peak_acceleration

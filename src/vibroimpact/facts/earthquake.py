@@ -10,7 +10,6 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.earthquakes.free_vibration import settles
-from vibroimpact.engine.status import Status
 from vibroimpact.facts.number_format import (
     ENERGIES,
     FORCES,
@@ -20,6 +19,7 @@ from vibroimpact.facts.number_format import (
     fitting,
     plain,
 )
+from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import GRAVITY, Oscillator, Record
 from vibroimpact.model.quantities import FORCE, LENGTH
@@ -45,8 +45,7 @@ def facts(
         "name": name,
         "record": dict(record.rows()),
         **{str(key): value.item() for key, value in response.data_vars.items()},
-        "status": Status(response["status"].item()).name.lower(),
-        "message": response.attrs["message"],
+        **status_facts(response),
         "without_stops": None
         if free is None
         else {

@@ -11,7 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.datasets.description import noted
-from vibroimpact.engine.status import Status
+from vibroimpact.facts.status import status_facts
 from vibroimpact.model.quantities import (
     ACCELERATION,
     ENERGY,
@@ -101,8 +101,7 @@ def _facts(data: xr.Dataset) -> dict[str, Any]:
     values: dict[str, Any] = {name: data[name].item() for name in _SCALARS if name in data}
     values["exponents"] = data["exponents"].values.tolist()
     values["exponents_uncertainty"] = data["exponents_uncertainty"].values.tolist()
-    values["status"] = Status(data["status"].item()).name.lower()
-    values["evidence"], values["message"] = data.attrs["evidence"], data.attrs["message"]
+    values |= {**status_facts(data), "evidence": data.attrs["evidence"]}
     values["starts"] = data.attrs.get("starts", "")
     values["mirrored_starts"] = data.attrs.get("mirrored_starts", "")
     rows = {

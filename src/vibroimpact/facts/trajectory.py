@@ -9,8 +9,8 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from vibroimpact.engine.status import Status
 from vibroimpact.facts.number_format import plain
+from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import plain_table
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.units import pretty
@@ -38,8 +38,7 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
             "right_per_cycle": int((begins & (data["event_side"] == 1)).sum()) / lately,
             "left_per_cycle": int((begins & (data["event_side"] == -1)).sum()) / lately,
         },
-        "status": Status(data["status"].item()).name.lower(),
-        "message": data.attrs["message"],
+        **status_facts(data),
     }
 
 
@@ -59,8 +58,7 @@ def _record_facts(data: xr.Dataset) -> dict[str, Any]:
             side: int((begins & (data["event_side"] == sign)).sum())
             for side, sign in (("right", 1), ("left", -1))
         },
-        "status": Status(data["status"].item()).name.lower(),
-        "message": data.attrs["message"],
+        **status_facts(data),
     }
 
 
