@@ -12,19 +12,22 @@ from typing import Any, NamedTuple
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series.algebra import Series, State
 from vibroimpact.engine.series.emit import LANES, tree
+from vibroimpact.engine.series.ends import (
+    along_of,
+    end_of,
+    memory_end,
+    sums,
+)
 from vibroimpact.engine.series.laws import hysteresis
 from vibroimpact.engine.series.step import (
-    BALANCED,
     LAST,
     LAWS,
-    ROUNDING,
     TOLERANCE,
     Law,
     isolator,
     memory,
-    powers,
+    memory_off,
     reach,
-    sums,
 )
 
 EARLY = 4
@@ -151,21 +154,10 @@ def ended(
 ) -> None:
     """Write the values at the end of a step."""
     degree = at.DEGREE
-    reached = powers(machine, h, degree)
-    found, times = sums(machine, w, reached), total(machine, t, reached)
-    inverse = 1.0 / h
-    squared = inverse * inverse
-    end, v = found.value + w[0], found.rate * inverse
-    for place, number in (
-        (at.F_H, h),
-        (at.F_X, end),
-        (at.F_V, v),
-        (at.F_A, found.gain * squared),
-        (at.F_BEND, found.bend * squared),
-        (at.F_JERK, found.jerk * (squared * inverse)),
-        (at.F_T, times[0]),
-    ):
-        machine.store(at.FOUND + place, number)
+    step = along_of(machine, h)
+    found, times = sums(machine, w, step.reached), total(machine, t, step.reached)
+    end, v = end_of(machine, found, w[0], step)
+    machine.store(at.FOUND + at.F_T, times[0])
     highest = h
     for _ in range(4):
         highest = highest * highest
@@ -177,16 +169,10 @@ def ended(
     pace = end ** (shape.root - 1) * float(shape.root)
     kept = 0.0
     if z is not None:
-        more = sums(machine, z, reached)
-        kept = more.value + z[0]
-        machine.store(at.FOUND + at.F_Z, kept)
-        machine.store(at.FOUND + at.F_R, more.rate * inverse)
-        machine.store(at.FOUND + at.F_BEND_Z, more.bend * squared)
-        off = machine.absolute(more.rate - memory(law, shape, None, v * pace, kept) * h)
-        exponent = shape.laws[LAWS.index(hysteresis)][0]
-        rounding = machine.absolute(v * (pace * h)) * (4.0 * ROUNDING * max(exponent, 1))
-        extent = machine.most(machine.absolute(z[0]), machine.absolute(kept))
-        missing = off / (machine.fma(extent, BALANCED, rounding) + 1e-300)
+        more = sums(machine, z, step.reached)
+        kept = memory_end(machine, more, z[0], step)
+        off = more.rate - memory(law, shape, None, v * pace, kept) * h
+        missing, extent = memory_off(machine, shape, off, v * (pace * h), (z[0], kept))
         extreme = machine.absolute(z[degree]) * highest
         last = extreme / (extent + 1e-300) * (1.0 / (LAST * TOLERANCE))
         excess = machine.most(machine.most(missing, last), excess)

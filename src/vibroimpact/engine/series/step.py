@@ -15,6 +15,12 @@ from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program
 from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State
 from vibroimpact.engine.series.emit import LANES, tree
+from vibroimpact.engine.series.ends import (
+    along_of,
+    end_of,
+    memory_end,
+    sums,
+)
 from vibroimpact.engine.series.functions import cosine, exponential, power, sine, tanh
 from vibroimpact.engine.series.laws import contact, drag, hysteresis, own, polynomial
 from vibroimpact.engine.series.laws import exponential as hardening
@@ -218,51 +224,14 @@ def again(machine: Any, shape: Shape) -> None:
     ended(machine, shape, Law(machine), along, memo, h, size)
 
 
-class Sums(NamedTuple):
-    """Of a series but for its first coefficient, at a time h: value, h x′, h² x″ and the like."""
-
-    value: Any
-    rate: Any
-    gain: Any
-    bend: Any
-    """Of the sizes of what `gain` is made of, and of the third rate's."""
-    jerk: Any
-
-
-def sums(machine: Any, series: Any, reached: list[Any]) -> Sums:
-    """Sum a series from its first coefficient on, four side by side."""
-    count = len(reached)
-    terms = [
-        machine.lanes([series[LANES * i + j + 1] for j in range(LANES)]) * reached[i]
-        for i in range(count)
-    ]
-    orders = [[LANES * i + j + 1 for j in range(LANES)] for i in range(count)]
-    value: Any = None
-    rate: Any = None
-    gain: Any = None
-    bend: Any = None
-    jerk: Any = None
-    for term, order in zip(terms, orders, strict=True):
-        second = term * [n * (n - 1) for n in order]
-        sizes = second.absolute()
-        value = term if value is None else value + term
-        rate = term.times(order, rate)
-        gain = second if gain is None else gain + second
-        bend = sizes if bend is None else bend + sizes
-        jerk = sizes.times([max(n - 2, 0) for n in order], jerk)
-    return Sums(*(one.total() for one in (value, rate, gain, bend, jerk)))
-
-
-def powers(machine: Any, h: Any, degree: int) -> list[Any]:
-    """H to h^degree, four side by side."""
-    square = h * h
-    fourth = square * square
-    found = [machine.lanes([h, square, square * h, fourth])]
-    step = fourth
-    for _ in range(1, degree // LANES):
-        found.append(found[0] * step)
-        step = step * fourth
-    return found
+def memory_off(
+    machine: Any, shape: Any, off: Any, moved: Any, ends: tuple[Any, Any]
+) -> tuple[Any, Any]:
+    """By how much the memory's equation is missed, and how large the memory is on the step."""
+    exponent = shape.laws[LAWS.index(hysteresis)][0]
+    rounding = machine.absolute(moved) * (4.0 * ROUNDING * max(exponent, 1))
+    extent = machine.most(machine.absolute(ends[0]), machine.absolute(ends[1]))
+    return machine.absolute(off) / (machine.fma(extent, BALANCED, rounding) + 1e-300), extent
 
 
 def ended(
@@ -270,20 +239,9 @@ def ended(
 ) -> None:
     """Write the values at the end of a step."""
     degree = at.DEGREE
-    reached = powers(machine, h, degree)
-    found = sums(machine, along, reached)
-    inverse = 1.0 / h
-    squared = inverse * inverse
-    x, v = found.value + along[0], found.rate * inverse
-    for place, number in (
-        (at.F_H, h),
-        (at.F_X, x),
-        (at.F_V, v),
-        (at.F_A, found.gain * squared),
-        (at.F_BEND, found.bend * squared),
-        (at.F_JERK, found.jerk * (squared * inverse)),
-    ):
-        machine.store(at.FOUND + place, number)
+    step = along_of(machine, h)
+    found = sums(machine, along, step.reached)
+    x, v = end_of(machine, found, along[0], step)
     highest = h
     for _ in range(4):  # h¹⁶
         highest = highest * highest
@@ -293,17 +251,11 @@ def ended(
     z, missing = 0.0, None
     u = x + law.offset
     if memo is not None:
-        kept = sums(machine, memo, reached)
-        z = kept.value + memo[0]
-        machine.store(at.FOUND + at.F_Z, z)
-        machine.store(at.FOUND + at.F_R, kept.rate * inverse)
-        machine.store(at.FOUND + at.F_BEND_Z, kept.bend * squared)
+        kept = sums(machine, memo, step.reached)
+        z = memory_end(machine, kept, memo[0], step)
         last = machine.most(last, machine.absolute(memo[degree - 1]) * 0.5)
-        off = machine.absolute(kept.rate - memory(law, shape, u, v, z) * h)
-        exponent = shape.laws[LAWS.index(hysteresis)][0]
-        rounding = machine.absolute(v * h) * (4.0 * ROUNDING * max(exponent, 1))
-        extent = machine.most(machine.absolute(memo[0]), machine.absolute(z))
-        missing = off / (machine.fma(extent, BALANCED, rounding) + 1e-300)
+        off = kept.rate - memory(law, shape, u, v, z) * h
+        missing, _ = memory_off(machine, shape, off, v * h, (memo[0], z))
     pull = machine.fma(law.stiffness, x, law.damping * v)
     depth = x
     if shape.push or shape.other:
@@ -319,7 +271,7 @@ def ended(
     excess = (last * almost) * ((1.0 / (LAST * TOLERANCE)) / whole)
     if missing is not None:
         excess = machine.most(missing, excess)
-    bent = bends_of(machine, shape, law, along, reached, inverse)
+    bent = bends_of(machine, shape, law, along, step.reached, step.inverse)
     if bent is not None:
         square = bent * bent
         eighth = square * square * (square * square)
