@@ -31,7 +31,7 @@ from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
 from vibroimpact.engine.motion import Motion
-from vibroimpact.engine.series import library
+from vibroimpact.engine.series import kernels
 from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
 from vibroimpact.engine.taylor import frame, power
@@ -194,7 +194,7 @@ def flow_of(rig: Vector) -> Any:
         memory = _room(several.room(len(weights) // 2))
         memory[several.WEIGHTS : several.WEIGHTS + len(weights)] = weights
     if flow in _LAWS:
-        library.prepare(memory, rig)
+        kernels.prepare(memory, rig)
     return flow(memory)
 
 
@@ -202,8 +202,8 @@ def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
     if rig[par.CURVED]:
-        same = same and library.covers(library.laws_code(rig), library.laws_code(other))
-        same = same and bool((library.operations(rig) == library.operations(other)).all())
+        same = same and kernels.covers(kernels.laws_code(rig), kernels.laws_code(other))
+        same = same and bool((kernels.operations(rig) == kernels.operations(other)).all())
     return bool(same and _flow(rig) in (AnyStops, *_CURVED.values(), _flow(other)))
 
 

@@ -11,8 +11,8 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.motion import FLIGHT, GIVEN_UP, LIMIT, Motion
 from vibroimpact.engine.parameters import Law, PowerLaw, rig_vector
+from vibroimpact.engine.series import kernels, root, slopes, step
 from vibroimpact.engine.series import layout as at
-from vibroimpact.engine.series import library, root, slopes, step
 from vibroimpact.engine.series.emit import Plain
 from vibroimpact.engine.series.program import SYMBOLS
 from vibroimpact.engine.series.root import Rooted
@@ -87,8 +87,8 @@ def _name(one: object) -> str:
 @pytest.mark.parametrize(("formula", "shape"), SHAPES, ids=_name)
 def test_machine_code_computes_what_floats_do(formula, shape) -> None:
     arguments = (0.4, 0.5, 0.1, 0.5, 0.3, 0.2, -0.1)
-    kernel = ctypes.CFUNCTYPE(None, ctypes.c_void_p, *[ctypes.c_double] * library.NUMBERS)(
-        library.address(formula, shape)
+    kernel = ctypes.CFUNCTYPE(None, ctypes.c_void_p, *[ctypes.c_double] * kernels.NUMBERS)(
+        kernels.address(formula, shape)
     )
     fast, slow = memory(), memory()
     kernel(fast.ctypes.data, *arguments)
@@ -113,8 +113,8 @@ def test_slopes_are_derivatives_of_the_forces(shape) -> None:
         plan[place : place + at.DEGREE + 1] *= h ** np.arange(at.DEGREE + 1)
     fast = plan.copy()
     arguments = (0.0, 0.0, 0.0, 0.0, h, 0.0, 0.0)
-    kernel = ctypes.CFUNCTYPE(None, ctypes.c_void_p, *[ctypes.c_double] * library.NUMBERS)(
-        library.address(slopes.slopes, shape)
+    kernel = ctypes.CFUNCTYPE(None, ctypes.c_void_p, *[ctypes.c_double] * kernels.NUMBERS)(
+        kernels.address(slopes.slopes, shape)
     )
     kernel(fast.ctypes.data, *arguments)
     slopes.slopes(Plain(plan, arguments), shape)

@@ -18,7 +18,7 @@ ROOM = 24
 HEADER = TABLES
 """The header of the piece in hand."""
 
-# Addresses of kernels, one for each case of `library.Slot`; then the laws that they have.
+# Addresses of kernels, one for each case of `kernels.Slot`; then the laws that they have.
 KERNELS = TABLES + SIZE
 LAWS = KERNELS + 48
 ROOTS = LAWS + 1  # of each side: the exponent for which a stop has a kernel in a root, and the root

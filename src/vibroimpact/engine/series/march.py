@@ -11,6 +11,7 @@ from vibroimpact.engine.forcing.several import raised
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.layout import RATE, SCALED_A, SCALED_W, WAVE_C, WAVE_S, H
 from vibroimpact.engine.motion import Clock
+from vibroimpact.engine.series.kernels import AGAIN, CALM, Slot, drags_any_power, lacks, run
 from vibroimpact.engine.series.layout import (
     A_T,
     DEGREE,
@@ -34,7 +35,6 @@ from vibroimpact.engine.series.layout import (
     X,
     Z,
 )
-from vibroimpact.engine.series.kernels import AGAIN, CALM, Slot, drags_any_power, lacks, run
 from vibroimpact.engine.series.step import BALANCED
 from vibroimpact.engine.series.values import Frame, Laws
 

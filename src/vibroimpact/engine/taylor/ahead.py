@@ -10,8 +10,8 @@ from vibroimpact.engine.forcing.dispatch import pace
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion
-from vibroimpact.engine.series.layout import SLOT, UNIT
 from vibroimpact.engine.series.kernels import drags_any_power
+from vibroimpact.engine.series.layout import SLOT, UNIT
 from vibroimpact.engine.series.march import Shaken, number, slot_of, taken
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
 from vibroimpact.engine.taylor.frame import branch_of, curved_stop, own_push, stiffness_at

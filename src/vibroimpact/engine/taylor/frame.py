@@ -22,8 +22,8 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     Motion,
 )
-from vibroimpact.engine.series.layout import OWN_FORCE
 from vibroimpact.engine.series.kernels import STRIDE, Slot, run
+from vibroimpact.engine.series.layout import OWN_FORCE
 from vibroimpact.engine.series.values import Branch, Frame, Push
 from vibroimpact.engine.taylor.plan import stiff_rate
 

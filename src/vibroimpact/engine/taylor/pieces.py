@@ -18,6 +18,7 @@ from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
 from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, MEMORY, VELOCITY
 from vibroimpact.engine.series.events import PIECES, shifted
+from vibroimpact.engine.series.kernels import SLOPES, run
 from vibroimpact.engine.series.layout import (
     ASKED,
     DEGREE,
@@ -30,7 +31,6 @@ from vibroimpact.engine.series.layout import (
     X,
     Z,
 )
-from vibroimpact.engine.series.kernels import SLOPES, run
 from vibroimpact.engine.series.march import at, headed, scale, shake, stay
 from vibroimpact.engine.series.values import Frame
 from vibroimpact.engine.taylor.ahead import ahead_of, branched, stepped_on, varies

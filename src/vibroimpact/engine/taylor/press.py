@@ -11,8 +11,8 @@ from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.tables import overlapping
 from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion
 from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
-from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
 from vibroimpact.engine.series.kernels import Slot
+from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
 from vibroimpact.engine.series.march import Shaken, number, taken
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
 from vibroimpact.engine.taylor.ahead import branched

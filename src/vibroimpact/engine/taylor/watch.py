@@ -33,6 +33,7 @@ from vibroimpact.engine.series.events import (
     met,
     searched,
 )
+from vibroimpact.engine.series.kernels import ASKS, CALM, STRIDE, Slot, run
 from vibroimpact.engine.series.layout import (
     ASKED,
     DEGREE,
@@ -51,7 +52,6 @@ from vibroimpact.engine.series.layout import (
     X,
     Z,
 )
-from vibroimpact.engine.series.kernels import ASKS, CALM, STRIDE, Slot, run
 from vibroimpact.engine.series.program import ABSOLUTE_X
 from vibroimpact.engine.series.values import Frame
 from vibroimpact.engine.taylor.frame import balanced, curved_stop, push_of, steep
