@@ -10,5 +10,10 @@ acceleration jumps, because the dashpot resists at once.
 import vibroimpact as vi
 from vibroimpact.figures import time_history
 
-first, second = vi.coexisting_motions("B2-G1-A3", frequency="2 Hz", samples=512)
+case = vi.laboratory.case("B2-G1-A3")
+found = vi.coexisting_motions(case, frequency="2 Hz")
+first, second = (
+    vi.steady(case, found.isel(attractor=number), frequency="2 Hz", samples=512)
+    for number in (0, 1)
+)
 time_history({"forward": first, "backward": second})

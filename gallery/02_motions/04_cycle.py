@@ -10,5 +10,10 @@ are the bumpers.
 import vibroimpact as vi
 from vibroimpact.figures import hysteresis_cycle
 
-first, second = vi.coexisting_motions("B2-G1-A3", frequency="2 Hz", samples=1024)
+case = vi.laboratory.case("B2-G1-A3")
+found = vi.coexisting_motions(case, frequency="2 Hz")
+first, second = (
+    vi.steady(case, found.isel(attractor=number), frequency="2 Hz", samples=1024)
+    for number in (0, 1)
+)
 hysteresis_cycle({"forward": first, "backward": second})
