@@ -30,7 +30,7 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.plausibility import doubt_gaps
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
-from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read
+from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read, write_block
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
 
@@ -224,8 +224,7 @@ def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | No
         size = levels * math.prod(s.stop - s.start for s in (one.records, *one.rigs))
         if not ready[one.number]:
             told = _beyond(progress, before, total)
-            for name, values in task.block(one, told).items():
-                group[name][one.place] = values  # type: ignore[index]
+            write_block(group, _KIND, one.place, task.block(one, told))
             group["done"][one.number] = 1  # type: ignore[index]
         before += size
         if progress:

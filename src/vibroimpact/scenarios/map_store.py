@@ -7,6 +7,7 @@ the block that was in work, and is completed to what it would have been.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
@@ -23,7 +24,7 @@ from vibroimpact.model.parameters import parameter
 from vibroimpact.scenarios.axes import Axis
 from vibroimpact.scenarios.map_node import COUNTS, VALUES
 from vibroimpact.scenarios.scenario import FLAGS
-from vibroimpact.stores.zarr_store import Block, Kind, create, finished, folder, read
+from vibroimpact.stores.zarr_store import Block, Kind, create, finished, folder, read, write_block
 
 if TYPE_CHECKING:  # it takes long to load: only where a map is made or read
     import zarr
@@ -51,17 +52,21 @@ class MapStore:
         values: Mapping[str, NDArray[Any]],
     ) -> None:
         """Put what was computed at the chosen nodes of a block, in the order of `np.nonzero`."""
+        parts = {}
         for name, new in {**values, "level": np.full(chosen.sum(), level)}.items():
             if chosen.all():
-                part = np.reshape(new, chosen.shape)
+                parts[name] = np.reshape(new, chosen.shape)
             else:
-                part = self._read(name, block)
-                part[chosen] = new
-            self._array(name)[block] = part
+                parts[name] = self._read(name, block)
+                parts[name][chosen] = new
+        write_block(self._group, _KIND, block, parts)
 
     def inherit(self, scenarios: NDArray[np.int8]) -> None:
         """Put the scenarios of all nodes; the levels show which were computed."""
-        self._array("scenario")[:] = scenarios
+        array = self._array("scenario")
+        for rows, columns in itertools.product(*map(_chunk_slices, array.shape, array.chunks)):
+            part = {"scenario": scenarios[rows, columns]}
+            write_block(self._group, _KIND, (rows, columns), part)
 
     def done(self, level: int, row: int, column: int) -> bool:
         """Whether a block of a level is complete."""
@@ -128,17 +133,19 @@ def map_store(
     """
     of = parameters["base"].get("of", "acceleration")
     make = partial(_make, axes=axes, chunk=chunk, levels=levels, of=of)
-    rows, columns = (range(0, len(one.values), chunk) for one in reversed(axes))
+    rows, columns = (_chunk_slices(len(one.values), chunk) for one in reversed(axes))
     blocks = (
-        Block(
-            tuple((level, r, c) for level in range(levels)),
-            (slice(row, row + chunk), slice(column, column + chunk)),
-        )
+        Block(tuple((level, r, c) for level in range(levels)), (row, column))
         for r, row in enumerate(rows)
         for c, column in enumerate(columns)
     )
     with folder(path, _KIND, parameters, make, blocks) as group:
         yield MapStore(group)
+
+
+def _chunk_slices(length: int, chunk: int) -> list[slice]:
+    """Return the parts of a dim that are chunks."""
+    return [slice(start, start + chunk) for start in range(0, length, chunk)]
 
 
 def _make(group: zarr.Group, axes: tuple[Axis, Axis], chunk: int, levels: int, of: Of) -> None:

@@ -1,9 +1,10 @@
 """A Zarr group in a folder: written block by block, by one writer, with checksums.
 
-The group exists with all its arrays or not at all. Each chunk carries a checksum, and each block
-a mark in the array ``done``, which is set when the block is complete. When a store is opened, every
-block that is marked is read once; a damaged one is marked as not done, so that whoever completes
-the store computes it again.
+The group exists with all its arrays or not at all. Each block has a mark in the array ``done``,
+which is set when the block is complete. Each chunk carries a checksum of its bytes, and the array
+``checksum`` one of its values together with their place, so that a chunk that was exchanged for
+another is noticed as well. When a store is opened, every block that is marked is read once; a
+damaged one is marked as not done, so that whoever completes the store computes it again.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ import json
 import os
 import shutil
 import warnings
-from collections.abc import Callable, Iterable, Iterator
+import zlib
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
@@ -36,7 +38,11 @@ class Kind(NamedTuple):
     """Such as "map"."""
     created_by: str
     arrays: frozenset[str]
-    """Names of those that are written block by block."""
+    """Names of those that are written block by block, all of them in the same chunks."""
+
+    def sorted_arrays(self, group: zarr.Group) -> list[zarr.Array[Any]]:
+        """Return these arrays in the order of their names."""
+        return [group[name] for name in sorted(self.arrays)]  # type: ignore[misc]
 
 
 class Block(NamedTuple):
@@ -96,6 +102,38 @@ def create(
         array.attrs.update(units=known.units, long_name=known.long_name)
         if known.comment:
             array.attrs.update(comment=known.comment)
+
+
+def write_block(
+    group: zarr.Group, kind: Kind, place: tuple[slice, ...], values: Mapping[str, NDArray[Any]]
+) -> None:
+    """Write one block of some arrays.
+
+    The checksums are written first, the new ones beside those of what is there: whichever values a
+    process leaves behind that is killed in between are known.
+    """
+    arrays = kind.sorted_arrays(group)
+    known = []
+    for array in arrays:
+        there = np.asarray(array[place])
+        new = np.broadcast_to(values.get(array.basename, there), there.shape).astype(there.dtype)
+        known.append((_checksum(array, place, there), _checksum(array, place, new)))
+    group["checksum"][_chunk_number(arrays[0], place)] = known  # type: ignore[index]
+    for array in arrays:
+        if array.basename in values:
+            array[place] = values[array.basename]
+
+
+def _checksum(array: Any, place: tuple[slice, ...], values: Any) -> int:
+    """Return the checksum of an array's values and their place."""
+    head = f"{array.basename} {_chunk_number(array, place)} ".encode()
+    return zlib.crc32(np.ascontiguousarray(values).tobytes(), zlib.crc32(head))
+
+
+def _chunk_number(array: Any, place: tuple[slice, ...]) -> tuple[int, ...]:
+    """Return the number of the chunk at a place along each dim."""
+    sizes = zip(place, array.chunks, strict=True)
+    return tuple((part.start or 0) // size for part, size in sizes)
 
 
 @contextmanager
@@ -183,6 +221,11 @@ class Template(NamedTuple):
 
         group = zarr.open_group(store, mode="w")
         self.make(group)
+        arrays = self.kind.sorted_arrays(group)
+        grid, ones = arrays[0].cdata_shape, (1,) * arrays[0].ndim
+        shape, chunk = (*grid, len(arrays), 2), (*ones, len(arrays), 2)
+        dims = (*(f"block_{n}" for n in range(len(grid))), "array", "version")
+        create(group, "checksum", shape, chunk, "u4", 0, dims)
         group.attrs.update(
             created_by=self.kind.created_by,
             vibroimpact_version=__version__,
@@ -277,7 +320,7 @@ def _holds(path: Path, content: bytes) -> bool:
 
 def _damaged(there: Path, group: zarr.Group, template: Template) -> list[Block]:
     """The blocks that were begun and cannot be read."""
-    arrays = [group[name] for name in sorted(template.kind.arrays)]
+    arrays = template.kind.sorted_arrays(group)
     return [block for block in template.blocks if not _is_intact(there, group, arrays, block)]
 
 
@@ -286,8 +329,11 @@ def _is_intact(there: Path, group: zarr.Group, arrays: list[Any], block: Block) 
     try:
         if not any(group["done"][mark] == 1 for mark in block.marks):  # type: ignore[index]
             return not finished(group)
-        for array in arrays:
-            np.asarray(array[block.place])
+        known: Any = group["checksum"]
+        versions = known[_chunk_number(arrays[0], block.place)]
+        for array, accepted in zip(arrays, versions, strict=True):
+            if _checksum(array, block.place, array[block.place]) not in accepted:
+                return False
     except (OSError, RuntimeError, ValueError):
         return False
     # A chunk without a file would be read as the fill value.
@@ -297,17 +343,20 @@ def _is_intact(there: Path, group: zarr.Group, arrays: list[Any], block: Block) 
 def _chunks(there: Path, arrays: list[Any], block: Block) -> Iterator[Path]:
     """The files of a block in some arrays."""
     for array in arrays:
-        sizes = zip(block.place, array.chunks, strict=True)
-        number = tuple((part.start or 0) // size for part, size in sizes)
+        number = _chunk_number(array, block.place)
         yield there / array.basename / array.metadata.encode_chunk_key(number)
 
 
 def _forget(there: Path, group: zarr.Group, template: Template, block: Block) -> None:
-    """Remove a block and its marks."""
+    """Remove a block, its marks and its checksums."""
     done: Any = group["done"]
+    known: Any = group["checksum"]
+    arrays = template.kind.sorted_arrays(group)
     for mark in block.marks:
         _clear(there / "done" / done.metadata.encode_chunk_key(mark))
-    for path in _chunks(there, [group[name] for name in template.kind.arrays], block):
+    number = (*_chunk_number(arrays[0], block.place), 0, 0)
+    _clear(there / "checksum" / known.metadata.encode_chunk_key(number))
+    for path in _chunks(there, arrays, block):
         _clear(path)
 
 
