@@ -23,6 +23,9 @@ FREE, FOUND = "displacement of free flight, 523.4 mm", r"displacement that was f
         (lambda rig: vi.sweep(vi.Rig(rig, "0.1 g"), [0.3, 0.4]), SLIDING, FOUND),
         (lambda rig: vi.steady(vi.Rig(rig, vi.Harmonic("0.1 g", 0.4))), RIG, FREE),
         (lambda rig: vi.steady(vi.Rig(rig, vi.Harmonic("0.1 g", 0.4))), SLIDING, FOUND),
+        (lambda rig: vi.simulate(vi.Rig(rig, "0.1 g"), 9, frequency=0.4), RIG, FREE),
+        (lambda rig: vi.simulate(vi.Rig(rig, "0.1 g"), 9, frequency=0.4), SLIDING, FOUND),
+        (lambda rig: vi.simulate(vi.Rig(rig, RECORD)), RIG, FOUND),
         (lambda rig: vi.seismic_response(vi.Rig(rig, RECORD)), RIG, FOUND),
         (lambda rig: vi.demands(rig, RECORD), RIG, FOUND),
     ],
@@ -31,6 +34,9 @@ FREE, FOUND = "displacement of free flight, 523.4 mm", r"displacement that was f
         "sweep sliding",
         "steady",
         "steady sliding",
+        "simulate",
+        "simulate sliding",
+        "simulate a record",
         "seismic_response",
         "demands",
     ],
@@ -40,6 +46,7 @@ def test_a_gap_of_metres_that_were_millimetres_is_doubted(of, rig, whose):
     with pytest.warns(vi.InputWarning, match=told) as warned:
         data = of(rig.replace(right=WALL))
     assert f"gap: {data.attrs['notes']}" == str(warned[0].message)
+    assert warned[0].filename == __file__
     # Neither a gap of the motion's size nor one far beyond it whatever its unit.
     for gap in (0.25, 5.0, 1e5):
         assert "notes" not in of(rig.replace(right=WALL.replace(gap=gap))).attrs

@@ -14,7 +14,7 @@ from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import to_si
 from vibroimpact.response.response_spectrum import response_spectrum
-from vibroimpact.response.simulate import simulate
+from vibroimpact.response.simulate import compute_history
 from vibroimpact.tasks.threads import Progress
 
 _PERIODS = np.geomspace(0.02, 5.0, 200)
@@ -50,7 +50,7 @@ def earthquake_response(
         If a value cannot be used, or the motion was given up.
     """
     after = free_tail(rig) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
-    motion = simulate(rig, samples=samples, tail=after, progress=progress)
+    motion = compute_history(rig, None, None, samples, after, progress=progress)
     if int(motion["status"]) != Status.DONE:
         raise InputError(f"the motion was given up ({motion.attrs['message']})")
     return {

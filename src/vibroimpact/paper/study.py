@@ -20,7 +20,7 @@ from vibroimpact.model import (
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state
 from vibroimpact.response.resonance import Features, features
-from vibroimpact.response.simulate import simulate
+from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.sweep import sweeps
 from vibroimpact.response.sweep_starts import arrivals
 from vibroimpact.scenarios.classify import Classification, classify
@@ -246,7 +246,7 @@ class PublishedStudy:
         def make() -> xr.Dataset:
             motion = self.motion(code, frequency, direction)
             # Half a cycle turns the forcing round, and with it the mirror image's phase.
-            end = as_state(simulate(Rig(case.oscillator, excitation), 0.5, motion, 0))
+            end = as_state(compute_history(Rig(case.oscillator, excitation), 0.5, motion, 0))
             image = State(
                 -end.displacement,
                 -end.velocity,

@@ -39,22 +39,19 @@ STIFF = "slow to compute"
 """How a note begins that names a stop that vibrates much faster than the rig is shaken."""
 
 
-def doubt_gaps(
-    rig: Rig,
-    displacement: ArrayLike | None = None,
-) -> list[str]:
+def doubt_gaps(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int = 5) -> list[str]:
     """Issue a warning if a gap is given in metres and has the motion's size in millimetres.
 
     It is compared with the largest displacement of free flight if that is known in closed form.
 
     Parameters
     ----------
-    oscillator
-        The rig.
-    shaking
-        What shakes it.
+    rig
+        The rig and its shaking.
     displacement
-        Where it was seen (m), if it was; what is infinite or unknown shows nothing.
+        Displacements of its motion (m), if they are known. Values that are not finite are ignored.
+    stacklevel
+        That of the warning, as `warn_of_input` counts it.
 
     Returns
     -------
@@ -66,15 +63,18 @@ def doubt_gaps(
     if not gaps:
         return []
     reach, whose = _free(rig), "of free flight"
-    if math.isnan(reach) and displacement is not None and np.size(displacement):
-        reach, whose = float(np.abs(displacement).max()), "that was found"
+    if math.isnan(reach) and displacement is not None:
+        known = np.abs(np.asarray(displacement, dtype=float))
+        known = known[np.isfinite(known)]
+        if len(known):
+            reach, whose = float(known.max()), "that was found"
     notes = [
         f"{pretty(gap, LENGTH)} is {gap / reach:.3g} times the largest displacement {whose}, "
         f"{pretty(float(f'{reach:.4g}'), LENGTH)}; is {pretty(gap / _FACTOR, LENGTH)} meant?"
         for gap in gaps
         if _FAR * reach < gap <= _FARTHEST * reach
     ]
-    warn_of_input("gap", notes, stacklevel=5)
+    warn_of_input("gap", notes, stacklevel=stacklevel)
     return notes
 
 
@@ -89,7 +89,7 @@ def note_unbounded(rig: Rig) -> list[str]:
     natural = undamped_frequency(oscillator)
     size = 0.5 * reference_excursions(rig)[0]
     return [
-        f"{UNBOUNDED}: it grows without bound at {pretty(natural, FREQUENCY)}because the "
+        f"{UNBOUNDED}: it grows without bound at {pretty(natural, FREQUENCY)} because the "
         "isolator has almost no damping; η is divided by "
         f"{pretty(float(f'{size:.4g}'), LENGTH)}, the value for a slow excitation of this size"
     ]

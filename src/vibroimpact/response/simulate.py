@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import (
     COMPONENTS,
+    add_notes,
     describe,
     excitation_parameters,
     oscillator_parameters,
@@ -30,7 +31,7 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
-from vibroimpact.response.plausibility import note_stiff_stops
+from vibroimpact.response.plausibility import doubt_gaps, note_stiff_stops
 from vibroimpact.response.record_history import through
 from vibroimpact.response.softening_limit import ended
 from vibroimpact.tasks.interruptible import Calls
@@ -89,6 +90,20 @@ def simulate(
         If a value is invalid, or an undamped mass without stops is at resonance.
     """
     rig = as_rig(rig, frequency)
+    data = compute_history(rig, cycles, start, samples, tail, max_events, progress)
+    return add_notes(data, doubt_gaps(rig, data.get("displacement"), stacklevel=4))
+
+
+def compute_history(
+    rig: Rig,
+    cycles: float | None,
+    start: State | xr.DataArray | xr.Dataset | None,
+    samples: int | None,
+    tail: float | str | None = None,
+    max_events: int = 10_000,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Do what `simulate` does, without doubts about the rig."""
     oscillator = rig.oscillator
     excitation = rig.shaking if isinstance(rig.shaking, Record) else rig.harmonic
     max_events = check_max_events(max_events)

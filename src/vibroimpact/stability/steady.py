@@ -23,7 +23,7 @@ from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.motion_phases import Recorded, cut
 from vibroimpact.response.phase_measures import measured
 from vibroimpact.response.plausibility import doubt_gaps
-from vibroimpact.response.simulate import simulate
+from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.totals import energies, extremes
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.initial_orbit import first_orbit
@@ -219,7 +219,7 @@ def _stable(kind: Judgement) -> int:
 def _record(
     found: Settled, state: _Array, samples: int, cycles: int, max_events: int
 ) -> xr.Dataset:
-    return simulate(
+    return compute_history(
         found.rig,
         cycles,
         state_from(state, found.excitation.phase),
@@ -261,7 +261,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
     ends = [values["displacement_max"], values["displacement_min"]]
-    notes = [*doubt_gaps(found.rig, ends), *noted(data)]
+    notes = [*doubt_gaps(found.rig, ends, stacklevel=6), *noted(data)]
     return describe(data, "vibroimpact.steady", notes=notes)
 
 
@@ -304,7 +304,7 @@ def _until_the_last_event(data: xr.Dataset, found: Settled, samples: int) -> xr.
     if data.sizes["event"]:
         length = float(data["event_cycle_time"][-1]) * found.excitation.frequency
     length = max(length, 1e-12)
-    return simulate(
+    return compute_history(
         found.rig,
         length,
         state_from(found.state, found.excitation.phase),

@@ -14,7 +14,7 @@ from vibroimpact.facts.tables import as_text
 from vibroimpact.model import Harmonic
 from vibroimpact.model.quantities import FORCE
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.simulate import simulate
+from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.spectrum import fourier_spectrum
 from vibroimpact.stability.steady import steady
 
@@ -44,7 +44,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
     """Return the motion as the sweep has left it, for while a knob is turned."""
     shaken, section, period = at(state, data)
     cycles = int(period) if 0 < period <= _MOST_CYCLES else _MOST_CYCLES
-    motion = simulate(Rig(state.oscillator, shaken), cycles, section, _SAMPLES)
+    motion = compute_history(Rig(state.oscillator, shaken), cycles, section, _SAMPLES)
     return {**_drawn(state, motion, shaken), "fine": False}
 
 
