@@ -2,9 +2,10 @@
 Resonance curves in millimetres and g
 =====================================
 
-The largest acceleration, displacement and contact force at each frequency, for engineering use.
-Dotted lines are the gaps. Labels mark frequencies that matter to the plant: A is the natural
-frequency of the isolator, B that of a pump.
+For engineering use, this figure shows the largest acceleration, displacement and contact force at
+each frequency, in physical units. Dotted lines are the gaps. The labels mark frequencies that
+matter for the machine: A is the natural frequency of the isolator, and B is the frequency of a
+pump.
 """
 
 import vibroimpact as vi

@@ -2,8 +2,9 @@
 The gap bends the resonance curve
 =================================
 
-With a smaller gap, the peak leans farther to the right, and the range with two coexisting motions
-is wider. Solid lines are sweeps up, dashed lines sweeps down; arrows are jumps.
+This figure compares four gaps. If the gap is smaller, the peak leans farther to the right, and the
+frequency range with two coexisting motions is wider. Solid lines are upward sweeps, dashed lines
+are downward sweeps, and arrows are jumps.
 """
 
 import vibroimpact as vi
@@ -12,6 +13,6 @@ from vibroimpact.figures import resonance_family
 gaps = (5.0, 7.5, 15.0, 25.0)
 rigs = {
     f"{gap:g} mm": f"B2-{2 * gap:g}mm-A3" for gap in gaps
-}  # the code states the sum of both gaps
+}  # the name of the rig contains the sum of both gaps
 curves = vi.sweeps(rigs, [k / 50 for k in range(25, 201)])
 resonance_family(curves, title="B2-A3: gap on each side")

@@ -2,8 +2,9 @@
 From a bent resonance to a jump
 ===============================
 
-Soft bumpers bend the resonance curve without folding it: sweeps up and down give the same curve.
-Above some stiffness the curve folds over. One legend beside the panels serves both.
+This figure compares five bumpers, with stiffness ratios λ from 0.5 to 80. Soft bumpers bend the
+resonance curve, but they do not fold it: upward and downward sweeps give the same curve. Above some
+stiffness, the curve folds over, and the sweeps jump. One legend serves both panels.
 """
 
 from matplotlib.figure import Figure

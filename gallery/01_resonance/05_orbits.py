@@ -2,9 +2,10 @@
 The unstable motion between the jumps
 =====================================
 
-Between the two jumps there is a third motion. It is unstable: the smallest disturbance grows
-until the mass is on one of the other two, so that no sweep can follow it. Continuation finds it
-(dashed) and shows that the three motions are one curve with two folds.
+At each frequency between the two jumps, there is a third motion, which is unstable. A small
+disturbance of it grows until the mass settles on one of the other two motions, so no sweep can
+follow it. Numerical continuation does find it (dashed). The result shows that the three motions
+form one curve with two folds.
 """
 
 import vibroimpact as vi

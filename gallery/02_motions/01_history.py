@@ -2,9 +2,10 @@
 A time history, impact by impact
 ================================
 
-Two coexisting motions at one frequency. The one that a sweep up follows hits a bumper on each
-side in every cycle; the other one is free flight. When the mass meets a damped bumper, the
-acceleration jumps, because the dashpot resists at once.
+This figure shows two coexisting motions at one frequency. An upward sweep follows the motion that
+hits a bumper on each side in every cycle. A downward sweep follows the other one, which is free
+flight. When the mass hits a damped bumper, the acceleration jumps, because the dashpot resists at
+once.
 """
 
 import vibroimpact as vi

@@ -2,9 +2,10 @@
 Phase portrait
 ==============
 
-Velocity over displacement: a steady periodic motion is a closed curve. Diamonds are the points of
-the stroboscopic section, one per forcing cycle. Dashed lines are the undeformed bumpers; beyond
-them the curve is flattened.
+A phase portrait shows the velocity over the displacement. A steady periodic motion is a closed
+curve. Diamonds are the points of the stroboscopic section, one per forcing cycle. Dashed lines are
+the undeformed bumpers. Beyond these lines, the curve is flattened, because the bumper stops the
+mass.
 """
 
 import vibroimpact as vi

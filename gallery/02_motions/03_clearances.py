@@ -2,10 +2,10 @@
 Clearances: how a contact begins and ends
 =========================================
 
-The distance of the mass from each bumper. The lower panel magnifies a detachment: when the mass
-leaves, the bumper is still deformed and follows it, so that the clearance opens with zero speed.
-A sign test at fixed time steps therefore detects contacts that do not exist and misses some that
-do.
+The clearance is the distance between the mass and a bumper. The lower panel magnifies a
+detachment. When the mass leaves, the bumper is still deformed and follows the mass. The clearance
+therefore opens with zero speed. For this reason, a sign test of the clearance at fixed time steps
+is not reliable. It detects contacts that do not exist, and misses contacts that do.
 """
 
 import vibroimpact as vi

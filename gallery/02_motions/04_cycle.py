@@ -2,9 +2,10 @@
 Hysteresis cycle: where the energy goes
 =======================================
 
-Absolute acceleration over displacement. Times the mass, the acceleration is the force on it, and
-the area of the cycle is the energy that isolator and bumpers dissipate in one period. The spikes
-are the bumpers.
+This figure shows the absolute acceleration over the displacement. The acceleration multiplied by
+the mass is the force on the mass. The area of the cycle, multiplied by the mass, is therefore the
+energy that the isolator and the bumpers dissipate in one period. The spikes are contacts with the
+bumpers.
 """
 
 import vibroimpact as vi

@@ -2,8 +2,9 @@
 Fourier spectrum: impacts add overtones
 =======================================
 
-A linear rig without contacts responds to a sine with a sine. Two equal impacts per cycle add the
-odd harmonics. A motion that has lost its symmetry has even harmonics, too.
+Without contacts, a linear rig responds to a sine with a sine, so its spectrum has one line. Two
+equal impacts per cycle add the odd harmonics. If the motion has lost its symmetry, it has even
+harmonics, too.
 """
 
 import vibroimpact as vi

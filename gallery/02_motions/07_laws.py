@@ -2,8 +2,9 @@
 Force-displacement laws
 =======================
 
-Force over displacement of isolators that slide, yield, harden or soften, and of stops with a hard
-contact. All functions of this package accept any isolator with any stop on either side.
+These figures show the force over the displacement for eight laws. The isolators slide, yield,
+harden or soften. The stops have a hard contact. You can combine any isolator with any stop on
+either side, and all functions of this package accept the combination.
 """
 
 from matplotlib.figure import Figure

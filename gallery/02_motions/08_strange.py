@@ -2,9 +2,9 @@
 A strange attractor
 ===================
 
-A chaotic motion, sampled once per forcing cycle: forty thousand points. Stretching between
-impacts and folding at them produce sheets within sheets. Each fold ends where the mass just
-grazes the wall.
+This figure shows a chaotic motion at forty thousand points, one per forcing cycle. The set of these
+points is called a strange attractor. Between impacts, the flow stretches the set, and at impacts it
+folds the set. The result is many thin layers. Each fold ends where the mass just grazes the wall.
 """
 
 from matplotlib.figure import Figure

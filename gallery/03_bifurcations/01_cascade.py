@@ -2,10 +2,10 @@
 Bifurcation diagram: period doubling to chaos
 =============================================
 
-The gap of a rig is varied up and down, and each steady motion is sampled once per forcing cycle.
-One point becomes two, two become four: a period-doubling cascade. Below 4.7 mm the motion is
-chaotic, with periodic windows. The lower panel shows the largest Lyapunov exponent: above zero,
-disturbances grow.
+The gap of a rig is varied upwards and downwards, and each steady motion is sampled once per forcing
+cycle. One point becomes two, and two become four. This is called a period-doubling cascade. Below
+4.7 mm, the motion is chaotic, except in periodic windows. The lower panel shows the largest
+Lyapunov exponent. Where it is positive, small disturbances grow.
 """
 
 import vibroimpact as vi

@@ -2,9 +2,9 @@
 A mass against a rigid wall
 ===========================
 
-The velocity at each impact over the frequency, with a rigid wall instead of a bumper. Period-
-doubling cascades stand side by side, with chaos between them. Where red and blue differ, the
-sweeps up and down lead to different motions.
+This rig has a rigid wall instead of a bumper. The figure shows the velocity at each impact over the
+frequency. There are several period-doubling cascades, with chaos between them. Where red and blue
+differ, the upward and downward sweeps lead to different motions.
 """
 
 import vibroimpact as vi

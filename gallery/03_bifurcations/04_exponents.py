@@ -3,8 +3,8 @@ Lyapunov exponents over the frequency
 =====================================
 
 The largest Lyapunov exponent is the rate at which two neighbouring motions separate. Where it is
-positive, the motion is chaotic and cannot be predicted for long. The bands are twice the
-uncertainty of the average.
+positive, the motion is chaotic and cannot be predicted for long. The half-width of each band is
+twice the standard uncertainty of the average.
 """
 
 import numpy as np

@@ -2,8 +2,9 @@
 A cusp: where jumps begin
 =========================
 
-The two folds of a resonance, followed over frequency and gap. They meet in a cusp: with a wider
-gap there is no jump. Outside the grazing curve the mass does not touch the bumpers.
+A resonance curve that jumps has two folds. This figure follows both folds over frequency and gap.
+The folds meet in a cusp. If the gap is wider than at the cusp, there is no jump. Outside the
+grazing curve, the mass does not touch the bumpers.
 """
 
 import vibroimpact as vi

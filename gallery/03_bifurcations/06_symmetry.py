@@ -2,10 +2,10 @@
 Symmetry breaking
 =================
 
-A rig that is its own mirror image can have asymmetric motions. The mean of the largest and
-smallest displacement (eccentricity) shows this: it is zero while both sides are hit alike. After
-the symmetry breaking there are two mirror-image motions. Their periods double repeatedly, up to
-chaos.
+If a rig is its own mirror image, its motions may still be asymmetric. The eccentricity, which is
+the mean of the largest and the smallest displacement, shows this. It is zero while the mass hits
+both sides in the same way. After the symmetry breaking, there are two mirror-image motions. Their
+periods double repeatedly, until the motion is chaotic.
 """
 
 import vibroimpact as vi

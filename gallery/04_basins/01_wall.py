@@ -2,9 +2,10 @@
 Basins of four motions of a ball on a wall
 ==========================================
 
-Each point is an initial state, a displacement and a velocity. Its colour is the motion that it
-leads to; there are four motions, with periods of 4 to 24 cycles. The basin borders are fractal: a
-more accurate initial state hardly improves the prediction.
+Each point is an initial state, that is, a displacement and a velocity. Its colour shows the steady
+motion to which this state leads. There are four such motions, with periods of 4 to 24 cycles. The
+basin borders are fractal. For initial states near a border, a more accurate measurement therefore
+hardly improves the prediction.
 """
 
 import vibroimpact as vi

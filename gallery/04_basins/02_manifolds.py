@@ -2,8 +2,9 @@
 Basin borders are stable manifolds
 ==================================
 
-Solid curves are the stable manifold of a saddle, an unstable periodic motion; they are the border
-between the two basins. Dashed curves are its unstable manifold, which leads to the two motions.
+A saddle is an unstable periodic motion. Solid curves are its stable manifold, which is the border
+between the two basins. Dashed curves are its unstable manifold, which leads to the two steady
+motions.
 """
 
 import vibroimpact as vi

@@ -2,9 +2,10 @@
 Basin stability along a sweep
 =============================
 
-A sweep upwards follows the motion with impacts until this motion is lost. Its basin shrinks long
-before. The share of random initial states that lead to it, shown with its uncertainty, measures
-how well the motion withstands a disturbance.
+An upward sweep follows the motion with impacts until this motion no longer exists. Its basin of
+attraction shrinks at much lower frequencies. Basin stability is the share of random initial states
+that lead to the motion. It measures how well the motion withstands a disturbance. The figure also
+shows the uncertainty of this share.
 """
 
 import numpy as np

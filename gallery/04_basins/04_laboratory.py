@@ -2,9 +2,10 @@
 Basins of a laboratory rig
 ==========================
 
-At 0.7 Hz, two motions of nearly the same size coexist in a published rig. Here the border is
-smooth: a slightly more accurate initial state gives a slightly better prediction. Darker colours
-need more cycles until the final motion is certain.
+At 0.7 Hz, a published rig has two coexisting motions of nearly the same size. In contrast to a
+fractal border, the border of these basins is smooth. A slightly more accurate initial state
+therefore gives a slightly better prediction. In darker regions, more cycles pass until the final
+motion is certain.
 """
 
 import vibroimpact as vi

@@ -2,9 +2,10 @@
 Map of the seven scenarios
 ==========================
 
-Scenarios over the stiffness of the bumpers (horizontal) and the gap (vertical), both
-dimensionless. The map shows where a resonance jumps (S2), where there are secondary resonances
-(S3), and where motions are not regular (S4). Jumps begin on the dashed line, which is exact.
+A scenario describes the shape of the resonance curves of a rig. This map shows the scenario over
+the stiffness of the bumpers (horizontal) and the gap (vertical), both dimensionless. It shows where
+the resonance jumps (S2), where there are secondary resonances (S3), and where some motions are not
+regular (S4). The dashed line is the border at which jumps begin. Its position is exact.
 """
 
 import numpy as np

@@ -2,8 +2,8 @@
 Scenarios of forty-eight published tests
 ========================================
 
-Each test of the study, classified from its computed curves: four bumpers, four gaps and three
-levels of shaking.
+This figure classifies each test of the published study from its computed resonance curves. The
+study has four bumpers, four gaps and three levels of shaking.
 """
 
 import vibroimpact as vi

@@ -2,7 +2,8 @@
 Scenario map in physical units
 ==============================
 
-The same map over gap and stiffness of the bumpers of one laboratory rig, in physical units.
+This map shows the scenarios of one laboratory rig over the gap and the stiffness of its bumpers, in
+physical units.
 """
 
 from pathlib import Path

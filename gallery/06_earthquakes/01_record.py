@@ -2,8 +2,9 @@
 A record and its response spectrum
 ==================================
 
-The ground acceleration, and below it the peak responses of linear oscillators of any period. The
-spectrum is exact for the record: it includes maxima between two samples.
+The upper panel shows the ground acceleration. The lower panel shows the response spectrum, that is,
+the peak responses of linear oscillators over their period. The spectrum is exact for the record: it
+includes maxima between two samples.
 """
 
 import numpy as np

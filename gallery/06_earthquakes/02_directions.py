@@ -2,8 +2,9 @@
 Two components: RotD50 and RotD100
 ==================================
 
-An instrument records two fixed directions, but a building may be oriented otherwise. RotD50 and
-RotD100 are the median and the largest response over all directions in the plane.
+An instrument records the ground motion in two fixed directions, but a building may have another
+orientation. Therefore the response is computed for all directions in the plane. RotD50 is the
+median over these directions, and RotD100 is the largest value.
 """
 
 import numpy as np

@@ -2,9 +2,10 @@
 An earthquake on one page
 =========================
 
-The record, the displacement between the walls, the acceleration with each impact marked, the
-force over the displacement, and the spectra of ground and floor. The floor spectrum shows that
-equipment in the building feels the impacts at short periods.
+The panels show the record, the displacement between the walls, and the acceleration with a mark at
+each impact. They also show the force over the displacement, and the response spectra of ground and
+floor. The floor spectrum shows that the impacts mainly affect equipment with short natural
+periods.
 """
 
 import numpy as np

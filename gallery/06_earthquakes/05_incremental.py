@@ -2,8 +2,9 @@
 Incremental dynamic analysis
 ============================
 
-Twelve records, each scaled up step by step. Where the fractiles reach the gap, the mass hits the
-walls. Beyond, displacements grow more slowly, while accelerations keep growing.
+Each of twelve records is scaled up step by step. The fractiles are the levels that a given share of
+the records does not exceed. Where they reach the gap, the mass hits the walls. At stronger shaking,
+displacements grow more slowly, while accelerations keep growing.
 """
 
 import numpy as np

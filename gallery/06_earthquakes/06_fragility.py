@@ -2,9 +2,9 @@
 Fragility: how likely is a hit?
 ===============================
 
-The same records on the building with three gaps. Marks are the shares of records that hit a wall.
-The curve is a lognormal fragility curve with its median θ, its dispersion β and its confidence
-band.
+Twelve records are applied to a building with three different gaps. The marks are the shares of
+records in which the building hits a wall. The curves are lognormal fragility curves. Each is drawn
+with its confidence band and labelled with its median θ and its dispersion β.
 """
 
 import numpy as np

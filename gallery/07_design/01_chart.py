@@ -2,9 +2,10 @@
 Design chart: which gap, which bumper?
 ======================================
 
-A machine on an isolator under sines, each design at its own worst frequency: the largest
-displacement and the largest acceleration over gap and stiffness of the bumpers. Beyond the thick
-dashed line, the mass does not touch the bumpers.
+This chart shows the largest displacement and the largest acceleration of a machine on an isolator
+under sinusoidal shaking. The axes are the gap and the stiffness of the bumpers. Each design is
+evaluated at the frequency that is worst for it. Beyond the thick dashed line, the mass does not
+touch the bumpers.
 """
 
 import numpy as np

@@ -2,8 +2,9 @@
 Pareto front of designs
 =======================
 
-A smaller displacement means a larger acceleration. Each point is a design. For every design off
-the front, there is one on the front that is better in both.
+A smaller displacement means a larger acceleration. Each point is a design. The front consists of
+the designs that cannot be improved in both quantities at once. For every design off the front,
+there is a design on the front that is better in both.
 """
 
 import numpy as np

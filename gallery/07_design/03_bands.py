@@ -2,8 +2,9 @@
 Resonance curves of an uncertain rig
 ====================================
 
-Gaps that are set by hand, rubber from another batch: bands of resonance curves that contain nine
-rigs of ten. Where a band is widest, some rigs jump and others do not.
+The parameters of a rig vary, for example because gaps are set by hand or rubber comes from another
+batch. Each band of resonance curves contains nine rigs out of ten. A band is widest where some rigs
+jump and others do not.
 """
 
 from functools import partial

@@ -2,9 +2,10 @@
 Sobol indices: which parameter matters
 ======================================
 
-Sobol indices divide the variance of the largest acceleration among the uncertain parameters: the
-contribution of a parameter alone, and its total contribution with interactions. Here the
-stiffness of the bumpers is worth measuring.
+Sobol indices divide the variance of the largest acceleration among the uncertain parameters. One
+index is the contribution of a parameter alone. The other is its total contribution, including
+interactions with other parameters. In this rig, it is most useful to measure the stiffness of the
+bumpers more accurately.
 """
 
 import numpy as np

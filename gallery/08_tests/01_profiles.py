@@ -2,9 +2,10 @@
 Profile likelihood: how accurate is a fit?
 ==========================================
 
-A profile shows the uncertainty of a fitted parameter. One parameter is fixed at values away from
-its optimum, and all others are fitted again. The interval ends where the curve passes the dotted
-line. The damping of the bumpers is ten times less certain than their stiffness.
+A profile shows the uncertainty of a fitted parameter. This parameter is fixed at values away from
+its optimum, and all other parameters are fitted again. The ends of the confidence interval are
+where the curve crosses the dotted line. In this example, the damping of the bumpers is ten times
+less certain than their stiffness.
 """
 
 import numpy as np
@@ -14,7 +15,7 @@ import vibroimpact as vi
 from vibroimpact.figures import fit_profiles
 from vibroimpact.measurements.read import as_measured
 
-# A test with 2 % of noise, and starting values that are far off.
+# The test has 2 % noise, and the starting values of the fit are far from the solution.
 case = vi.laboratory.case("B2-G2-A2", "identified")
 swept = vi.sweep(case, [k / 10 for k in range(8, 35)])
 noise = np.random.default_rng(0).normal(1.0, 0.02, size=(2, 2, 27))

@@ -2,9 +2,9 @@
 Residuals of a wrong contact law
 ================================
 
-The same test, fitted with Hertz contacts, which the rig does not have. If a model is right, the
-residuals are noise within the band. Here neighbouring residuals are correlated: the law lacks
-something, and the figure shows at which frequencies.
+A test is fitted with Hertz contacts, but the tested rig does not have such contacts. If a model is
+right, the residuals are random noise within the band. Here, neighbouring residuals are correlated.
+This shows that the contact law is wrong, and the figure shows at which frequencies.
 """
 
 import numpy as np

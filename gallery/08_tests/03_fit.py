@@ -2,8 +2,8 @@
 Fit of a time history
 =====================
 
-Dots are noisy measurements. The line is the motion of the fitted rig, with its contacts, from a
-fitted initial state.
+The dots are noisy measurements. The line is the motion of the fitted rig, including its contacts.
+The initial state of this motion is fitted, too.
 """
 
 import numpy as np

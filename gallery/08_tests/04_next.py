@@ -2,9 +2,10 @@
 What to test next
 =================
 
-Every possible next dwell, by frequency and level of shaking, with its information about all
-parameters together. The bright ridges are the best choices: just above the level at which the
-mass touches the bumpers, and just before a jump.
+A dwell is a test at one frequency and one level of shaking. This map shows, for every possible next
+dwell, how much information it would give about all parameters together. The bright ridges are the
+best choices. They lie just above the level at which the mass touches the bumpers, and just before a
+jump.
 """
 
 import numpy as np
@@ -35,6 +36,6 @@ gain = told["information"].sel(direction="forward")
 scale = LogNorm(1e-3, 1.0)
 drawn = ax.pcolormesh(gain["frequency"], levels / 9.80665, gain, cmap="cividis", norm=scale)
 figure.colorbar(drawn, extend="both", label="information (nats)")
-ax.set_xlabel("frequency of the hold, swept up (Hz)")
+ax.set_xlabel("frequency of the dwell, in an upward sweep (Hz)")
 ax.set_ylabel("base acceleration (g)")
 figure

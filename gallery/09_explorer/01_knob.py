@@ -2,16 +2,17 @@
 One slider: the gap
 ===================
 
-Move the slider for the gap of a rig, and see the resonance curve bend, jump and straighten again.
-The page below contains its curves and needs no server, so that you can mail it or put it into a
-report.
+If you move the slider for the gap, you see the resonance curve bend, jump and straighten again. The
+page below contains all its curves and needs no server. You can therefore send it by mail or include
+it in a report.
 
 .. raw:: html
 
-   <iframe src="../../explorer.html" title="One knob: the gap of a rig" loading="lazy"
+   <iframe src="../../explorer.html" title="One slider: the gap of a rig" loading="lazy"
      style="width: 100%; height: 44rem; border: 1px solid var(--pst-color-border)"></iframe>
 
-`Open the page alone <../../explorer.html>`_. The program writes a similar page for three gaps.
+`Open the page alone <../../explorer.html>`_. The program below writes a similar page for three
+gaps.
 """
 
 # sphinx_gallery_thumbnail_path = 'docs/images/explorer-strip.png'

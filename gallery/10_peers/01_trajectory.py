@@ -2,9 +2,9 @@
 One trajectory
 ==============
 
-A mass that meets two bumpers in each period, computed by this package and by general integrators
-that were tuned for at most 10⁻¹¹ error. The scale is logarithmic; the error is printed after each
-bar.
+The problem is a mass that hits two bumpers in each forcing period. This package is compared with
+general integrators that were tuned for an error of at most 10⁻¹¹. The bars show the computing time
+on a logarithmic scale. The error is printed after each bar.
 """
 
 from benchmarks.results import number, rows
@@ -25,5 +25,5 @@ for place, row in enumerate(table):
 ax.set_xscale("log")
 ax.set_xlim(0.1, 60.0 * max(took))
 ax.invert_yaxis()
-ax.set_xlabel("time for a forcing period (µs)")
+ax.set_xlabel("time per forcing period (µs)")
 figure

@@ -2,9 +2,9 @@
 Short runs, where this package is slower
 ========================================
 
-``vi.simulate`` checks its input and labels its result, which takes some tenths of a millisecond
-even for a short run. For a few periods alone, a bare integrator is faster. Combine many sweeps in
-one ``vi.sweeps``.
+``vi.simulate`` checks its input and labels its result. This takes some tenths of a millisecond,
+even for a short run. For a run of only a few periods, a bare integrator is therefore faster. If you
+need many short sweeps, combine them in one call of ``vi.sweeps``.
 """
 
 from benchmarks.results import number, rows
@@ -20,7 +20,7 @@ for row, (marker, dashes) in zip(rows("Short runs of problem P"), looks, strict=
     ax.plot(*zip(*known, strict=True), dashes, marker=marker, color=colour, label=row["Solver"])
 ax.set_xscale("log")
 ax.set_yscale("log")
-ax.set_xlabel("forcing periods in a run (–)")
-ax.set_ylabel("time for a run, setting up included (µs)")
+ax.set_xlabel("forcing periods per run (–)")
+ax.set_ylabel("time per run, including setup (µs)")
 ax.legend(fontsize="small", frameon=False)
 figure

@@ -2,9 +2,9 @@
 Time of other programs relative to this package
 ===============================================
 
-Every comparison of the benchmarks with another program, on problems that both can solve. To the
-left of the line, the other program is faster. Loops over scipy stand for code that one would
-write oneself.
+This figure shows every comparison of the benchmarks with another program, for problems that both
+can solve. To the left of the line, the other program is faster. Loops over scipy represent the code
+that a user would write without this package.
 """
 
 from benchmarks.results import against_others
@@ -27,5 +27,5 @@ ax.axvline(1.0, color="black", linewidth=0.8)
 ax.set_xscale("log")
 ax.set_xlim(0.03 * min(1.0, ratios[0]), 20.0 * ratios[-1])
 ax.set_yticks(range(len(names)), names, fontsize="small")
-ax.set_xlabel("time of the other over ours (–)")
+ax.set_xlabel("time of the other program / time of vibroimpact (–)")
 figure

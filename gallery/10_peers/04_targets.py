@@ -2,8 +2,8 @@
 Benchmark targets, met and missed
 =================================
 
-Each target of the benchmarks, and the margin of the last full run. Crosses to the left of the
-line are targets that were not met.
+The benchmarks have targets, for example for the speed. This figure shows the margin to each target
+in the last full run. Crosses to the left of the line are targets that were not met.
 """
 
 from benchmarks.results import margins
@@ -21,5 +21,5 @@ ax.axvline(1.0, color="black", linewidth=0.8)
 ax.set_xscale("log")
 ax.set_yticks(range(len(names)), names, fontsize="small")
 ax.margins(y=0.02)
-ax.set_xlabel("room to the target: 2 is twice as good as asked for (–)")
+ax.set_xlabel("margin to the target; 2 is twice as good as required (–)")
 figure
