@@ -1,4 +1,4 @@
-"""Errors and warnings about input, and suggestions for unknown names."""
+"""Errors and warnings about invalid input, and suggestions for unknown names."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ _LIST = re.compile(r"(?:[^\s,;:]+(?: [^\s,;:]+){0,3}, ){4,}")
 
 
 class InputError(ValueError):
-    """Raised if a value that the caller passed is invalid.
+    """Exception that is raised if a value passed by the caller is invalid.
 
-    The message is one line of at most some 300 characters. It names the field, the value and what
-    is accepted.
+    The message is one line of about 300 characters at most. It states the name of the field, its
+    value, and which values are accepted.
     """
 
     def __init__(self, message: object = "") -> None:
@@ -31,9 +31,10 @@ class InputError(ValueError):
 
 
 class InputWarning(UserWarning):
-    """Issued if a value is used, but part of it was assumed, or it is probably a mistake.
+    """Warning that is issued if part of an input was assumed, or if a value is probably a mistake.
 
-    Commands print it as a line. Datasets keep it in their attribute ``notes``.
+    The value is used nevertheless. Commands print the warning as one line. Datasets keep it in
+    their attribute ``notes``.
     """
 
 

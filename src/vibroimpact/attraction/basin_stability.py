@@ -1,4 +1,4 @@
-"""Basin stability: shares of random initial states that lead to each steady motion."""
+"""Basin stability: the share of random initial states that lead to each steady motion."""
 
 from __future__ import annotations
 
@@ -66,44 +66,54 @@ def basin_stability(
 ) -> xr.Dataset:
     """Estimate the probability that a random initial state leads to each steady motion.
 
-    The share of the states that lead to a motion is its basin stability (P. J. Menck et al.,
-    Nature Physics 9, 89, 2013). Displacement and velocity are drawn uniformly. The bumpers are
-    relaxed, and each motion starts at the phase of the excitation.
+    This probability is called the basin stability of the motion (P. J. Menck et al., Nature Physics
+    9, 89, 2013). It is estimated as the share of the random states that lead to the motion. Initial
+    displacements and velocities are drawn from uniform distributions. In every initial state the
+    bumpers are relaxed, and the excitation has its initial phase.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     displacement, velocity
-        Lowest and highest initial displacement (m) and velocity (m/s). Default: the range that
-        `basins` would choose around all motions along the parameter.
+        Lowest and highest initial displacement (m) and velocity (m/s). Default: a range around all
+        steady motions at all values of the parameter, chosen as in `basins`.
     frequency
-        Forcing frequency (Hz). Default: that of the rig.
+        Forcing frequency (Hz). Default: the frequency of the rig.
     parameter, values
-        Name of the parameter that is varied, such as "frequency" or "gap", and its values. A motion
-        keeps its number at the next value if its states lead to a nearby motion there.
+        Name of the parameter that is varied, such as "frequency" or "gap", and the values that it
+        takes. A motion keeps its number at the next value of the parameter if, at that value, its
+        states lead to a nearby motion.
     states
-        Number of random states, the same at each value of the parameter.
+        Number of random initial states. The same states are used at each value of the parameter.
     seed
-        Random seed. The same seed gives the same states.
+        Seed of the random initial states. The same seed gives the same states.
     max_cycles, max_events, threads, where
         As in `basins`.
     progress
-        Function that is called in the calling thread with the number of values done and their
-        total.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of completed values and the number of all values.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``attractor``, and a dim named after the parameter if one is varied: ``share`` with its
-        95% interval ``share_low`` to ``share_high``, ``states``, ``motion`` ("" where the motion
-        does not exist), ``period`` and sizes. ``given_up`` counts the states whose motion was not
-        followed to its end.
+        The dim ``attractor`` counts the steady motions. If a parameter is varied, there is also a
+        dim with the name of the parameter. For each motion the dataset contains:
+
+        - ``share``, the share of the states that lead to it, with the 95% interval from
+          ``share_low`` to ``share_high``;
+        - ``states``, the number of these states;
+        - ``motion``, its type ("" where the motion does not exist), and ``period``;
+        - its extremes and excursions.
+
+        ``given_up`` is the number of states whose computation was stopped before their motion was
+        identified.
 
     Raises
     ------
     InputError
-        If a value is invalid, or the rig has no dissipation.
+        If a value is invalid, or if the rig has no dissipation.
     """
     rig = as_rig(rig, frequency)
     if rig.frequency is None and parameter == "frequency" and isinstance(values, Iterable):

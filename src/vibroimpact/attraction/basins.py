@@ -57,59 +57,77 @@ def basins(
 ) -> xr.Dataset:
     """Compute the basins of attraction: which initial states lead to which steady motion.
 
-    Each motion starts at the phase of the excitation. The steady motions need not be known in
-    advance: each state is followed until it enters a region that no trajectory leaves for another
-    motion, and that motion is identified there (docs/how-to/map-basins.md).
+    The initial states form a grid of displacements and velocities. In each of them the excitation
+    has its initial phase. You need not know the steady motions in advance. The motion from each
+    state is simulated until it enters a region from which no trajectory leads to another steady
+    motion. The steady motion in this region is then identified (docs/how-to/map-basins.md).
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     displacement, velocity
         Lowest and highest displacement (m) and velocity (m/s) of the grid. Default: 1.6 times the
-        range of the steady motions that a coarse grid of initial states leads to.
+        range of the steady motions, which are first searched from a coarse grid of initial states.
     frequency
-        Forcing frequency (Hz). Default: that of the rig.
+        Forcing frequency (Hz). Default: the frequency of the rig.
     nodes
-        Number of nodes along each axis, or a pair: along displacement and along velocity.
+        Number of grid nodes along each axis, or a pair of numbers: along the displacement axis and
+        along the velocity axis.
     refine
-        Number of times that the grid is made twice as dense near the borders of basins. No further
-        states are computed between nodes that lead to the same motion, so stripes narrower than the
-        spacing of the first grid may be missed.
+        Number of times that the grid is refined to twice the density near the borders of basins. No
+        further states are computed between nodes that lead to the same motion. Therefore stripes
+        narrower than the spacing of the first grid may be missed.
     right_bumper, left_bumper
-        Initial deformation of the bumper (m; negative on the left). If the mass compresses the
-        bumper further at the initial displacement, that deformation is used. 0 for a relaxed bumper
-        and for other stops.
+        Initial deformation of the right and of the left bumper (m; negative on the left). If the
+        initial displacement compresses the bumper further, the larger deformation is used. Pass 0
+        for a relaxed bumper and for all other stops.
     isolator
-        Initial memory of the isolator (m), if its law has one; see `State`.
+        Initial internal variable (memory) of the isolator in m, if its law has one; see `State`.
     max_cycles
-        Number of forcing cycles after which a motion that has not settled is treated as one that is
-        not periodic.
+        Number of forcing cycles to wait for a periodic motion. A motion that has not settled by
+        then is treated as not periodic.
     max_events
-        Number of contacts and detachments in one forcing cycle at which a state is given up.
+        Largest number of contacts and detachments in one forcing cycle. When the motion from a
+        state reaches this number, its simulation stops and the state is given up.
     threads
-        Number of threads (default: one per processor). It does not affect the result.
+        Number of threads (default: one per processor). The number does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
-        of its scheduler (docs/how-to/many-machines.md). It does not affect the result.
+        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster. A cluster is
+        passed as a ``distributed.Client`` or as the address of its scheduler
+        (docs/how-to/many-machines.md). The choice does not affect the result.
     progress
-        Function that is called in the calling thread with the number of states done and their
-        total.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of completed states and the number of all states.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``velocity``, ``displacement``: ``basin``, the number of the motion (-1: given up, -2:
-        beyond a rigid stop), ``capture_cycles``, the number of forcing cycles until the motion was
-        identified, and ``level`` of refinement. Dim ``attractor``, the largest motion first:
-        ``motion``, ``period``, sizes, ``share`` of the states with its 95% interval,
-        ``border_distance`` and ``mirror_image``. Dim ``point``: the points of the motions at the
-        section. ``basin_entropy``, ``border_entropy``, ``uncertainty_exponent``.
+        Over the dims ``velocity`` and ``displacement`` of the initial states:
+
+        - ``basin``, the number of the steady motion (-1: the state was given up, -2: the state lies
+          beyond a rigid stop);
+        - ``capture_cycles``, the number of forcing cycles until the motion was identified;
+        - ``level``, the level of refinement at which the node was computed.
+
+        Over the dim ``attractor``, which counts the steady motions from the largest to the
+        smallest:
+
+        - ``motion``, the type of the motion, and its ``period``, extremes and excursions;
+        - ``share``, the share of the states that lead to it, with its 95% interval;
+        - ``border_distance``, the distance of the motion from the border of its basin;
+        - ``mirror_image``, the number of the motion that is its mirror image.
+
+        The dim ``point`` counts the points of the motions at the stroboscopic section. Single
+        numbers are ``basin_entropy``, ``border_entropy`` and ``uncertainty_exponent``, which
+        measure how the basins are intermingled.
 
     Raises
     ------
     InputError
-        If a value is invalid, or the rig has no dissipation, so that each state has its own motion.
+        If a value is invalid. Also if the rig has no dissipation, because then every initial state
+        has its own motion.
     """
     rig = as_rig(rig, frequency)
     rig.check_frequency()

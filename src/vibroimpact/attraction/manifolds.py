@@ -1,4 +1,4 @@
-"""Stable and unstable curves of saddles in the plane of displacement and velocity."""
+"""Stable and unstable manifolds of saddle orbits in the plane of displacement and velocity."""
 
 from __future__ import annotations
 
@@ -53,54 +53,65 @@ def manifolds(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Compute the stable and unstable manifolds (curves) of saddles, and their crossings.
+    """Compute the stable and unstable manifolds of saddle orbits, and their crossings.
 
-    A motion that starts on a stable curve converges to the saddle; the borders of basins are such
-    curves. A motion that starts next to the saddle leaves it along its unstable curve. If the two
-    curves cross, there are horseshoes and transients that look chaotic. The section is at the phase
-    of the excitation.
+    The manifolds are curves in the stroboscopic section at the initial phase of the excitation. A
+    motion that starts on a stable curve converges to the saddle orbit. The borders of basins of
+    attraction are such stable curves. A motion that starts next to the saddle moves away from it
+    along its unstable curve. If a stable and an unstable curve cross, the map has horseshoes, and
+    transients look chaotic.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     saddles
-        Datasets of `orbit`, or states near saddle orbits. Default: up to four saddles to which the
-        borders between basins lead.
+        Saddle orbits, as datasets of `orbit` or as states near the orbits. Default: up to four
+        saddles, which are found along the borders between basins.
     displacement, velocity
-        Lowest and highest displacement (m) and velocity (m/s) of the window. Default: as in
-        `basins`.
+        Lowest and highest displacement (m) and velocity (m/s) of the window in which the curves are
+        computed. Default: as in `basins`.
     frequency
-        Forcing frequency (Hz). Default: that of the rig.
+        Forcing frequency (Hz). Default: the frequency of the rig.
     period
-        Period of those saddles that are passed as states (forcing cycles).
+        Period of the saddle orbits that are passed as states, in forcing cycles.
     spacing
-        Largest distance between neighbouring points of a curve, where each side of the window has
-        the length 1.
+        Largest distance between neighbouring points of a curve, in units in which each side of the
+        window has the length 1.
     longest
-        Length at which a curve is cut off, where each side of the window has the length 1.
+        Length at which a curve ends, in units in which each side of the window has the length 1.
     max_cycles, max_events, threads
         As in `basins`.
     progress
-        Function that is called in the calling thread: during the search for saddles with the number
-        of states done and their total, then with the number of curves done and their total.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread. During the search for saddles it gets the number of completed states and the
+        number of all states. After that it gets the number of completed curves and the number of
+        all curves.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``point``: ``curve_displacement``, ``curve_velocity`` and ``curve_number`` of all curves
-        in sequence, NaN where a curve jumps at a rigid stop. Dim ``curve``: ``curve_kind``
-        ("stable" or "unstable"), ``curve_saddle``, ``curve_length`` and ``curve_ended``, the reason
-        why it ends. Dim ``saddle``: its points, period and multipliers. Dim ``crossing``: where
-        stable and unstable curves cross, with the numbers of both.
+        The dataset has four dims:
+
+        - ``point`` counts the points of all curves, one curve after the other. Its variables are
+          ``curve_displacement``, ``curve_velocity`` and ``curve_number``. Displacement and velocity
+          are NaN where a curve jumps at a rigid stop.
+        - ``curve`` counts the curves. Its variables are ``curve_kind`` ("stable" or "unstable"),
+          ``curve_saddle`` (the number of the saddle), ``curve_length``, and ``curve_ended`` (the
+          reason why the curve ends).
+        - ``saddle`` counts the points of the saddle orbits. Its variables are displacement,
+          velocity, period and Floquet multipliers.
+        - ``crossing`` counts the points at which a stable and an unstable curve cross. Its
+          variables are the displacement and the velocity there, and the numbers of both curves.
 
     Raises
     ------
     InputError
-        If a value is invalid, an orbit is not a saddle, or the state consists of more than
-        displacement and velocity. That is so for bumpers that relax slowly, isolators with a
-        memory, and power-law stops with a restitution that the saddle presses at the phase of the
-        excitation.
+        If a value is invalid, or if an orbit is not a saddle. Also if the state of the rig consists
+        of more than displacement and velocity. This is the case for bumpers that relax slowly and
+        for hysteretic isolators. It is also the case for a power-law stop with a coefficient of
+        restitution, if the saddle orbit compresses the stop at the phase of the section.
     """
     rig = as_rig(rig, frequency)
     rig.check_frequency()

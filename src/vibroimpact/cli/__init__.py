@@ -1,7 +1,7 @@
-"""The command line: one short file for each command.
+"""The command line: one short module for each command.
 
-A command is arguments and one call of the library. Its module imports what computes only when the
-command runs, so that ``vibroimpact --help`` responds at once.
+A command reads its arguments and calls one function of the library. Its module imports the
+computing parts only when the command runs, so that ``vibroimpact --help`` responds at once.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from vibroimpact.errors import InputError
 from vibroimpact.stderr import print_line
 
 _HELP = """
-Exact, fast dynamics of oscillators that hit deformable stops.
+Compute the exact dynamics of oscillators that hit deformable stops.
 
-A mass on an isolator between two bumpers, shaken by its base. The rig is a case of the published
-laboratory tests, by its code (B2-G1-A3: bumper 2, gap 1, acceleration 3), or a study file. Options
-replace single parameters of either.
+A rig is a mass on an isolator between two bumpers, shaken by its base. Most commands require a rig.
+It is the code of a published laboratory test (B2-G1-A3: bumper 2, gap 1, acceleration 3), or the
+path of a study file that describes your own rig. Options replace single parameters of the rig.
 
 For example:
 
@@ -59,9 +59,10 @@ For example:
     vibroimpact paper
     vibroimpact cache --clean others
 
-More about a command: vibroimpact COMMAND --help
+To see the options of a command, run: vibroimpact COMMAND --help
 
-Exit codes: 0 done, 1 results could not be written, 2 wrong input, 130 interrupted, 143 terminated.
+Exit codes: 0 (completed), 1 (results could not be written), 2 (invalid input), 130 (interrupted),
+143 (terminated).
 """
 
 _COMMANDS = (
@@ -85,7 +86,7 @@ _COMMANDS = (
     "paper",
     "cache",
 )
-"""Each is a module of this folder and a function in it; the function of `map` is scenario_map."""
+"""Each command is a function in a module of the same name; that of `map` is scenario_map."""
 
 
 def main(arguments: Iterable[str] | None = None) -> int:
@@ -94,13 +95,13 @@ def main(arguments: Iterable[str] | None = None) -> int:
     Parameters
     ----------
     arguments
-        Words of the command line after the program's name; None takes them from the system.
+        Words of the command line after the name of the program. Default: those of the system.
 
     Returns
     -------
     int
-        Exit code: 0 done, 1 results could not be written, 2 wrong input, 130 interrupted, 143
-        terminated.
+        Exit code: 0 (completed), 1 (results could not be written), 2 (invalid input), 130
+        (interrupted), 143 (terminated).
     """
     if arguments is not None:
         return _run(list(arguments))
@@ -108,18 +109,18 @@ def main(arguments: Iterable[str] | None = None) -> int:
     search_seldom()
     code = _run(sys.argv[1:])
     search_no_more()
-    # Only the end of the interpreter remains, and an interrupt must not make it a failure.
+    # Only the end of the interpreter remains. An interrupt must not turn it into a failure.
     signal.signal(signal.SIGINT, lambda *_: os._exit(130))
     return code
 
 
 class _Terminated(KeyboardInterrupt):
-    """SIGTERM. It ends a command as Ctrl-C does, and nothing unfinished stays."""
+    """SIGTERM: it ends a command as Ctrl-C does, and leaves no unfinished files."""
 
 
 @contextmanager
 def _terminable() -> Iterator[None]:
-    """Turn SIGTERM into an exception; only the main thread receives signals."""
+    """Turn SIGTERM into an exception. Only the main thread receives signals."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -135,7 +136,7 @@ def _terminable() -> Iterator[None]:
 
 
 def _run(words: list[str]) -> int:
-    """Run a command; return its exit code."""
+    """Run a command, and return its exit code."""
     take_any_encoding()
     try:
         with _terminable(), warnings_in_lines(), font_warnings_once():
@@ -150,8 +151,8 @@ def _run(words: list[str]) -> int:
         print_line("interrupted")
         return 130
     except (BrokenPipeError, SystemExit):
-        # The reader of the output has closed it, as `head` does; the files are written by then.
-        # rich, which prints help, turns this into an exit.
+        # The reader of the output has closed it, as `head` does. The files are already written.
+        # rich, which prints the help, turns this error into an exit.
         give_up_stdout()
         return 0
     except OSError as error:
@@ -164,13 +165,13 @@ def _run(words: list[str]) -> int:
 
 
 def _failed(message: str, code: int) -> int:
-    """Print an error; return the exit code."""
+    """Print an error, and return the exit code."""
     print_line(f"error: {message}")
     return code
 
 
 def _app(words: Sequence[str] = ()) -> App:
-    """Return the commands; all are imported unless the first word names one of them."""
+    """Return the commands. All are imported, unless the first word is the name of a command."""
     app = App(
         name="vibroimpact",
         help=_HELP,
@@ -181,14 +182,14 @@ def _app(words: Sequence[str] = ()) -> App:
         suppress_keyboard_interrupt=False,
         result_action="return_value",
     )
-    # By path, which cyclopts imports when the command runs.
+    # Commands are registered by path. cyclopts imports the path when the command runs.
     for command in _COMMANDS:
         module = command.replace("-", "_")
         function = "scenario_map" if command == "map" else module
         app.command(f"vibroimpact.cli.{module}:{function}", name=command)
     if not words or words[0] not in _COMMANDS:
         for command in _COMMANDS:
-            app[command]  # imports it: help lists what each command does
+            app[command]  # imports the command, because the help lists all summaries
     app.register_install_completion_command(
         help="Install completion of commands and options in bash, zsh, fish or PowerShell."
     )

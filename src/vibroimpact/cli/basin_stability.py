@@ -1,4 +1,4 @@
-"""``vibroimpact basin-stability``: shares of random states by the motion that they lead to."""
+"""``vibroimpact basin-stability``: the share of random states that lead to each steady motion."""
 
 from __future__ import annotations
 
@@ -27,11 +27,13 @@ def basin_stability(
     where: opt.Where = "threads",
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Compute the share of random states that leads to each steady motion, along a parameter.
+    """Compute the share of random states that lead to each steady motion, along a parameter.
 
-    The motions are numbered. A motion keeps its number at the next value if its states lead to a
-    nearby motion there. Prints the range of each motion, with its shares; writes
-    NAME-PARAMETER-basin-stability.nc and NAME-PARAMETER-basin-stability.png.
+    This share is the basin stability of the motion. The motions are numbered. A motion keeps its
+    number at the next value of the parameter if, at that value, its states lead to a nearby motion.
+
+    The command prints the range of the parameter in which each motion exists, with its shares. It
+    writes NAME-PARAMETER-basin-stability.nc and NAME-PARAMETER-basin-stability.png.
 
     For example:
 
@@ -41,7 +43,7 @@ def basin_stability(
     Parameters
     ----------
     steps
-        Number of values of the parameter, both ends included.
+        Number of values of the parameter, including both ends.
     """
     import numpy as np
 

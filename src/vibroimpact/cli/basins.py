@@ -22,11 +22,12 @@ def basins(
     where: opt.Where = "threads",
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Compute which initial states lead to which steady motion at one frequency.
+    """Compute the basins of attraction: which initial states lead to which steady motion.
 
-    The steady motions are found while the states are followed. Prints each motion with the share of
-    the states that lead to it, and measures of how the basins are intermingled (entropies). Writes
-    NAME-FREQUENCY-basins.nc and NAME-FREQUENCY-basins.png.
+    The initial states form a grid of displacements and velocities at one forcing frequency. You
+    need not know the steady motions in advance. The command prints each motion with the share of
+    the states that lead to it, and measures of how the basins are intermingled (entropies). It
+    writes NAME-FREQUENCY-basins.nc and NAME-FREQUENCY-basins.png.
 
     For example:
 

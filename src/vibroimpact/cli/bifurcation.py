@@ -1,4 +1,4 @@
-"""``vibroimpact bifurcation``: the steady motions over a parameter, by brute force."""
+"""``vibroimpact bifurcation``: the steady motions over a parameter, by simulation."""
 
 from __future__ import annotations
 
@@ -46,11 +46,14 @@ def bifurcation(
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Hold a parameter at a series of values, and show the steady motion at each value.
+    """Compute a bifurcation diagram: the steady motions at a series of values of a parameter.
 
-    Motions are continued up and down the values, and started from random states. Computes points
-    of the section, the period and the largest Lyapunov exponent. Prints the ranges in which
-    motions are of one kind; writes NAME-PARAMETER-diagram.nc and NAME-PARAMETER-diagram.png.
+    Each motion is simulated until it is steady. The next motion starts from its final state, up or
+    down the values. Motions may also start from random states (--random). For each motion the
+    diagram shows the points of a Poincaré section, the period and the largest Lyapunov exponent.
+
+    The command prints the ranges in which the motions have the same type. It writes
+    NAME-PARAMETER-diagram.nc and NAME-PARAMETER-diagram.png.
 
     For example:
 
@@ -60,17 +63,19 @@ def bifurcation(
 
     Parameters
     ----------
+    log
+        Space the values evenly on a logarithmic axis.
     frequency
-        Forcing frequency, such as 2Hz, if another parameter is varied. Default: that of the study
-        ([simulate]).
+        Forcing frequency, such as 2Hz, if another parameter is varied. Default: the frequency in
+        the study ([simulate]).
     direction
-        Direction in which a motion is continued from value to value. With none, motions start from
-        random states only.
+        Direction in which the motions are continued from value to value. If it is none, motions
+        start only from random states.
     quantity
-        Quantity that the figure shows. displacement and velocity: once per forcing cycle;
-        impact-velocity and impact-phase: at the start of each contact.
+        Quantity of the section in the figure. displacement and velocity are taken once per forcing
+        cycle. impact-velocity and impact-phase are taken at the start of each contact.
     phase
-        Forcing phase of the section, such as 90deg. Default: that of the study, or 0.
+        Forcing phase of the section, such as 90deg. Default: the phase in the study, or 0.
     branches
         Also follow the branches of periodic orbits, and mark their bifurcations.
     """

@@ -1,4 +1,4 @@
-"""``vibroimpact branch``: all periodic orbits of a rig along a parameter, stable or not."""
+"""``vibroimpact branch``: stable and unstable periodic orbits of a rig along a parameter."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _PHYSICAL: dict[Quantity, Quantity] = {
     "eta_a": "peak_acceleration",
 }
 _HOLDS = 120
-"""Frequencies of the stepped sweep in the figure."""
+"""Number of frequencies of the stepped sweep in the figure."""
 
 
 @calls("resonance_diagram", "Branch", start="span")
@@ -43,11 +43,16 @@ def branch(
 ) -> int:
     """Follow the branches of periodic orbits along a parameter, through folds and grazings.
 
-    The branches start from motions that are continued up and down the range, from random states,
-    from free flight, and from every symmetry breaking and period doubling on the way. With
-    --start or --period one branch is followed: from the orbit near the start, or from the steady
-    motion that is reached from rest. Prints the bifurcations; writes NAME-PARAMETER-branches.nc
-    and NAME-PARAMETER-branches.png. Along the frequency the figure also shows a stepped sweep.
+    The branches start from motions that are continued up and down the range of the parameter, from
+    random states, from the motion without contact, and from each symmetry breaking and each period
+    doubling on the branches.
+
+    With --start or --period, only one branch is followed. It starts from the orbit near --start, or
+    from the steady motion that is reached from rest.
+
+    The command prints the bifurcations. It writes NAME-PARAMETER-branches.nc and
+    NAME-PARAMETER-branches.png. If the parameter is the frequency, the figure also shows a stepped
+    sweep.
 
     For example:
 
@@ -58,22 +63,22 @@ def branch(
     Parameters
     ----------
     frequency
-        Forcing frequency, such as 2Hz; required if another parameter is varied, and with --start or
-        --period. Default: that of the study ([simulate]).
+        Forcing frequency, such as 2Hz. It is required if another parameter is varied, and with
+        --start or --period. Default: the frequency in the study ([simulate]).
     quantity
-        Quantity that the figure shows.
+        Quantity on the vertical axis of the figure.
     physical
         Draw the largest displacement (mm) instead of eta_d, and the largest acceleration (g)
         instead of eta_a.
     basins
-        Number of values of the parameter at which basins are computed, to find isolated branches,
-        even those with small basins.
+        Number of values of the parameter at which basins of attraction are computed. They are used
+        to find isolated branches, even if their basins are small.
     begin
-        Displacement and velocity near the first orbit, such as 5mm,100mm/s. Default: all branches
-        are followed.
+        Displacement and velocity near the first orbit of one branch, such as 5mm,100mm/s. Default:
+        all branches are followed.
     period
-        Period of the first orbit, in forcing cycles. Default: that of the motion from rest, or 1
-        with --start.
+        Period of the first orbit of one branch, in forcing cycles. Default: the period of the
+        motion that is reached from rest, or 1 with --start.
     """
     import numpy as np
 

@@ -1,4 +1,4 @@
-"""``vibroimpact cache``: the folders of compiled code, their sizes, and their removal."""
+"""``vibroimpact cache``: list or remove the folders of compiled code."""
 
 from __future__ import annotations
 
@@ -12,9 +12,10 @@ from vibroimpact.cli.function_options import calls
 def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = False) -> int:
     """List the folders of compiled code with their sizes and ages, or remove them.
 
-    The engine is compiled on first use. The code is kept in the user's cache folder, or in the
-    folder that VIBROIMPACT_CACHE_DIR names, with one folder for each version. It may be removed at
-    any time; a part that another process is compiling or loading is kept.
+    The engine is compiled on first use. The compiled code is stored in the cache folder of the
+    user, or in the folder that the environment variable VIBROIMPACT_CACHE_DIR names. Each version
+    has its own folder. You can remove the code at any time. Code that another process is compiling
+    or loading is kept.
 
     For example:
 
@@ -25,8 +26,8 @@ def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = Fal
     Parameters
     ----------
     clean
-        Remove the code of other versions and installations, or all code. It is compiled again
-        when needed. Default: nothing is removed.
+        What is removed: the code of other versions and installations (others), or all code (all).
+        Removed code is compiled again when it is needed. Default: nothing is removed.
     """
     from json import dumps
 

@@ -27,14 +27,21 @@ def classify(
     threads: opt.Threads = None,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Name the scenario of a rig, S0 to S6, with the evidence for it.
+    """Classify the resonance curves of a rig by their scenario, S0 to S6, with the evidence.
 
-    Sweeps the rig forward and backward, reports what the resonance curves show, and names the
-    scenario. S0: free motion. S1: grazing. S2: primary resonance with right hysteresis. S3: as S2,
-    with a secondary resonance. S4: secondary resonances that have left hysteresis or are not
-    regular. S5: smooth curves, with bumpers attached to the mass at rest. S6: curves bent to the
-    right, without jumps. Other curves are unclassified. Writes NAME-scenario.nc (the curves) and
-    NAME-scenario.png.
+    The command sweeps the frequency forward and backward, and prints the scenario with the features
+    of the curves that determine it. It writes NAME-scenario.nc (the curves) and NAME-scenario.png.
+    The scenarios are:
+
+    - S0: the mass touches no bumper
+    - S1: the mass grazes a bumper
+    - S2: the primary resonance has a right hysteresis
+    - S3: as S2, with a secondary resonance
+    - S4: secondary resonances have a left hysteresis or are not regular
+    - S5: the curves are smooth, and the bumpers touch the mass at rest
+    - S6: the curves are bent to the right, without jumps
+
+    All other curves are unclassified.
 
     For example:
 
@@ -47,7 +54,7 @@ def classify(
     start
         Lowest frequency, such as 0.3Hz. Default: 0.4 × the natural frequency.
     stop
-        Highest frequency, such as 5Hz. Default: above every possible primary resonance.
+        Highest frequency, such as 5Hz. Default: above the highest possible primary resonance.
     step
         Step between frequencies, such as 0.01Hz. Default: 0.01 × the natural frequency.
     """
@@ -75,7 +82,7 @@ def classify(
 def _frequencies(
     what: Subject, start: str | None, stop: str | None, step: str | None
 ) -> tuple[float, ...] | None:
-    """Read the frequencies of the options; None without an option."""
+    """Return the frequencies of the options, or None if there are no such options."""
     from vibroimpact.scenarios.axes import one_sine
 
     rig = one_sine(what.rig, "excitation")

@@ -1,4 +1,4 @@
-"""``vibroimpact curve``: where a bifurcation moves in the plane of two parameters."""
+"""``vibroimpact curve``: curves of bifurcations in the plane of two parameters."""
 
 from __future__ import annotations
 
@@ -45,11 +45,11 @@ def curve(
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Follow bifurcations in two parameters, through cusps.
+    """Follow bifurcations as curves in the plane of two parameters, through cusps.
 
-    Finds the bifurcations of one kind along the first parameter and follows each over both
-    parameters. Prints where each curve ends and its cusps; writes NAME-BIFURCATION-FIRST-SECOND.nc
-    (a group for each curve) and the figure of the plane.
+    The command first finds the bifurcations of one kind along the first parameter. It then follows
+    each of them as a curve over both parameters. It prints the ends and the cusps of each curve. It
+    writes NAME-BIFURCATION-FIRST-SECOND.nc, with a group for each curve, and a figure of the plane.
 
     For example:
 
@@ -61,16 +61,17 @@ def curve(
     bifurcation
         Kind of bifurcation that is followed.
     over
-        Two parameters, as for vibroimpact branch. The bifurcations are searched along the first.
+        Two parameters, with the names of vibroimpact branch. The bifurcations are first searched
+        along the first parameter.
     first
-        Range of the first parameter LOW:HIGH. Default for the frequency: as for vibroimpact
-        branch.
+        Range of the first parameter, LOW:HIGH. Default for the frequency: as for vibroimpact
+        branch. For another parameter the range is required.
     second
-        Range of the second parameter LOW:HIGH, such as 1mm:20mm. Default for the frequency: as
-        for vibroimpact branch.
+        Range of the second parameter, LOW:HIGH, such as 1mm:20mm. Default for the frequency: as
+        for vibroimpact branch. For another parameter the range is required.
     frequency
-        Forcing frequency, such as 2Hz, if it is not the first parameter. Default: that of the
-        study ([simulate]).
+        Forcing frequency, such as 2Hz, if the frequency is not the first parameter. Default: the
+        frequency in the study ([simulate]).
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
@@ -94,7 +95,7 @@ def curve(
 
 
 def _range(what: Subject, option: str, name: str, text: str | None) -> tuple[float, float]:
-    """Read LOW:HIGH; the frequency has a default."""
+    """Read LOW:HIGH. The frequency has a default."""
     if text is None and name == "frequency":
         return option_range(what, name, None, None, (option, option), "--over")
     low, colon, high = (text or "").partition(":")

@@ -1,4 +1,4 @@
-"""``vibroimpact design``: the required gap, and charts of gaps and stops."""
+"""``vibroimpact design``: the required gap, and charts of designs of gaps and stops."""
 
 from __future__ import annotations
 
@@ -39,12 +39,18 @@ def design(
     where: opt.Where = "threads",
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Compute the gap at which a rig hits nothing, and chart displacement against acceleration.
+    """Compute the gap at which a rig hits nothing, and compare designs of its gaps and stops.
 
-    The rig is shaken by records, or by sines of all frequencies, swept up and down. Writes
-    NAME-design.nc and .csv with a row for each design, NAME-design.png (over one or two
-    parameters) and NAME-pareto.png: the designs for which no other design is better. Limits apply
-    to these designs, and to the search.
+    The rig is shaken by records, or by sines of all frequencies, which are swept up and down. For
+    each design the command computes the largest displacement, acceleration and contact force. It
+    writes:
+
+    - NAME-design.nc and NAME-design.csv: the results of all designs, with a row for each design
+    - NAME-design.png: the results over the one or two parameters that are varied
+    - NAME-pareto.png: the Pareto front of displacement and acceleration, which contains the designs
+      for which no other design is better
+
+    Limits apply to the designs of the Pareto front and to the search (--best).
 
     For example:
 
@@ -56,27 +62,28 @@ def design(
     Parameters
     ----------
     records
-        Files of records. Default: those of the study, or sines of its amplitude.
+        Files of records. Default: the records in the study, or sines with its amplitude.
     vary
-        Parameter and its range, NAME LOW:HIGH[:log][:VALUES] (15 values unless stated); once or
-        twice. Examples: gap, bumper-stiffness (at constant damping), stiffness-at-restitution,
-        bumper-damping, isolator-period, damping-ratio, yield-force. Default: those of the study
-        ([design]), or gaps up to the required gap, and the stiffness of linear bumpers.
+        Parameter that is varied and its range, NAME LOW:HIGH[:log][:VALUES]. The option may be
+        used once or twice. Without VALUES there are 15 values. Examples of names: gap,
+        bumper-stiffness (at constant damping), stiffness-at-restitution, bumper-damping,
+        isolator-period, damping-ratio, yield-force. Default: the parameters in the study
+        ([design]), or gaps up to just above the required gap, and the stiffness of linear bumpers.
     best
-        For the given gap, also search for the bumper with the least acceleration.
+        Also search for the bumper with the least acceleration, at the gap of the rig.
     limit
-        Quantity and the value that no design may exceed: peak-force, penetration or
-        peak-displacement, such as peak-force 5MN; may be repeated. Added to the limits of the study
-        ([design]).
+        Quantity and the value that it must not exceed, such as peak-force 5MN. Quantities are
+        peak-force, penetration and peak-displacement. The option may be repeated. These limits are
+        added to the limits in the study ([design]).
     fractile
-        Fractile over the records (0 to 1). Default: that of the study ([design]), or 1, the
-        largest of all records.
+        Fractile over the records, from 0 to 1. Default: the value in the study ([design]), or 1,
+        which is the largest response of all records.
     start
-        Lowest frequency of the sines. Default: that of the study ([sweep]), or below the primary
-        resonance of each design.
+        Lowest frequency of the sines. Default: the value in the study ([sweep]), or a frequency
+        below the primary resonance of each design.
     to
-        Highest frequency of the sines. Default: that of the study ([sweep]), or above the primary
-        resonance of each design.
+        Highest frequency of the sines. Default: the value in the study ([sweep]), or a frequency
+        above the primary resonance of each design.
     """
     from vibroimpact.cli.frequency_grid import sine_span
     from vibroimpact.cli.output import progress_bar

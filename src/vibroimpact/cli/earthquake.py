@@ -34,11 +34,14 @@ def earthquake(
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Shake a rig by records, and report whether it hits its stops, and how hard.
+    """Shake a rig by earthquake records, and report whether and how hard it hits its stops.
 
-    Writes NAME-earthquake.csv with a row for each record, and for each record
-    NAME-RECORD-earthquake.png and .nc (groups response, motion, ground and floor: the last two are
-    the spectra of the ground and of the mass).
+    The command writes:
+
+    - NAME-earthquake.csv: a table with a row for each record
+    - NAME-RECORD-earthquake.png: a page of figures for each record
+    - NAME-RECORD-earthquake.nc: for each record, the groups response, motion, ground and floor. The
+      last two are the response spectra of the ground and of the mass.
 
     For example:
 
@@ -49,10 +52,13 @@ def earthquake(
     Parameters
     ----------
     records
-        Files of records; see vibroimpact record. Default: the record of the study.
+        Files of records; for the formats see vibroimpact record. Default: the record in the study.
+    tail
+        Duration of free vibration after each record, such as 10s. Default: two natural periods of
+        the mass on the softest spring of the isolator.
     samples
-        Samples of the figure and the files per step of a record. The floor spectrum depends on
-        them, the peaks do not.
+        Number of samples per step of a record, in the figures and the files. It affects the floor
+        spectrum, but not the peaks.
     """
     from rich.text import Text as Line
 

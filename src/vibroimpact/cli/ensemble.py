@@ -14,7 +14,7 @@ from vibroimpact.cli.function_options import calls
 from vibroimpact.errors import InputError
 
 _COARSER = 4
-"""Times the step of a sweep."""
+"""Step of the sweeps, as a multiple of the step of vibroimpact sweep."""
 
 
 @calls("ensemble", "Ensemble", uncertain="distributions")
@@ -37,11 +37,14 @@ def ensemble(
     where: opt.Where = "threads",
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Draw rigs from the distributions of their parameters, and sweep each of them.
+    """Draw random rigs from the distributions of their parameters, and sweep each of them.
 
-    Prints fractiles of the peaks; writes NAME-ensemble.nc (all sweeps, with the parameters of each
-    rig), NAME-ensemble.png (resonance curves with bands), and with --sensitivity
-    NAME-sensitivity.nc and .png.
+    The command prints fractiles of the peaks over the rigs. It writes:
+
+    - NAME-ensemble.nc: the sweeps of all rigs, with the parameters of each rig
+    - NAME-ensemble.png: the resonance curves with bands
+    - NAME-sensitivity-PEAK.nc and NAME-sensitivity-PEAK.png: with --sensitivity, the Sobol indices
+      of each peak
 
     For example:
 
@@ -51,10 +54,11 @@ def ensemble(
     Parameters
     ----------
     uncertain
-        Parameter and its distribution; may be repeated. Examples: gap normal:7.5mm:0.5mm, damping
-        lognormal:0.2, stiffness uniform:5%. Also triangular:LOW:MODE:HIGH and
-        normal:MEAN:DEVIATION:LOW:HIGH. Percentages refer to the rig's own value. Parameters are
-        those of vibroimpact branch. Default: those of the study ([ensemble]).
+        Parameter and its distribution. The option may be repeated. Examples: gap
+        normal:7.5mm:0.5mm, damping lognormal:0.2, stiffness uniform:5%. Other distributions are
+        triangular:LOW:MODE:HIGH and normal:MEAN:DEVIATION:LOW:HIGH. A percentage refers to the
+        value of the rig. The names of the parameters are those of vibroimpact branch. Default: the
+        distributions in the study ([ensemble]).
     sensitivity
         Also compute which parameter contributes most to the variance of the peaks (Sobol indices).
     start
@@ -62,7 +66,8 @@ def ensemble(
     stop
         Highest frequency, such as 5Hz. Default: as for vibroimpact sweep.
     step
-        Step between frequencies, such as 0.05Hz. Default: four times that of vibroimpact sweep.
+        Step between frequencies, such as 0.05Hz. Default: four times the step of vibroimpact
+        sweep.
     frequencies
         List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step.
     physical

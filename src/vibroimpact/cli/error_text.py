@@ -1,4 +1,4 @@
-"""Errors that name options, and a hint where the shell has split a value with a unit."""
+"""Error messages in the words of the command line: names of options, and a hint about quotes."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ _UNIT = re.compile(r"[A-Za-zµ°]+(\^?-?[²³]|\^-?\d|[23])?([*/·][A-Za-z]+(\^?
 
 
 def in_words(error: Exception, words: Sequence[str]) -> str:
-    """Return one line that says what is wrong with the words of a command line."""
+    """Return one line that states what is wrong with the words of a command line."""
     if isinstance(error, UnusedCliTokensError) and error.unused_tokens:
         count = len(error.unused_tokens)
         unused = " ".join(error.unused_tokens)
         line = f"{unused!r} {f'are {count} words' if count > 1 else 'is one word'} too many"
     elif isinstance(error, UnknownCommandError) and error.app is not None:
-        # cyclopts lists some of the commands only.
+        # cyclopts lists only some of the commands.
         first, _, _ = str(error).partition(" Available commands:")
         names = ", ".join(name for name in error.app if not name.startswith("-"))
         line = f"{first} {names} are accepted"
@@ -35,7 +35,7 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
 
 
 def _as_option(message: str, words: Sequence[str]) -> str:
-    """Name a field as the option that was written: max_cycles is --max-cycles."""
+    """Replace the name of a field by the option that the user wrote, such as --max-cycles."""
     module = words[0].replace("-", "_") if words else ""
     for argument in RENAMED.get(module, ()):
         if re.match(rf"{re.escape(argument)}(\[[^\]]*\])?: ", message):
@@ -49,7 +49,7 @@ def _as_option(message: str, words: Sequence[str]) -> str:
 
 
 def _in_options(message: str, renamed: Mapping[str, str]) -> str:
-    """Replace the argument at the start of a message by its option, and places in it elsewhere."""
+    """Replace an argument by its option, at the start of a message and before an index."""
     for argument, option in renamed.items():
         name = re.escape(argument)
         message = re.sub(rf"^{name}(?=(\[[^\]]*\])?: )|\b{name}(?=\[\d+\])", option, message)
@@ -57,7 +57,7 @@ def _in_options(message: str, renamed: Mapping[str, str]) -> str:
 
 
 def _options(field: str) -> list[str]:
-    """Options that set a field; those of one side first."""
+    """Return the options that set a field. Options for one side come first."""
     part, _, name = field.replace("_", "-").rpartition(".")
     if part in ("right", "left"):
         return [f"--{part}-{name}", f"--{name}" if name == "gap" else f"--bumper-{name}"]
@@ -65,7 +65,7 @@ def _options(field: str) -> list[str]:
 
 
 def _quoting(words: Sequence[str]) -> str:
-    """Return a hint if the shell has split a value with a unit into words."""
+    """Return a hint about quotes if the shell has split a value and its unit into words."""
     for i, option in enumerate(words[:-2]):
         if not (option.startswith("--") and _NUMBER.fullmatch(words[i + 1])):
             continue

@@ -23,8 +23,9 @@ def explore(
 ) -> int:
     """Change parameters in a browser, and see resonance curves, motion and scenario change.
 
-    Serves a page for this machine only, prints its address, and opens it. Ctrl-C ends the server.
-    The engine is compiled on first use, which takes a minute.
+    The command starts a server, prints the address of its page, and opens the page in a browser. By
+    default only this machine can open the page. To stop the server, press Ctrl-C. On first use the
+    engine is compiled, which takes a minute.
 
     For example:
 
@@ -35,12 +36,12 @@ def explore(
     Parameters
     ----------
     port
-        Port of the page; 0 for any free port.
+        Port of the server. If it is 0, any free port is used.
     browser
-        Open a browser. This is the default.
+        Open the page in a browser. This is the default.
     host
-        Address on which the server listens. With any other address than the default, other
-        machines can connect if they know the token that is printed.
+        Address on which the server listens. If it is not the default address, other machines can
+        connect, provided that they know the token in the printed address.
     """
     from vibroimpact.explorer import require_websockets
 
@@ -59,7 +60,7 @@ def explore(
     table = what.sweep_table
     span = (table.start, table.to) if table.start and table.to else None
     if span is None and what.published:
-        span = (0.5, 5.0)  # of the tests
+        span = (0.5, 5.0)  # the range of the published tests
     first = begin(Rig(what.oscillator, what.repeated), what.name, span)
 
     def announce(address: str) -> None:

@@ -1,4 +1,4 @@
-"""Frequencies of sweeps, as exact decimals, and their default ranges."""
+"""Frequencies of sweeps as exact decimal numbers, and default ranges of frequencies."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
 
 _PUBLISHED = (0.5, 5.0, 0.01)
-"""From, to and step in Hz: the range of the published tests, ten times as fine."""
+"""From, to and step in Hz: the range of the published tests, with a tenth of their step."""
 _PUBLISHED_SPAN = (0.3, 5.0)
 _LOW, _SPAN_LOW, _HIGH, _STEPS = 0.45, 0.27, 4.5, 110.0
-"""The same divided by the natural frequency of the published rig; steps per natural frequency."""
+"""The same ranges, divided by the natural frequency of the published rig. The last number is the
+number of steps per natural frequency."""
 
 MOST = 1_000_000
 """Largest number of frequencies."""
@@ -36,10 +37,10 @@ NO_DEFAULT = (
 
 
 def default_range(what: Subject, coarser: float = 1.0) -> Range:
-    """Return from, to and step (Hz) of a sweep: those of the tests, or as wide a range for a rig.
+    """Return the default range of a sweep: from, to and step (Hz).
 
-    It follows from the natural frequency, so that the resonance is in it whatever the rig. The
-    step is made `coarser` by this factor.
+    For a laboratory case it is the range of the tests. For another rig it is a multiple of the
+    natural frequency, so that it contains the resonance. The step is multiplied by `coarser`.
     """
     natural = what.oscillator.angular_frequency / math.tau
     if what.published:
@@ -52,9 +53,10 @@ def default_range(what: Subject, coarser: float = 1.0) -> Range:
 
 
 def default_span(what: Subject) -> Span:
-    """Return from and to (Hz) of branches; lower than a sweep, because they cost little there.
+    """Return the default range of branches: from and to (Hz).
 
-    An end that the study says for its sweep holds for its branches as well.
+    It starts lower than the range of a sweep, because branches are cheap to compute there. If the
+    study states an end of the range for its sweep, this end is also used for its branches.
     """
     natural = what.oscillator.angular_frequency / math.tau
     low: float | None
@@ -79,22 +81,22 @@ def _short(value: float) -> float:
 
 
 def _step(value: float) -> float:
-    """Round to one, two or five and a power of ten."""
+    """Round to one, two or five times a power of ten."""
     power = math.floor(math.log10(value))
     steps = [float(f"{digit}e{power}") for digit in (1, 2, 5, 10)]
     return min(steps, key=lambda step: abs(math.log(step / value)))
 
 
 def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
-    """Return the frequencies from `start` to `stop`, both included.
+    """Return the frequencies from `start` to `stop`, including both ends.
 
-    They are decimals, rounded once: 0.3 + 40 × 0.01 is 0.7, not 0.7000000000000001. If the
-    range is not a multiple of the step, the last step is shorter.
+    They are computed as decimal numbers and rounded once: 0.3 + 40 × 0.01 is 0.7, and not
+    0.7000000000000001. If the range is not a multiple of the step, the last step is shorter.
 
     Raises
     ------
     InputError
-        If the range is empty or has more than `MOST` frequencies.
+        If the range is empty, or if it has more than `MOST` frequencies.
     """
     if start > stop:
         raise InputError(
@@ -107,7 +109,7 @@ def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
             f"--step: {step:g} Hz makes {whole + 1} frequencies; at most {MOST} are accepted"
         )
     grid = [float(first + k * width) for k in range(whole + 1)]
-    # Units such as rad/s make long decimals, whose last digit may miss the end.
+    # Units such as rad/s give long decimal numbers. Their last digit may miss the end.
     if stop - grid[-1] > 1e-9 * step:
         grid.append(stop)
     grid[-1] = stop
@@ -122,27 +124,27 @@ def list_frequencies(
     table: SweepTable | None,
     default: Range,
 ) -> tuple[float, ...] | tuple[str, ...]:
-    """Return the frequencies of the options or of the study; options come first.
+    """Return the frequencies of a sweep. Options take precedence over the study.
 
     Parameters
     ----------
     start, stop, step, listed
-        Texts of ``--from``, ``--to``, ``--step`` and ``--frequencies``.
+        Values of the options ``--from``, ``--to``, ``--step`` and ``--frequencies``.
     table
-        The study's ``[sweep]``.
+        Table ``[sweep]`` of the study.
     default
-        From, to and step in Hz if neither states them; None if there is no default.
+        Default of from, to and step in Hz. None if there is no default.
 
     Returns
     -------
     tuple
-        Numbers in Hz, or the texts of a list, which the sweep will read.
+        Numbers in Hz, or the texts of a list of frequencies, which the sweep converts to numbers.
 
     Raises
     ------
     InputError
-        If a text is not a frequency greater than 0, both ways are used, or an end without a
-        default is missing.
+        If a text is not a frequency greater than 0, or if both a list and a range are passed. Also
+        if an end is missing that has no default.
     """
     given = {"--from": start, "--to": stop, "--step": step}
     if listed is not None:
@@ -167,12 +169,12 @@ def list_frequencies(
 def sine_span(
     what: Subject, start: str | None, to: str | None
 ) -> tuple[float | str, float | str] | None:
-    """Return the range of sines, of the options or of the study; None if neither states it.
+    """Return the frequency range of the options or of the study, or None if neither states it.
 
     Raises
     ------
     InputError
-        If only one end is stated.
+        If only one end of the range is stated.
     """
     table = what.sweep_table
     low, high = table.start if start is None else start, table.to if to is None else to

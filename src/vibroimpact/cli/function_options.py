@@ -1,6 +1,7 @@
-"""Help and defaults of options, taken from the library function that a command calls.
+"""Help and defaults of options, which are read from the library function that a command calls.
 
-The function's source is read, not imported: ``--help`` loads nothing that computes.
+The source of the function is parsed, not imported, so that ``--help`` does not import what
+computes.
 """
 
 from __future__ import annotations
@@ -17,15 +18,15 @@ import docstring_parser
 from cyclopts import Group, Parameter
 
 REQUIRED = inspect.Parameter.empty
-"""Default of an argument that has none, or none that is a literal."""
+"""Default of an argument that has no default, or whose default is not a literal."""
 
 RENAMED: dict[str, dict[str, str]] = {}
-"""By module of a command: options by the argument that they set, where the two names differ."""
+"""For each module of a command: options by the argument that they set, if the two names differ."""
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 _PACKAGE = Path(__file__).parents[1]
 _SHARED = {"changes", "output", "reading", "states", "thresholds"}
-"""Parameters of commands that stand for groups of options, which document themselves."""
+"""Parameters of commands that are groups of options. These groups have their own documentation."""
 
 
 class Argument(NamedTuple):
@@ -38,21 +39,22 @@ class Argument(NamedTuple):
 def calls(
     function: str | None, group: str, sort_key: int = 1, **arguments: str
 ) -> Callable[[_Command], _Command]:
-    """Take help and defaults of a command's options from the function that it calls.
+    """Copy help and defaults of a command's options from the function that the command calls.
 
-    An option with the name of an argument has the argument's description, unless the command's
-    docstring describes it, and the argument's default, unless the command has its own.
+    If an option has the name of an argument, its help is the description of the argument, unless
+    the docstring of the command describes the option. Its default is the default of the argument,
+    unless the command has its own default.
 
     Parameters
     ----------
     function
-        Name of the public function, such as "branch". None for a command that calls none.
+        Name of the public function, such as "branch". None if the command calls no public function.
     group
         Heading of the options in the help.
     sort_key
-        Position of this heading among the others.
+        Position of this heading among all headings.
     arguments
-        Arguments by option, where their names differ.
+        Names of arguments by option, if the two names differ.
     """
     heading = Group(group, sort_key=sort_key)
 
@@ -99,7 +101,7 @@ def read_arguments(function: str) -> Mapping[str, Argument]:
     Raises
     ------
     KeyError
-        If there is no public function of this name.
+        If there is no public function with this name.
     """
     stub = (_PACKAGE / "__init__.pyi").read_text(encoding="utf-8")
     modules = {name: module for module, name in re.findall(r"from \.(\S+) import (\w+) as", stub)}
@@ -126,14 +128,14 @@ def read_arguments(function: str) -> Mapping[str, Argument]:
 
 
 def describe(function: str, argument: str) -> str:
-    """Return the description of an argument; it may refer to another function, "As in `sweeps`."""
+    """Return the description of an argument, also if it only refers to another: "As in `sweeps`."""
     text = read_arguments(function)[argument].help
     elsewhere = re.fullmatch(r"As (?:in|of) (\w+)\.", text)
     return describe(elsewhere[1], argument) if elsewhere else text
 
 
 def with_default(text: str, default: Any) -> str:
-    """Add a default to the help of an option, unless it states one; flags and lists have none."""
+    """Add the default to the help of an option, unless it is stated. Flags and lists have none."""
     if default is REQUIRED or default is None or default == () or isinstance(default, bool):
         return text
     if "efault:" in text:
@@ -146,7 +148,7 @@ def with_default(text: str, default: Any) -> str:
 
 
 def _descriptions(docstring: str) -> dict[str, str]:
-    """Descriptions of parameters in a NumPy docstring, as plain sentences."""
+    """Return the descriptions of the parameters in a NumPy docstring, as plain sentences."""
     found = {}
     for one in docstring_parser.parse(docstring, docstring_parser.DocstringStyle.NUMPYDOC).params:
         for name in one.arg_name.split(","):
@@ -155,7 +157,7 @@ def _descriptions(docstring: str) -> dict[str, str]:
 
 
 def _plain(text: str) -> str:
-    """Return a description in the words of the command line, which has no None and no markup."""
+    """Return a description for the command line, without None and without markup."""
     text = " ".join(text.split())
     text = re.sub(r'``"([^"`]*)"``', r"\1", text)
     text = text.replace("`", "")
@@ -170,19 +172,19 @@ def _literal(expression: ast.expr | None) -> Any:
 
 
 def _settings(hint: Any) -> list[Parameter]:
-    """Return the settings of an annotation, those of the members of a union included."""
+    """Return the settings of an annotation, including those of the members of a union."""
     if get_origin(hint) is not Annotated:
         return [one for member in get_args(hint) for one in _settings(member)]
     return [one for one in hint.__metadata__ if isinstance(one, Parameter)]
 
 
 def _help_of(hint: Any) -> str:
-    """The help that an annotation gives."""
+    """Return the help in an annotation."""
     return next((one.help for one in reversed(_settings(hint)) if one.help), "")
 
 
 def _documented(hint: Any, group: Group | None, text: str) -> Any:
-    """An annotation with a group, unless it has one, and with this help."""
+    """Return an annotation with this help, and with a group unless it already has one."""
     has_group = group is None or any(one.group for one in _settings(hint))
     bare, *metadata = get_args(hint) if get_origin(hint) is Annotated else (hint,)
     first = Parameter() if has_group else Parameter(group=group)
@@ -190,6 +192,6 @@ def _documented(hint: Any, group: Group | None, text: str) -> Any:
 
 
 def _flag(name: str, hint: Any) -> str:
-    """The option as it is written."""
+    """Return the option as a user writes it."""
     names = [one.name for one in _settings(hint) if one.name]
     return next(iter(names[-1])) if names else f"--{name.replace('_', '-')}"

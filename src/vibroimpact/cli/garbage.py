@@ -1,7 +1,8 @@
-"""Garbage collection: rare while a command starts, as usual while it computes.
+"""Garbage collection: rare while a command starts, and with the usual frequency while it computes.
 
-What a command imports and draws stays until its end. Python searches all of it many times, and once
-more at the end, which took a quarter of the time of a short command.
+The objects that a command imports and draws exist until its end. Python searches all of them for
+garbage many times, and once more at the end. These searches took a quarter of the time of a short
+command.
 """
 
 from __future__ import annotations
@@ -11,19 +12,19 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 _SELDOM = 1_000_000
-"""New objects before a search; a start makes fewer."""
+"""Number of new objects that triggers a search. The start of a command makes fewer objects."""
 _USUAL = gc.get_threshold()
 
 
 def search_seldom() -> None:
-    """Postpone searches until a computation begins; for a process that runs one command."""
+    """Postpone searches until a computation begins, in a process that runs only one command."""
     gc.set_threshold(_SELDOM)
 
 
 @contextmanager
 def search_as_usual() -> Iterator[None]:
-    """Search as often as Python does by itself, but not what was there before."""
-    if gc.get_threshold()[0] != _SELDOM:  # the process is not the command's own
+    """Search with the usual frequency of Python, but leave out all objects that already exist."""
+    if gc.get_threshold()[0] != _SELDOM:  # the process runs more than this command
         yield
         return
     gc.freeze()
@@ -35,5 +36,5 @@ def search_as_usual() -> Iterator[None]:
 
 
 def search_no_more() -> None:
-    """Leave everything to the end of the process."""
+    """Search no more, because the process ends."""
     gc.freeze()

@@ -1,4 +1,4 @@
-"""``vibroimpact identify``: parameters of a rig from measurements, with a report."""
+"""``vibroimpact identify``: identify parameters of a rig from measurements, and write a report."""
 
 from __future__ import annotations
 
@@ -36,12 +36,15 @@ def identify(
     threads: opt.Threads = None,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Identify parameters of a rig from stepped-sine curves or time histories.
+    """Identify parameters of a rig from measured stepped-sine curves or time histories.
 
-    Prints the values with their intervals, the parameters that the data do not determine, signs of
-    an inadequate model, and the most informative next test. Writes NAME.html and NAME.md with
-    figures, NAME.nc with all numbers, and NAME.toml, the fitted rig, which every other command
-    accepts.
+    The command prints the fitted values with their confidence intervals, the parameters that the
+    data do not determine, signs of an inadequate model, and the most informative next test. It
+    writes:
+
+    - NAME-fit.html and NAME-fit.md: the report, with figures
+    - NAME-fit.nc: all numbers
+    - NAME-fit.toml: the fitted rig as a study file, which every other command accepts
 
     For example:
 
@@ -52,25 +55,36 @@ def identify(
     Parameters
     ----------
     data
-        Files of tests: CSV, MAT, HDF5, UFF58, TDMS or NetCDF.
+        Files of the tests, as CSV, MAT, HDF5, UFF58, TDMS or NetCDF.
     rig
-        Case code or study file of the rig, with a guess of the free parameters.
+        The tested rig: a case code or a study file, with guesses of the free parameters.
     free
-        Parameters that are fitted, such as stiffness,damping,bumper-stiffness,gap.
+        Parameters that are fitted, separated by commas, such as
+        stiffness,damping,bumper-stiffness,gap.
+    each
+        Free parameters that are fitted separately for each test, separated by commas. All other
+        free parameters have the same value in all tests. Default: none.
     bounds
-        Bounds of a free parameter, NAME LOW:HIGH; may be repeated.
+        Bounds of a free parameter, NAME LOW:HIGH. The option may be repeated.
     tie
-        Tie one parameter to another, such as left-gap right-gap; may be repeated.
+        Keep one parameter equal to another one, such as left-gap right-gap. The option may be
+        repeated.
     prior
-        Prior knowledge of a free parameter, NAME MEAN:DEVIATION; may be repeated.
+        Prior knowledge of a free parameter, NAME MEAN:DEVIATION. The option may be repeated.
     columns
-        Column that holds a variable, such as displacement-excursion 'channel 3'; may be repeated.
+        Variable and the column that holds it, such as displacement-excursion 'channel 3'. The
+        option may be repeated.
     units
-        Unit of a variable or column, such as displacement-excursion mm; may be repeated.
+        Variable or column and its unit, such as displacement-excursion mm. The option may be
+        repeated.
     group
         Name of the test, if a file holds several. Default: the only test.
     decimal
         Decimal mark of a table. Default: detected from the table.
+    steady
+        Treat the time histories as records of steady motions. Each history is then compared with
+        the steady motion that the rig reaches from the measured state, and no initial states are
+        fitted.
     compare
         Other models that are also fitted: hertz, softening or hertz,softening. Default: none.
     """

@@ -1,4 +1,4 @@
-"""``vibroimpact manifolds``: the stable and unstable curves of saddles."""
+"""``vibroimpact manifolds``: the stable and unstable manifolds of saddle orbits."""
 
 from __future__ import annotations
 
@@ -28,10 +28,13 @@ def manifolds(
     threads: opt.Threads = None,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Follow the stable and unstable curves of saddles, and draw them over the basins.
+    """Compute the stable and unstable manifolds of saddle orbits, and draw them over the basins.
 
-    States on a stable curve lead to the saddle: borders of basins are such curves. Unstable
-    curves lead away from it. Prints the saddles, and where the curves cross; writes
+    The manifolds are curves in the plane of displacement and velocity. A motion that starts on a
+    stable curve leads to the saddle orbit. The borders of basins are stable curves. A motion that
+    starts next to the saddle moves away along its unstable curve.
+
+    The command prints the saddles, and the points where the curves cross. It writes
     NAME-FREQUENCY-manifolds.nc and NAME-FREQUENCY-manifolds.png.
 
     For example:
@@ -43,10 +46,12 @@ def manifolds(
     Parameters
     ----------
     saddle
-        Displacement and velocity near a saddle orbit, such as 5mm,2mm/s; may be repeated.
-        Default: the saddles to which the borders between basins lead, four at most.
+        Displacement and velocity near a saddle orbit, such as 5mm,2mm/s. The option may be
+        repeated. Default: at most four saddles, which are found along the borders between basins.
+    period
+        Period of the orbits near --saddle, in forcing cycles.
     nodes
-        Number of states along each axis of the basins in the figure.
+        Number of initial states along each axis, for the basins in the figure.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results

@@ -1,4 +1,4 @@
-"""``vibroimpact map``: scenarios over two parameters."""
+"""``vibroimpact map``: a map of scenarios over two parameters."""
 
 from __future__ import annotations
 
@@ -33,11 +33,14 @@ def scenario_map(
     where: Annotated[str | None, Parameter(group=opt.COMPUTATION)] = None,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Map the scenarios of a rig over two of its parameters.
+    """Compute a map of the scenarios of a rig over two of its parameters.
 
-    All other parameters are those of the rig (default: the published rig B3-A3). The map is written
-    to NAME-X-Y-map.zarr block by block. If the command is stopped, the same command completes the
-    map. Prints the share of each scenario; draws NAME-X-Y-map.png.
+    A scenario describes the resonance curves; see vibroimpact classify. All other parameters are
+    those of the rig (default: the published rig B3-A3).
+
+    The map is written to NAME-X-Y-map.zarr block by block. If the command is stopped, run the same
+    command again to complete the map. The command prints the share of each scenario, and draws
+    NAME-X-Y-map.png.
 
     For example:
 
@@ -48,22 +51,24 @@ def scenario_map(
     Parameters
     ----------
     rig
-        Code of a laboratory case, or a study file, shaken by one sine. Default: ξ = 0.15, τ = 0.01,
-        λ = 25.9 and δ0 = 0.5, on two sides, as in the published tests.
+        The rig: the code of a laboratory case, or the path of a study file. One sine must shake the
+        rig. Default: a rig with ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on both sides, as in the
+        published tests.
     x
-        Parameter of the horizontal axis and its range, NAME LOW:HIGH[:log][:NODES] (21 nodes
-        unless stated). Physical parameters: gap, amplitude, bumper-stiffness,
+        Parameter of the horizontal axis and its range, NAME LOW:HIGH[:log][:NODES]. Without NODES
+        there are 21 nodes. Physical parameters: gap, amplitude, bumper-stiffness,
         proportional-stiffness (at a fixed C/K), isolator-period. Dimensionless parameters:
         stiffness-ratio, gap-ratio, relaxation-time, damping-ratio, restitution. Default:
         stiffness-ratio 0.5:100:log.
     y
         Parameter of the vertical axis and its range, as for --x. Default: gap-ratio 0:1.
     border
-        Also draw the exact border between rigs with and without jumps. This is the default.
+        Also draw the exact border between rigs with jumps and rigs without jumps. This is the
+        default.
     where
         Where the work is done: threads, processes, or the address of a dask scheduler, such as
-        tcp://10.0.0.1:8786. Default: processes if the first grid has at least 500 nodes, threads
-        otherwise.
+        tcp://10.0.0.1:8786. The choice does not affect the result. Default: processes if the first
+        grid has at least 500 nodes, and threads otherwise.
     """
     from rich.text import Text
 

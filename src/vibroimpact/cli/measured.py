@@ -1,4 +1,4 @@
-"""What a fit needs from the options: the shaking of the tests, pairs of values."""
+"""Functions that read the options of a fit: the shaking of the tests, and pairs of values."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
 
 def shaking_of_tests(tests: list[xr.Dataset]) -> vi.Harmonic | None:
-    """Return the shaking of the base that the files state; None if one does not state it."""
+    """Return the shaking of the base that the files state, or None if a file does not state it."""
     if any("amplitude" not in t.attrs and "base_acceleration" not in t for t in tests):
         return None
     return vi.Harmonic(float(tests[0].attrs.get("amplitude", 1.0)), 1.0)
 
 
 def with_amplitude(test: xr.Dataset, amplitude: str | None) -> xr.Dataset:
-    """Return a test with the amplitude of the option, which replaces that of the file."""
+    """Return a test with the amplitude of the option, which replaces the amplitude in the file."""
     from vibroimpact.measurements.read import CALL
 
     if amplitude is None:
@@ -28,7 +28,7 @@ def with_amplitude(test: xr.Dataset, amplitude: str | None) -> xr.Dataset:
 
 
 def pair(text: str, option: str) -> tuple[str, str]:
-    """Read two values with a colon between them.
+    """Read two values that are separated by a colon.
 
     Raises
     ------

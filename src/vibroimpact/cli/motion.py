@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from vibroimpact.model.rig import Rig
 
 MOST_COLUMNS = 6
-"""Columns that fit on a page."""
+"""Largest number of columns that fit on a page."""
 
 
 @calls("coexisting_motions", "Motion")
@@ -33,10 +33,11 @@ def motion(
 ) -> int:
     """Find the steady motions at a frequency, classify them, and draw them on one page.
 
-    Prints for each motion its kind (periodic, quasi-periodic, chaotic or undecided) with the
-    evidence, its extremes and its contacts; writes NAME-FREQUENCY-motion.nc (a group for each
-    motion: samples, contacts, spectrum and section) and NAME-FREQUENCY-motion.png (portrait,
-    spectrum and time histories).
+    For each motion, the command prints its type (periodic, quasi-periodic, chaotic or undecided)
+    with the evidence, its extremes and its contacts. It writes:
+
+    - NAME-FREQUENCY-motion.nc: for each motion a group with samples, contacts, spectrum and section
+    - NAME-FREQUENCY-motion.png: phase portraits, spectra and time histories
 
     For example:
 
@@ -47,13 +48,14 @@ def motion(
     Parameters
     ----------
     frequency
-        Forcing frequency, such as 0.58Hz, or several, as 0.58Hz,0.8Hz,2.6Hz. Default: that of the
-        study ([simulate]).
+        Forcing frequency, such as 0.58Hz, or several frequencies, such as 0.58Hz,0.8Hz,2.6Hz.
+        Default: the frequency in the study ([simulate]).
     branch
-        The motion that a forward sweep reaches, the one that a backward sweep reaches, or all
-        motions found from sweeps, rest and random states.
+        Motions that are shown. forward: the motion that a forward sweep reaches. backward: the
+        motion that a backward sweep reaches. all: all motions that are reached from sweeps, from
+        rest and from random states.
     samples
-        Samples recorded in each forcing cycle. They affect no other result.
+        Number of samples per forcing cycle. It affects only the recorded time history.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
@@ -89,7 +91,7 @@ def motion(
 
 
 def _rigs(what: Subject, frequency: str | None) -> dict[float, Rig]:
-    """Return the rig at each frequency of the option, or at that of the study."""
+    """Return the rig at each frequency of the option, or at the frequency in the study."""
     texts = [None] if frequency is None else [part.strip() for part in frequency.split(",")]
     rigs = {one.harmonic.frequency: one for one in (rig_at(what, text) for text in texts)}
     if len({f"{hertz:.6g}" for hertz in rigs}) < len(texts):

@@ -23,17 +23,18 @@ if TYPE_CHECKING:
     FileName: TypeAlias = str
 else:
     FileName: TypeAlias = str | Path
-"""Text that may name a file: shells complete file names where a path is among the types."""
+"""Text that may be a file name: shells complete file names if a path is among the types."""
 
 RigName: TypeAlias = Annotated[
     FileName,
     Parameter(
         name="CASE|STUDY.toml",
         help=(
-            "Code of a laboratory case, or a study file. A code is BUMPER-GAP-ACCELERATION: B1 to "
-            "B4 or a stiffness, G1 to G4 or a total gap (divided equally between the two sides), "
-            "A1 to A3 or an acceleration. Examples: B2-G1-A3, B3-10mm-A3, 510kN/m-G1-0.05g. Ginf "
-            "means without bumpers."
+            "The rig: the code of a laboratory case, or the path of a study file. A code is "
+            "BUMPER-GAP-ACCELERATION. BUMPER is B1 to B4, or a stiffness. GAP is G1 to G4, or a "
+            "total gap (each side has half of it), or Ginf for a rig without bumpers. ACCELERATION "
+            "is A1 to A3, or a peak acceleration. Examples: B2-G1-A3, B3-10mm-A3, "
+            "510kN/m-G1-0.05g."
         ),
     ),
 ]
@@ -54,17 +55,17 @@ def _whole(_type: Any, tokens: Sequence[Token]) -> int:
 
 Whole: TypeAlias = Annotated[int, Parameter(converter=_whole)]
 Text: TypeAlias = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
-"""A value with a unit; it may begin with a minus sign, and the library function checks it."""
+"""A value with a unit, which may begin with a minus sign. The library function checks it."""
 Pairs: TypeAlias = Annotated[
     tuple[tuple[str, str], ...], Parameter(allow_leading_hyphen=True, negative="")
 ]
-"""An option that may be repeated, with a name and a value."""
+"""An option with a name and a value, which may be repeated."""
 Flag: TypeAlias = Annotated[bool, Parameter(negative="")]
 Frequency: TypeAlias = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="Forcing frequency, such as 2Hz. Default: that of the study ([simulate]).",
+        help="Forcing frequency, such as 2Hz. Default: the frequency in the study ([simulate]).",
     ),
 ]
 Threads: TypeAlias = Annotated[
@@ -76,7 +77,7 @@ Where: TypeAlias = Annotated[
     Parameter(
         group=COMPUTATION,
         help="Where the work is done: threads, processes, or the address of a dask scheduler, such "
-        "as tcp://10.0.0.1:8786.",
+        "as tcp://10.0.0.1:8786. The choice does not affect the result.",
     ),
 ]
 Physical: TypeAlias = Annotated[bool, Parameter(group=OUTPUT, negative="")]
@@ -89,7 +90,7 @@ Json: TypeAlias = Annotated[
         group=OUTPUT,
         negative="",
         show_default=False,
-        help="Print the summary as JSON and nothing else, for other programs.",
+        help="Print only the summary, as JSON for other programs.",
     ),
 ]
 
@@ -97,12 +98,12 @@ _OfRig: TypeAlias = Annotated[str | None, Parameter(group=RIG, allow_leading_hyp
 
 
 def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
-    """Return the pairs NAME VALUE of an option that may be repeated.
+    """Return the values of an option NAME VALUE that may be repeated, by name.
 
     Raises
     ------
     InputError
-        If a name is there twice.
+        If a name occurs twice.
     """
     found: dict[str, str] = {}
     for name, value in pairs:
@@ -114,34 +115,35 @@ def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
 
 
 def stated(**options: Any) -> dict[str, Any]:
-    """Return the options that have a value; the others get the defaults of the function."""
+    """Return the options that have a value. The others get the defaults of the function."""
     return {name: value for name, value in options.items() if value is not None}
 
 
 @Parameter(name="*")
 @dataclass(frozen=True)
 class RigOptions:
-    """Options that replace values of the case or study."""
+    """Options that replace values of the laboratory case or of the study."""
 
     parameters: Annotated[
         Literal["table", "identified", "refined"] | None, Parameter(group=RIG)
     ] = None
-    """Parameter set of a laboratory case: table (all cases), identified (fitted; B2-G1-A3 and
-    B2-G2-A2) or refined (all cases, with a softening isolator). Default: table."""
+    """Parameter set of a laboratory case. table: the paper's table, for all cases. identified:
+    fitted values, only for B2-G1-A3 and B2-G2-A2. refined: the table with a softening isolator,
+    for all cases. Default: table."""
     amplitude: _OfRig = None
-    """Peak base acceleration, such as 0.05g or 0.49m/s^2; or displacement of the base, such as 5mm;
-    or force on the mass, such as 120N."""
+    """Amplitude of the shaking: peak acceleration of the base, such as 0.05g or 0.49m/s^2, peak
+    displacement of the base, such as 5mm, or peak force on the mass, such as 120N."""
     mass: _OfRig = None
     """Mass, such as 550kg or 5000t."""
     weight: _OfRig = None
-    """Weight, such as 50MN. Replaces --mass."""
+    """Weight of the mass, such as 50MN. Replaces --mass."""
     stiffness: _OfRig = None
     """Stiffness of the isolator, such as 26.8kN/m."""
     damping: _OfRig = None
     """Damping of the isolator, such as '1.1 kN s/m'."""
     isolator_period: _OfRig = None
-    """Natural period on the isolator, such as 2.5s. Replaces --stiffness; the damping ratio does
-    not change."""
+    """Natural period of the mass on the isolator, such as 2.5s. Replaces --stiffness. The damping
+    ratio does not change."""
     damping_ratio: _OfRig = None
     """Damping ratio of the isolator, such as 0.15. Replaces --damping."""
     bumper_stiffness: _OfRig = None
@@ -149,19 +151,19 @@ class RigOptions:
     bumper_damping: _OfRig = None
     """Damping of both bumpers, such as '0.9 kN s/m'."""
     gap: _OfRig = None
-    """Gap of each side (half the total gap of a case code), such as 7.5mm."""
+    """Gap on each side, such as 7.5mm. It is half the total gap of a case code."""
     right_stiffness: _OfRig = None
     """Stiffness of the right bumper."""
     right_damping: _OfRig = None
     """Damping of the right bumper."""
     right_gap: _OfRig = None
-    """Gap of the right side."""
+    """Gap on the right side."""
     left_stiffness: _OfRig = None
     """Stiffness of the left bumper."""
     left_damping: _OfRig = None
     """Damping of the left bumper."""
     left_gap: _OfRig = None
-    """Gap of the left side."""
+    """Gap on the left side."""
     no_right: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False
     """Remove the right bumper."""
     no_left: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False
@@ -176,21 +178,21 @@ _Threshold: TypeAlias = Annotated[
 @Parameter(name="*")
 @dataclass(frozen=True)
 class ThresholdOptions:
-    """Where one scenario ends and the next begins."""
+    """Options for the thresholds between scenarios."""
 
     prominence: _Threshold = None
-    """Least prominence of a secondary resonance in η_a, as a share of its height (default:
+    """Smallest prominence of a secondary resonance in η_a, as a share of its height (default:
     0.02)."""
     extent: _Threshold = None
-    """Least total width of secondary left hystereses and non-regular resonances, as a share of the
-    natural frequency. Default: 0.08, the step of the published tests."""
+    """Smallest total width of secondary left hystereses and non-regular resonances, as a share of
+    the natural frequency. Default: 0.08, the frequency step of the published tests."""
     touch: _Threshold = None
-    """Largest 1 - δ0 of a grazing contact (default: 0.1)."""
+    """Largest value of 1 - δ0 for which a contact is called grazing (default: 0.1)."""
     deformation: _Threshold = None
     """Largest penetration of a grazing contact, as a share of the gap (default: 0.1)."""
 
     def thresholds(self) -> Thresholds:
-        """Return the thresholds; those without an option have their defaults."""
+        """Return the thresholds. A threshold without an option has its default."""
         from vibroimpact.scenarios.thresholds import Thresholds
 
         own = {name: getattr(self, name) for name in Thresholds.names()}
@@ -200,12 +202,12 @@ class ThresholdOptions:
 @Parameter(name="*")
 @dataclass(frozen=True)
 class OutputOptions:
-    """Where results are written, and how they are printed."""
+    """Options for the files, and for the printed summary."""
 
     output: OutputFolder = "out"
-    """Folder for the files; it is created if needed (default: out)."""
+    """Folder for the files, which is created if it does not exist (default: out)."""
     name: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """Beginning of the names of the files (default: name of the rig)."""
+    """Beginning NAME of the file names (default: the name of the rig)."""
     figure: Annotated[Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, show_default=False)] = (
         "png"
     )
@@ -214,6 +216,6 @@ class OutputOptions:
 
 
 AS_DESCRIBED = RigOptions()
-"""The rig without changes."""
+"""No option changes the rig."""
 DEFAULT_OUTPUT = OutputOptions()
 DEFAULT_THRESHOLDS = ThresholdOptions()

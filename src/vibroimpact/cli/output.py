@@ -1,4 +1,4 @@
-"""The folder of results, and what is printed: progress, summaries and warnings."""
+"""The folder of results, and the printed output: progress, summaries and warnings."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from rich.console import Console, RenderableType
 
 WIDTH = 100
-"""Columns of a summary in a file."""
+"""Number of columns of a summary in a file."""
 
 _CUT = "…"
-"""Sign that rich writes where it leaves out text."""
+"""Character that rich writes where it leaves out text."""
 
 
 class Folder(NamedTuple):
@@ -34,7 +34,7 @@ class Folder(NamedTuple):
 
     path: Path
     before: frozenset[Path]
-    """Files that were there before."""
+    """Files that existed in the folder before the command."""
 
     def __truediv__(self, name: str) -> Path:
         return self.path / name
@@ -42,14 +42,14 @@ class Folder(NamedTuple):
 
 @contextmanager
 def output_folder(text: str) -> Iterator[Folder]:
-    """Make a folder and check that it can be written to, before anything is computed.
+    """Make a folder, and check that it can be written to before anything is computed.
 
-    If the computation fails, folders made here are removed again unless they hold something.
+    If the computation fails, the folders that were made here are removed again if they are empty.
 
     Raises
     ------
     InputError
-        If it is not a folder, or cannot be made or written to.
+        If the path is not a folder, or if the folder cannot be made or written to.
     """
     folder = Path(text)
     made = []
@@ -76,7 +76,7 @@ def output_folder(text: str) -> Iterator[Folder]:
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    """Files in a folder and one below it."""
+    """Yield the files in a folder and in its subfolders, one level deep."""
     for pattern in ("*", "*/*"):
         yield from (path for path in folder.glob(pattern) if path.is_file())
 
@@ -91,7 +91,7 @@ def _remove_empty(folders: list[Path]) -> None:
 
 @contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int | None], None]]:
-    """Yield a function that shows progress on stderr: a bar, or lines now and then in a log."""
+    """Yield a function that shows progress on stderr, as a bar or, in a log, as lines."""
     with search_as_usual(), _bar_or_lines(what) as progress:
         yield progress
 
@@ -118,9 +118,9 @@ def tell(
     files: dict[str, Path],
     as_json: bool,
 ) -> None:
-    """Print a summary, or its facts as JSON and nothing else.
+    """Print a summary, or only its facts as JSON.
 
-    Both end with the files that were written, and mark those that replaced an older file.
+    Both end with the list of written files. Files that replaced an older file are marked.
     """
     replaced = [path for path in files.values() if path in folder.before]
     if as_json:
@@ -133,13 +133,13 @@ def tell(
     lines = [f"  {path}{' (replaced)' if path in replaced else ''}" for path in files.values()]
     lines = [line.replace("\n", r"\n") for line in lines]
 
-    # A file or a pipe has no width of its own.
+    # A file or a pipe has no width.
     terminal = sys.stdout is None or sys.stdout.isatty()
     console = Console(file=sys.stdout, width=None if terminal else WIDTH, highlight=False)
     console.width = _wide_enough(summary, console.width)
     with console.capture() as captured:
         console.print(_without_commands(console, summary), Text(), sep="\n")
-        # A path is never broken, and never cut.
+        # A path is never wrapped or cut off.
         console.print(Text(printable("\n".join(["Files", *lines]))), soft_wrap=True)
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     for line in captured.get().splitlines():
@@ -147,7 +147,7 @@ def tell(
 
 
 def _without_commands(console: Console, summary: RenderableType) -> RenderableType:
-    """Write control characters of names as escapes, before rich adds its own for colours."""
+    """Escape control characters in names, before rich adds its own ones for colours."""
     from rich.segment import Segment, Segments
 
     parts = console.render(summary)
@@ -155,7 +155,7 @@ def _without_commands(console: Console, summary: RenderableType) -> RenderableTy
 
 
 def _wide_enough(summary: RenderableType, width: int) -> int:
-    """Return a width at which no table loses a digit; narrower terminals break the lines."""
+    """Return a width at which no table is cut off. Narrower terminals break the lines."""
     from rich.console import Console
 
     while width < WIDTH:
@@ -169,20 +169,20 @@ def _wide_enough(summary: RenderableType, width: int) -> int:
 
 
 def as_plain_text(summary: RenderableType) -> str:
-    """Return a summary as plain text of `WIDTH` columns."""
+    """Return a summary as plain text with `WIDTH` columns."""
     from vibroimpact.facts.tables import as_text
 
     return as_text(summary, WIDTH)
 
 
 def warn(message: str) -> None:
-    """Print one line on stderr."""
+    """Print a warning as one line on stderr."""
     print_line(f"warning: {' '.join(message.split())}")
 
 
 @contextmanager
 def warnings_in_lines() -> Iterator[None]:
-    """Print each warning as one line on stderr, and the same warning only once."""
+    """Print each warning as one line on stderr. The same warning is printed only once."""
     printed: set[str] = set()
     with warnings.catch_warnings():
         usual = warnings.showwarning
@@ -203,7 +203,7 @@ def warnings_in_lines() -> Iterator[None]:
 
 @contextmanager
 def font_warnings_once() -> Iterator[None]:
-    """Print each message of matplotlib about a missing font once, not for each text of a figure."""
+    """Print each message of matplotlib about a missing font once, not for each text."""
     printed: set[str] = set()
 
     def print_once(record: logging.LogRecord) -> bool:
@@ -222,7 +222,7 @@ def font_warnings_once() -> Iterator[None]:
 
 
 def _plain(value: Any) -> Any:
-    """Return a value for JSON, without NaN and infinity; named tuples become mappings."""
+    """Convert a value for JSON: NaN and infinity become None, and named tuples become mappings."""
     if hasattr(value, "_asdict"):
         value = value._asdict()
     if isinstance(value, dict):

@@ -1,4 +1,4 @@
-"""``vibroimpact paper``: the published study computed again, with a verdict on each statement."""
+"""``vibroimpact paper``: the published study, computed again, with a verdict per statement."""
 
 from __future__ import annotations
 
@@ -26,14 +26,16 @@ def paper(
     figure: Annotated[Literal["png", "svg"], Parameter(group=opt.OUTPUT)] = "png",
     json: opt.Json = False,
 ) -> int:
-    """Compute the published study again, and judge each of its statements.
+    """Compute the published study again, and compare its statements with the results.
 
-    Writes report.md and report.html: all figures and tables that the model can compute, and the
-    paper's testable statements. Each statement has what was computed, the deciding numbers and a
-    verdict: reproduced, not reproduced, or not testable without the experiment's data. Statements
-    are counted by kind, because the outcome of some was open, while others follow from the rules
-    or the inputs. The images are written into the folder "figures" beside the reports. A statement
-    that is not reproduced is not an error.
+    The command writes report.md and report.html. They contain all figures and tables that the model
+    can compute, and the testable statements of the paper. The images are in the folder "figures"
+    next to the reports.
+
+    For each statement the report states what was computed, the deciding numbers and a verdict:
+    reproduced, not reproduced, or not testable without the data of the experiment. A statement that
+    is not reproduced is not an error. The statements are counted by kind: for some the outcome was
+    open, while others follow from the rules of classification or from the inputs.
 
     For example:
 
@@ -44,11 +46,11 @@ def paper(
     Parameters
     ----------
     only
-        Parts that are computed: keys of figures and tables, such as fig15 or table1, and claims,
-        separated by commas. They are written to files of these names: fig15.md, fig15.html.
-        Default: all parts.
+        Parts that are computed, separated by commas: keys of figures and tables, such as fig15 or
+        table1, and claims for the statements. They are written to files with these names, such as
+        fig15.md and fig15.html. Default: all parts.
     output
-        Folder for the files; it is created if needed (default: out/paper).
+        Folder for the files, which is created if it does not exist (default: out/paper).
     figure
         File format of the figures.
     """
@@ -82,7 +84,7 @@ def paper(
 def chosen(
     only: str | None, items: tuple[Item, ...], claims: tuple[Claim, ...]
 ) -> tuple[tuple[Item, ...], tuple[Claim, ...]]:
-    """Return the items and claims that ``--only`` names, in the order of the paper; None for all.
+    """Return the items and claims that ``--only`` names, in the order of the paper.
 
     Raises
     ------

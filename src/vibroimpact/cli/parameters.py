@@ -22,10 +22,10 @@ PARAMETERS = (
     "final-stiffness, decay, hardening, hardening-force, isolator-period, stiffness-ratio, "
     "gap-ratio, relaxation-time, damping-ratio"
 )
-"""Names of the registry, written out, because ``--help`` loads nothing that computes."""
+"""Names of all parameters, written out because ``--help`` must not import what computes."""
 
 Varied: TypeAlias = Annotated[
-    str, Parameter(help=f"Parameter that is varied, if the rig has it: {PARAMETERS}.")
+    str, Parameter(help=f"Parameter that is varied. The rig must have it. Names: {PARAMETERS}.")
 ]
 Least: TypeAlias = Annotated[
     str | None,
@@ -33,8 +33,9 @@ Least: TypeAlias = Annotated[
         name="--from",
         allow_leading_hyphen=True,
         help=(
-            "Lowest value of the parameter. Default for the frequency: that of the study "
-            "([sweep]), or 0.27 × the natural frequency; 0.3 Hz for laboratory cases."
+            "Lowest value of the parameter. Default for the frequency: the value in the study "
+            "([sweep]), or 0.27 × the natural frequency; 0.3 Hz for laboratory cases. Other "
+            "parameters have no default."
         ),
     ),
 ]
@@ -44,8 +45,9 @@ Largest: TypeAlias = Annotated[
         name="--to",
         allow_leading_hyphen=True,
         help=(
-            "Highest value of the parameter. Default for the frequency: that of the study "
-            "([sweep]), or 4.5 × the natural frequency; 5 Hz for laboratory cases."
+            "Highest value of the parameter. Default for the frequency: the value in the study "
+            "([sweep]), or 4.5 × the natural frequency; 5 Hz for laboratory cases. Other "
+            "parameters have no default."
         ),
     ),
 ]
@@ -59,12 +61,12 @@ def option_range(
     options: tuple[str, str] = ("--from", "--to"),
     field: str = "--parameter",
 ) -> tuple[float, float]:
-    """Read the range of a parameter (SI units) from two options; a frequency has defaults.
+    """Read the range of a parameter (SI units) from two options. A frequency has defaults.
 
     Parameters
     ----------
     what
-        The rig, on whose laws and shaking the units may depend.
+        The rig. The units may depend on its laws and on its shaking.
     name
         Name of the parameter.
     low, high
@@ -77,7 +79,7 @@ def option_range(
     Raises
     ------
     InputError
-        If there is no such parameter, an end is missing or cannot be used, or the range is empty.
+        If the parameter is unknown, if an end is missing or invalid, or if the range is empty.
     """
     from vibroimpact.cli.frequency_grid import NO_DEFAULT, default_span
     from vibroimpact.model import to_si

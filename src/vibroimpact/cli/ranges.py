@@ -1,4 +1,4 @@
-"""Ranges of parameters with their values, as the command line writes them."""
+"""Ranges of parameters, as they are written on the command line."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from vibroimpact.model.excitation import Of
 
 MOST = 4_000_000
-"""Largest number of values of a range."""
+"""Largest number of values in a range."""
 _NODES = 21
-"""Nodes of an axis of a map."""
+"""Default number of nodes on an axis of a map."""
 _VALUES = 15
-"""Values of a parameter of a design chart."""
+"""Default number of values of a parameter in a design chart."""
 
 
 def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[float], str]:
@@ -28,12 +28,13 @@ def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[
     Returns
     -------
     values, spacing
-        In SI units, `nodes` of them if the text does not say how many; "log" or "linear".
+        Values in SI units, and "log" or "linear". There are `nodes` values, unless the text states
+        another number.
 
     Raises
     ------
     InputError
-        If it is not such a range; the error names the option.
+        If the text is not such a range. The message contains the name of the option.
     """
     parts = [part.strip() for part in text.split(":")]
     logarithmic = "log" in parts[2:3]
@@ -68,12 +69,12 @@ def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[
 
 
 def map_axis(option: str, name: str, text: str, of: Of) -> tuple[str, list[float], str]:
-    """Read an axis of a map: name, values in SI units, and "log" or "linear".
+    """Read an axis of a map: its name, its values in SI units, and "log" or "linear".
 
     Raises
     ------
     InputError
-        If a map has no such axis, or it is not a range.
+        If a map has no such axis, or if the text is not a range.
     """
     from vibroimpact.scenarios.axes import NAMES
 
@@ -87,12 +88,12 @@ def map_axis(option: str, name: str, text: str, of: Of) -> tuple[str, list[float
 def parameter_values(
     what: Subject, option: str, texts: Mapping[str, str]
 ) -> dict[str, list[float]]:
-    """Read the values of parameters of a rig, in SI units.
+    """Read ranges of parameters of a rig, and return their values in SI units.
 
     Raises
     ------
     InputError
-        If there is no such parameter, or it is not a range.
+        If a parameter is unknown, or if a text is not a range.
     """
     found = {}
     for name, text in texts.items():

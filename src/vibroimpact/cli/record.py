@@ -37,8 +37,9 @@ def record(
 ) -> int:
     """Read a record, print its properties, and draw it with its response spectrum.
 
-    Formats: PEER AT2, COSMOS, CSMIP, SMC, GeoNet, K-NET, ESM, columns of numbers; SAC and
-    miniSEED if obspy is installed. Writes NAME-record.nc (groups record and spectrum) and
+    A record is a measured ground acceleration. The accepted formats are PEER AT2, COSMOS, CSMIP,
+    SMC, GeoNet, K-NET, ESM, and columns of numbers. SAC and miniSEED are accepted if obspy is
+    installed. The command writes NAME-record.nc, with the groups record and spectrum, and
     NAME-record.png.
 
     For example:
@@ -50,29 +51,31 @@ def record(
     Parameters
     ----------
     file
-        File of the record, compressed by gzip or not.
+        File of the record. It may be compressed with gzip.
     station
-        Name of the station. Default: that of the file.
+        Name of the station. Default: the name in the file.
     label
-        Name of the component. Default: that of the file.
+        Name of the component. Default: the name in the file.
     start
-        Start time, such as 5s; earlier samples are dropped. Default: start of the file.
+        Start time, such as 5s. Earlier samples are dropped. Default: the start of the file.
     end
-        End time, such as 25s; later samples are dropped. Default: end of the file.
+        End time, such as 25s. Later samples are dropped. Default: the end of the file.
     baseline
-        Baseline that is subtracted: mean, or the line that fits the record best. Default: none.
+        Baseline that is subtracted: mean (the mean of the record) or line (the straight line that
+        fits the record best). Default: none.
     scale
         Factor by which the record is multiplied (default: 1).
     peak
-        Peak to which the record is scaled, such as 0.3g. Default: it is not scaled to a peak.
+        Peak acceleration to which the record is scaled, such as 0.3g. Default: the record is not
+        scaled to a peak.
     damping
-        Damping ratios, such as 0,0.02,0.05.
+        Damping ratios of the spectrum, such as 0,0.02,0.05.
     shortest
-        Shortest natural period.
+        Shortest natural period of the spectrum.
     longest
-        Longest natural period.
+        Longest natural period of the spectrum.
     periods
-        Number of natural periods, evenly spaced on a logarithmic axis.
+        Number of natural periods. They are evenly spaced on a logarithmic axis.
     """
     import numpy as np
 

@@ -21,16 +21,17 @@ Scale: TypeAlias = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="Factor by which records are multiplied. One for all records, or one for each, as "
-        "0.2,0.5. Default: 1.",
+        help="Factor by which the records are multiplied: one factor for all records, or one per "
+        "record, separated by commas, such as 0.2,0.5. Default: 1.",
     ),
 ]
 Peak: TypeAlias = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="Peak to which records are scaled, such as 0.3g. One for all records, or one for "
-        "each. Default: records are not scaled to a peak.",
+        help="Peak acceleration to which the records are scaled, such as 0.3g: one peak for all "
+        "records, or one per record, separated by commas. Default: the records are not scaled to a "
+        "peak.",
     ),
 ]
 
@@ -40,17 +41,18 @@ _Stated: TypeAlias = Annotated[str | None, Parameter(group=READING)]
 @Parameter(name="*")
 @dataclass(frozen=True)
 class RecordOptions:
-    """Options that replace what files of records state."""
+    """Options that replace statements in the files of records."""
 
     component: _Stated = None
-    """Component, if the file has several: its name in the file, such as 90, Up or HNE, or its
-    number. One for all records, or one for each, as 90,Up."""
+    """Component that is read, if the file has several: its name in the file, such as 90, Up or HNE,
+    or its number. Pass one component for all records, or one per record, such as 90,Up."""
     unit: _Stated = None
     """Unit of the values, such as g or cm/s^2. If it is a unit of length, such as mm, the values
-    are differentiated. One for all records, or one for each."""
+    are displacements and are differentiated twice. Pass one unit for all records, or one per
+    record."""
     step: Annotated[_Stated, Parameter(allow_leading_hyphen=True)] = None
-    """Time between samples, such as 10ms; replaces the times of the file. One for all records, or
-    one for each."""
+    """Time between samples, such as 10ms. It replaces the times in the file. Pass one step for all
+    records, or one per record."""
     decimal: Annotated[Literal[".", ","] | None, Parameter(group=READING)] = None
     """Decimal mark of a table. Default: detected from the table."""
 
@@ -85,12 +87,12 @@ class RecordOptions:
 
 
 def one_or_each(option: str, text: str | None, count: int) -> list[str | None]:
-    """One text for all of so many records, or one for each, separated by commas.
+    """Return one text per record, from one text for all records or one per record.
 
     Raises
     ------
     InputError
-        If there are more than one, and not as many as records.
+        If there are several texts, but not as many as records.
     """
     parts: list[str | None] = [text]
     if text is not None and count > 1:
@@ -104,23 +106,23 @@ def one_or_each(option: str, text: str | None, count: int) -> list[str | None]:
 
 
 def record_name(file: str, component: str | None) -> str:
-    """What a record is called: its file, and its component if that was chosen."""
+    """Return the name of a record: its file name, and its component if one was chosen."""
     return " ".join([Path(file).name.removesuffix(".gz"), *([component] if component else [])])
 
 
 AS_STATED = RecordOptions()
-"""Records as their files state them."""
+"""No option replaces a statement in a file."""
 
 
 def records_of_design(rig: str, *, with_own_record: bool = True) -> list[str]:
-    """Return the files of records in the study's ``[design]``; they are in the study's folder.
+    """Return the paths of the records that the study lists in ``[design]``.
 
     Parameters
     ----------
     rig
-        The study file; a case has no records.
+        The study file. A laboratory case has no records.
     with_own_record
-        Whether they count for a study that is itself shaken by a record.
+        Whether they are returned if the excitation of the study is itself a record.
     """
     from vibroimpact.cli.study import read_study
 
@@ -136,12 +138,12 @@ def records_of_design(rig: str, *, with_own_record: bool = True) -> list[str]:
 
 
 def record_of_study(what: Subject) -> dict[str, Record]:
-    """Return the record that a study names.
+    """Return the record that is the excitation of a study.
 
     Raises
     ------
     InputError
-        If it names none.
+        If the excitation of the study is not a record.
     """
     from vibroimpact.model import Record
 
@@ -156,7 +158,7 @@ def record_of_study(what: Subject) -> dict[str, Record]:
 def scale_records(
     records: dict[str, Record], scale: str | None, peak: str | None
 ) -> dict[str, Record]:
-    """Multiply records by a factor, or scale them to a peak: one for all, or one for each."""
+    """Multiply records by factors, or scale them to peaks: one for all, or one per record."""
     if scale is None and peak is None:
         return records
     sizes = one_or_each("--scale", scale, len(records))
@@ -170,12 +172,12 @@ def scale_records(
 def records_or_sines(
     what: Subject, found: dict[str, Record], scale: str | None, peak: str | None
 ) -> dict[str, Record] | None:
-    """Return the scaled records of the options or of the study; None for sines.
+    """Return the scaled records of the options or of the study. None means sines.
 
     Raises
     ------
     InputError
-        If records are to be scaled, and there is none.
+        If records shall be scaled, but there are none.
     """
     from vibroimpact.model import Record
 

@@ -1,4 +1,4 @@
-"""What a command writes into its folder, and what it prints at the end."""
+"""The files that a command writes into its folder, and the summary that it prints at the end."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Results:
-    """The files of a command about one rig, and the summary that names them."""
+    """The files of a command about one rig, and the summary that lists them."""
 
     def __init__(self, what: Subject, output: OutputOptions, folder: Folder) -> None:
         self.what = what
@@ -42,21 +42,21 @@ class Results:
         drawn: Any = None,
         **options: Any,
     ) -> None:
-        """Save data as NAME-ENDING.nc, and their figure beside it.
+        """Save data as NAME-ENDING.nc, and save their figure.
 
         Parameters
         ----------
         data
-            A dataset, or datasets that become the groups of one file. They get the rig's name as
-            a title.
+            One dataset, or several datasets that become the groups of one file. Their title is set
+            to the name of the rig.
         ending
-            What follows the rig's name in the names of the files.
+            Text after the name of the rig in the file names.
         draw
-            Function of the figure; it is called with what is drawn, the title and the options.
+            Function that draws the figure. It is called with the data, the title and the options.
         title
-            Title of the figure. None for that of the rig.
+            Title of the figure. Default: the title of the rig.
         drawn
-            What is drawn. None for the data.
+            Data of the figure, if they differ from the saved data. Default: the saved data.
         """
         from vibroimpact.datasets.files import save
 
@@ -67,7 +67,7 @@ class Results:
         self.draw("figure", ending, draw(shown, title=title or self.what.title, **options))
 
     def draw(self, name: str, ending: str, figure: Any) -> None:
-        """Write a figure as NAME-ENDING in the format of the options; `name` is for the summary."""
+        """Save a figure as NAME-ENDING in the chosen format. `name` appears in the summary."""
         from vibroimpact.figures import save_figure
 
         self.files[name] = save_figure(figure, self.path(ending, self.output.figure))
@@ -79,16 +79,16 @@ class Results:
         about: RenderableType | None = None,
         shaking: bool = True,
     ) -> int:
-        """Print the rig, the text and the files, or all facts as JSON; return exit code 0.
+        """Print the rig, the text and the files, or print all facts as JSON. Return exit code 0.
 
         Parameters
         ----------
         facts
-            What the JSON holds besides the rig and the files.
+            Contents of the JSON, in addition to the rig and the files.
         text
-            What follows the rig in the printed summary.
+            Text after the rig in the printed summary.
         about
-            Description of the rig. None for all its parameters.
+            Description of the rig. Default: all its parameters.
         shaking
             Whether the shaking of the rig is part of its description.
         """
@@ -106,7 +106,7 @@ class Results:
 
 
 def has_normalised_curves(data: xr.Dataset, rig: Rig) -> bool:
-    """Whether η_a and η_d exist; they need the largest free motion, which must be bounded."""
+    """Return whether η_a and η_d exist. They require a bounded motion without stops."""
     from vibroimpact.model.unbounded import has_no_bound
 
     return bool(data["eta_d"].notnull().any()) and not has_no_bound(rig)
@@ -114,12 +114,14 @@ def has_normalised_curves(data: xr.Dataset, rig: Rig) -> bool:
 
 @contextmanager
 def results(what: Subject, output: OutputOptions) -> Iterator[Results]:
-    """Make the folder of the results before anything is computed; warnings do not end a command.
+    """Make the folder of the results before anything is computed.
+
+    Warnings do not end a command.
 
     Raises
     ------
     InputError
-        If it cannot be written to.
+        If the folder cannot be written to.
     """
     with output_folder(output.output) as folder, warnings.catch_warnings():
         warnings.simplefilter("always", RuntimeWarning)

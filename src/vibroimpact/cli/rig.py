@@ -1,4 +1,4 @@
-"""The rig of a command: a case or a study file, with the values that options replace."""
+"""The rig of a command: a laboratory case or a study file, with the values that options replace."""
 
 from __future__ import annotations
 
@@ -33,26 +33,26 @@ from vibroimpact.model.units import to_si
 from vibroimpact.response.plausibility import doubt_gaps
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
-"""Fields of a bumper, and the options that set them on both sides."""
+"""Options that set a field of both bumpers, by field."""
 
 
 _ANY_BUMPER = Bumper(1.0, 0.0, 0.0)
-"""Reads the fields of a new bumper."""
+"""Placeholder that reads the fields of a new bumper."""
 
 
 class Subject(NamedTuple):
     """The rig of a command, with its name and its study."""
 
     name: str
-    """With the changes of the options."""
+    """Name with the changes by the options."""
     slug: str
-    """For file names."""
+    """Name in file names."""
     oscillator: Oscillator
     shaking: Repeated | Record
-    """The shaking; the frequency of a periodic one is open."""
+    """The shaking. If it is periodic, its frequency is open."""
     study: Study | None
     published: bool
-    """Whether it is a laboratory case with its own natural frequency."""
+    """Whether the rig is a laboratory case whose natural frequency was not changed."""
 
     @property
     def repeated(self) -> Repeated:
@@ -61,7 +61,7 @@ class Subject(NamedTuple):
         Raises
         ------
         InputError
-            If it is a record.
+            If the shaking is a record.
         """
         if isinstance(self.shaking, Record):
             raise InputError(
@@ -73,22 +73,22 @@ class Subject(NamedTuple):
 
     @property
     def phase(self) -> float:
-        """Phase of the forcing in the study (rad); 0 without a study."""
+        """Phase of the forcing in the study (rad), or 0 without a study."""
         return self.study.excitation.phase if self.study else 0.0
 
     @property
     def sweep_table(self) -> SweepTable:
-        """The table ``[sweep]`` of the study; an empty one without a study."""
+        """The table ``[sweep]`` of the study, or an empty table without a study."""
         return self.study.sweep if self.study else SweepTable()
 
     @property
     def simulate_table(self) -> SimulateTable:
-        """The table ``[simulate]`` of the study; an empty one without a study."""
+        """The table ``[simulate]`` of the study, or an empty table without a study."""
         return self.study.simulate if self.study else SimulateTable()
 
     @property
     def rig(self) -> Rig:
-        """The rig; the frequency of a periodic shaking is open."""
+        """The rig. If its shaking is periodic, the frequency is open."""
         return Rig.of_open_frequency(self.oscillator, self.shaking, self.name)
 
     def at(self, hertz: float, phase: float | None = None) -> Repeated:
@@ -98,13 +98,13 @@ class Subject(NamedTuple):
 
     @property
     def title(self) -> str:
-        """The name in lines that fit above a figure, broken between changes."""
+        """The name, broken between changes into lines that fit above a figure."""
         whole = self.name.replace(" ", "\N{NO-BREAK SPACE}").replace(",\N{NO-BREAK SPACE}", ", ")
         return literal(textwrap.fill(whole, 72).replace("\N{NO-BREAK SPACE}", " "))
 
 
 class _Named(NamedTuple):
-    """The rig that a text names, without the changes of the options."""
+    """The rig that a text names, without the changes by options."""
 
     title: str
     slug: str
@@ -112,7 +112,7 @@ class _Named(NamedTuple):
     shaking: Repeated | Record | None
     study: Study | None
     case: bool
-    """Whether it is a laboratory case."""
+    """Whether the rig is a laboratory case."""
 
 
 def subject(
@@ -127,20 +127,20 @@ def subject(
     Parameters
     ----------
     text
-        The case code or the path; the ending ``.toml`` may be left out.
+        The case code or the path of a study file. The ending ``.toml`` may be omitted.
     options
-        What replaces values.
+        Options that replace values of the rig.
     name
-        What the files are called, instead of the rig and its changes.
+        Name in file names, instead of the name of the rig and its changes.
     shaken
-        What shakes it, whatever the case or the study says.
+        Shaking that replaces the shaking of the case or of the study.
     otherwise
-        What shakes it if neither the case, the study nor the options say it.
+        Shaking that is used if neither the case, nor the study, nor the options state one.
 
     Raises
     ------
     InputError
-        If the code or the file cannot be used, or a value of the options.
+        If the code, the file or a value of the options is invalid.
     """
     found = _named(text, options)
     if shaken is not None:
@@ -173,7 +173,7 @@ def subject(
 
 
 def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated:
-    """Return the shaking with the amplitude of the option; several harmonics keep their shape."""
+    """Return the shaking with the amplitude of the option. Several harmonics keep their shape."""
     if isinstance(shaking, Record):
         raise InputError(
             f"--amplitude: {amplitude!r}, but a record shakes this rig; --peak scales records"
@@ -186,7 +186,7 @@ def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated:
 
 
 def _named(text: str, options: RigOptions) -> _Named:
-    """Find the case or the study."""
+    """Return the case or the study that a text names."""
     path = Path(text)
     if path.suffix.lower() == ".toml" or path.is_file():
         return _of_study(text, read_study(path), options)
@@ -207,7 +207,7 @@ def _of_case(code: str, parameters: Parameters | None) -> _Named:
     case = laboratory.case(code, parameters or "table")
     if parameters is None or parameters == "table":
         return _Named(case.code, case.slug, case.oscillator, _shaken_by(case), None, True)
-    # Two parameter sets of one test are two rigs: neither may overwrite the other's files.
+    # Two parameter sets of one test are two rigs. They must not overwrite each other's files.
     title, first = f"{case.code}, {parameters} parameters", f"{case.slug}-{parameters}"
     return _Named(title, first, case.oscillator, _shaken_by(case), None, True)
 
@@ -233,7 +233,7 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
     Raises
     ------
     InputError
-        If a value cannot be used, or a new bumper is not fully described.
+        If a value is invalid, or if a new bumper is not completely described.
     """
     changes: dict[str, Any] = {
         "mass": _mass(oscillator, options),
@@ -241,7 +241,7 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
     }
     removed = {"right": options.no_right, "left": options.no_left}
     shared = [field for field, option in _SHARED.items() if getattr(options, option) is not None]
-    # Both sides' options change what is there; they make bumpers only where there are none.
+    # Options for both sides change existing stops. They make bumpers only if there are none.
     present = [
         side for side in removed if getattr(oscillator, side) is not None and not removed[side]
     ]
@@ -286,7 +286,7 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
 
 
 def _mass(oscillator: Oscillator, options: RigOptions) -> float:
-    """Return the mass (kg), stated itself or by its weight."""
+    """Return the mass (kg), from the option for the mass or from the option for the weight."""
     _one_of_two("weight", "mass", options)
     if options.weight is not None:
         return to_si(options.weight, FORCE, "--weight", above=0.0) / GRAVITY
@@ -294,7 +294,7 @@ def _mass(oscillator: Oscillator, options: RigOptions) -> float:
 
 
 def _isolator(oscillator: Oscillator, options: RigOptions) -> AnyIsolator:
-    """Return the isolator; a new period keeps the damping ratio unless an option states it."""
+    """Return the isolator. A new period keeps the damping ratio, unless an option states it."""
     _one_of_two("isolator_period", "stiffness", options)
     _one_of_two("damping_ratio", "damping", options)
     isolator = oscillator.isolator
@@ -332,7 +332,7 @@ def _one_of_two(one: str, other: str, options: RigOptions) -> None:
 
 
 def _has(stop: Stop | None, field: str) -> bool:
-    """Whether a stop has a field; a new bumper if there is no stop."""
+    """Return whether a stop has a field. Without a stop, a new bumper is assumed."""
     return field in (Bumper if stop is None else type(stop)).model_fields
 
 
@@ -347,7 +347,7 @@ def _new_bumper(side: str, values: dict[str, float]) -> Bumper:
 
 
 def _value(part: Model, field: str, option: str, options: RigOptions) -> float:
-    """Read the text of an option as the part of the rig reads the field; errors name the option."""
+    """Read an option as the part of the rig reads its field. Errors name the option."""
     accepts = part.accepts(field)
     assert accepts is not None
     try:

@@ -1,4 +1,4 @@
-"""The changes of a rig by options, which become part of its title and of the names of files."""
+"""The changes of a rig by options, which are shown in its title and in file names."""
 
 from __future__ import annotations
 
@@ -16,39 +16,40 @@ from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.units import pretty, to_si
 
 _LONGEST = 120
-"""Bytes of a file name without the ending that a command adds; file systems allow 255."""
+"""Largest number of bytes of a file name, without the ending that a command adds. File systems
+allow 255."""
 
 
 _OTHERS = {"mass": MASS, "weight": FORCE}
-"""Options that are not parameters of the registry."""
+"""Quantities of options that are not parameters of the registry."""
 
 
 class Change(NamedTuple):
-    """One option that changes the rig."""
+    """An option that changes the rig."""
 
     words: str
-    """For titles, such as "left gap 9 mm"."""
+    """Text in titles, such as "left gap 9 mm"."""
     slug: str
-    """For file names, such as "left-gap-9mm"."""
+    """Text in file names, such as "left-gap-9mm"."""
 
 
 def changes(
     options: RigOptions, rig_of: Callable[[RigOptions], Any], rig: Oscillator | None = None
 ) -> tuple[Change, ...]:
-    """Return the options without which the rig would be another.
+    """Return the options that change the rig.
 
     Parameters
     ----------
     options
-        As they were given.
+        The options of the command.
     rig_of
-        The rig with such options, comparable.
+        Function that returns a comparable rig for some options.
     rig
-        The rig with these options, on whose laws units may depend.
+        The rig with the options. Units may depend on its laws.
     """
     wanted = rig_of(options)
     kept = options
-    # From the last: beside --gap, it is --left-gap that may be superfluous.
+    # Start with the last option: if --gap is set, --left-gap may be superfluous.
     for field in reversed(fields(RigOptions)):
         if field.name == "parameters" or getattr(kept, field.name) == field.default:
             continue
@@ -56,7 +57,7 @@ def changes(
         try:
             if rig_of(without) == wanted:
                 kept = without
-        except InputError:  # a new bumper needs all its values
+        except InputError:  # a new bumper requires all its values
             pass
     return tuple(
         _change(field.name, getattr(kept, field.name), rig)

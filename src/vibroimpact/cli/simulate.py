@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 _CYCLES = 100.0
-"""Forcing cycles where neither an option nor the study states them."""
+"""Number of forcing cycles if neither an option nor the study states it."""
 
 
 @calls("simulate", "Motion")
@@ -35,8 +35,10 @@ def simulate(
 ) -> int:
     """Simulate one motion at a fixed frequency, or through a record, and draw its time history.
 
-    Prints the last state and the contacts per cycle; writes NAME-FREQUENCY-history.nc (all
-    samples, and every contact and detachment at its exact time) and NAME-FREQUENCY-history.png.
+    The command prints the final state and the number of contacts per cycle. It writes:
+
+    - NAME-FREQUENCY-history.nc: all samples, and each contact and detachment at its exact time
+    - NAME-FREQUENCY-history.png: the time history
 
     For example:
 
@@ -48,16 +50,19 @@ def simulate(
     Parameters
     ----------
     cycles
-        Number of forcing cycles. Default: that of the study ([simulate]), or 100.
+        Number of forcing cycles. Default: the number in the study ([simulate]), or 100.
     samples
-        Samples per forcing cycle, or per step of a record. They affect no other result. Default:
-        256 per cycle, 1 per step of a record.
+        Number of samples per forcing cycle, or per step of a record. It does not affect the
+        computed motion. Default: 256 per forcing cycle, or 1 per step of a record.
     displacement
         Initial displacement, such as 5mm. Default: the static equilibrium.
     velocity
         Initial velocity, such as 100mm/s (default: 0).
+    tail
+        Duration of free vibration after a record, such as 10s. Default: the duration in the study
+        ([simulate]), or 0.
     shown
-        Number of cycles in the figure, the last ones.
+        Number of forcing cycles in the figure. The last cycles are shown.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results

@@ -1,4 +1,4 @@
-"""Options of initial states: frequency, phase, and the window of displacement and velocity."""
+"""Options for initial states: frequency, phase, and ranges of displacement and velocity."""
 
 from __future__ import annotations
 
@@ -24,23 +24,26 @@ Range: TypeAlias = tuple[str, str] | None
 @Parameter(name="*")
 @dataclass(frozen=True)
 class StateOptions:
-    """Where motions start."""
+    """Options for the initial states."""
 
     frequency: _OfStates = None
-    """Forcing frequency, such as 0.7Hz. Default: that of the study ([simulate])."""
+    """Forcing frequency, such as 0.7Hz. Default: the frequency in the study ([simulate])."""
     phase: _OfStates = None
-    """Forcing phase at which motions start, such as 90deg. Default: that of the study, or 0."""
+    """Forcing phase at which motions start, such as 90deg. Default: the phase in the study, or
+    0."""
     displacement: _OfStates = None
-    """Range of displacements LOW:HIGH, such as -20mm:20mm. Default: around the steady motions."""
+    """Range of initial displacements, LOW:HIGH, such as -20mm:20mm. Default: a range around the
+    steady motions."""
     velocity: _OfStates = None
-    """Range of velocities LOW:HIGH, such as -0.1m/s:0.1m/s. Default: around the steady motions."""
+    """Range of initial velocities, LOW:HIGH, such as -0.1m/s:0.1m/s. Default: a range around the
+    steady motions."""
 
     def window(self) -> tuple[Range, Range]:
-        """Return the ranges of displacement and velocity; None for one without an option."""
+        """Return the ranges of displacement and velocity. A range without an option is None."""
         return _range("--displacement", self.displacement), _range("--velocity", self.velocity)
 
     def rig(self, what: Subject, along: str = "") -> Rig:
-        """Return the rig at the frequency and the phase of the options, as `rig_at`."""
+        """Return the rig at the frequency and the phase of the options, as `rig_at` does."""
         return rig_at(what, self.frequency, self.phase, along)
 
 
@@ -48,15 +51,15 @@ ANY_STATES = StateOptions()
 
 
 def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along: str = "") -> Rig:
-    """Return a rig at a frequency and a phase; by default those of the study.
+    """Return a rig at a frequency and a phase. The defaults are those of the study.
 
-    Where the frequency itself is varied (`along` is the name of the parameter), its value does
-    not matter.
+    `along` is the name of the parameter that is varied. If it is the frequency, the value of the
+    frequency does not matter.
 
     Raises
     ------
     InputError
-        If there is no frequency, or a value cannot be used.
+        If there is no frequency, or if a value is invalid.
     """
     from vibroimpact.model import to_si
     from vibroimpact.model.quantities import ANGLE, FREQUENCY
@@ -79,7 +82,7 @@ def state(option: str, text: str, phase: float | None = None) -> State:
     Raises
     ------
     InputError
-        If it cannot be used.
+        If the text is invalid.
     """
     from vibroimpact.model import State, to_si
     from vibroimpact.model.quantities import LENGTH, VELOCITY
@@ -97,7 +100,7 @@ def state(option: str, text: str, phase: float | None = None) -> State:
 
 
 def _range(option: str, text: str | None) -> Range:
-    """Read ``LOW:HIGH``; the library function reads the ends."""
+    """Split ``LOW:HIGH``. The library function reads the two values."""
     if text is None:
         return None
     low, colon, high = (part.strip() for part in text.partition(":"))

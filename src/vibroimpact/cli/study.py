@@ -1,6 +1,6 @@
-"""Study files in TOML: a rig, and tables for the commands.
+"""Study files in TOML, which describe a rig and have tables for the commands.
 
-A file names a case of the laboratory or describes an oscillator; the rest is optional::
+A study file names a laboratory case or describes an oscillator. All other tables are optional::
 
     name = "moat-wall"
 
@@ -32,13 +32,13 @@ from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, LENGTH, TIME,
 from vibroimpact.model.validation import Accepts
 
 _MOST = 2**63 - 1
-"""Largest whole number: the engine counts in 64 bits."""
+"""Largest accepted whole number: the engine counts with 64 bits."""
 
 _Frequency = Annotated[float | None, Accepts(FREQUENCY, above=0.0, optional=True)]
 
 
 class _SweepTable(Model):
-    """``[sweep]``: the frequencies of a sweep, and when a motion counts as steady."""
+    """Table ``[sweep]``: the frequencies of a sweep, and the criterion of a steady motion."""
 
     to: _Frequency = None
     step: _Frequency = None
@@ -51,7 +51,7 @@ class _SweepTable(Model):
 
     @property
     def start(self) -> float | None:
-        """The first frequency, ``from`` in the file, in Hz."""
+        """The lowest frequency in Hz. Its key in the file is ``from``."""
         value: float | None = getattr(self, "from")
         return value
 
@@ -68,13 +68,13 @@ class _SweepTable(Model):
 if TYPE_CHECKING:
     SweepTable = _SweepTable
 else:
-    # A class statement cannot name a field by a keyword of Python, but the file should say
-    # what the command line says.
+    # A class statement cannot name a field by a keyword of Python. The file should have the same
+    # names as the command line.
     SweepTable = create_model("SweepTable", __base__=_SweepTable, **{"from": (_Frequency, None)})
 
 
 class SimulateTable(Model):
-    """``[simulate]``: one motion."""
+    """Table ``[simulate]``: one motion."""
 
     frequency: _Frequency = None
     cycles: Annotated[float | None, Accepts(DIMENSIONLESS, above=0.0, optional=True)] = None
@@ -85,10 +85,10 @@ class SimulateTable(Model):
 
 
 class DesignTable(Model):
-    """``[design]``: the records, the parameters that are varied, and the limits.
+    """Table ``[design]``: the records, the parameters that are varied, and the limits.
 
-    Records stand beside the study file; without them the excitation counts. A range is a text
-    LOW:HIGH[:log][:VALUES].
+    Paths of records are relative to the study file. Without records, the excitation of the study is
+    used. A range is a text LOW:HIGH[:log][:VALUES].
     """
 
     records: list[str] | None = None
@@ -100,7 +100,7 @@ class DesignTable(Model):
 
 
 class EnsembleTable(Model):
-    """``[ensemble]``: the uncertain parameters, and the number of random rigs.
+    """Table ``[ensemble]``: the uncertain parameters, and the number of random rigs.
 
     A distribution is a text such as ``"normal:5%"`` or ``"uniform:5 mm:8 mm"``.
     """
@@ -112,7 +112,7 @@ class EnsembleTable(Model):
 
 
 class Study(study.RigStudy):
-    """A study file: ``case`` or ``[oscillator]``, and tables for the commands."""
+    """A study file: the key ``case`` or the table ``[oscillator]``, and tables for the commands."""
 
     sweep: SweepTable = SweepTable()
     simulate: SimulateTable = SimulateTable()
@@ -126,6 +126,6 @@ def read_study(path: Path) -> Study:
     Raises
     ------
     InputError
-        As of `vibroimpact.model.study.read_study`.
+        As in `vibroimpact.model.study.read_study`.
     """
     return study.read_study(path, Study)

@@ -29,11 +29,15 @@ def sweep(
     max_cycles: Annotated[opt.Whole | None, Parameter(group=opt.COMPUTATION)] = None,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Sweep the frequency up and down, and draw the resonance curves.
+    """Sweep the forcing frequency up and down, and draw the resonance curves.
 
-    Each frequency is held until the motion is steady. The next one starts from the state and
-    phase that were reached, as in a stepped-sine test. Prints resonances, jumps and hysteresis;
-    writes NAME-sweep.nc (all data), NAME-sweep.png (the curves) and NAME-sweep.txt (the summary).
+    Each frequency is held until the motion is steady. The motion at the next frequency starts from
+    the state and the phase that were reached, as in a stepped-sine test. The command prints
+    resonances, jumps and hysteresis. It writes:
+
+    - NAME-sweep.nc: all data
+    - NAME-sweep.png: the resonance curves
+    - NAME-sweep.txt: the summary
 
     For example:
 
@@ -45,23 +49,23 @@ def sweep(
     Parameters
     ----------
     start
-        Lowest frequency, such as 0.3Hz. Default: that of the study ([sweep]), or 0.45 × the
+        Lowest frequency, such as 0.3Hz. Default: the value in the study ([sweep]), or 0.45 × the
         natural frequency; 0.5 Hz for laboratory cases.
     stop
-        Highest frequency, such as 4Hz. Default: that of the study ([sweep]), or 4.5 × the natural
-        frequency; 5 Hz for laboratory cases.
+        Highest frequency, such as 4Hz. Default: the value in the study ([sweep]), or 4.5 × the
+        natural frequency; 5 Hz for laboratory cases.
     step
-        Step between frequencies, such as 0.01Hz. Default: that of the study ([sweep]), or about a
-        hundredth of the natural frequency; 0.01 Hz for laboratory cases (the published tests: 0.1
-        Hz).
+        Step between frequencies, such as 0.01Hz. Default: the value in the study ([sweep]), or
+        about a hundredth of the natural frequency; 0.01 Hz for laboratory cases. The published
+        tests had steps of 0.1 Hz.
     frequencies
         List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step.
     direction
-        Order of the frequencies: forward (rising), backward (falling) or both. Default: that of
-        the study ([sweep]), or both.
+        Order of the frequencies: forward (rising), backward (falling) or both. Default: the value
+        in the study ([sweep]), or both.
     physical
         Draw the largest acceleration (g), displacement (mm) and contact force instead of η_a and
-        η_d. These are always drawn where the free motion is unbounded.
+        η_d. They are always drawn if the motion without stops is unbounded.
     """
     from rich.console import Group
 

@@ -1,4 +1,4 @@
-"""Standard streams: any encoding, closed streams, full disks."""
+"""Standard streams with any encoding, closed streams, and full disks."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _PLAIN = {
     "é": "e",
     "á": "a",
 }
-"""Plain letters in place of signs that an encoding lacks."""
+"""ASCII replacements for characters that an encoding does not have."""
 
 
 def _plainly(error: UnicodeError) -> tuple[str, int]:
@@ -55,9 +55,10 @@ codecs.register_error("vibroimpact.plain", _plainly)
 
 
 def in_columns(line: str, encoding: str) -> str:
-    """Replace signs that an encoding lacks by plain letters, and keep the columns of a table.
+    """Replace characters that an encoding does not have, and keep the columns of a table aligned.
 
-    Plain letters need more room; it is taken from the next gaps, of which two blanks are kept.
+    A replacement may be longer than its character. The next gaps between columns are shortened to
+    compensate for this, but at least two blanks are kept.
     """
     owed = 0
     parts = []
@@ -74,37 +75,37 @@ def in_columns(line: str, encoding: str) -> str:
 
 
 def _columns(text: str) -> int:
-    """Return the number of columns of a text; a dot above a letter needs none."""
+    """Return the number of columns of a text. A combining dot above a letter requires no column."""
     return sum(not unicodedata.combining(sign) for sign in text)
 
 
 def take_any_encoding() -> None:
-    """Make stdout and stderr replace signs that their encoding lacks."""
+    """Make stdout and stderr replace characters that their encoding does not have."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="vibroimpact.plain")
 
 
 def hold_closed_streams() -> None:
-    """Keep the numbers of closed standard streams from files that are opened later.
+    """Reserve the numbers of closed standard streams, so that files do not get them.
 
-    What a library writes to standard error would end in a file of results.
+    Otherwise the messages that a library writes to standard error would end in a file of results.
     """
     for number in range(3):
         try:
             os.fstat(number)
         except OSError:
-            held = os.open(os.devnull, os.O_RDWR)  # it takes the lowest number that is free
-            os.set_inheritable(held, True)  # nor may it in the processes that this one starts
+            held = os.open(os.devnull, os.O_RDWR)  # this is the lowest free number
+            os.set_inheritable(held, True)  # child processes must not reuse it either
 
 
 def flush() -> None:
-    """Flush stdout, so that an error is raised here and not at the exit."""
-    if sys.stdout is not None:  # it may be closed
+    """Flush stdout so that an error is raised here, and not at the exit of the program."""
+    if sys.stdout is not None:  # stdout may be closed
         sys.stdout.flush()
 
 
 def give_up_stdout() -> None:
-    """Discard the rest of stdout, because nobody can read it."""
+    """Discard the rest of the output, because stdout cannot be written to."""
     with suppress(OSError, ValueError, AttributeError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,4 +1,4 @@
-"""Attributes of each dataset, and how a rig and its shaking are read back from it."""
+"""Attributes of each dataset, and functions that read a rig and its shaking back from them."""
 
 from __future__ import annotations
 
@@ -26,8 +26,9 @@ def describe(
 ) -> xr.Dataset:
     """Give every variable its units and meaning, and the dataset its parameters and origin.
 
-    What the dataset already says of itself stays; None if that holds the parameters. What was
-    assumed for its input, or is doubted, is the attribute ``notes``, a line each.
+    Attributes that the dataset already has are kept. Pass None for the parameters if they are among
+    these attributes. Assumptions about the input, and doubts about it, become the attribute
+    ``notes``, one per line.
 
     Raises
     ------
@@ -53,7 +54,7 @@ def describe(
 
 
 def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:
-    """Attributes that describe the origin of a dataset."""
+    """Return the attributes that describe the origin of a dataset."""
     return {
         "created_by": created_by,
         "vibroimpact_version": __version__,
@@ -69,20 +70,20 @@ def add_notes(data: xr.Dataset, notes: Iterable[str]) -> xr.Dataset:
 
 
 def noted(data: xr.Dataset) -> list[str]:
-    """The notes of the dataset that something was made from."""
+    """Return the notes of a dataset, as a list of lines."""
     return str(data.attrs.get("notes", "")).splitlines()
 
 
 def motion_parameters(motion: xr.Dataset) -> dict[str, Any]:
-    """The parameters of the motion that something was made from."""
+    """Return the parameters in the attributes of a motion."""
     parameters: dict[str, Any] = json.loads(motion.attrs["parameters"])
     return parameters
 
 
 def excitation_parameters(shaken: Repeated, *left_out: str) -> dict[str, Any]:
-    """What shakes it as plain numbers (SI units), for a dataset's attributes.
+    """Return the shaking as plain numbers (SI units), for the attributes of a dataset.
 
-    What an amplitude is one of is named unless it is the base acceleration.
+    The quantity of the amplitude is included, unless it is a base acceleration.
     """
     numbers = {k: v for k, v in shaken.model_dump().items() if k not in left_out}
     if shaken.of == "acceleration":
@@ -91,7 +92,7 @@ def excitation_parameters(shaken: Repeated, *left_out: str) -> dict[str, Any]:
 
 
 def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
-    """What vibrates and what shakes it as plain numbers (SI units), for a dataset's attributes."""
+    """Return a rig as plain numbers (SI units), for the attributes of a dataset."""
     return {
         "oscillator": oscillator_parameters(rig.oscillator),
         **excitation_parameters(rig.periodic, *left_out),
@@ -99,12 +100,12 @@ def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
 
 
 def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:
-    """What shakes it, from a dataset's attributes; `others` stand in for what they leave open."""
+    """Return the shaking from the attributes of a dataset; `others` replace or add values."""
     kind = Periodic if "amplitudes" in parameters else Harmonic
     given = {k: parameters[k] for k in kind.model_fields if k in parameters}
     return kind.model_validate({**given, **others})
 
 
 def oscillator_parameters(oscillator: Oscillator) -> dict[str, Any]:
-    """The oscillator as plain nested numbers (SI units), for a dataset's attributes."""
+    """Return an oscillator as plain nested numbers (SI units), for the attributes of a dataset."""
     return oscillator.model_dump()

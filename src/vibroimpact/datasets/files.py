@@ -17,15 +17,16 @@ from vibroimpact.datasets.tables import as_text
 from vibroimpact.errors import InputError, shown, warn_of_input
 
 _SEAL = b"\nvibroimpact sha256 "
-"""Marks the digest at the end of a file. HDF5 knows its own length and ignores both."""
+"""Mark before the digest at the end of a file. HDF5 knows the length of its data and ignores
+both."""
 _SEAL_LENGTH = len(_SEAL) + 2 * hashlib.sha256().digest_size
 
 
 def write_whole(path: Path | str, content: bytes | str) -> Path:
-    """Write a file next to `path`, then rename it, so that `path` is the complete old or new file.
+    """Write a file next to `path`, then rename it, so that `path` is always a complete file.
 
-    The content is complete before anything is written. A full disk therefore raises an error of the
-    operating system here, not one within the library of a format.
+    The content is complete before anything is written. Therefore, if the disk is full, the
+    operating system raises an error here, and not within the library of a file format.
 
     Raises
     ------
@@ -56,22 +57,23 @@ def write_whole(path: Path | str, content: bytes | str) -> Path:
 
 
 def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Path:
-    """Write a dataset, or several by name, to a file.
+    """Write one dataset, or several named datasets, to a file.
 
     Parameters
     ----------
     dataset
-        A dataset, or a mapping of names to datasets, which become the groups of the file. A blank
-        or a slash in a name becomes an underscore.
+        A dataset, or a mapping from names to datasets. Each dataset of a mapping becomes a group of
+        the file. A blank or a slash in a name is replaced by an underscore.
     path
-        File name. ``.nc`` writes NetCDF, which keeps everything. ``.csv`` writes the table of
-        `to_table` for a spreadsheet, and holds one dataset.
+        File name, whose ending selects the format. ``.nc`` writes a NetCDF file with all variables
+        and attributes. ``.csv`` writes the table of `to_table` for a spreadsheet; such a file can
+        hold only one dataset.
 
     Raises
     ------
     InputError
-        If the file name ends otherwise, or the file cannot be written. An existing file is then
-        unchanged.
+        If the file name has another ending, or if the file cannot be written. In both cases an
+        existing file is left unchanged.
     """
     ending = check_path(path, "path").suffix.lower()
     if ending not in (".nc", ".csv"):
@@ -103,7 +105,7 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
 
 
 def _sealed(data: xr.Dataset | xr.DataTree) -> bytes:
-    """Return a NetCDF file with the digest of its bytes at its end."""
+    """Return the bytes of a NetCDF file, with their digest appended."""
     file = io.BytesIO()
     data.to_netcdf(file, engine="h5netcdf")
     content = file.getvalue()
@@ -111,7 +113,7 @@ def _sealed(data: xr.Dataset | xr.DataTree) -> bytes:
 
 
 def _unsealed(content: bytes) -> tuple[bytes, bool]:
-    """Return the NetCDF file without its digest, and whether it had one.
+    """Return the bytes of a NetCDF file without the digest, and whether there was a digest.
 
     Raises
     ------
@@ -130,25 +132,25 @@ def _unsealed(content: bytes) -> tuple[bytes, bool]:
 
 
 def load(path: Path | str, group: str | None = None) -> xr.Dataset:
-    """Read a dataset that `save` wrote.
+    """Read a dataset from a file that `save` has written.
 
     Parameters
     ----------
     path
         The file.
     group
-        Name of the dataset, if the file holds several.
+        Name of the dataset. It is required if the file holds several datasets.
 
     Raises
     ------
     InputError
-        If the file is missing or damaged, or this package did not write it; or if it holds several
-        datasets, and ``group`` does not name one of them.
+        If the file is missing or damaged, or if it was not written by this package. Also if the
+        file holds several datasets, and ``group`` is not the name of one of them.
 
     Warns
     -----
     InputWarning
-        If the file has no checksum, because another program has changed it.
+        If the file has no checksum, which means that another program has changed it.
     """
     file_path = check_path(path, "file")
     if file_path.is_dir():

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 _COLUMNS = {"component", "exponent", "multiplier", "component_after", "component_before", "bound"}
-"""Dims with a few labelled values, which become columns."""
+"""Dims with few labelled values; each of these values becomes a column."""
 
 
 def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
@@ -21,23 +21,23 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
     Parameters
     ----------
     dataset
-        Dataset that a function of this package returned.
+        Dataset that was returned by a function of this package.
     rows
-        The dim whose entries are the rows, such as ``"event"`` or ``"contact_number"`` of a motion.
-        Default: the main dims of the dataset, which are rig, direction and frequency of a sweep,
-        the time of a motion, the points of a branch.
+        The dim whose entries become the rows, such as ``"event"`` or ``"contact_number"`` for a
+        motion. Default: the main dims of the dataset. These are rig, direction and frequency for a
+        sweep, the time for a motion, and the points for a branch.
 
     Returns
     -------
     pandas.DataFrame
-        One column per coordinate and per variable along the rows, and one per component of the
-        state. Values along other dims are left out. ``attrs["units"]`` holds the units of the
-        columns.
+        There is one column for each coordinate and for each variable along the rows. A variable
+        with components, such as a state, has one column for each component. Variables with other
+        additional dims are left out. ``attrs["units"]`` contains the units of the columns.
 
     Raises
     ------
     InputError
-        If it is not a dataset, or none of its variables has the dim ``rows``.
+        If ``dataset`` is not a dataset, or if none of its variables has the dim ``rows``.
     """
     if not isinstance(dataset, xr.Dataset):
         raise InputError(
@@ -70,7 +70,7 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
 
 
 def _side_by_side(name: str, variable: xr.DataArray, dims: list[object]) -> dict[str, xr.DataArray]:
-    """Return one array per entry along some dims, named after the entry."""
+    """Return one array for each entry along the dims, named after the entry."""
     if not dims:
         return {name: variable}
     dim, *rest = dims
@@ -82,7 +82,7 @@ def _side_by_side(name: str, variable: xr.DataArray, dims: list[object]) -> dict
 
 
 def as_text(dataset: xr.Dataset) -> str:
-    """Return the table of a dataset as comma-separated values, with the units in the first line."""
+    """Return the table of a dataset as comma-separated values, with units in the column names."""
     frame = to_table(dataset)
     units = frame.attrs["units"]
     frame.columns = [

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Variable(NamedTuple):
-    """What a variable is measured in, and what it means."""
+    """The units of a variable, and its meaning."""
 
     units: str
     long_name: str

@@ -47,63 +47,78 @@ def design_chart(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Compute the trade-off between displacement and acceleration over parameters of a rig.
+    """Compute how displacement and acceleration depend on the design parameters of a rig.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
-        If a sine shakes it, the largest steady motion over all frequencies counts, swept up and
-        down. If a record shakes it, the motion from rest counts.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file. If a sine shakes the rig, the frequency is swept up and down, and the
+        largest steady response over all frequencies is reported. If a record shakes the rig, the
+        response of the motion from rest is reported.
     vary
-        Values of parameters by name, in all combinations, such as ``"gap"``,
-        ``"bumper_stiffness"``, ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` or
-        ``"yield_force"``. Parameters of stops are set on both sides, if the stop has them.
-        ``"bumper_stiffness"`` keeps the damping of the bumpers; ``"stiffness_at_restitution"``
-        changes it so that the restitution is the same.
+        Parameters that are varied, as a mapping from names to values. All combinations of the
+        values are computed. Names are, for example, ``"gap"``, ``"bumper_stiffness"``,
+        ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` and ``"yield_force"``. A
+        parameter of stops is set on both sides, if the stop there has this parameter. If
+        ``"bumper_stiffness"`` is varied, the damping of the bumpers stays constant. If
+        ``"stiffness_at_restitution"`` is varied, the damping changes so that the coefficient of
+        restitution stays constant.
     records
-        A record, or several by name or as a list, which replace the shaking of the rig. The rig may
-        then be an `Oscillator` alone. Each run starts from rest, with the record unscaled, and the
-        fractile over the records counts.
+        One record, or several as a list or as a mapping from names to records. They replace the
+        shaking of the rig, and the rig may then be an `Oscillator` alone. The motion through each
+        record starts from rest, and the records are not scaled. The result is a fractile over the
+        records; see ``fractile``.
     limits
-        Largest accepted values, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
-        ``"peak_displacement"`` (m; ``_right``, ``_left``). A design that exceeds a limit is
-        reported like the others, but is excluded from ``pareto``.
+        Largest accepted values, by name: ``"peak_force"`` (N), ``"penetration"`` (m), and
+        ``"peak_displacement"``, ``"peak_displacement_right"`` and ``"peak_displacement_left"`` (m).
+        A design that exceeds a limit is reported like the others, but it cannot be in the Pareto
+        front ``pareto``.
     fractile
-        Share of the records below the reported value; 1 for the largest of all. It is computed for
-        each quantity separately, by interpolation between records, and is compared with the limits.
+        Share of the records whose response is below the reported value, from 0 to 1. 1 gives the
+        largest response of all records. The fractile is computed for each quantity separately, by
+        interpolation between the records. These fractiles are compared with the limits.
     frequency_span
         Lowest and highest forcing frequency (Hz). Default: a range around the primary resonance of
         each design.
     step
-        Step of the sweeps, as a share of the natural frequency. It is smaller for light damping,
-        and 64 times as fine near the largest responses.
+        Frequency step of the sweeps, as a share of the natural frequency. The step is smaller if
+        the damping is light. Near the largest responses the steps are 64 times as fine.
     tail
-        Duration of free vibration after the record (s); see `seismic_response`.
+        Duration of free vibration after the record, in s; see `seismic_response`.
     threads
-        Number of threads (default: one per processor). It does not affect the result.
+        Number of threads (default: one per processor). The number does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster, as in `scenario_map`. It does not affect
-        the result.
+        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster, as in
+        `scenario_map`. The choice does not affect the result.
     progress
-        Function that is called in the calling thread with the number of designs done and their
-        total.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of completed designs and the number of all designs.
 
     Returns
     -------
     xarray.Dataset
-        One dim per parameter that is varied. ``peak_displacement`` (m; ``_right``, ``_left``),
-        ``peak_acceleration`` (absolute, m/s²), ``peak_force`` of a stop (N), ``penetration`` beyond
-        a gap (m), ``hitting``: the share of the records with which the mass hits a stop; for sines,
-        whether the mass hits a stop at any frequency. ``pareto``: whether no other design has less
-        displacement without more acceleration, or less acceleration without more displacement;
-        among designs with equal responses, such as those that hit nothing, the first one counts.
-        ``within_limits``, if there are limits: whether the design keeps all of them.
-        ``bumper_damping`` (N s/m), if a stiffness of both bumpers is varied. For sines also the
-        frequencies of the largest values (``displacement_frequency``, ``acceleration_frequency``),
-        and ``unsettled_count``, the number of holds without a periodic motion, whose peaks are
-        those of 100 cycles. ``status`` is 0 for a completed design. The values of a design that was
-        given up are NaN; those of an unbounded motion are infinite.
+        The dataset has one dim for each parameter that is varied. Its variables are:
+
+        - ``peak_displacement``, and ``peak_displacement_right`` and ``peak_displacement_left`` to
+          either side (m);
+        - ``peak_acceleration``, of the absolute acceleration (m/s²);
+        - ``peak_force``, the largest force of a stop (N);
+        - ``penetration``, the largest displacement beyond a gap (m);
+        - ``hitting``: for records, the share of the records with which the mass hits a stop; for
+          sines, whether the mass hits a stop at any frequency;
+        - ``pareto``: whether no other design has less displacement without more acceleration, or
+          less acceleration without more displacement. Among designs with equal responses, such as
+          designs that hit nothing, only the first one is marked;
+        - ``within_limits``, if there are limits: whether the design keeps all of them;
+        - ``bumper_damping`` (N s/m), if a stiffness of both bumpers is varied;
+        - ``status``: 0 for a completed design. If the computation of a design was given up, its
+          values are NaN. If a motion is unbounded, the values are infinite.
+
+        For sines there are also ``displacement_frequency`` and ``acceleration_frequency``, the
+        frequencies of the largest values. ``unsettled_count`` is the number of frequency steps at
+        which no periodic motion was reached. At such a step the peaks are those of 100 forcing
+        cycles.
 
     Raises
     ------

@@ -124,50 +124,54 @@ def least_acceleration(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Find the design with the least acceleration, such as the best bumper for a gap.
+    """Find the design with the least peak acceleration, such as the best bumper for a gap.
 
-    The acceleration jumps where the motion jumps, has several local minima, and each value takes a
-    whole computation. The search therefore uses differential evolution (Storn and Price 1997, in
-    ``scipy.optimize``), which needs no derivative, can leave local minima, and tries whole
-    generations at once on all threads. The same seed gives the same result. The result is not
-    proved to be the global minimum: another ``seed`` may find a lower one.
+    The peak acceleration jumps where the motion jumps, and it has several local minima. Each value
+    requires a whole computation. Therefore the search uses differential evolution (Storn and Price
+    1997, in ``scipy.optimize``). This method needs no derivative, can leave local minima, and
+    evaluates a whole generation of designs at once on all threads. The same seed gives the same
+    result. It is not proved that the result is the global minimum: another ``seed`` may find a
+    lower acceleration.
 
     Parameters
     ----------
     rig, records, fractile, frequency_span, step, tail, threads, where
         As in `design_chart`.
     ranges
-        Lowest and highest value of parameters by name, as in `design_chart`. Default: stiffness of
-        the bumpers from 0.1 to 100 times that of the isolator, and their damping from 0.01 to 10
-        times the critical damping on it.
+        Parameters of the search, as a mapping from names to the lowest and the highest value. The
+        names are those of `design_chart`. Default: the stiffness of the bumpers from 0.1 to 100
+        times the stiffness of the isolator, and the damping of the bumpers from 0.01 to 10 times
+        the critical damping of the mass on the isolator.
     gap
-        Gap of each side (m). Default: the gaps of the oscillator.
+        Gap on each side (m). Default: the gaps of the oscillator.
     limits
-        Largest accepted values, by name: ``"peak_force"`` (N), ``"penetration"`` (m),
-        ``"peak_displacement"`` (m; ``_right``, ``_left``).
+        Largest accepted values, by name: ``"peak_force"`` (N), ``"penetration"`` (m), and
+        ``"peak_displacement"``, ``"peak_displacement_right"`` and ``"peak_displacement_left"`` (m).
     seed
         Random seed of the search.
     progress
-        Function that is called in the calling thread with the number of designs tried; the total is
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of designs that were tried and None, because the total is
         unknown.
 
     Returns
     -------
     xarray.Dataset
-        Dataset without dims: the parameters by name, and the variables of `design_chart` for the
-        best design; ``evaluations``, the number of designs that were tried. The attribute ``notes``
-        reports whether the best design touches no stop, which limits do not bind, and which
-        parameters ended at an end of their range.
+        Dataset without dims. It contains the parameters of the best design by name, and the
+        variables of `design_chart` for this design. ``evaluations`` is the number of designs that
+        were tried. The attribute ``notes`` reports whether the best design touches no stop, which
+        limits are not active, and which parameters lie at an end of their range.
 
     Warns
     -----
     InputWarning
-        If the best design touches no stop: the properties of the stops then do not matter.
+        If the best design touches no stop. In that case the properties of the stops do not affect
+        the result.
 
     Raises
     ------
     InputError
-        If a value is invalid, or no design keeps the limits.
+        If a value is invalid, or if no design was found that keeps the limits.
     """
     from scipy.optimize import NonlinearConstraint, differential_evolution
 

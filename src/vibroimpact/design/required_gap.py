@@ -1,4 +1,4 @@
-"""The gaps that a mass needs to hit nothing: its displacement without stops."""
+"""The gap that a mass needs to hit nothing: its largest displacement without stops."""
 
 from __future__ import annotations
 
@@ -34,29 +34,35 @@ def required_gap(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Compute the gaps at which a rig hits nothing: its displacement without stops.
+    """Compute the gap at which a rig hits nothing: its largest displacement without stops.
+
+    For records the gap is exact for a motion that starts at rest. For sines the gap holds for the
+    steady motion; a transient may reach farther. If the isolator is linear, the frequency of the
+    largest displacement is known in closed form, and the gap is exact for all frequencies of
+    ``frequency_span``, or for all frequencies if there is no span. For other isolators the gap is
+    computed from sweeps up and down.
 
     Parameters
     ----------
     rig, records, fractile, frequency_span, step, tail, threads, where, progress
-        As in `design_chart`. The fractile is computed for the larger side of each record, and for
-        each side separately, so the common gap may exceed both one-sided gaps. For sines and a
-        linear isolator the worst frequency is known in closed form: the gap is exact for the steady
-        motion at any frequency of the range, or at all frequencies without a range. For other
-        isolators the gap comes from sweeps up and down. A transient may reach farther. For records
-        the gap is exact; each run starts at rest.
+        As in `design_chart`. The fractile over the records is computed for the larger side of each
+        record, and also for each side separately. Therefore the common gap may exceed both
+        one-sided gaps.
 
     Returns
     -------
     xarray.Dataset
-        ``required_gap`` (m), if both sides shall have the same gap; ``required_gap_right`` and
-        ``required_gap_left``, if not. For sines also ``displacement_frequency`` (Hz), for records
-        ``peak_displacement_right`` and ``peak_displacement_left`` of each (dim ``record``).
+        ``required_gap`` (m) is the required gap if both sides have the same gap.
+        ``required_gap_right`` and ``required_gap_left`` (m) are the required gaps if the sides may
+        differ. For sines, ``displacement_frequency`` (Hz) is the frequency of the largest
+        displacement. For records, ``peak_displacement_right`` and ``peak_displacement_left`` are
+        the peaks of each record (dim ``record``).
 
     Raises
     ------
     InputError
-        If a value is invalid, or the free motion is unbounded or was given up.
+        If a value is invalid. Also if the motion without stops is unbounded, or if its computation
+        was given up.
     """
     check_progress(progress)
     workers = placed(threads, where)

@@ -1,4 +1,4 @@
-"""Demands of many earthquakes: records, scales, gaps, stops and isolators as one dataset."""
+"""Peak responses (demands) of many rigs to many scaled records, as one dataset."""
 
 from __future__ import annotations
 
@@ -61,61 +61,69 @@ def demands(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Compute the demands (peak responses) of records at several scales on rigs.
+    """Compute the peak responses (demands) of rigs to records at several scales.
 
-    Every run starts at rest. Its peaks are defined as in `seismic_response`.
+    A run is the motion of one rig through one record at one scale. Every run starts at rest. Its
+    peaks are defined as in `seismic_response`.
 
     Parameters
     ----------
     rig
-        The rig: an `Oscillator`, a `Rig`, a laboratory case, its code, or the path of a study file;
-        or several, by name or as a list. The records replace its own shaking.
+        One rig: an `Oscillator`, a `Rig`, a published laboratory case or its code, or the path of a
+        study file. Several rigs are passed as a list, or as a mapping from names to rigs. The
+        records replace the shaking of the rigs.
     records
-        One record, or several by name or as a list, which are named after their files.
+        One record, or several as a list or as a mapping from names to records. The records of a
+        list are named after their files.
     scales
-        Rising levels of shaking, greater than 0, in the measure ``intensity``; numbers or text with
-        units.
+        Levels of shaking to which each record is scaled. They are rising numbers greater than 0, or
+        texts with units, in the measure that ``intensity`` selects.
     intensity
-        Measure of the scales: ``"factor"``, the number that a record is multiplied by; ``"PGA"``,
-        the peak of the record (m/s²); or a pair of natural period (s) and damping ratio, whose
-        pseudo-acceleration (m/s²) scales the record.
+        Measure of the scales. ``"factor"`` is the number by which a record is multiplied. ``"PGA"``
+        is the peak acceleration of the record (m/s²). A pair of a natural period (s) and a damping
+        ratio selects the pseudo-acceleration of the record at this period and damping (m/s²).
     gaps
-        Gaps of each side (m); the same as ``vary={"gap": …}``.
+        Gaps on each side (m). This is a short form of ``vary={"gap": …}``.
     vary
-        Values of parameters by name, in all combinations, such as ``"bumper_stiffness"``,
-        ``"restitution"``, ``"right_gap"``, ``"damping_ratio"`` or ``"yield_force"``. Parameters of
-        stops are set on both sides, if the stop has them.
+        Parameters that are varied, as a mapping from names to values. All combinations of the
+        values are computed. Names are, for example, ``"bumper_stiffness"``, ``"restitution"``,
+        ``"right_gap"``, ``"damping_ratio"`` and ``"yield_force"``. A parameter of stops is set on
+        both sides, if the stop there has this parameter.
     tail
-        As of `seismic_response`.
+        As in `seismic_response`.
     max_events
-        As of `seismic_response`.
+        As in `seismic_response`.
     store
-        Folder for the demands as a Zarr group, written block by block. An unfinished computation of
-        the same demands is resumed. Default: in memory.
+        Folder in which the demands are stored as a Zarr group. It is written block by block. If the
+        folder holds an unfinished computation of the same demands, that computation is resumed.
+        Default: the demands are kept in memory.
     block
-        Numbers of rigs and of records in a block, which holds every scale. At most the unfinished
-        blocks are lost if the computation is stopped.
+        Number of rigs and number of records in a block. A block contains all scales. If the
+        computation is stopped, at most the unfinished blocks are lost.
     threads
-        Number of threads (default: one per processor). It does not affect the result.
+        Number of threads (default: one per processor). The number does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
-        of its scheduler (docs/how-to/many-machines.md). It does not affect the result.
+        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster. A cluster is
+        passed as a ``distributed.Client`` or as the address of its scheduler
+        (docs/how-to/many-machines.md). The choice does not affect the result.
     progress
-        Function that is called in the calling thread with the number of runs done and their total.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of completed runs and the number of all runs.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``record``, ``scale``, ``rig`` for several rigs, and one per parameter that is varied.
-        Peaks, forces, impulses, counts and residual displacements as in `seismic_response`.
-        ``status`` of each run is 0 if it was completed; the values of other runs are NaN, and a
-        warning reports their number. ``factor`` is the number that a record was multiplied by,
-        ``intensity`` the measure of the unscaled record.
+        The dims are ``record``, ``scale``, ``rig`` if there are several rigs, and one dim for each
+        parameter that is varied. The variables are peaks, forces, impulses, counts and residual
+        displacements, as in `seismic_response`. ``status`` is 0 for each run that was completed.
+        The values of other runs are NaN, and a warning reports the number of these runs. ``factor``
+        is the number by which a record was multiplied. ``intensity`` is the measure of the unscaled
+        record.
 
     Raises
     ------
     InputError
-        If a value is invalid, or the store holds another computation.
+        If a value is invalid, or if the folder ``store`` holds another computation.
     """
     check_progress(progress)
     rigs = runs(rig, gaps, vary)

@@ -1,4 +1,4 @@
-"""The motion of the mass as a record that shakes equipment on it."""
+"""The absolute acceleration of the mass, as a record that shakes equipment on the mass."""
 
 from __future__ import annotations
 
@@ -14,15 +14,20 @@ _GRID = 1e-6
 
 
 def floor_record(motion: xr.Dataset) -> Record:
-    """Compute the absolute acceleration of the mass as a record, for its floor spectrum.
+    """Compute the absolute acceleration of the mass as a record, for a floor spectrum.
 
-    Its `response_spectrum` holds for equipment that stands on the mass and is too light to affect
-    it. A sample is not the acceleration at its time, but its mean over the steps before and after,
-    weighted by a triangle: the second difference of the absolute displacement. The record thus
-    contains the whole impulse of contacts, and of impacts on rigid stops, whose acceleration is
-    infinite, whenever they occur. The motion of the equipment is right to the second order of the
-    step. The step is that of the motion's samples; more ``samples`` in `simulate` make it more
-    accurate.
+    The `response_spectrum` of this record is the floor spectrum. It applies to equipment that
+    stands on the mass and is too light to affect the motion of the mass.
+
+    A sample of the record is not the acceleration at one instant. It is the mean of the
+    acceleration over the steps before and after this instant, weighted by a triangle. This mean is
+    the second difference of the absolute displacement, divided by the square of the step. Therefore
+    the record contains the whole impulse of each contact, whenever it occurs. It also contains the
+    impulses of impacts on rigid stops, where the acceleration is infinite.
+
+    The motion of the equipment is accurate to the second order of the step. The step is the time
+    between the samples of the motion. To increase the accuracy, pass more ``samples`` to
+    `simulate`.
 
     Parameters
     ----------
@@ -32,7 +37,7 @@ def floor_record(motion: xr.Dataset) -> Record:
     Raises
     ------
     InputError
-        If it is not such a motion, or has fewer than four samples.
+        If ``motion`` is not a motion through a record, or has fewer than four samples.
     """
     origin = any_recorded(motion)
     if not isinstance(origin.excitation, Record):

@@ -1,4 +1,4 @@
-"""Fragility curves: the probability that a level of shaking makes a peak exceed its limit."""
+"""Fragility curves: the probability that a peak exceeds a limit, over the level of shaking."""
 
 from __future__ import annotations
 
@@ -46,43 +46,48 @@ def fragility(
 ) -> xr.Dataset:
     """Fit a lognormal fragility curve to the numbers of records that exceed a limit at each scale.
 
-    P(scale) = Φ((ln scale − ln θ)/β), with θ and β of the largest binomial likelihood of the
-    numbers of records above the limit (Baker 2015, Earthquake Spectra 31(1)).
+    The curve is P(scale) = Φ((ln scale − ln θ)/β), where Φ is the standard normal distribution
+    function. The median θ and the dispersion β maximise the binomial likelihood of the numbers of
+    records above the limit (Baker 2015, Earthquake Spectra 31(1)).
 
-    Since the same records are used at all scales, the numbers at two scales are not independent.
-    Intervals therefore count each record once, by the two scales between which it begins to exceed.
-    They belong to a set of lognormal curves that rise with the scale, and so does the band. They
-    also hold for few records; the fitted β is then too small on average, and lies in the lower part
-    of its interval.
+    The same records are used at all scales. Therefore the numbers at two scales are not
+    independent, and the intervals count each record only once. For each record they use the two
+    scales between which the record begins to exceed the limit. The intervals and the confidence
+    band belong to a set of lognormal curves that rise with the scale. They are also valid for few
+    records. In that case the fitted β is too small on average, and it lies in the lower part of its
+    interval.
 
     Parameters
     ----------
     demands
         Dataset of `demands`.
     quantity
-        Name of one of its peaks, such as ``"peak_acceleration"``; ``"impact_count"`` for the
-        occurrence of impact.
+        Name of a peak in the dataset, such as ``"peak_acceleration"``. Use ``"impact_count"`` for
+        the probability that an impact occurs.
     limit
-        Limit that a greater value exceeds, in SI units or as text with units. Default: 0 for
-        counts; required for other quantities.
+        Limit of the quantity, in SI units or as text with units. A greater value exceeds the limit.
+        Default: 0 for counts; for other quantities the limit is required.
     confidence
         Confidence level of the intervals, between 0 and 1.
 
     Returns
     -------
     xarray.Dataset
-        ``median_capacity`` θ (in the scale's units), ``dispersion`` β and ``fitted_probability``
-        over the scales, each with its ends ``…_bound`` (dim ``bound``: lower, upper);
-        ``exceeding`` and ``probability`` as in `exceedance`. A curve is NaN if the records do not
-        determine it (no scale has both records above and below that begin or end to exceed at
-        others); a warning and the attribute ``undetermined`` list the rigs. Intervals are unbounded
-        if fewer than two records begin to exceed within the scales; a warning and the attribute
-        ``unbounded`` list the curves. Both state which levels would be needed.
+        ``median_capacity`` is θ, in the units of the scale. ``dispersion`` is β.
+        ``fitted_probability`` is the curve at the scales. The ends of the intervals of these three
+        have the same names with ``_bound`` (dim ``bound``: lower, upper). ``exceeding`` and
+        ``probability`` are defined as in `exceedance`.
+
+        A curve is NaN if the records do not determine it, for example because fewer than two scales
+        have records both above and below the limit. A warning and the attribute ``undetermined``
+        then list the rigs. The intervals of a curve are unbounded if fewer than two records begin
+        to exceed the limit within the scales. A warning and the attribute ``unbounded`` then list
+        the curves. Both attributes also state which scales would be needed.
 
     Raises
     ------
     InputError
-        As in `exceedance`; if no rig has a curve, or there are fewer than 3 records.
+        As in `exceedance`. Also if no rig has a curve, or if there are fewer than 3 records.
     """
     values = known(demands, quantity)
     least = limit_of(demands, quantity, limit)

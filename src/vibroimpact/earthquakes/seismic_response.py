@@ -40,45 +40,57 @@ def seismic_response(
     max_events: int = MAX_EVENTS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Compute the peak response of a rig to a record from rest, and where the energy went.
+    """Compute the peak response of a rig to a record from rest, and the energies of the motion.
 
-    Peaks are those of the continuous motion, between the samples of the record and after its end
-    (docs/theory.md, section 4).
+    The peaks are the peaks of the continuous motion. They may lie between the samples of the
+    record, or after its end (docs/theory.md, section 4).
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     tail
         Duration of free vibration after the record, in seconds or as text such as ``"10s"``.
-        Default: two natural periods of the softest spring.
+        Default: two natural periods of the mass on the softest spring of the isolator.
     max_events
-        Number of contacts and detachments in one step of the record at which the motion is given
-        up.
+        Largest number of contacts and detachments in one step of the record. When the motion
+        reaches this number, the computation is given up.
     progress
-        Function that is called in the calling thread with the number of steps of the record done
-        and their total.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of completed steps of the record and the number of all steps.
 
     Returns
     -------
     xarray.Dataset
-        Dataset without dims. ``peak_displacement`` (m; ``_right`` and ``_left`` to either side),
-        ``peak_acceleration`` (absolute, m/s²), ``peak_force`` (N) and ``impulse`` (N s) of the
-        stops, ``impact_count``, energies over the motion as in `totals`. At an impact on a rigid
-        stop the force is infinite, and the acceleration is that before and after it.
-        ``residual_displacement`` (m) is the position at which the mass comes to rest. If the
-        isolator has a memory or friction, the free motion is followed beyond the tail until it
-        swings by less than a billionth of the peak displacement, for 2,000 natural periods at most.
-        The result is the middle of its last swing: an undamped motion swings about the position at
-        which it would rest. ``residual_swing`` (m) is half the width of that swing. Once it has
-        fallen below a billionth of the peak, it bounds the error. For other isolators
-        ``residual_displacement`` is the equilibrium, and the remaining swing is not computed. If
-        the motion was given up, all values are NaN, and ``status`` gives the reason.
+        Dataset without dims. Its variables are:
+
+        - ``peak_displacement`` (m), and ``peak_displacement_right`` and ``peak_displacement_left``
+          to either side;
+        - ``peak_acceleration``, of the absolute acceleration (m/s²);
+        - ``peak_force`` (N) and ``impulse`` (N s) of the stops, and ``impact_count``;
+        - the energies of the whole motion, as in `totals`;
+        - ``residual_displacement`` (m), the position at which the mass comes to rest, and
+          ``residual_swing`` (m), explained below;
+        - ``status``, 0 if the motion was completed.
+
+        At an impact on a rigid stop the force is infinite. The acceleration at the impact itself is
+        left out: the values just before and just after the impact are used.
+
+        If the isolator is hysteretic or has friction, the free motion is simulated beyond the tail
+        until its swing is smaller than a billionth of the peak displacement. It is simulated for
+        2,000 natural periods at most. ``residual_displacement`` is the middle of the last swing,
+        because an undamped motion swings about the position at which it would rest.
+        ``residual_swing`` is half the width of this last swing. If it is below a billionth of the
+        peak, it is an upper bound of the error. For other isolators ``residual_displacement`` is
+        the equilibrium, and ``residual_swing`` is not computed.
+
+        If the computation was given up, all values are NaN, and ``status`` gives the reason.
 
     Raises
     ------
     InputError
-        If a record does not shake the rig, or a value is invalid.
+        If the rig is not shaken by a record, or if a value is invalid.
     """
     rig = as_rig(rig)
     oscillator, record = rig.oscillator, rig.record

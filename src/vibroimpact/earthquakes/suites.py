@@ -1,4 +1,4 @@
-"""Statistics of a suite of records at each level of shaking: fractiles, shares above a limit."""
+"""Statistics of a suite of records at each level: fractiles, and shares above a limit."""
 
 from __future__ import annotations
 
@@ -41,29 +41,30 @@ def fractiles(
 ) -> xr.Dataset:
     """Compute fractiles over the records at each scale, or over the rigs of an ensemble.
 
-    Fractiles over records are the curves of incremental dynamic analysis (IDA). Quantiles of a
-    sample are interpolated between its sorted values (Hyndman and Fan's seventh definition). A run
-    that exceeded all limits counts as infinite (Vamvatsikos and Cornell, 2002).
+    Fractiles over the records, drawn over the scale, are the curves of incremental dynamic analysis
+    (IDA). They are interpolated between the sorted values of the sample (Hyndman and Fan's seventh
+    definition of quantiles). If the motion of a run grew without bound, its value counts as
+    infinite (Vamvatsikos and Cornell, 2002).
 
     Parameters
     ----------
     demands
-        Dataset of `demands`, or of `ensemble` with any response.
+        Dataset of `demands`, or of `ensemble` for any response.
     quantity
-        Name of one of its peaks, such as ``"peak_acceleration"``, or of a variable of the response.
+        Name of a variable of the dataset, such as ``"peak_acceleration"``.
     shares
-        Shares of the records or rigs below the fractile, from 0 to 1.
+        Shares of the records or rigs whose value is below the fractile, from 0 to 1.
 
     Returns
     -------
     xarray.Dataset
-        The quantity, with the dim ``fractile`` instead of ``record`` or ``sample``.
+        The quantity, with the dim ``fractile`` in place of ``record`` or ``sample``.
 
     Raises
     ------
     InputError
-        If it is not such a dataset, a value is invalid, or runs were given up for their number of
-        events or of steps.
+        If ``demands`` is not such a dataset, or if a value is invalid. Also if runs were given up
+        because they had too many contacts or steps.
     """
     over = "sample" if "sample" in getattr(demands, "dims", ()) else "record"
     values = (_drawn if over == "sample" else known)(demands, quantity)
@@ -111,24 +112,25 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
 
 
 def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = None) -> xr.Dataset:
-    """Compute the share of the records that exceed a limit at each scale.
+    """Compute the share of the records whose peak exceeds a limit, at each scale.
 
-    ``exceedance(demands, "impact_count")`` is the probability of impact.
+    For example, ``exceedance(demands, "impact_count")`` computes the probability of impact.
 
     Parameters
     ----------
     demands
         Dataset of `demands`.
     quantity
-        Name of one of its peaks.
+        Name of a peak in the dataset, such as ``"peak_acceleration"``.
     limit
-        Limit that a greater value exceeds, in SI units or as text
-        with units. Default: 0 for counts; required for other quantities.
+        Limit of the quantity, in SI units or as text with units. A greater value exceeds the limit.
+        Default: 0 for counts; for other quantities the limit is required.
 
     Returns
     -------
     xarray.Dataset
-        ``exceeding``, the number of records, and ``probability``, over scales and rigs.
+        ``exceeding``, the number of records whose peak exceeds the limit, and ``probability``,
+        their share. Both depend on the scale and, if there are several, on the rig.
 
     Raises
     ------

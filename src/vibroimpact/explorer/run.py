@@ -85,26 +85,31 @@ class Explored:
 
 
 def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
-    """Show the interactive explorer in a notebook: change a parameter and see the resonance curve.
+    """Show the interactive explorer of a rig in a notebook.
 
-    One server per process runs in the background. Only this machine can reach it.
+    In the explorer you change a parameter of the rig and see how the resonance curves change.
+
+    A server in the background computes the curves. There is one server per process, and only this
+    machine can connect to it.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     height
-        Height of the page (pixels).
+        Height of the explorer in the notebook (pixels).
 
     Returns
     -------
     Explored
-        Object that a notebook displays. A browser can open its ``address`` instead.
+        Object that a notebook displays as the explorer. You can also open its ``address`` in a
+        browser.
 
     Raises
     ------
     InputError
-        If the rig is not shaken by one sine, or the websocket library is missing.
+        If the rig is not shaken by one sine, or if the websocket library is not installed.
     """
     if isinstance(height, bool) or not isinstance(height, int) or height < 1:
         raise InputError(f"height: {height!r}; a whole number of pixels is accepted")

@@ -54,7 +54,8 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     name
         What it is called; that of a case is its code.
     span

@@ -1,8 +1,8 @@
-"""Datasets in, matplotlib Axes out: a figure a file.
+"""Functions that draw datasets and return matplotlib Axes. Each module draws one kind of figure.
 
-Nothing else in the package imports matplotlib, and nothing here touches pyplot's global state:
-without given axes a figure is made of its own, which the returned axes carry as ``.figure``.
-A notebook shows what is returned; `save_figure` writes it to a file.
+No other part of the package imports matplotlib. These functions do not change the global state of
+pyplot. If no axes are passed, a function makes a new figure, which is the attribute ``.figure`` of
+the returned axes. A notebook displays the returned axes. `save_figure` writes the figure to a file.
 """
 
 from __future__ import annotations

@@ -21,18 +21,19 @@ def accelerogram(
     *,
     title: str | None = None,
 ) -> Panels:
-    """Draw a record over time with its peak, and its response spectrum below.
+    """Draw a record over time, mark its peak, and draw its response spectrum below.
 
     Parameters
     ----------
     record
         The record.
     spectrum
-        Dataset of `response_spectrum` of the record. Default: no such panel.
+        Dataset of `response_spectrum` for the record. Default: the figure has no panel of the
+        spectrum.
     axes
-        Axes to draw on, one per panel. None makes a new figure.
+        Axes to draw on, one per panel. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Returns
     -------
@@ -42,7 +43,7 @@ def accelerogram(
     Raises
     ------
     InputError
-        If it is not a record, or the number of axes is wrong.
+        If ``record`` is not a record, or if the number of axes is wrong.
     """
     if not isinstance(record, Record):
         raise InputError(f"record: {type(record).__name__}; a Record is accepted")

@@ -1,4 +1,4 @@
-"""How the quantities of sweeps, branches and ensembles are written on an axis."""
+"""Axis labels of the quantities of sweeps, branches and ensembles."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ _LABELS = {
     "peak_force_left": (0.0, "largest force of the left stop ({})"),
     "peak_force": (0.0, "largest contact force ({})"),
 }
-"""Factor and label; a force is in the unit that fits it."""
+"""Factor and label. A force is drawn in a unit of fitting size."""
 
 
 def axis_label(values: xr.DataArray, quantity: str) -> tuple[float, str]:
-    """Factor and label of a quantity; of one that has none of its own, by its meaning."""
+    """Return factor and label of a quantity. Without an own label, its ``long_name`` is used."""
     if quantity not in _LABELS:
         units = {"m": "mm", "m s-2": "m/s²", "1": "–"}
         unit = str(values.attrs.get("units", "1"))

@@ -1,4 +1,4 @@
-"""Basin stability over a parameter: shares of the states that lead to each motion."""
+"""Basin stability over a parameter: the share of the states that lead to each motion."""
 
 from __future__ import annotations
 
@@ -19,16 +19,18 @@ _ROUNDING = 1e-9
 
 
 def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
-    """Draw stacked basin shares over a parameter, with their intervals.
+    """Draw the basin stability of each motion over a parameter, as stacked areas.
+
+    Error bars show the 95 % intervals of the shares.
 
     Parameters
     ----------
     data
         Dataset of `vibroimpact.basin_stability` along a parameter.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------

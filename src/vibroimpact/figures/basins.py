@@ -24,14 +24,15 @@ COLOURS = (
     "#43803c",
     "#eab63c",
 )
-"""In turn; neighbours differ in brightness, so that they are told apart in grey, too."""
+"""Colours of the motions, in turn. Neighbours differ in brightness, so that they can be
+distinguished in grey."""
 
 _SHADE = 0.3
-"""How far a colour goes to the dark where a state is caught late."""
+"""How much the colour of a state is darkened if its motion was identified late."""
 _LISTED = 10
-"""Motions in the legend; the rest is counted."""
+"""Largest number of motions in the legend. For the others only their number is stated."""
 _LOOKED_AT = 200
-"""Points of a motion, beside one of which its number stands."""
+"""Largest number of points of a motion that are tried as a place of its number."""
 _ASIDE = np.array([0.024, 0.024])
 _BEHIND, _GIVEN_UP = "0.82", "white"
 
@@ -44,27 +45,28 @@ def basin_portrait(
     shade: bool = True,
     title: str | None = None,
 ) -> Axes:
-    """Draw basins of attraction as one area per motion, with its section as numbered points.
+    """Draw basins of attraction: one area for each motion, and its section as numbered points.
 
     Parameters
     ----------
     data
         Dataset of `vibroimpact.basins`.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     manifolds
-        Dataset of `vibroimpact.manifolds` for the same rig: stable curves are drawn solid,
-        unstable ones dashed, saddles as crosses, and where the curves cross as dots.
+        Dataset of `vibroimpact.manifolds` for the same rig. Stable curves are drawn solid, and
+        unstable curves dashed. Crosses mark the saddles, and dots mark the points where curves
+        cross. Default: no curves.
     shade
-        Whether colours are darker where more cycles are needed until the motion of a state is
-        certain.
+        Whether the colour of a state is darker if more forcing cycles were required until its
+        motion was certain.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If ``data`` has no basins, or ``manifolds`` no curves.
+        If ``data`` has no basins, or if ``manifolds`` has no curves.
     """
     if "basin" not in data or data["basin"].ndim != 2:
         raise InputError("data: it has no basins; a dataset of basins is accepted")
@@ -139,7 +141,7 @@ def _image(data: xr.Dataset, shade: bool) -> NDArray[np.float64]:
 
 
 def _motions(data: xr.Dataset) -> list[xr.Dataset]:
-    """The motions one by one, each with its points."""
+    """Return the motions, each with its points."""
     return [
         data.isel(attractor=number, point=data["section_attractor"].values == number)
         for number in range(data.sizes["attractor"])
@@ -161,7 +163,7 @@ def _label(one: xr.Dataset) -> str:
 
 
 def _mark(ax: Axes, one: xr.Dataset, number: int) -> None:
-    """Points of a motion at the section."""
+    """Draw the points of a motion at the section."""
     u, v = 1e3 * one["section_displacement"].values, one["section_velocity"].values
     if not int(one["period"]):
         ax.plot(u, v, linestyle="", marker=".", markersize=2.6, color="white", zorder=4)
@@ -182,7 +184,7 @@ def _mark(ax: Axes, one: xr.Dataset, number: int) -> None:
 
 
 def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
-    """Stable and unstable curves, outlined in white, with their saddles and crossings."""
+    """Draw stable and unstable curves with a white outline, and their saddles and crossings."""
     if "curve_kind" not in data:
         raise InputError("manifolds: it has no curves; a dataset of manifolds is accepted")
     handles = []
@@ -224,7 +226,7 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
 
 
 def _name(ax: Axes, motions: list[xr.Dataset]) -> None:
-    """Write each motion's number beside that of its points that has most room."""
+    """Write the number of each motion next to the point with the most room."""
     (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
     places = [
         np.column_stack(

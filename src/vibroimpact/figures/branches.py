@@ -1,4 +1,4 @@
-"""Branches of orbits: stable parts solid, unstable parts dashed, bifurcations marked."""
+"""Branches of periodic orbits: stable parts solid, unstable parts dashed, bifurcations marked."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NORMALISED = {"eta_d": "displacement_excursion", "eta_a": "acceleration_excursi
 
 
 _MARKS = 60
-"""About how many holds of a sweep are marked."""
+"""Approximate number of marks on a sweep."""
 
 
 class _Mark(NamedTuple):
@@ -56,29 +56,30 @@ def branch_diagram(
 ) -> Axes:
     """Draw branches of periodic orbits over their parameter.
 
-    Stable parts are solid, unstable parts dashed. Longer parts are labelled by their impacts per
-    period: 2R 1L means two on the right bumper and one on the left.
+    Stable parts are solid, and unstable parts are dashed. Long parts have a label with the impacts
+    per period. For example, 2R 1L means two impacts on the right bumper and one impact on the left
+    bumper.
 
     Parameters
     ----------
     data
         Dataset of `branch` or `resonance_diagram`.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     quantity
-        ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"``, ``"eccentricity"``,
-        ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force_right"`` or
-        ``"peak_force_left"``.
+        Quantity on the vertical axis: ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"``,
+        ``"eccentricity"``, ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force_right"``
+        or ``"peak_force_left"``.
     sweep
-        Dataset of `sweep` over the same frequencies, drawn as marks.
+        Dataset of `sweep` over the same frequencies, which is drawn as marks. Default: no sweep.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If the dataset holds no branch, the quantity is unknown, or a sweep is given although the
-        parameter is not the frequency.
+        If the dataset holds no branch, or if the quantity is unknown. Also if a sweep is passed
+        although the parameter is not the frequency.
     """
     if "parameter" not in data.attrs or "branch" not in data:
         another = (
@@ -146,7 +147,7 @@ def branch_diagram(
 
 
 def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
-    """Runs of points of one branch with the same impacts on each side, and what to call them."""
+    """Return runs of points of a branch with the same impacts on each side, and labels."""
     branch, period = data["branch"].values, data["period"].values
     hits = [
         np.rint(data[f"impacts_{side}"].values * period).astype(int) for side in ("right", "left")
@@ -162,7 +163,7 @@ def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
 
 
 def axis_unit(values: xr.DataArray) -> tuple[float, str]:
-    """Return factor and unit of a parameter's axis: lengths in mm, others by their size."""
+    """Return factor and unit of the axis of a parameter: mm for lengths."""
     units = str(values.attrs["units"])
     if units == "m":
         return 1e3, "mm"
@@ -173,7 +174,7 @@ def axis_unit(values: xr.DataArray) -> tuple[float, str]:
 
 
 def _pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:
-    """Runs of points of one branch between which the orbits are stable, or unstable."""
+    """Return runs of points of a branch that are all stable, or all unstable."""
     branch, stable = data["branch"].values, data["stable"].values
     first, second = stable[:-1], stable[1:]
     # At a bifurcation itself (-1) the other end of the segment decides.
@@ -191,7 +192,7 @@ def _pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:
 def _marks_of(
     sweep: xr.Dataset, data: xr.Dataset, ax: Axes, quantity: str, factor: float
 ) -> list[Any]:
-    """The holds of a sweep, normalised as the branches are: over the peak at any frequency."""
+    """Return the points of a sweep, normalised like the branches: by the largest peak."""
     handles = []
     source = quantity
     if quantity in _NORMALISED:

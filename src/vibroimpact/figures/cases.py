@@ -17,25 +17,26 @@ _PER_GRAVITY = 1e2 / 9.80665
 
 
 def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Panels:
-    """Draw the scenarios of laboratory tests over gap and bumper, one panel per acceleration.
+    """Draw the scenarios of laboratory tests over gap and bumper, with one panel per acceleration.
 
     Parameters
     ----------
     found
-        Scenario (``"S0"`` to ``"S6"`` or ``"unclassified"``) by case code, such as
-        ``"B2-G1-A3"``; tests that are missing are left blank.
+        Scenarios, as a mapping from case codes such as ``"B2-G1-A3"`` to scenarios. A scenario is
+        one of ``"S0"`` to ``"S6"``, or ``"unclassified"``. Tests that are missing in the mapping
+        are left blank.
     title
         Title of the figure.
 
     Returns
     -------
     tuple of Axes
-        One per acceleration, rising; ``axes[0].figure`` is the figure.
+        One Axes for each acceleration, in rising order. ``axes[0].figure`` is the figure.
 
     Raises
     ------
     InputError
-        If a code is not a laboratory test, or a scenario is unknown.
+        If a code is not the code of a laboratory test, or if a scenario is unknown.
     """
     known = {case.code for case in laboratory.campaign()}
     for code, scenario in found.items():

@@ -1,4 +1,4 @@
-"""Clearances against time, with a magnified panel for short flights, as in the paper's Fig. 18c."""
+"""Clearances over time, with a magnified panel for short flights, as in the paper's Fig. 18c."""
 
 from __future__ import annotations
 
@@ -29,26 +29,31 @@ def clearances(
     zoom: float | None = None,
     title: str | None = None,
 ) -> Panels:
-    """Draw the clearances of equation 4, G_R and G_L, over t/T, with a magnified part near zero.
+    """Draw the clearances G_R and G_L (the paper's equation 4) over t/T.
+
+    A second panel magnifies the shortest flight, where the clearances are close to zero.
 
     Parameters
     ----------
     motions
-        Dataset of `steady`, or of `simulate` with samples; or several of them by name.
+        Dataset of `steady`, or of `simulate` with samples. For several motions, pass a mapping from
+        names to datasets.
     axes
-        Two Axes: the whole, and the magnified part. None makes a new figure.
+        Two Axes: for the whole history, and for the magnified part. Default: a new figure.
     cycles
-        Number of forcing cycles. Default: two, or more to complete whole periods.
+        Number of forcing cycles that are drawn. Default: two, or more cycles so that whole periods
+        are drawn.
     zoom
-        Length of the magnified part in forcing cycles, around the shortest flight. Default: five
-        times as long as that flight.
+        Length of the magnified part, in forcing cycles. It is centred on the shortest flight
+        between two contacts. Default: five times the length of this flight.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If a dataset is not that of a motion with samples and bumpers, or ``zoom`` is not positive.
+        If a dataset does not hold a motion with samples and bumpers, or if ``zoom`` is not
+        positive.
     """
     given_motions = named(motions)
     curves = shown(given_motions, cycles_shown(given_motions, cycles, 2))
@@ -93,7 +98,7 @@ def _label(curve: Shown, side: str, motions: int) -> str:
 
 
 def _shortest_flight(curves: list[Shown]) -> tuple[float, float, float]:
-    """Begin and end (forcing cycles) of the shortest flight, and twice its height (mm)."""
+    """Return start and end (forcing cycles) of the shortest flight, and twice its height (mm)."""
     best = None
     for curve in curves:
         contacts = sorted(curve.touching, key=lambda contact: contact[1])

@@ -28,22 +28,23 @@ def bifurcation_curves(
     *,
     title: str | None = None,
 ) -> Axes:
-    """Draw curves of bifurcations over two parameters, with their cusps.
+    """Draw curves of bifurcations in the plane of two parameters, with their cusps.
 
     Parameters
     ----------
     curves
-        Dataset of `bifurcation_curve`, or several by name, in the same two parameters. Names are
-        written on the curves, unless they are those of the kinds.
+        Dataset of `bifurcation_curve`. For several curves, pass a mapping from names to datasets
+        with the same two parameters. A name is written on its curve, unless it is the kind of the
+        bifurcation.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If a dataset holds no curve, or their parameters differ.
+        If a dataset holds no curve, or if the parameters of the datasets differ.
     """
     if isinstance(curves, Mapping) and not isinstance(curves, xr.Dataset):
         names = [str(name) for name in curves]

@@ -16,26 +16,27 @@ def hysteresis_cycle(
     *,
     title: str | None = None,
 ) -> Axes:
-    """Draw absolute acceleration over relative displacement.
+    """Draw the absolute acceleration over the relative displacement (hysteresis loop).
 
-    Multiplied by minus the mass, the acceleration is the force of isolator and bumpers on the mass.
-    The enclosed area is proportional to the energy that they dissipate per period. The acceleration
-    jumps where contact begins.
+    The acceleration times the mass, with the opposite sign, is the force of the isolator and the
+    bumpers on the mass. Therefore the enclosed area is proportional to the energy that they
+    dissipate per period. The acceleration jumps where a contact begins.
 
     Parameters
     ----------
     motions
-        Dataset of `steady`, or of `simulate` with samples, including motions through a `Record`; or
-        several of them by name. A name that contains "forward" is drawn red, "backward" blue.
+        Dataset of `steady`, or of `simulate` with samples, including motions through a `Record`.
+        For several motions, pass a mapping from names to datasets. If a name contains "forward",
+        the curve is red. If it contains "backward", the curve is blue.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If a dataset is not that of a motion with samples.
+        If a dataset does not hold a motion with samples.
     """
     ax = axes_or_new(ax, (5.2, 4.4), title)
     curves = shown(named(motions, records=True))

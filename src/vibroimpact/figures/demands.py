@@ -1,4 +1,4 @@
-"""Suites of records: curves of incremental dynamic analysis, and fragility curves."""
+"""Results for suites of records: curves of incremental dynamic analysis, and fragility curves."""
 
 from __future__ import annotations
 
@@ -39,25 +39,26 @@ def incremental_curves(
     limit: float | None = None,
     title: str | None = None,
 ) -> Axes:
-    """Draw incremental dynamic analysis curves: one grey curve per record, and the fractiles.
+    """Draw curves of incremental dynamic analysis: a grey curve for each record, and the fractiles.
 
     Parameters
     ----------
     demands
-        Dataset of `demands` of one rig; choose one of several by ``isel`` or ``sel``.
+        Dataset of `demands` for one rig. If the dataset has several rigs, choose one by ``isel`` or
+        ``sel``.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     quantity
-        Name of one of its peaks.
+        Name of a peak in the dataset, such as ``"peak_displacement"``.
     limit
-        Value of the peak (SI units) that is drawn as a line, such as the gap.
+        Limit of the peak in SI units, such as the gap, which is drawn as a line. Default: no line.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If it is not such a dataset, has fewer than two scales, or holds several rigs.
+        If ``demands`` is not such a dataset, has fewer than two scales, or holds several rigs.
     """
     if isinstance(ax, str):
         raise InputError(f"ax: {ax!r}; axes are accepted, and a peak as quantity={ax!r}")
@@ -97,24 +98,24 @@ def fragility_curves(
 ) -> Axes:
     """Draw a fragility curve, its confidence band, and the shares of the records as marks.
 
-    The legend contains the median θ and the dispersion β. A curve whose interval is unbounded,
-    because too few records begin to exceed within the levels, has no band; the legend notes this.
-    If the records do not determine a curve, only the marks are drawn, and the legend states which
-    levels are needed.
+    The legend contains the median θ and the dispersion β. If too few records begin to exceed the
+    limit within the levels of shaking, the interval of a curve is unbounded. Such a curve has no
+    band, and the legend states this. If the records do not determine a curve, only the marks are
+    drawn, and the legend states which levels are needed.
 
     Parameters
     ----------
     fragility
-        Dataset of `fragility` of one rig, or over one parameter or a few rigs.
+        Dataset of `fragility` for one rig, for several values of one parameter, or for a few rigs.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If it is not such a dataset, or has more curves than can be distinguished.
+        If ``fragility`` is not such a dataset, or has more curves than can be distinguished.
     """
     if not isinstance(fragility, xr.Dataset) or "fitted_probability" not in fragility:
         raise InputError(
@@ -189,7 +190,7 @@ def fragility_curves(
 
 
 _BEYOND = 38.0
-"""Probits of what is 0 or 1 to all digits."""
+"""Probit of shares that are 0 or 1 to all digits."""
 _LOOKS = (
     ("black", "-", "o"),
     ("#c8102e", "--", "s"),
@@ -211,7 +212,7 @@ def _one_rig(values: xr.DataArray, what: str) -> None:
 
 
 def _value(data: xr.Dataset, dim: str, value: object) -> str:
-    """A value of what is varied, as a legend names it."""
+    """Return the text in a legend for a value of a varied parameter."""
     if data[dim].attrs.get("units") == "m":
         return f"{dim.replace('_', ' ')} {1e3 * to_si(value, LENGTH, dim):.4g} mm"
     unit = data[dim].attrs.get("units", "1")
@@ -226,7 +227,7 @@ def _plain_label(data: xr.Dataset, quantity: str) -> str:
 
 
 def _level_unit(data: xr.Dataset) -> tuple[float, str]:
-    """Factor and unit in which levels are drawn: accelerations as multiples of gravity."""
+    """Return factor and unit of the levels: accelerations are drawn as multiples of gravity."""
     return (1.0, "") if data["scale"].attrs["units"] == "1" else (1.0 / GRAVITY, "g")
 
 

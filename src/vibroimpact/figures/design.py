@@ -37,7 +37,7 @@ _QUANTITIES = {
 }
 _LEVELS = 9
 _NAMED = 5
-"""Points of a front that have their parameters beside them, at most."""
+"""Largest number of points of a front whose parameters are listed."""
 
 
 def design_chart(
@@ -47,30 +47,34 @@ def design_chart(
     quantities: tuple[str, ...] = ("peak_displacement", "peak_acceleration"),
     title: str | None = None,
 ) -> Panels:
-    """Draw the demands of designs over one parameter, or as contours over two.
+    """Draw the responses of designs over one parameter, or as contours over two parameters.
 
-    Contour lines carry their values where there is room. Dots mark Pareto-optimal designs. The
-    thick dashed line connects the first designs that hit nothing; the required gap is slightly
-    smaller, see `required_gap`. Hatched areas exceed a limit. Their edges are interpolated between
-    the designs, on the scales of the axes, as the contour lines are. An edge is half-way to a
-    design that was given up or is unbounded, and half-way between all designs if the dataset does
-    not contain the limits.
+    Contour lines have labels with their values where there is enough room. Dots mark Pareto-optimal
+    designs. A thick dashed line connects the designs that just hit nothing, next to designs that
+    hit a stop. The required gap is slightly smaller than along this line; see `required_gap`.
+
+    In hatched areas a limit is exceeded. The edges of these areas are interpolated between the
+    designs, on the scales of the axes, like the contour lines. Next to a design without finite
+    values, the edge lies half-way to this design. If the dataset does not contain the limits, all
+    edges lie half-way between designs.
 
     Parameters
     ----------
     data
-        Dataset of `design_chart` over one or two parameters, with two values or more of each.
+        Dataset of `design_chart` over one or two parameters, with at least two values of each
+        parameter.
     axes
-        Axes to draw on, one per quantity. None makes a new figure.
+        Axes to draw on, one per quantity. Default: a new figure.
     quantities
-        Quantities to draw: ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force"``.
+        Quantities that are drawn: ``"peak_displacement"``, ``"peak_acceleration"`` or
+        ``"peak_force"``.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If it is not such a dataset.
+        If ``data`` is not such a dataset.
     """
     dims = _dims(data)
     for name in quantities:
@@ -91,24 +95,24 @@ def design_chart(
 
 
 def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
-    """Draw acceleration over displacement of all designs, with the Pareto front.
+    """Draw the acceleration of all designs over their displacement, with the Pareto front.
 
-    Some designs, evenly along the front, are numbered, and their parameters are listed next to the
-    axes. Crosses mark designs that exceed a limit.
+    Some designs, which are evenly spaced along the front, are numbered. Their parameters are listed
+    next to the axes. Crosses mark designs that exceed a limit.
 
     Parameters
     ----------
     data
         Dataset of `design_chart`.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If it is not such a dataset, or no design was computed.
+        If ``data`` is not such a dataset, or if no design was computed.
     """
     dims = _dims(data)
     u, a = (
@@ -166,7 +170,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
 def _name_points(
     ax: Axes, data: xr.Dataset, dims: list[str], order: NDArray[Any], u: _Array, a: _Array
 ) -> None:
-    """Numbers at some points of the front, evenly along it, and their parameters in a corner."""
+    """Number some points that are evenly spaced along the front, and list their parameters."""
     wide, high = max(np.ptp(u[order]), 1e-12), max(np.ptp(a[order]), 1e-12)
     along = np.concatenate(
         [[0.0], np.cumsum(np.hypot(np.diff(u[order]) / wide, np.diff(a[order]) / high))]
@@ -210,7 +214,7 @@ def _told(name: str, value: float) -> str:
 
 
 def _beyond(data: xr.Dataset) -> NDArray[np.bool_]:
-    """Which designs exceed a limit."""
+    """Return which designs exceed a limit."""
     if "within_limits" not in data:
         return np.zeros(data["pareto"].shape, dtype=bool)
     found: NDArray[np.bool_] = ~data["within_limits"].values.astype(bool)
@@ -218,7 +222,7 @@ def _beyond(data: xr.Dataset) -> NDArray[np.bool_]:
 
 
 def _best(data: xr.Dataset) -> str:
-    """What the designs of the front are: one that exceeds a limit may be better in both."""
+    """Return the label of the front. Designs that exceed a limit may lie beyond it."""
     return f"beaten by {'none within the limits' if _beyond(data).any() else 'no other'}"
 
 
@@ -229,7 +233,7 @@ def _dims(data: Any) -> list[str]:
 
 
 def _quantity(data: xr.Dataset, name: str) -> tuple[float, str]:
-    """Factor and label of a quantity, with the fractile that it is where some records exceed it."""
+    """Return factor and label of a quantity, with its fractile if some records exceed it."""
     factor, label = _QUANTITIES[name]
     share = fractile_of(data)
     return factor, label if share is None else (
@@ -238,7 +242,7 @@ def _quantity(data: xr.Dataset, name: str) -> tuple[float, str]:
 
 
 def _unit(name: str, values: _Array) -> tuple[float, str]:
-    """Factor and unit in which a parameter is drawn, of fitting size; lengths in mm."""
+    """Return factor and unit of a parameter: mm for lengths, a unit of fitting size for others."""
     quantity = PARAMETERS[name].quantity
     if quantity is LENGTH:
         return 1e3, "mm"
@@ -250,7 +254,7 @@ def _unit(name: str, values: _Array) -> tuple[float, str]:
 
 
 def _axis(axis: Any, values: xr.DataArray) -> _Array:
-    """Scale, limit and label an axis; return the values in its unit."""
+    """Set scale, limits and label of an axis, and return the values in its unit."""
     name = str(values.name)
     factor, unit = _unit(name, values.values)
     which = axis.axis_name
@@ -366,7 +370,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
 
 
 def _excess(data: xr.Dataset) -> _Array:
-    """Above 0 where a limit is exceeded, at the points of `finer_axis`."""
+    """Return values at the points of `finer_axis` that are above 0 where a limit is exceeded."""
     beyond = _beyond(data)
     each = np.array(
         [one.transpose(*data["pareto"].dims).values for one in excesses(data)]
@@ -379,7 +383,7 @@ def _excess(data: xr.Dataset) -> _Array:
 
 
 def _hatch(ax: Axes, x: _Array, y: _Array, excess: _Array) -> Patch:
-    """Hatch what exceeds a limit; return its sample."""
+    """Hatch the area where a limit is exceeded, and return its legend entry."""
     # What is just at a limit keeps it, whatever rounding and the lowest level would make of it.
     excess = np.where(excess > 0.0, excess, np.minimum(excess, -1e-300))
     with matplotlib.rc_context({"hatch.color": "0.5", "hatch.linewidth": 0.6}):

@@ -1,4 +1,4 @@
-"""A record and the response of a rig on one page."""
+"""A record and the response of a rig, on one page."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from vibroimpact.response.motion_phases import any_recorded
 _DASHES = ("-", "--", "-.", ":")
 _COLOURS = ("black", "#c8102e", "#1f4fbf", "#00795c")
 _MARKS = {1: ("^", "#c8102e"), -1: ("v", "#1f4fbf")}
-"""Of impacts with the right and with the left stop."""
+"""Marks of impacts on the right stop and on the left stop."""
 
 
 def earthquake_page(
@@ -32,32 +32,37 @@ def earthquake_page(
     *,
     title: str | None = None,
 ) -> Panels:
-    """Draw a motion through a record on one page.
+    """Draw the motion of a rig through a record, on one page.
 
-    The page shows the record; the displacement between the stops; the absolute acceleration, with
-    triangles at the start of each contact; the force of isolator and stops over the displacement;
-    and response spectra.
+    The page has these panels:
+
+    - the record;
+    - the displacement between the stops;
+    - the absolute acceleration, with a triangle at the start of each contact;
+    - the force of isolator and stops over the displacement;
+    - response spectra, if they are passed.
 
     Parameters
     ----------
     motion
         Dataset of `simulate` through a `Record`, with samples.
     spectra
-        Datasets of `response_spectrum` of one damping ratio by name, such as those of the ground
-        and of the mass (`floor_record`). Default: no such panel.
+        Response spectra, as a mapping from names to datasets of `response_spectrum` with one
+        damping ratio. Examples are the spectra of the ground and of the mass (`floor_record`).
+        Default: the page has no panel of spectra.
     title
         Title of the page.
 
     Returns
     -------
     tuple of Axes
-        For the record, the displacement, the acceleration, the force and, if given, the spectra;
-        ``axes[0].figure`` is the figure.
+        The Axes of the record, the displacement, the acceleration, the force and, if they are
+        passed, the spectra. ``axes[0].figure`` is the figure.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a motion through a record, or a spectrum is invalid.
+        If the dataset does not hold a motion through a record, or if a spectrum is invalid.
     """
     stops = stops_of(motion)
     figure = Drawing(figsize=(7.2, 9.4), layout="constrained")
@@ -132,7 +137,7 @@ def _histories(
 
 
 def _force(ax: Axes, motion: xr.Dataset, curve: Shown) -> None:
-    """What isolator and stops pull back with; its loops are the energy that they take."""
+    """Draw the restoring force of isolator and stops. Its loops are the dissipated energy."""
     rig = any_recorded(motion).oscillator
     pull = rig.force - rig.mass * curve.values["acceleration"]
     _, scale, unit = fitting([float(np.abs(pull).max())], FORCE.scales)

@@ -31,27 +31,28 @@ def resonance_bands(
     nominal: xr.Dataset | None = None,
     title: str | None = None,
 ) -> Panels:
-    """Draw fractiles of the resonance curves of an ensemble: the median, and a band around it.
+    """Draw the resonance curves of an ensemble: the median, and a band between two fractiles.
 
     Parameters
     ----------
     data
-        Dataset of `ensemble` of sweeps.
+        Dataset of `ensemble`, whose response is `sweeps`.
     axes
-        Axes to draw on, one per quantity. None makes a new figure.
+        Axes to draw on, one per quantity. Default: a new figure.
     quantities
-        Variables of the sweeps, one panel each.
+        Variables of the sweeps. Each has its own panel.
     shares
-        Shares of the rigs below the lower and the upper end of the band.
+        Shares of the rigs that lie below the lower end and below the upper end of the band.
     nominal
-        Dataset of `sweep` of the rig itself, drawn thin.
+        Dataset of `sweep` for the rig with its nominal values, which is drawn as a thin line.
+        Default: no such line.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If the dataset is not an ensemble of sweeps, or has no such quantity.
+        If the dataset is not an ensemble of sweeps, or if it does not contain the quantity.
     """
     if not {"sample", "direction", "frequency"} <= set(data.dims):
         raise InputError(
@@ -117,24 +118,26 @@ def resonance_bands(
 
 
 def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
-    """Draw Sobol's indices of each parameter: its variance share alone, and with interactions.
+    """Draw the Sobol indices of each parameter, of first order and of total order.
 
-    The indices of one number are drawn as bars, with their intervals if the dataset has them; those
-    of a curve, such as one over frequency, as lines of the total order.
+    The indices of a single number are drawn as bars. If the dataset has intervals, they are drawn
+    as well. The indices of a curve, for example over the frequency, are drawn as lines of the total
+    order.
 
     Parameters
     ----------
     data
-        Dataset of `sensitivity` of one number or of one curve: choose one by ``isel``.
+        Dataset of `sensitivity` for one number or for one curve. If it holds more, choose one by
+        ``isel``.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If it is not a dataset of `sensitivity`, or holds more than one curve.
+        If ``data`` is not a dataset of `sensitivity`, or holds more than one curve.
     """
     if "total_order" not in data:
         raise InputError(

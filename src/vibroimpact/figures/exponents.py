@@ -15,26 +15,26 @@ from vibroimpact.figures.style import LEGEND, MOTIONS, fit_x_axis
 from vibroimpact.model.names import literal
 
 _WIDE = 2.0
-"""Standard uncertainties to both sides that the band shows."""
+"""Half width of the band, in standard uncertainties."""
 
 
 def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
-    """Draw the largest exponents of one or several rigs, with a band of two uncertainties.
+    """Draw the largest Lyapunov exponent of one or several rigs, with a band of two uncertainties.
 
     Parameters
     ----------
     data
-        Dataset of `lyapunov_exponents` over the frequency or over one parameter that was varied;
-        or one start of `bifurcation_diagram`.
+        Dataset of `lyapunov_exponents` over the frequency, or over one parameter that was varied.
+        Or a dataset of `bifurcation_diagram` with one of its starts selected.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If the dataset has no exponents, or does not have them over exactly one parameter.
+        If the dataset has no exponents, or if they do not depend on exactly one parameter.
     """
     if "exponents" not in data or "exponent" not in data["exponents"].dims:
         raise InputError("data: it has no exponents; a dataset of lyapunov_exponents is accepted")

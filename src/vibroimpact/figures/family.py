@@ -22,7 +22,7 @@ Quantity = Literal["eta_a", "eta_d", "acceleration_excursion", "displacement_exc
 
 
 class _Shown(NamedTuple):
-    """Factor to the unit, label, and the curve of free flight with what normalises it."""
+    """Factor to the unit, label, and the motion without stops with its reference value."""
 
     factor: float
     label: str
@@ -61,10 +61,10 @@ _COLOURS = ("#1f4fbf", "#c05a00", "#00795c", "#b0006d", "#7a3e9d", "#8c6d1f")
 _MARKERS = "os^Dv*P<X>phd8"
 _LARGER = {"*": 1.45, "P": 1.2, "X": 1.2, "p": 1.2, "h": 1.2}
 _MARKS = 16
-"""Marks on a curve."""
+"""Number of marks on a curve."""
 _LEAST_ARROW = 0.03
-"""Least height of a jump that gets an arrow, as a share of the panel's: a shorter one would be
-all head."""
+"""Smallest height of a jump with an arrow, as a share of the height of the panel. A shorter arrow
+would consist only of its head."""
 
 
 def resonance_family(
@@ -79,43 +79,44 @@ def resonance_family(
     legend: bool = True,
     title: str | None = None,
 ) -> Axes:
-    """Draw one quantity of several rigs over the excitation frequency.
+    """Draw one quantity of several rigs over the forcing frequency.
 
-    Each rig has its own colour and marker. The forward sweep is solid and carries the markers,
-    the backward sweep is dashed; arrows show where a sweep jumps.
+    Each rig has its own colour and marker. The forward sweep is a solid line with markers. The
+    backward sweep is a dashed line. Arrows show where a sweep jumps.
 
     Parameters
     ----------
     data
         Dataset of `vibroimpact.sweeps`.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     quantity
-        ``"eta_a"``, ``"eta_d"``, ``"acceleration_excursion"`` or ``"displacement_excursion"``.
+        Quantity on the vertical axis: ``"eta_a"``, ``"eta_d"``, ``"acceleration_excursion"`` or
+        ``"displacement_excursion"``.
     labels
-        Text of the legend by name of a rig. Default: its name.
+        Text in the legend, by the name of the rig. Default: the name of the rig.
     colours
-        Colour by name of a rig. Default: in turn.
+        Colour, by the name of the rig. Default: the colours of the palette in turn.
     markers
-        Number of the marker by name of a rig, so that a rig looks the same in panels that show
-        different rigs. Default: in turn.
+        Number of the marker, by the name of the rig. Use it to draw a rig with the same marker in
+        several panels that show different rigs. Default: the markers in turn.
     free
-        Whether the motion without stops is drawn, if it is the same for all rigs.
+        Whether the motion without stops is drawn. It is drawn only if it is the same for all rigs.
     legend
-        Whether there is a legend, to the right of the axes. `family_legend` gives its entries.
+        Whether there is a legend to the right of the axes. `family_legend` returns its entries.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Returns
     -------
     Axes
-        ``.figure`` is the figure.
+        The axes. Their attribute ``.figure`` is the figure.
 
     Raises
     ------
     InputError
-        If the dataset is not that of sweeps of several rigs, the quantity is unknown, or a label, a
-        colour or a marker names an unknown rig.
+        If the dataset does not hold sweeps of several rigs, or if the quantity is unknown. Also if
+        a label, a colour or a marker belongs to an unknown rig.
     """
     if not isinstance(data, xr.Dataset) or not {"rig", "direction", "frequency"} <= set(data.dims):
         raise InputError("data: these are not sweeps of rigs; a dataset of sweeps is accepted")
@@ -166,7 +167,7 @@ def resonance_family(
 
 
 def family_legend(ax: Axes) -> list[Artist]:
-    """Return legend entries for a `resonance_family`: the rigs in order, then the directions."""
+    """Return the legend entries of a `resonance_family`: the rigs in order, then the directions."""
     rigs = [line for line in ax.lines if not str(line.get_label()).startswith("_")]
     dashes = [
         Line2D([], [], color="0.3", linestyle=look.dashes, linewidth=1.2, label=look.label)
@@ -193,7 +194,7 @@ def _look(i: int, colour: str | None) -> dict[str, Any]:
 def _curves(
     ax: Axes, one: xr.Dataset, quantity: str, factor: float, look: dict[str, Any], label: str
 ) -> None:
-    """Draw both directions of one rig, parted where they jump, with arrows in between."""
+    """Draw both directions of one rig. At jumps, arrows replace the curve."""
     frequency = one["frequency"].values
     jumps = [jump for jump in features(one).jumps if jump.settled]
     top = ax.get_ylim()[1]

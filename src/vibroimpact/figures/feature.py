@@ -1,4 +1,4 @@
-"""One feature of the nodes of a map, such as how many ranges of chaotic motions each has."""
+"""One feature of the nodes of a map, such as the number of ranges with chaotic motions."""
 
 from __future__ import annotations
 
@@ -15,31 +15,33 @@ from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.plane import node_edges, plane_axes
 
 _MOST = 12
-"""Counts up to this have a colour each."""
+"""Largest count up to which each count has its own colour."""
 _LETTER = 0.62
-"""Width of a letter, in sizes of the text."""
+"""Width of a letter, as a share of the font size."""
 
 
 def feature_map(
     data: xr.Dataset, name: str, ax: Axes | None = None, *, title: str | None = None
 ) -> Axes:
-    """Draw one feature of a map of scenarios: light for small values, dark for large ones.
+    """Draw one feature of a map of scenarios.
+
+    Light colours are small values, and dark colours are large values.
 
     Parameters
     ----------
     data
         Dataset of `vibroimpact.scenario_map`. Nodes that were not computed are left white.
     name
-        A feature, such as ``"chaotic_count"`` or ``"extent"``.
+        Name of the feature, such as ``"chaotic_count"`` or ``"extent"``.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If the dataset is not a map, or has no such feature.
+        If the dataset is not a map, or if it does not contain the feature.
     """
     if "scenario" not in data or data["scenario"].ndim != 2:
         raise InputError("data: this is not a map; a dataset of scenario_map is accepted")

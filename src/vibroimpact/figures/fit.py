@@ -1,4 +1,4 @@
-"""Figures of a fit: residuals, profiles of the parameters, and histories."""
+"""Figures of a fit: residuals, likelihood profiles of the parameters, and time histories."""
 
 from __future__ import annotations
 
@@ -22,23 +22,24 @@ _UNITS = {"m": (1e3, "mm"), "m s-1": (1.0, "m/s"), "m s-2": (1.0, "m/s²"), "1":
 
 
 def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
-    """Draw the residuals of a fit per test, over frequency or time, in standard deviations.
+    """Draw the residuals of a fit for each test, over frequency or time, in standard deviations.
 
-    Displacements are open marks, accelerations filled marks; the band is two standard deviations.
+    Open marks are residuals of displacements, and filled marks are residuals of accelerations. The
+    band is two standard deviations wide to either side.
 
     Parameters
     ----------
     result
         Dataset of `vibroimpact.identify`.
     axes
-        Axes to draw on, one per test. None makes a new figure.
+        Axes to draw on, one per test. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If the dataset is not a fit, or the number of axes is wrong.
+        If the dataset is not a fit, or if the number of axes is wrong.
     """
     _check(result)
     tests = [str(t) for t in result["test"].values]
@@ -76,21 +77,25 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
 
 
 def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
-    """Draw the increase of the deviance as each parameter is fixed away from its best value.
+    """Draw the likelihood profile of each parameter of a fit.
 
-    The dotted line is the limit of the confidence interval; the grey range is the interval.
+    A profile shows how the deviance increases if one parameter is fixed at another value and all
+    other parameters are fitted again.
+
+    The dotted line is the increase at the ends of the confidence interval. The grey range is the
+    confidence interval.
 
     Parameters
     ----------
     result
         Dataset of `vibroimpact.identify` with profiles.
     title
-        Title.
+        Title of the figure.
 
     Raises
     ------
     InputError
-        If the dataset is not a fit, or has no profiles.
+        If the dataset is not a fit, or if it has no profiles.
     """
     _check(result)
     if "profile_rise" not in result:
@@ -132,23 +137,23 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
 def fit_history(
     result: xr.Dataset, test: str | None = None, axes: Any = None, *, title: str | None = None
 ) -> Panels:
-    """Draw a measured history as dots, and the fitted motion as a line.
+    """Draw a measured time history as dots, and the fitted motion as a line.
 
     Parameters
     ----------
     result
         Dataset of `vibroimpact.identify`.
     test
-        Name of the test. Default: the first history.
+        Name of the test. Default: the first test with a time history.
     axes
-        Axes to draw on, one per channel. None makes a new figure.
+        Axes to draw on, one per measured channel. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If the dataset is not a fit, or has no such history.
+        If the dataset is not a fit, or if it does not contain the time history.
     """
     _check(result)
     histories = [str(t) for t, k in zip(result["test"].values, result["test_kind"].values,

@@ -1,4 +1,4 @@
-"""Mark selected frequencies in resonance curves."""
+"""Marks of selected frequencies in resonance curves."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from vibroimpact.model import to_si
 from vibroimpact.model.quantities import FREQUENCY
 
 _ROOM = 0.08
-"""Height of the names, as a share of the panel's."""
+"""Height of the names, as a share of the height of the panel."""
 
 
 def frequency_marks(axes: Any, frequencies: Mapping[str, float | str]) -> None:
-    """Mark frequencies by vertical dotted lines, with their names at the top of each panel.
+    """Mark frequencies with vertical dotted lines, and write their names at the top of each panel.
 
-    The vertical axes are extended slightly, so that the names do not overlap the curves.
+    The vertical axes are extended slightly so that the names do not cover the curves.
 
     Parameters
     ----------
     axes
-        Axes, or several, whose horizontal axis is the frequency in Hz.
+        One or several Axes whose horizontal axis is the frequency in Hz.
     frequencies
-        Frequencies in Hz, by name.
+        Frequencies, as a mapping from names to numbers in Hz or texts with units.
 
     Raises
     ------
     InputError
-        If a frequency is invalid, or lies outside an axis.
+        If a frequency is invalid, or if it lies outside the range of an axis.
     """
     panels = list(np.ravel(axes))
     values = {

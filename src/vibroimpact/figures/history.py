@@ -18,7 +18,7 @@ from vibroimpact.figures.style import EDGE, LEGEND, panels
 
 
 class _Panel(NamedTuple):
-    """What one panel shows, and a factor to its unit."""
+    """The quantity of one panel, and the factor to its unit."""
 
     variable: str
     factor: float
@@ -42,33 +42,37 @@ def time_history(
 ) -> Panels:
     """Draw displacement, absolute acceleration and relative velocity over t/T.
 
-    Contacts are bands between their exact times (hatched for the left bumper), with a dot at each
-    start (filled) and end (open) and a star at the peak of the acceleration. The gaps are dashed
-    lines. The curves pass through the exact values at each event, on both sides of it where the
-    acceleration jumps. If there are several motions, each has its bands on a separate strip.
+    Each contact is a band between its exact start and end times. The band is hatched for the left
+    bumper. A filled dot marks the start of a contact, an open dot its end, and a star the peak of
+    the acceleration. Dashed lines are the gaps. The curves pass through the exact values at the
+    start and the end of each contact. Where the acceleration jumps, they pass through the values
+    before and after the jump. If there are several motions, the bands of each motion are drawn on a
+    separate strip.
 
     Parameters
     ----------
     motions
-        Dataset of `steady`, or of `simulate` with samples; or several of them by name. A name that
-        contains "forward" is drawn red, "backward" blue.
+        Dataset of `steady`, or of `simulate` with samples. For several motions, pass a mapping from
+        names to datasets. If a name contains "forward", the curve is red. If it contains
+        "backward", the curve is blue.
     axes
-        Three Axes. None makes a new figure.
+        Three Axes. Default: a new figure.
     cycles
-        Number of forcing cycles: the last ones of a simulation; a periodic motion is repeated.
-        Default: three, or more to complete whole periods.
+        Number of forcing cycles that are drawn. The last cycles of a simulation are drawn. A
+        periodic motion is repeated. Default: three, or more cycles so that whole periods are drawn.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Returns
     -------
     tuple of Axes
-        For displacement, acceleration and velocity; ``axes[0].figure`` is the figure.
+        The Axes of the displacement, the acceleration and the velocity. ``axes[0].figure`` is the
+        figure.
 
     Raises
     ------
     InputError
-        If a dataset is not that of a motion with samples, or there are not three axes.
+        If a dataset does not hold a motion with samples, or if there are not three axes.
     """
     given_motions = named(motions)
     curves = shown(given_motions, cycles_shown(given_motions, cycles, 3))
@@ -81,7 +85,7 @@ def time_history(
 
 
 def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
-    """Draw one quantity of some motions over t/T."""
+    """Draw one quantity of the motions over t/T."""
     ax.set_xlim(min(c.at[0] for c in curves), max(c.at[-1] for c in curves))
     ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
     for i, curve in enumerate(curves):
@@ -135,7 +139,7 @@ def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
 
 
 def history_legend(curves: list[Shown]) -> list[Artist]:
-    """Return legend handles for the curves, gaps, bands and marks."""
+    """Return the legend handles of the curves, gaps, bands and marks."""
     entries: list[Artist] = [
         Line2D([], [], color=c.look.colour, linestyle=c.look.dashes, lw=1.1, label=c.look.label)
         for c in curves
@@ -176,7 +180,7 @@ def _band(curve: Shown, side: str, motions: int) -> tuple[Any, str]:
 
 
 def _at_event(curve: Shown, values: Any, at: Any, *, behind: bool) -> Any:
-    """Value at an event: where it jumps, that within the contact."""
+    """Return the value at an event. If it jumps, return the value within the contact."""
     index = np.searchsorted(curve.at, at, side="left")
     # Two points share the time of an event: before it and behind it.
     return values[np.minimum(index + (1 if behind else 0), len(values) - 1)]

@@ -1,4 +1,4 @@
-"""Values between the nodes of a grid, along straight lines on the axes as they are drawn."""
+"""Linear interpolation between the nodes of a grid, on the scales of the axes of a figure."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 _Array = NDArray[np.float64]
 
 _PARTS = 15
-"""Points per side of a cell. Odd, so that the nearest node changes between two points."""
+"""Number of points per side of a cell. It is odd, so that the nearest node changes between
+points."""
 
 
 def finer_axis(axis: Axis, nodes: _Array) -> _Array:
-    """Each node, and evenly spaced points between each two, on the scale of an axis."""
+    """Return the nodes and evenly spaced points between them, on the scale of an axis."""
     scale: Any = axis.get_transform()
     even = np.interp(_places(len(nodes)), np.arange(len(nodes)), scale.transform(nodes))
     found: _Array = scale.inverted().transform(even)
@@ -24,9 +25,10 @@ def finer_axis(axis: Axis, nodes: _Array) -> _Array:
 
 
 def finer(values: NDArray[Any]) -> _Array:
-    """Values of nodes (y, x) at the points of `finer_axis`; NaN in cells with a node that is NaN.
+    """Interpolate values at nodes (y, x) to the points of `finer_axis`.
 
-    Along the sides of a cell they are on straight lines; on the axes' scales, as the points are.
+    Along the sides of a cell the interpolation is linear on the scales of the axes. A cell with a
+    NaN at one of its nodes is NaN.
     """
     for axis in (0, 1):
         count = values.shape[axis]
@@ -37,12 +39,12 @@ def finer(values: NDArray[Any]) -> _Array:
 
 
 def nearest(values: NDArray[Any]) -> NDArray[Any]:
-    """Values of the nearest node (y, x) at the points of `finer_axis`."""
+    """Return the value of the nearest node (y, x) at the points of `finer_axis`."""
     rows, columns = (np.rint(_places(count)).astype(int) for count in values.shape)
     found: NDArray[Any] = values[np.ix_(rows, columns)]
     return found
 
 
 def _places(count: int) -> _Array:
-    """Where the points lie, counted in nodes."""
+    """Return the positions of the points, in units of the node spacing."""
     return np.arange((count - 1) * _PARTS + 1) / _PARTS

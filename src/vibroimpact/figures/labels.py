@@ -1,4 +1,4 @@
-"""Names that stand beside curves."""
+"""Names that are written next to curves."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 _Array = NDArray[np.float64]
 
 _PLACES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
-"""Shares of a curve's length where its name may stand, in this order."""
+"""Positions of a name along its curve, as shares of its length, in the order in which they are
+tried."""
 _APART = np.array([0.16, 0.06])
-"""Least distance of names, in widths and heights of the panel."""
+"""Smallest distance between names, as shares of the width and the height of the panel."""
 _CLEAR = np.array([0.08, 0.045])
-"""Least distance of a name from a mark."""
+"""Smallest distance of a name from a mark."""
 _ON = 0.01
-"""A curve that passes so close to a name has that name."""
+"""Distance from a name below which a curve is assumed to have this name."""
 _STEP = 0.005
 """Spacing of the points at which a curve is checked."""
 _LETTER = 0.07
@@ -26,9 +27,9 @@ _LETTER = 0.07
 
 
 class Names:
-    """Writes names beside the curves of a panel whose limits are final, none over another.
+    """Writes names next to the curves of a panel with final limits, without overlaps.
 
-    Marks that must be seen stay clear of them.
+    The names do not cover marks.
     """
 
     def __init__(self, ax: Axes, marks: Iterable[Line2D] = ()) -> None:
@@ -42,10 +43,10 @@ class Names:
         ]
 
     def write(self, x: _Array, y: _Array, name: str, colour: str, *, once: bool) -> None:
-        """Write a name beside a curve, given in the units of the axes.
+        """Write a name next to a curve, whose points are in the units of the axes.
 
-        A curve that is too short for it gets none; nor does, where `once`, one that lies on
-        another that has a name.
+        If the curve is too short, no name is written. With `once`, no name is written either if the
+        curve lies on another curve that has a name.
         """
         known = np.isfinite(x) & np.isfinite(y)
         if not known.any():
@@ -89,7 +90,7 @@ class Names:
         )
 
     def _visible(self, x: _Array, y: _Array) -> _Array:
-        """The part of a curve inside the panel as evenly spaced points, in its width and height."""
+        """Return the visible part of a curve as evenly spaced points, relative to the panel."""
         at = self._to_panel.transform(np.column_stack([x, y]))
         length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(at, axis=0).T))])
         even = np.arange(0.0, length[-1], _STEP)

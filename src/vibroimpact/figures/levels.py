@@ -1,4 +1,4 @@
-"""Numbers that stand on contour lines."""
+"""Numbers on contour lines."""
 
 from __future__ import annotations
 
@@ -13,23 +13,24 @@ from numpy.typing import NDArray
 _Array = NDArray[np.float64]
 
 _SIZE = 8.0
-"""Of the letters, in points."""
+"""Font size in points."""
 _LETTER = 0.072
-"""Width of a letter, in inches, as all lengths below."""
+"""Width of a letter in inches, the unit of all lengths below."""
 _HEIGHT = 0.14
-"""Height of a number with the white about it."""
+"""Height of a number, with its white margin."""
 _LEFT = 0.06
-"""What is seen of a line on either side of its number, at least."""
+"""Smallest visible length of a line on either side of its number."""
 _APART = 0.24
-"""Least distance of the middle of a number from another number."""
+"""Smallest distance between the middle of a number and another number."""
 _CLEAR = 0.14
-"""Least distance of the middle of a number from a mark."""
+"""Smallest distance between the middle of a number and a mark."""
 _BESIDE = 0.09
-"""Least distance of the middle of a number from another line: less, and it hides that one."""
+"""Smallest distance between the middle of a number and another line. A closer number would hide the
+line."""
 _ROOM = 0.25
-"""Distance from other lines beyond which more is no better."""
+"""Distance from other lines above which a larger distance is not better."""
 _BEND = 0.035
-"""What a line may bend away from its number, which is straight."""
+"""Largest deviation of a line from its straight number."""
 _STEP = 0.02
 """Spacing of the points at which a line is checked."""
 _NOWHERE: _Array = np.empty((0, 2))
@@ -45,20 +46,20 @@ class _Line(NamedTuple):
 def number_lines(
     ax: Axes, levels: Iterable[tuple[float, Sequence[_Array]]], marks: Iterable[Line2D]
 ) -> None:
-    """Write its level on each contour line of a panel whose limits are final.
+    """Write the level on each contour line of a panel whose limits are final.
 
-    A number stands in a break of its line and along it, where the line is straight and its
-    neighbours are far; it lies on no other number, line or mark. A line that is too short for it,
-    or nowhere has room for it, gets none.
+    A number is written along its line, in a gap of the line, where the line is straight and its
+    neighbours are far. It does not cover other numbers, lines or marks. If a line is too short or
+    has no room for a number, no number is written.
 
     Parameters
     ----------
     ax
         The panel.
     levels
-        Levels, each with its lines as arrays of points, in the units of the axes.
+        Levels with their lines. Each line is an array of points in the units of the axes.
     marks
-        What must be seen whole.
+        Lines and marks that must not be covered.
     """
     ax.autoscale_view()  # which matplotlib would put off until it draws
     size = np.array([ax.bbox.width, ax.bbox.height]) / ax.figure.dpi
@@ -105,7 +106,7 @@ def number_lines(
 
 
 def _even(at: _Array) -> _Array:
-    """Evenly spaced points of a line."""
+    """Return evenly spaced points of a line."""
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(at, axis=0).T))])
     even = np.arange(0.0, length[-1], _STEP)
     return np.column_stack([np.interp(even, length, part) for part in at.T])
@@ -114,7 +115,7 @@ def _even(at: _Array) -> _Array:
 def _place(
     at: _Array, wide: float, size: _Array, others: _Array, marks: _Array, written: _Array
 ) -> _Array | None:
-    """The best place of a number on a line, as points along its middle; None without any."""
+    """Return the best place of a number on a line, as points along its middle, or None."""
     half = int(np.ceil(0.5 * wide / _STEP))
     rim = half + int(np.ceil(_LEFT / _STEP))
     back = half + int(np.ceil(_ROOM / _STEP))
@@ -141,7 +142,7 @@ def _place(
 
 
 def _distances(some: _Array, others: _Array) -> _Array:
-    """The distance of each point to the nearest of others."""
+    """Return the distance of each point from the nearest other point."""
     if not len(others):
         return np.full(len(some), np.inf)
     apart = some[:, None] - others[None]

@@ -29,25 +29,26 @@ def spectrum_lines(
     highest: float = 12.0,
     title: str | None = None,
 ) -> Axes:
-    """Draw the lines of a Fourier spectrum as stems, over order and frequency.
+    """Draw the lines of a Fourier spectrum as stems, over the order and the frequency.
 
     Parameters
     ----------
     spectra
-        Dataset of `fourier_spectrum`; or several of them by name.
+        Dataset of `fourier_spectrum`. For several spectra, pass a mapping from names to datasets.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     quantity
-        Amplitude of relative displacement, relative velocity or absolute acceleration.
+        Quantity whose amplitude is drawn: the relative displacement, the relative velocity or the
+        absolute acceleration.
     highest
         Highest order that is drawn.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If a dataset is not that of a spectrum, or the quantity is unknown.
+        If a dataset does not hold a spectrum, or if the quantity is unknown.
     """
     if quantity not in _LABELS:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")

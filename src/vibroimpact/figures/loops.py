@@ -1,6 +1,6 @@
-"""Force over displacement of one law under a prescribed motion.
+"""Force of one law over displacement, for a prescribed motion.
 
-It integrates the laws step by step in plain numpy, without the engine.
+These functions integrate the laws step by step in plain numpy, independently of the engine.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ from vibroimpact.model.quantities import FREQUENCY, LENGTH
 _Array = NDArray[np.float64]
 
 _SAMPLES = 2000
-"""Points of one cycle."""
+"""Number of points in one cycle."""
 _STEPS = 8
-"""Steps of the Runge-Kutta method from one point to the next."""
+"""Number of Runge-Kutta steps between two points."""
 
 
 def force_loop(
@@ -44,29 +44,31 @@ def force_loop(
     *,
     title: str | None = None,
 ) -> Axes:
-    """Draw the force of an isolator or a stop over its displacement.
+    """Draw the force of an isolator or of a stop over its displacement.
 
-    An isolator moves from rest to the amplitude and then through one sine cycle. A stop is
-    compressed by half a sine up to the amplitude, and released.
+    An isolator is moved from rest to the amplitude, and then through one cycle of a sine. A stop is
+    compressed and released along half a sine, up to the amplitude.
 
     Parameters
     ----------
     law
-        The isolator or the stop; a rigid stop has no displacement.
+        The isolator or the stop. A rigid stop is not accepted, because it has no displacement.
     amplitude
-        Largest displacement or deformation in m, greater than 0; or text with units.
+        Largest displacement of the isolator or deformation of the stop, in m, greater than 0; or
+        text with units.
     frequency
-        Frequency of the sine (Hz). At 0 the motion is so slow that dashpots have no force. The
-        impact speed of a stop with a restitution is the velocity of the sine at its zero.
+        Frequency of the sine (Hz). At the frequency 0 the motion is so slow that dashpots have no
+        force. If a stop has a coefficient of restitution, its impact speed is the velocity of the
+        sine at the start of the contact.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If the amplitude or the frequency is invalid.
+        If the law, the amplitude or the frequency is invalid.
     """
     size = to_si(amplitude, LENGTH, "amplitude", above=0.0)
     omega = math.tau * to_si(frequency, FREQUENCY, "frequency", minimum=0.0)
@@ -88,7 +90,7 @@ def force_loop(
 
 
 def _sine(size: float, omega: float, turns: float) -> tuple[_Array, _Array, _Array]:
-    """Displacement, velocity and direction; one of no frequency goes its way all the same."""
+    """Return displacement, velocity and direction of a sine. At frequency 0 the velocity is 0."""
     phase = np.linspace(0.0, turns, _SAMPLES + 1) * math.tau
     return size * np.sin(phase), size * omega * np.cos(phase), np.cos(phase)
 
@@ -96,23 +98,24 @@ def _sine(size: float, omega: float, turns: float) -> tuple[_Array, _Array, _Arr
 def isolator_force(
     law: AnyIsolator, displacement: ArrayLike, direction: ArrayLike, velocity: ArrayLike = 0.0
 ) -> _Array:
-    """Return the force of an isolator along a way that begins at rest.
+    """Return the force of an isolator along a path that starts at rest.
 
     Parameters
     ----------
     law
         The isolator.
     displacement
-        Along the way, in m, beginning with 0; so dense that it turns at samples only.
+        Displacements along the path in m, starting with 0. They must be so dense that the motion
+        reverses only at samples.
     direction
-        Its sign is which way it goes at each sample.
+        Direction of the motion at each sample, of which only the sign is used.
     velocity
-        For the dashpot, in m/s.
+        Velocity in m/s, which determines the force of the dashpot.
 
     Returns
     -------
     numpy.ndarray
-        In N, a value a sample.
+        Force in N at each sample.
     """
     u = np.asarray(displacement, dtype=np.float64)
     v = np.broadcast_to(np.asarray(velocity, dtype=np.float64), u.shape)
@@ -123,7 +126,7 @@ def isolator_force(
 
 
 def _restoring(law: AnyIsolator, u: _Array, direction: _Array) -> Iterator[float]:
-    """The force without the dashpot, one sample after the other."""
+    """Return the force without the dashpot at each sample."""
     z = last = 0.0
     for here, way in zip(u.tolist(), np.asarray(direction).tolist(), strict=True):
         step, last = here - last, here
@@ -147,7 +150,7 @@ def _restoring(law: AnyIsolator, u: _Array, direction: _Array) -> Iterator[float
 
 
 def _moved_on(law: BoucWenIsolator, z: float, step: float) -> float:
-    """The hysteretic displacement behind a step of u, by the classical Runge-Kutta method."""
+    """Return the hysteretic displacement after a step of u, by the classical Runge-Kutta method."""
     limit, n = law.yield_displacement, law.exponent
     h = step / _STEPS
 
@@ -166,21 +169,21 @@ def _moved_on(law: BoucWenIsolator, z: float, step: float) -> float:
 def contact_force(
     law: Bumper | PowerBumper | JankowskiBumper | Law, deformation: ArrayLike, velocity: ArrayLike
 ) -> _Array:
-    """Return the force of a stop along one contact, which begins at its first sample.
+    """Return the force of a stop during a contact, which starts at the first sample.
 
     Parameters
     ----------
     law
         The stop.
     deformation
-        In m.
+        Deformation in m.
     velocity
-        Of the deformation, in m/s.
+        Velocity of the deformation in m/s.
 
     Returns
     -------
     numpy.ndarray
-        In N, nowhere less than 0.
+        Force in N at each sample, at least 0.
     """
     d = np.maximum(np.asarray(deformation, dtype=np.float64), 0.0)
     v = np.asarray(velocity, dtype=np.float64)

@@ -1,4 +1,4 @@
-"""Measured resonance curves: alone, or as points over computed ones."""
+"""Measured resonance curves, alone or as points over computed curves."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ _Array = NDArray[np.float64]
 
 
 class _Panel(NamedTuple):
-    """One quantity that may have been measured."""
+    """A quantity that may have been measured."""
 
     name: str
     values: xr.DataArray
-    """In the units of the axis."""
+    """Values in the units of the axis."""
     label: str
 
 
@@ -33,14 +33,15 @@ _KINDS = {
     "acceleration": ("absolute\nacceleration", 1.0 / GRAVITY, "g"),
     "displacement": ("relative\ndisplacement", 1e3, "mm"),
 }
-"""Words, and what a value is multiplied by for which unit."""
+"""Text of each quantity, and factor and unit of its values."""
 
 
 def _panel(data: xr.Dataset, kind: str) -> _Panel | None:
-    """What is drawn of acceleration or displacement: the first that was measured.
+    """Return the first measured quantity of the acceleration or the displacement.
 
-    Where maxima and minima were measured, the larger of the two sizes is drawn: whichever way the
-    sensor points, the picture is the same. One of them alone is drawn as it is.
+    If maxima and minima were measured, the larger absolute value is drawn. Then the figure does not
+    depend on the direction in which the sensor is mounted. If only one of them was measured, it is
+    drawn unchanged.
     """
     words, factor, unit = _KINDS[kind]
     if f"{kind}_excursion" in data:
@@ -60,7 +61,7 @@ def _panel(data: xr.Dataset, kind: str) -> _Panel | None:
 
 
 def _largest(data: xr.Dataset, kind: str) -> xr.DataArray | None:
-    """The larger size of maximum and minimum; None unless it is judged by both."""
+    """Return the larger absolute value of maximum and minimum, if both were measured."""
     both = {f"{kind}_max", f"{kind}_min"} <= set(data)
     if not (both and judged(data[[f"{kind}_max", f"{kind}_min"]], kind) == f"{kind}_excursion"):
         return None
@@ -78,7 +79,7 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
     axes
         As many Axes as there are quantities. None makes a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
@@ -132,7 +133,7 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
 
 
 def points_of(values: xr.DataArray) -> tuple[_Array, _Array]:
-    """Frequencies and values of all that was measured in one direction."""
+    """Return frequencies and values of all measurements in one direction."""
     grid = np.broadcast_to(
         values["frequency"].values.reshape(-1, *([1] * (values.ndim - 1))),
         values.transpose("frequency", ...).shape,
@@ -143,7 +144,7 @@ def points_of(values: xr.DataArray) -> tuple[_Array, _Array]:
 
 
 def halves_of(measured: xr.Dataset) -> set[str]:
-    """Of acceleration and displacement, those of which excursions alone were measured."""
+    """Return which of acceleration and displacement were measured only as excursions."""
     return {
         kind
         for kind in ("acceleration", "displacement")
@@ -194,7 +195,7 @@ def measured_points(
 def _on_panel(
     name: str, computed: xr.Dataset, measured: xr.Dataset
 ) -> tuple[_Array, _Array] | None:
-    """Frequencies and values in the units of a panel; None where it was not measured."""
+    """Return frequencies and values in the units of a panel, or None if they were not measured."""
     kind = "acceleration" if name in ("η_a", "acceleration") else "displacement"
     if name in ("η_a", "η_d"):
         if f"eta_{name[-1]}" in measured:

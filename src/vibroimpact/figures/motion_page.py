@@ -1,4 +1,4 @@
-"""The composite page of motions: frequencies as columns, as in the paper's Figs. 8 and 16."""
+"""A page of motions with one column per frequency, as in the paper's Figs. 8 and 16."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ ROWS = 2 + len(PANELS)
 
 
 class _Paper(NamedTuple):
-    """An A4 page within its margins, and the text that fits so many columns."""
+    """An A4 page within its margins, and the font size for a number of columns."""
 
     columns: int
-    """At most."""
+    """Largest number of columns."""
     width: float
-    """inches."""
+    """Width in inches."""
     height: float
     text: float
-    """Size in points."""
+    """Font size in points."""
 
 
 _PAPERS = (
@@ -50,36 +50,39 @@ def motion_page(
     highest: float = 12.0,
     title: str | None = None,
 ) -> Grid:
-    """Draw motions on one page: portrait, spectrum, and histories of u, ü + A_t and u̇.
+    """Draw motions on one page: phase portrait, spectrum, and time histories of u, ü + A_t and u̇.
 
-    Below its heading, each column lists the types of its motions.
+    Each column lists the types of its motions below its heading.
 
     Parameters
     ----------
     columns
-        By heading, such as a frequency: a dataset of `steady` or `simulate`, or several by
-        name that share the column; forward is red, backward blue.
+        Columns of the page, as a mapping from headings, such as a frequency, to datasets of
+        `steady` or `simulate`. To draw several motions in one column, pass a mapping from names to
+        datasets. If a name contains "forward", the curve is red. If it contains "backward", the
+        curve is blue.
     axes
-        Axes to draw on, shape (5, column). None makes a new figure, which fits an A4 page: portrait
-        up to two columns, landscape with more.
+        Array of Axes to draw on, of shape (5, number of columns). Default: a new figure that fits
+        an A4 page, in portrait format for up to two columns and in landscape format for more.
     cycles
-        Number of forcing cycles of the time histories. Default: two, or more to complete whole
-        periods of the column's motions.
+        Number of forcing cycles in the time histories. Default: two, or more cycles so that whole
+        periods of the motions in the column are drawn.
     highest
-        Highest order of the spectra, which are those of absolute acceleration.
+        Highest order of the spectra. They are the spectra of the absolute acceleration.
     title
-        Title of the page, if it is a new figure.
+        Title of the page, if a new figure is made.
 
     Returns
     -------
     ndarray of Axes, shape (5, column)
-        In a new figure each row shares its vertical scale; ``[0, 0].figure`` is the figure.
+        In a new figure, the panels of a row share their vertical scale. ``[0, 0].figure`` is the
+        figure.
 
     Raises
     ------
     InputError
-        If there is no column, a dataset is not that of a motion with samples, or there are not five
-        axes per column.
+        If there is no column, if a dataset does not hold a motion with samples, or if there are not
+        five axes per column.
     """
     if isinstance(columns, xr.Dataset) or not columns:
         raise InputError("columns: at least one motion by its heading is accepted")
@@ -139,7 +142,7 @@ def _columns(
     cycles: float | None,
     highest: float,
 ) -> list[Artist]:
-    """Draw each column; return what the legend explains."""
+    """Draw each column, and return the entries of the legend."""
     handles: dict[object, Artist] = {}
     for axes, (heading, motions) in zip(grid.T, columns.items(), strict=True):
         given = named(motions)
@@ -172,7 +175,7 @@ def _column(
 
 
 def _kinds(given: dict[str, xr.Dataset], heading: str) -> list[str]:
-    """A line for each motion whose kind is known, with its name unless the heading has it."""
+    """Return a line for each motion with a known type, with its name unless the heading has it."""
     lines = []
     for name, motion in given.items():
         if "period" not in motion:

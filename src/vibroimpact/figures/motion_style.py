@@ -1,4 +1,4 @@
-"""What the figures of motions share: names and looks, and curves that pass through the events."""
+"""Common parts of figures of motions: names, styles, and curves that pass through the events."""
 
 from __future__ import annotations
 
@@ -27,34 +27,35 @@ _Array = NDArray[np.float64]
 SIDES = {1: "right", -1: "left"}
 
 MOST_CYCLES = 12
-"""Forcing cycles of a time history in which a contact can still be told from the next."""
+"""Largest number of forcing cycles in which neighbouring contacts can still be distinguished."""
 
 
 class Shown(NamedTuple):
-    """One motion as it is drawn: values with both sides of each event, against t/T."""
+    """One motion as it is drawn: values over t/T, with the values before and after each event."""
 
     look: Look
     at: _Array
-    """Time in forcing cycles; of a motion through a `Record` in seconds."""
+    """Time in forcing cycles, or in seconds for a motion through a `Record`."""
     values: dict[str, _Array]
-    """By variable: displacement, velocity, acceleration, clearances."""
+    """Values by variable: displacement, velocity, acceleration, clearances."""
     touching: list[tuple[int, float, float]]
-    """Side, begin and end of each contact in forcing cycles."""
+    """Side of each contact, and its start and end in forcing cycles."""
     peaks: tuple[_Array, _Array]
-    """Times (forcing cycles) and values of the acceleration's peaks in contact."""
+    """Times (forcing cycles) and values of the peaks of the acceleration during contact."""
     gaps: dict[str, float]
-    """Gap (m) on each side that has a bumper."""
+    """Gap (m) on each side with a bumper."""
 
 
 def named(
     motions: xr.Dataset | Mapping[str, xr.Dataset], records: bool = False
 ) -> dict[str, xr.Dataset]:
-    """Motions by name; one alone is called "motion". Only `records` may go through a `Record`.
+    """Return the motions by name. A single motion has the name "motion".
 
     Raises
     ------
     InputError
-        If there is none, or one is not that of a motion with samples.
+        If there is no motion, or if a dataset does not hold a motion with samples. Motions through
+        a `Record` are accepted only with ``records``.
     """
     # A dataset is a mapping, too.
     if isinstance(motions, Mapping) and not isinstance(motions, xr.Dataset):
@@ -70,10 +71,10 @@ def named(
 
 
 def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: int) -> float:
-    """Return the number of forcing cycles to show: as requested, or whole periods.
+    """Return the number of forcing cycles to draw: as requested, or whole periods.
 
-    These are at least `least`; where the common period is longer than `MOST_CYCLES`, they are
-    whole periods of the longest one.
+    Whole periods have at least `least` cycles. If the common period of the motions is longer than
+    `MOST_CYCLES`, whole periods of the motion with the longest period are drawn.
 
     Raises
     ------
@@ -96,7 +97,7 @@ def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: in
 
 
 def looks(names: list[str]) -> list[Look]:
-    """How each motion is drawn: those called after a sweep as that sweep, the others in turn."""
+    """Return the style of each motion: that of a sweep if its name contains a direction."""
     spare = iter([*MOTIONS, *MOTIONS] * (1 + len(names) // len(MOTIONS)))
     found = []
     for name in names:
@@ -107,10 +108,10 @@ def looks(names: list[str]) -> list[Look]:
 
 
 def shown(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[Shown]:
-    """Curves of motions: the last cycles of a simulation, the first ones of a steady motion.
+    """Return the curves of motions: the last cycles of a simulation, the first of others.
 
-    A periodic motion is repeated as often as it takes, or shown once if `cycles` is infinite.
-    Measured ones are moved by whole cycles to where the others begin.
+    A periodic motion is repeated to fill the cycles. If `cycles` is infinite, it is drawn once.
+    Measured motions are shifted by whole cycles to the start of the others.
     """
     drawn = [
         _shown(motion, look, cycles)
@@ -128,17 +129,17 @@ def shown(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[Show
 
 
 def _seen(motion: xr.Dataset) -> bool:
-    """Whether a motion was measured."""
+    """Return whether a motion was measured."""
     return is_measured(motion) and "event_time" not in motion
 
 
 def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axes:
-    """The given axes, or those of a new figure.
+    """Return the axes that were passed, or the axes of a new figure.
 
     Raises
     ------
     InputError
-        If something else is given.
+        If the value is not Axes.
     """
     if isinstance(ax, Axes):
         return ax
@@ -152,15 +153,15 @@ def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axe
 
 
 def name_lines(ax: Axes, curves: list[Shown]) -> None:
-    """Add a legend above the axes where there is more than one motion."""
+    """Add a legend above the axes if there is more than one motion."""
     if len(curves) > 1:
         ax.legend(ncols=min(len(curves), 3), **LEGEND)
 
 
 def _measured(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
-    """A measured history; its cycles begin where the base's sine, as A sin θ, has θ = 0.
+    """Return the curves of a measured history. A cycle starts where the sine of the base has θ = 0.
 
-    A velocity that was not measured is the slope of the displacement, smoothed.
+    If the velocity was not measured, it is the smoothed derivative of the displacement.
     """
     time = motion["time"].values
     base, moved = (
@@ -261,7 +262,7 @@ def _repeated(curve: Shown, period: float, cycles: float) -> Shown:
 
 
 def _joined(touching: list[tuple[int, float, float]]) -> list[tuple[int, float, float]]:
-    """Join the two parts of a contact that goes on across the end of the period."""
+    """Join the two parts of a contact that continues across the end of the period."""
     joined: list[tuple[int, float, float]] = []
     for side, begin, end in sorted(touching, key=lambda contact: contact[1]):
         if joined and joined[-1][0] == side and begin - joined[-1][2] < 1e-9:
@@ -287,7 +288,7 @@ def _cut(curve: Shown, first: float, last: float) -> Shown:
 
 
 def gap_lines(ax: Axes, curves: list[Shown], *, horizontal: bool) -> None:
-    """Dashed lines where the bumpers are at rest (mm)."""
+    """Draw dashed lines at the positions of the undeformed bumpers (mm)."""
     gaps = {
         (1 if name == "right" else -1) * gap for curve in curves for name, gap in curve.gaps.items()
     }

@@ -1,8 +1,8 @@
-"""Figures that a notebook shows where they are returned, without pyplot.
+"""Figures that a notebook displays when they are returned, without pyplot.
 
-A notebook asks what a cell returns for a ``_repr_png_``. Figures that are made here answer with
-their picture, and so do their axes, one alone or several together. Axes that a user made with
-pyplot answer with nothing: pyplot shows them itself.
+A notebook calls ``_repr_png_`` of the value that a cell returns. Figures that are made here return
+their image. So do their axes, alone or together. Axes that a user made with pyplot return nothing,
+because pyplot displays them itself.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ _MISSING = re.compile(r"Glyph (\d+) .* missing from font")
 
 
 class Drawing(Figure):
-    """A figure that a notebook shows; its text is set by matplotlib, and never by LaTeX."""
+    """A figure that a notebook displays. Its text is set by matplotlib, and never by LaTeX."""
 
     def savefig(self, *args: Any, **how: Any) -> None:
-        """Write the figure; the labels have signs that LaTeX lacks, and it may not be there."""
+        """Write the figure without LaTeX, which lacks some characters of the labels."""
         for text in self.findobj(Text):
             text.set_usetex(False)
         with rc_context({"text.usetex": False}), warnings.catch_warnings(record=True) as seen:
@@ -54,14 +54,14 @@ class Drawing(Figure):
 
 
 class Panel(Axes):
-    """Axes of a `Drawing`, shown with all of it."""
+    """Axes of a `Drawing`. A notebook displays the whole figure."""
 
     def _repr_png_(self) -> bytes | None:
         return _picture(self)
 
 
 class Panels(tuple[Axes, ...]):
-    """Several axes of one figure; ``panels[0].figure`` is the figure."""
+    """Several axes of one figure. ``panels[0].figure`` is the figure."""
 
     __slots__ = ()
 
@@ -70,14 +70,14 @@ class Panels(tuple[Axes, ...]):
 
 
 class Grid(np.ndarray[Any, np.dtype[Any]]):
-    """Rows and columns of axes of one figure; ``grid[0, 0].figure`` is the figure."""
+    """Rows and columns of axes of one figure. ``grid[0, 0].figure`` is the figure."""
 
     def _repr_png_(self) -> bytes | None:
         return _picture(self.flat[0])
 
 
 def new_axes(rows: int, columns: int, size: tuple[float, float], **how: Any) -> Grid:
-    """Axes of a new figure; `how` is passed to `Figure.subplots`."""
+    """Return the axes of a new figure. `how` is passed to `Figure.subplots`."""
     figure = Drawing(figsize=size, layout="constrained")
     made: NDArray[Any] = figure.subplots(
         rows, columns, squeeze=False, subplot_kw={"axes_class": Panel}, **how

@@ -1,4 +1,4 @@
-"""The plane of two parameters that maps are drawn in."""
+"""The plane of two parameters in which maps are drawn."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SYMBOLS = {
 
 
 def node_edges(values: xr.DataArray) -> NDArray[np.float64]:
-    """Borders half-way between nodes, in the axis's unit; the first and last node end the range."""
+    """Return borders half-way between nodes, in the unit of the axis, and the outer nodes."""
     nodes = axis_unit(values)[0] * values.values
     low, high = nodes[:-1], nodes[1:]
     middle = np.sqrt(low * high) if logarithmic(nodes) else 0.5 * (low + high)
@@ -28,7 +28,7 @@ def node_edges(values: xr.DataArray) -> NDArray[np.float64]:
 
 
 def plane_axes(ax: Axes, x: xr.DataArray, y: xr.DataArray) -> None:
-    """Scale, limit and label axes for the nodes of a map."""
+    """Set scale, limits and labels of axes for the nodes of a map."""
     for axis, values in ((ax.xaxis, x), (ax.yaxis, y)):
         factor, unit = axis_unit(values)
         name = str(values.name)

@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
 
 _MOST_VECTORS = 50_000
-"""Points of a curve from which on it is a picture in SVG and PDF, which else had megabytes."""
+"""Number of points from which a curve is rasterised in SVG and PDF files, which otherwise would be
+very large."""
 
 
 def phase_portrait(
@@ -20,25 +21,26 @@ def phase_portrait(
     *,
     title: str | None = None,
 ) -> Axes:
-    """Draw phase portraits: relative velocity over relative displacement.
+    """Draw phase portraits: the relative velocity over the relative displacement.
 
-    The gaps are dashed lines. The points of the stroboscopic section, at the first phase of the
-    motion, are diamonds (dots if there are many).
+    Dashed lines are the gaps. Diamonds are the points of the stroboscopic section at the initial
+    phase of the motion. If there are many points, they are dots.
 
     Parameters
     ----------
     motions
-        Dataset of `steady`, or of `simulate` with samples, including motions through a `Record`; or
-        several of them by name. A name that contains "forward" is drawn red, "backward" blue.
+        Dataset of `steady`, or of `simulate` with samples, including motions through a `Record`.
+        For several motions, pass a mapping from names to datasets. If a name contains "forward",
+        the curve is red. If it contains "backward", the curve is blue.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If a dataset is not that of a motion with samples.
+        If a dataset does not hold a motion with samples.
     """
     given = named(motions, records=True)
     ax = axes_or_new(ax, (5.2, 4.4), title)

@@ -1,4 +1,4 @@
-"""A motion through a record over time, with the record above."""
+"""A motion through a record over time, with the record above it."""
 
 from __future__ import annotations
 
@@ -27,30 +27,30 @@ _SIDES = {"right": 1, "left": -1}
 
 
 def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
-    """Draw a motion through a record over time, with the record above it.
+    """Draw the motion of a rig through a record over time, with the record above it.
 
-    Contacts are bands between their exact times (hatched for the left stop), impacts on rigid stops
-    are dots, and the gaps are dashed lines.
+    Each contact is a band between its exact start and end times. The band is hatched for the left
+    stop. Dots are impacts on rigid stops. Dashed lines are the gaps.
 
     Parameters
     ----------
     motion
         Dataset of `simulate` through a `Record`, with samples.
     axes
-        Four Axes. None makes a new figure.
+        Four Axes. Default: a new figure.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Returns
     -------
     tuple of Axes
-        For the base's acceleration, displacement, absolute acceleration and velocity;
-        ``axes[0].figure`` is the figure.
+        The Axes of the base acceleration, and of the displacement, the absolute acceleration and
+        the velocity of the mass. ``axes[0].figure`` is the figure.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a motion through a record, or there are not four axes.
+        If the dataset does not hold a motion through a record, or if there are not four axes.
     """
     stops = stops_of(motion)
     names = "base acceleration, displacement, acceleration and velocity"
@@ -86,12 +86,12 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
 
 
 def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:
-    """The stops of a motion through a record, by side.
+    """Return the stops of a motion through a record, by side.
 
     Raises
     ------
     InputError
-        If it is none.
+        If the dataset does not hold a motion through a record.
     """
     parameters = json.loads(getattr(motion, "attrs", {}).get("parameters", "{}"))
     if "record" not in parameters or "displacement" not in motion:
@@ -105,14 +105,14 @@ def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:
 
 
 def gap_lines(ax: Axes, stops: dict[str, dict[str, Any]]) -> None:
-    """Where the stops stand, over a displacement in mm."""
+    """Draw lines at the positions of the stops, for a displacement in mm."""
     for side, stop in stops.items():
         gap = 1e3 * _SIDES[side] * stop["gap"]
         ax.axhline(gap, color="black", linestyle="--", linewidth=0.8, zorder=2)
 
 
 def stops_legend(stops: dict[str, dict[str, Any]], motion: xr.Dataset) -> list[Any]:
-    """What gap lines mean, and contact bands of stops that are touched."""
+    """Return legend entries of the gap lines, and of the contact bands of touched stops."""
     handles: list[Any] = []
     if stops:
         handles.append(Line2D([], [], color="black", linestyle="--", linewidth=0.8, label="gaps"))
@@ -127,7 +127,7 @@ def stops_legend(stops: dict[str, dict[str, Any]], motion: xr.Dataset) -> list[A
 
 
 def contact_bands(ax: Axes, motion: xr.Dataset) -> None:
-    """Bands where the mass touches a stop."""
+    """Draw bands where the mass touches a stop."""
     for side, sign in _SIDES.items():
         spans = _spans(motion, sign)
         colour, hatch = BANDS[side]
@@ -144,7 +144,7 @@ def contact_bands(ax: Axes, motion: xr.Dataset) -> None:
 
 
 def _spans(motion: xr.Dataset, sign: int) -> NDArray[np.float64]:
-    """Beginnings and ends of the contacts on one side, those of the whole motion included."""
+    """Return starts and ends of the contacts on one side, even if one lasts the whole motion."""
     at = motion["event_side"].values == sign
     kind, time = motion["event_contact"].values[at], motion["event_time"].values[at]
     begins, ends = time[kind == 1], time[kind == 0]

@@ -1,4 +1,4 @@
-"""Pseudo-resonance curves, forward and backward, as in the paper's Figs. 4, 7 and 11."""
+"""Resonance curves, forward and backward, as in the paper's Figs. 4, 7 and 11."""
 
 from __future__ import annotations
 
@@ -27,12 +27,13 @@ _LABELS = {
     "left": "left hysteresis (backward above)",
 }
 _ARROWS_APART = 5.0
-"""Least distance in points between a forward and a backward arrow."""
+"""Smallest distance between a forward and a backward arrow, in points."""
 _MARKS = 60
-"""How many marks of motions that did not settle fit side by side."""
+"""Number of marks of non-periodic motions that fit side by side."""
 
 _PLAIN = {"marker": "none"}
-"""Beneath measured points, whose marks must not be taken for those of the curve."""
+"""Style of a curve below measured points: without marks, which could be confused with the
+points."""
 
 
 def resonance_curves(
@@ -44,43 +45,48 @@ def resonance_curves(
     physical: bool | None = None,
     measured: xr.Dataset | None = None,
 ) -> Panels:
-    """Draw resonance curves: η_a and η_d, or physical quantities, over the excitation frequency.
+    """Draw resonance curves: η_a and η_d, or physical quantities, over the forcing frequency.
 
-    The forward sweep is red and solid with dots, the backward sweep blue and dashed with squares,
-    the motion without stops black. Vertical arrows mark jumps of a sweep. Hysteresis is shaded, and
-    left hysteresis is hatched as well. Crosses mark motions that did not settle; some are omitted
-    if they are close together. In physical units, the gaps are dotted lines.
+    The forward sweep is a solid red line with dots. The backward sweep is a dashed blue line with
+    squares. The motion without stops is black. Vertical arrows mark the jumps of a sweep. Ranges
+    with hysteresis are shaded; ranges with left hysteresis are also hatched. Crosses mark motions
+    that did not become periodic. If many such motions are close together, some crosses are omitted.
+    In physical units, dotted lines are the gaps.
 
     Parameters
     ----------
     data
-        Dataset of `vibroimpact.sweep`, or one rig of `vibroimpact.sweeps`; or measured curves.
+        Dataset of `vibroimpact.sweep`, one rig of a dataset of `vibroimpact.sweeps`, or measured
+        curves.
     axes
-        Axes to draw on: two for η_a and η_d, or one per physical panel. None makes a new figure.
+        Axes to draw on: two for η_a and η_d, or one per physical quantity. Default: a new figure.
     found
-        Features to mark. Default: computed from the curves.
+        Features (resonances, jumps and hysteresis) that are marked. Default: the features are
+        computed from the curves.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
     physical
-        Whether the largest absolute acceleration (g), the largest displacement (mm) and, if a stop
-        is touched, the largest contact force (for rigid stops the largest impulse) are drawn
-        instead of η_a and η_d. Default: only if the motion without stops is unbounded, so that η is
-        not meaningful.
+        Whether physical quantities are drawn instead of η_a and η_d. They are the largest absolute
+        acceleration (g), the largest displacement (mm) and, if a stop is touched, the largest
+        contact force. For rigid stops the largest impulse replaces the force. Default: physical
+        quantities are drawn only if the motion without stops is unbounded, because then η has no
+        meaning.
     measured
-        Curves of `vibroimpact.read_measurement`, drawn as open points over the computed ones.
-        Excursions are divided by those of the computed rig without stops. In physical units, half
-        the excursion of both is drawn if maxima and minima were not measured.
+        Measured curves of `vibroimpact.read_measurement`, which are drawn as open points over the
+        computed curves. Their excursions are divided by the excursions of the computed rig without
+        stops. In physical units, if maxima and minima were not measured, half the excursion is
+        drawn for both the measured and the computed curves.
 
     Returns
     -------
     tuple of Axes
-        For η_a and η_d, or acceleration, displacement and force; ``axes[0].figure`` is the
-        figure.
+        The Axes of η_a and η_d, or of acceleration, displacement and force. ``axes[0].figure`` is
+        the figure.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a sweep of one rig, or the number of axes is wrong.
+        If the dataset does not hold the sweep of one rig, or if the number of axes is wrong.
     """
     if is_measured(data) and "motion" not in data:
         return measured_curves(data, axes, title=title)
@@ -112,7 +118,7 @@ def resonance_curves(
 
 
 def _side(frequency: NDArray[np.float64], drawn: Drawn, item: Hysteresis) -> str:
-    """Which sweep lies above in a panel: where accelerations are larger, displacements need not."""
+    """Return which sweep lies above in a panel: it may differ between the two panels."""
     within = (frequency >= item.low) & (frequency <= item.high)
     apart = drawn.curves["forward"][within] - drawn.curves["backward"][within]
     total = float(np.nansum(apart))
@@ -177,7 +183,7 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked:
 
 
 def _loose_style(look: Look) -> dict[str, Any]:
-    """Keywords of `Axes.plot`: crosses that can be told apart where one falls on the other."""
+    """Return keywords of `Axes.plot` for crosses that can be distinguished even if they overlap."""
     return {
         "linestyle": "none",
         "marker": "x" if look.filled else "+",
@@ -190,13 +196,13 @@ def _loose_style(look: Look) -> dict[str, Any]:
 def _parted(
     frequency: NDArray[np.float64], values: NDArray[np.float64], jumps: list[Jump]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Part a curve at its jumps, where an arrow takes the line's place."""
+    """Interrupt a curve at its jumps, where an arrow replaces the line."""
     cuts = np.searchsorted(frequency, sorted(max(jump.before, jump.after) for jump in jumps))
     return np.insert(frequency, cuts, np.nan), np.insert(values, cuts, np.nan)
 
 
 def _thinned(frequency: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Return the indices of some of the true values: no two marks closer than a mark's width."""
+    """Return the indices of some of the true values, so that marks do not overlap."""
     least = (frequency[-1] - frequency[0]) / _MARKS
     kept: list[int] = []
     for i in np.flatnonzero(where):
@@ -206,7 +212,7 @@ def _thinned(frequency: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArra
 
 
 def _draw_jumps(ax: Axes, frequency: NDArray[np.float64], drawn: Drawn, jumps: list[Jump]) -> None:
-    """Draw vertical arrows from value to value, half-way between the two frequencies."""
+    """Draw vertical arrows from value to value, half-way between the two frequencies of a jump."""
     box = ax.get_window_extent()
     points = 72.0 / ax.figure.dpi
     (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
@@ -241,7 +247,7 @@ def _draw_jumps(ax: Axes, frequency: NDArray[np.float64], drawn: Drawn, jumps: l
 
 
 def _legend(data: xr.Dataset, sides: Set[str], *, marked: bool) -> list[Artist]:
-    """Return an entry for each thing that is there to see."""
+    """Return a legend entry for each visible element."""
     entries: list[Artist] = []
     loose: list[Artist] = []
     for direction, look in SWEEPS.items():

@@ -1,4 +1,4 @@
-"""What the panels of resonance curves show: η, or an engineer's g, mm and kN."""
+"""Contents of the panels of resonance curves: η, or physical quantities in g, mm and kN."""
 
 from __future__ import annotations
 
@@ -22,40 +22,40 @@ from vibroimpact.model.units import plain
 _Array = NDArray[np.float64]
 
 _SEEN = 2.0
-"""A gap is drawn unless it is so many times as large as all displacements."""
+"""A gap is drawn unless it is larger than all displacements by this factor."""
 
 _NIL = 1e-9
-"""A rest (m) that is none."""
+"""Equilibrium displacement (m) that counts as 0."""
 
 
 class Level(NamedTuple):
-    """A line at one height."""
+    """A horizontal line."""
 
     value: float
     label: str
     style: dict[str, Any]
 
     def entry(self) -> Line2D:
-        """Its entry in a legend."""
+        """Return the legend entry of the line."""
         return Line2D([], [], label=self.label, **self.style)
 
 
 class Drawn(NamedTuple):
-    """One panel, in the units of its axis."""
+    """The contents of one panel, in the units of its axis."""
 
     name: str
     label: str
     curves: dict[str, _Array]
-    """By direction of the sweep."""
+    """Curves by direction of the sweep."""
     free: _Array | None
-    """The same in free flight."""
+    """The curve of the motion without stops."""
     levels: tuple[Level, ...] = ()
     spike: bool = False
-    """Whether free flight has no bound: its curve leaves the panel."""
+    """Whether the motion without stops is unbounded, so that its curve leaves the panel."""
 
     @property
     def top(self) -> float:
-        """The largest of all."""
+        """Largest value of all curves."""
         free = [] if self.free is None or self.spike else [self.free]
         curves = [*self.curves.values(), *free]
         highest = [float(np.nanmax(curve, initial=0.0)) for curve in curves]
@@ -63,7 +63,7 @@ class Drawn(NamedTuple):
 
 
 def normalised(data: xr.Dataset) -> list[Drawn]:
-    """η_a and η_d."""
+    """Return the panels of η_a and η_d."""
     found = []
     for symbol, kind, words in (
         ("a", "acceleration", "absolute acceleration"),
@@ -82,15 +82,16 @@ def normalised(data: xr.Dataset) -> list[Drawn]:
 
 
 def divides(data: xr.Dataset) -> bool:
-    """Whether η is meaningful: it has values, and the free flight that it is taken over a bound.
+    """Return whether η has a meaning: it has values, and the motion without stops is bounded.
 
-    Curves over what an undamped isolator does beside its resonance are as good as flat.
+    If the curves are divided by the response of an undamped isolator near its resonance, they are
+    almost flat.
     """
     return bool(data["eta_d"].notnull().any()) and not _spikes(data)
 
 
 def _spikes(data: xr.Dataset) -> bool:
-    """Whether the rig's free flight has no bound."""
+    """Return whether the motion without stops is unbounded."""
     about = json.loads(data.attrs["parameters"])["rigs"]
     rig = _rig(data)
     if rig is None:
@@ -101,15 +102,15 @@ def _spikes(data: xr.Dataset) -> bool:
 
 
 def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Drawn]:
-    """The largest absolute acceleration, displacement and, where there is one, contact force.
+    """Return panels of the largest absolute acceleration, displacement and, if any, contact force.
 
-    Of ``halves``, acceleration and displacement or one of them, half the excursion: what goes
-    further to one side than to the other is smaller in it.
+    For the quantities in ``halves``, half the excursion is drawn. If a motion goes further to one
+    side than to the other, half the excursion is smaller than the largest value.
 
     Raises
     ------
     InputError
-        If a dataset of an older version does not hold them.
+        If a dataset of an older version does not contain the quantities.
     """
     if "peak_acceleration" not in data:
         raise InputError(
@@ -172,13 +173,13 @@ def _curves(data: xr.Dataset, name: str, factor: float) -> dict[str, _Array]:
 
 
 def _rig(data: xr.Dataset) -> Oscillator | None:
-    """The rig that was swept, if the dataset holds no other."""
+    """Return the rig that was swept, if the dataset holds only one rig."""
     rigs = json.loads(data.attrs["parameters"])["rigs"]
     return Oscillator.model_validate(rigs[0]["oscillator"]) if len(rigs) == 1 else None
 
 
 def _rest(rig: Oscillator | None) -> float | None:
-    """Where the isolator alone holds the mass (m); None if that is not known."""
+    """Return the equilibrium displacement on the isolator alone (m), or None if it is unknown."""
     if rig is None:
         return None
     try:
@@ -188,7 +189,7 @@ def _rest(rig: Oscillator | None) -> float | None:
 
 
 def _gaps(rig: Oscillator | None, farthest: float) -> tuple[Level, ...]:
-    """The gaps that are within sight (mm)."""
+    """Return the gaps that lie within the range of the panel (mm)."""
     if rig is None:
         return ()
     gaps = {side: getattr(rig, side) for side in ("right", "left")}

@@ -41,19 +41,19 @@ def response_spectra(
     Parameters
     ----------
     spectrum
-        Dataset of `response_spectrum` with several periods; the period 0 is left out.
+        Dataset of `response_spectrum` with several natural periods. The period 0 is not drawn.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     quantity
-        Name of a variable of the dataset.
+        Name of the variable that is drawn.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If it is not a response spectrum with several periods, the quantity is unknown, or there are
-        more curves than can be distinguished.
+        If ``spectrum`` is not a response spectrum with several periods, or if the quantity is
+        unknown. Also if there are more curves than can be distinguished.
     """
     if quantity not in _LABELS:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")

@@ -23,14 +23,14 @@ from vibroimpact.scenarios.scenario import Scenario
 
 
 class Mark(NamedTuple):
-    """Rigs that are marked on a map with one symbol."""
+    """Rigs that are marked on a map of scenarios with the same symbol."""
 
     label: str
     marker: str
     x: Sequence[float]
     y: Sequence[float]
     face: str = "white"
-    """Colour inside."""
+    """Colour of the inside of the symbol."""
 
 
 def scenario_map(
@@ -42,27 +42,29 @@ def scenario_map(
     lines: Mapping[str, tuple[Sequence[float], Sequence[float]]] | None = None,
     title: str | None = None,
 ) -> Axes:
-    """Draw a map of scenarios: coloured, hatched and labelled areas.
+    """Draw a map of scenarios as coloured, hatched and labelled areas.
 
     Parameters
     ----------
     data
         Dataset of `vibroimpact.scenario_map`.
     ax
-        Axes to draw on. None makes a new figure.
+        Axes to draw on. Default: a new figure.
     border
-        Dataset of ``jump_border`` for the same map, drawn as a line of exact points.
+        Dataset of ``jump_border`` for the same map: the exact border between rigs with and without
+        jumps, which is drawn as a line. Default: no line.
     marks
-        Rigs to mark.
+        Rigs that are marked. Default: none.
     lines
-        Further lines by their labels, as x and y in the map's units (SI).
+        Further lines, as a mapping from labels to pairs of x values and y values, in the units of
+        the map (SI). Default: none.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If the dataset is not a map, or the border belongs to another map.
+        If the dataset is not a map, or if the border belongs to another map.
     """
     if "scenario" not in data or data["scenario"].ndim != 2:
         raise InputError("data: this is not a map; a dataset of scenario_map is accepted")
@@ -194,7 +196,7 @@ def _area(
 def _outlines(
     ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64], kinds: NDArray[np.int8]
 ) -> None:
-    """Lines between neighbouring nodes of different scenarios."""
+    """Draw lines between neighbouring nodes of different scenarios."""
     across, along = kinds[:, 1:] != kinds[:, :-1], kinds[1:] != kinds[:-1]
     segments = [[(x[j + 1], y[i]), (x[j + 1], y[i + 1])] for i, j in np.argwhere(across)]
     segments += [[(x[j], y[i + 1]), (x[j + 1], y[i + 1])] for i, j in np.argwhere(along)]
@@ -204,14 +206,14 @@ def _outlines(
 
 
 def _doubled(edges: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Two places for each node, just within its edges."""
+    """Return two positions for each node, just inside its edges."""
     inset = 1e-3 * np.diff(edges)
     places = np.column_stack([edges[:-1] + inset, edges[1:] - inset])
     return places.ravel()
 
 
 def _deepest(mine: NDArray[np.bool_]) -> tuple[int, int] | None:
-    """A node as far as can be from the others; None if the area is no wider than a few nodes."""
+    """Return the node farthest from other areas, or None if the area is too narrow."""
     depth = np.zeros(mine.shape, dtype=int)
     left = mine.copy()
     while left.any():

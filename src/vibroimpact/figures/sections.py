@@ -1,4 +1,4 @@
-"""Bifurcation diagrams by brute force: sections, periods and the largest exponent."""
+"""Bifurcation diagrams by simulation: sections, periods and the largest Lyapunov exponent."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LABELS = {
     "contact_start_phase": (1.0, "phase of the forcing\nat impacts (rad)"),
     "contact_start_velocity": (1e3, "velocity\nat impacts (mm/s)"),
 }
-"""Factor and label."""
+"""Factor and label of each quantity."""
 
 _WAYS = {
     "up": SWEEPS["forward"]._replace(label="up"),
@@ -34,7 +34,7 @@ _ELSE = Look("from other initial states", "0.35", "-.", 0.8, "x", 4.0, True)
 
 _HEIGHTS = (3.2, 1.0, 1.4)
 _NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")
-"""Motions that have a row each on the axis of periods, below a period of 1, where there are any."""
+"""Types of motions that have their own row on the axis of periods, below the period 1."""
 
 
 def section_diagram(
@@ -45,28 +45,29 @@ def section_diagram(
     branches: xr.Dataset | None = None,
     title: str | None = None,
 ) -> Panels:
-    """Draw a bifurcation diagram: sections, periods and the largest exponent over a parameter.
+    """Draw a bifurcation diagram: section, period and largest Lyapunov exponent over a parameter.
 
     Parameters
     ----------
     data
         Dataset of `bifurcation_diagram`.
     axes
-        Three axes to draw on, from top to bottom. None makes a new figure.
+        Three Axes to draw on, from top to bottom. Default: a new figure.
     quantity
-        ``"section_displacement"`` (of a stroboscopic section) or ``"section_velocity"``;
-        ``"contact_start_velocity"`` (at impacts) or ``"contact_start_phase"``.
+        Quantity of the section. For a stroboscopic section: ``"section_displacement"`` or
+        ``"section_velocity"``. For a section at impacts: ``"contact_start_velocity"`` or
+        ``"contact_start_phase"``. Default: the first of the two.
     branches
-        Dataset of `branch` or `resonance_diagram` over the same parameter, whose bifurcations are
-        drawn as lines.
+        Dataset of `branch` or `resonance_diagram` over the same parameter. Its bifurcations are
+        drawn as vertical lines. Default: no lines.
     title
-        Title of a new figure.
+        Title of the figure, if a new one is made.
 
     Raises
     ------
     InputError
-        If the dataset is not such a diagram, has no such quantity, or the branches are over another
-        parameter.
+        If the dataset is not a bifurcation diagram, or if it does not contain the quantity. Also if
+        the branches were computed over another parameter.
     """
     held = [name for name in _LABELS if name in data]
     if "start" not in data.dims or not held:
@@ -126,7 +127,7 @@ def section_diagram(
 
 
 def _points(ax: Axes, x: _Array, points: _Array, look: Look) -> None:
-    """Points of a periodic motion as marks, the many of another as dots."""
+    """Draw the points of a periodic motion as marks, and the points of another motion as dots."""
     count = np.isfinite(points).sum(axis=1)
     for few in (True, False):
         rows = (count <= _FEW) == few
@@ -146,7 +147,7 @@ def _points(ax: Axes, x: _Array, points: _Array, look: Look) -> None:
 
 
 _FEW = 16
-"""Points up to which they are marks."""
+"""Largest number of points that are drawn as marks."""
 
 
 def _line(ax: Axes, x: _Array, y: _Array, look: Look, dots: bool = True) -> None:
@@ -178,7 +179,7 @@ def _handle(look: Look) -> Line2D:
 
 
 def _rows(motions: NDArray[np.str_], periods: NDArray[np.int64]) -> dict[str, float]:
-    """Where motions without a period stand on the axis of periods."""
+    """Return the positions of motions without a period on the axis of periods."""
     held = [motion for motion in _NO_PERIOD if (motions == motion).any()]
     # As far apart as their names are high, however many doublings the axis shows.
     step = max(1.0, 0.25 * np.log2(max(int(periods.max()), 2)))
@@ -186,7 +187,7 @@ def _rows(motions: NDArray[np.str_], periods: NDArray[np.int64]) -> dict[str, fl
 
 
 def _periods(ax: Axes, periods: NDArray[np.int64], rows: dict[str, float]) -> None:
-    """An axis of periods on which each doubling is a step; below it what has none, by its kind."""
+    """Set an axis of periods on which a doubling is one step, and the rows below it."""
     ax.set_yscale("log", base=2)
     most = max(int(periods.max()), 2)
     powers = [2**k for k in range(most.bit_length())]
@@ -201,7 +202,7 @@ def _periods(ax: Axes, periods: NDArray[np.int64], rows: dict[str, float]) -> No
 
 
 def _lines(drawn: Panels, branches: xr.Dataset, scale: float) -> list[Line2D]:
-    """A line through all panels for each bifurcation, its mark at the top."""
+    """Draw a line through all panels for each bifurcation, with its mark at the top."""
     handles = []
     kinds = branches["bifurcation_kind"].values
     for kind, mark in MARKS.items():

@@ -1,4 +1,4 @@
-"""Common parts of all figures: colours, marks, panels, and files."""
+"""Common parts of all figures: colours, marks, panels and files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FORMATS = ("png", "pdf", "svg")
 
 
 class Look(NamedTuple):
-    """Style of one kind of curve: markers and dashes distinguish it without colour."""
+    """Style of one kind of curve. Markers and dashes distinguish it even without colour."""
 
     label: str
     colour: str
@@ -36,7 +36,8 @@ SWEEPS = {
     "forward": Look("forward sweep", "#c8102e", "-", 1.6, "o", 3.6, True),
     "backward": Look("backward sweep", "#1f4fbf", "--", 1.3, "s", 5.6, False),
 }
-"""As in the paper: forward red, backward blue. An open square shows a dot that it falls on."""
+"""Styles of sweeps, as in the paper: forward red, backward blue. A dot is visible inside an open
+square."""
 
 MOTIONS = (
     Look("motion", "black", "-", 1.2, "o", 3.6, True),
@@ -44,16 +45,16 @@ MOTIONS = (
     Look("motion", "#00795c", "-.", 1.2, "D", 3.8, True),
     Look("motion", "#7a3e9d", "--", 1.2, "v", 4.4, True),
 )
-"""In turn, for motions that are not named after a sweep."""
+"""Styles of motions whose names contain no sweep direction, in turn."""
 
 
 class Area(NamedTuple):
-    """Style of a scenario: the colour of the paper, and a pattern and a label without colour."""
+    """Style of a scenario: the colour of the paper, a pattern and a label."""
 
     colour: str
     hatch: str
     line: str
-    """A darker shade, for curves and text."""
+    """A darker shade of the colour, for curves and text."""
 
 
 SCENARIOS = {
@@ -66,17 +67,18 @@ SCENARIOS = {
     "S6": Area("#f9cf94", "\\\\\\\\", "#d97700"),
     "unclassified": Area("#d9d9d9", "++", "0.35"),
 }
-"""S0 and S1 green, S2 blue, S3 red, S4 magenta, S5 light blue, S6 orange."""
+"""Styles of the scenarios: S0 and S1 green, S2 blue, S3 red, S4 magenta, S5 light blue, S6
+orange."""
 
 BUMPERS = {"B1": "o", "B2": "s", "B3": "^", "B4": "D"}
-"""Symbols of the laboratory's bumpers, as in the paper's Fig. 21."""
+"""Symbols of the laboratory bumpers, as in the paper's Fig. 21."""
 
 FREE = Look("free flight", "black", "-.", 0.9, "", 0.0, False)
 
 SHADE = "0.9"
-"""Light grey of a shaded range."""
+"""Light grey of shaded ranges."""
 EDGE = "0.55"
-"""Grey of hatches and edges on it."""
+"""Grey of hatches and edges on shaded ranges."""
 
 LEGEND: dict[str, Any] = {
     "loc": "lower center",
@@ -86,20 +88,20 @@ LEGEND: dict[str, Any] = {
     "borderaxespad": 0.0,
     "columnspacing": 1.6,
 }
-"""Above the panel, where it cannot cover a curve."""
+"""Position of a legend: above the panel, where it does not cover a curve."""
 
 
 def curve_style(look: Look, points: int, marks: int = 45) -> dict[str, Any]:
-    """Return the keywords of `Axes.plot` for a curve: of a dense one not every point is marked.
+    """Return the keywords of `Axes.plot` for a curve. On a dense curve not every point has a mark.
 
     Parameters
     ----------
     look
-        Kind of the curve.
+        Style of the curve.
     points
-        Number of its points.
+        Number of points of the curve.
     marks
-        About how many of them are marked.
+        Approximate number of marks.
     """
     every = max(1, points // marks)
     # Open markers half-way between the filled ones, where both cannot be at every point.
@@ -127,15 +129,16 @@ def panels(
     sharex: bool = True,
     beside: bool = False,
 ) -> Panels:
-    """Return the given axes, or those of a new figure: panels below or beside each other.
+    """Return the axes that were passed, or the axes of a new figure with several panels.
 
-    Their heights, one over the other, are equal unless they are given; panels below each other
-    share the horizontal axis unless they are of different things.
+    The panels are arranged below each other, or side by side with ``beside``. Their heights are
+    equal, unless ``heights`` is passed. Panels below each other share the horizontal axis, unless
+    ``sharex`` is False.
 
     Raises
     ------
     InputError
-        If axes are given, but not as many as there are panels.
+        If axes are passed, but not as many as there are panels.
     """
     if axes is None:
         rows, columns = (1, count) if beside else (count, 1)
@@ -152,7 +155,7 @@ def panels(
 
 
 def fit_x_axis(ax: Axes, values: ArrayLike) -> None:
-    """End the x axis at the smallest and the largest value; a single one stands in the middle."""
+    """End the x axis at the smallest and the largest value. A single value is in the middle."""
     x = np.asarray(values, dtype=float)
     if x.min() < x.max():
         ax.set_xlim(x.min(), x.max())
@@ -164,7 +167,7 @@ def fit_x_axis(ax: Axes, values: ArrayLike) -> None:
 
 
 def also_in_g(ax: Axes) -> None:
-    """Give axes of an acceleration in m/s² a second scale on the right, in g."""
+    """Add a second scale in g on the right of axes with an acceleration in m/s²."""
     scale = ax.secondary_yaxis("right", functions=(_in_g, _from_g))
     scale.set_ylabel("(g)")
 
@@ -180,21 +183,21 @@ def _from_g(multiple: ArrayLike) -> NDArray[np.float64]:
 def save_figure(drawn: Any, path: Path | str) -> Path:
     """Write a figure to a PNG, PDF or SVG file.
 
-    The same data give the same file, byte for byte: it contains no date and no version. The text of
-    an SVG file can be searched and edited.
+    The same data always give the same file, byte for byte, because the file contains no date and no
+    version number. The text of an SVG file can be searched and edited.
 
     Parameters
     ----------
     drawn
-        Axes that a function of this package returned, or a Figure.
+        A Figure, or the Axes that a function of this package returned.
     path
-        The file.
+        File name. Its ending (``.png``, ``.pdf`` or ``.svg``) selects the format.
 
     Raises
     ------
     InputError
-        If it is not a figure, the file name ends otherwise, or the file cannot be written. An
-        existing file is then unchanged.
+        If ``drawn`` is not a figure, if the file name has another ending, or if the file cannot be
+        written. In these cases an existing file is left unchanged.
     """
     import matplotlib
 

@@ -25,19 +25,27 @@ def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
     Parameters
     ----------
     fits
-        Datasets of `identify`, by the name of the model.
+        Fits, as a mapping from the name of each model to its dataset of `identify`.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``model``, the best first: ``akaike`` (corrected for few points), ``bayes``,
-        ``akaike_weight``, the number of parameters, the noise, and whether the residuals are
-        systematic. The attribute ``findings`` summarises the result in words.
+        The dim ``model`` lists the models, the best one first. The variables are:
+
+        - ``akaike``, Akaike's information criterion, corrected for few points, and
+          ``akaike_weight``;
+        - ``bayes``, the Bayesian information criterion;
+        - ``parameter_count``, the number of fitted parameters;
+        - ``noise``, the standard deviation of the noise;
+        - ``residual_chance``: a small value means that the residuals are systematic.
+
+        The attribute ``findings`` summarises the comparison in words.
 
     Raises
     ------
     InputError
-        If there are fewer than two fits, one is not a fit, or they were fitted to different data.
+        If there are fewer than two fits, if one of the datasets is not a fit, or if the fits belong
+        to different data.
     """
     check_mapping(fits, "fits", "a mapping of names to fits")
     if len(fits) < 2:

@@ -62,78 +62,92 @@ def identify(
     Parameters
     ----------
     rig
-        The tested rig, with its known values and a guess of the others: a `Rig`, a laboratory case,
-        its code, or the path of a study file; or one per test, as a list or by name. If the data
-        state or contain the shaking, that shaking is used, and `rig` may be an `Oscillator` alone.
-        If the shaking of the rig differs from it, a warning and a finding report this.
+        The tested rig, with its known values and guesses of the unknown values. It is a `Rig`, a
+        published laboratory case or its code such as ``"B2-G1-A3"``, or the path of a study file.
+        If each test has its own rig, pass a list of rigs, or a mapping from the names of the tests
+        to rigs. If the data state or contain the shaking, this shaking is used, and ``rig`` may be
+        an `Oscillator` alone. If the shaking of the rig differs from the shaking of the data, a
+        warning and a finding report it.
     data
-        A dataset of `read_measurement`, or of `sweep` or `simulate`, or the path of a file; or
-        several, as a list or by name.
+        The measured data: a dataset of `read_measurement`, `sweep` or `simulate`, or the path of a
+        file. For several tests, pass a list, or a mapping from the names of the tests to their
+        data.
     free
-        Parameters to fit: names, such as ``"stiffness,bumper_damping"``; or a mapping from names
-        to a starting value, to bounds (low, high), to both (``{"start": ..., "low": ...}``), or
-        to None for the rig's own value. Parameters of sensors are ``displacement_scale``,
-        ``acceleration_scale``, ``displacement_offset`` and ``acceleration_offset``.
+        Parameters that are fitted. Pass their names, such as ``"stiffness,bumper_damping"``, or a
+        mapping from their names to settings. A setting is a starting value, bounds (low, high),
+        both (``{"start": ..., "low": ...}``), or None. With None the fit starts from the value of
+        the rig. Parameters of sensors are ``displacement_scale``, ``acceleration_scale``,
+        ``displacement_offset`` and ``acceleration_offset``.
     each
-        Free parameters that are fitted separately for each test; the others are shared. Default:
-        none.
+        Free parameters that are fitted separately for each test. All other free parameters have the
+        same value in all tests. Default: none.
     ties
-        Parameters that are tied to others, such as ``{"left_gap": "right_gap"}``.
+        Parameters that are kept equal to another parameter, such as ``{"left_gap": "right_gap"}``.
     priors
-        Mean and standard deviation of a normal prior, by name of the parameter. Default: none.
+        Prior knowledge: mean and standard deviation of a normal prior, by the name of the
+        parameter. Default: none.
     noise
-        Standard deviation of the measured values, as a fraction of each value, such as 0.02.
-        Default: estimated from the fit.
+        Standard deviation of the noise in the measured values, as a fraction of each value, such as
+        0.02. Default: estimated from the fit.
     robust
-        Whether outliers are given less weight than in least squares.
+        Whether outliers have less weight than in ordinary least squares.
     confidence
-        Confidence level of the intervals.
+        Confidence level of the intervals, between 0 and 1.
     starts
-        Number of local fits from different starting points.
+        Number of local fits, each from a different starting point.
     tried
-        Number of points over the ranges of the free parameters among which the starting points
-        are chosen.
+        Number of points that are tried, spread over the ranges of the free parameters. The best of
+        these points become starting points.
     profiles
-        Whether intervals are computed from profiles of the likelihood. Such intervals may be
-        asymmetric and end at a bound. Otherwise they are computed from the covariance.
+        Whether the intervals are computed from profiles of the likelihood. Such intervals may be
+        asymmetric, and they may end at a bound. If False, the intervals are computed from the
+        covariance.
     draws
-        Number of bootstrap samples, drawn from the measured points.
+        Number of bootstrap samples, which are drawn from the measured points.
     posterior
-        Number of posterior samples of a fit to curves, drawn by emcee
-        (``vibroimpact[posterior]``).
+        Number of samples of the posterior distribution, for a fit to curves. They are drawn by
+        emcee, which ``vibroimpact[posterior]`` installs.
     window
-        Number of forcing cycles per segment of a time history. The initial state of each segment is
-        fitted with the parameters. Default: 5. Use more for a regular motion, fewer for a chaotic
-        one.
+        Number of forcing cycles in each segment of a time history. The initial state of each
+        segment is fitted together with the parameters. Use more cycles for a regular motion, and
+        fewer cycles for a chaotic motion. Default: 5.
     steady
-        Whether time histories are records of steady motions. They are then compared with the
-        steady motion that is reached from the measured state, and no initial states are fitted.
+        Whether the time histories are records of steady motions. If so, each history is compared
+        with the steady motion that the rig reaches from the measured state, and no initial states
+        are fitted.
     seed
-        Random seed of starting points and bootstrap samples.
+        Random seed of the starting points and of the bootstrap samples.
     threads
         Number of threads (default: one per processor).
     progress
-        Function that is called with the number of steps done and their total.
+        Function that reports progress, such as the result of `progress_bar`. It is called with the
+        number of completed steps and the number of all steps.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``parameter``: ``fitted_value``, ``standard_error``, ``interval`` (``bound``: low, high)
-        and whether it is open at each end, ``covariance``, ``correlation``, the profiles and the
-        bootstrap values. Dim ``point``: measured value, fitted value, and residual (for curves, as
-        a fraction of the value). Dim ``test``: noise, and whether the residuals are systematic. The
-        attribute ``findings`` summarises the result in words, one finding per line. `fitted_rig`
-        returns the fitted rig.
+        Over the dim ``parameter``: ``fitted_value``, ``standard_error``, the confidence
+        ``interval`` (dim ``bound``: low, high), ``covariance``, ``correlation``, the profiles of
+        the likelihood, and the bootstrap values. ``interval_open`` states for each end of an
+        interval whether a bound, and not the data, limits it.
+
+        Over the dim ``point``: the measured value, the fitted value, and the residual. For curves,
+        a residual is a fraction of the value.
+
+        Over the dim ``test``: the noise, and whether the residuals are systematic.
+
+        The attribute ``findings`` summarises the result in words, with one finding per line. To get
+        the fitted rig, pass the dataset to `fitted_rig`.
 
     Raises
     ------
     InputError
-        If a value is invalid, or there are fewer points than unknowns.
+        If a value is invalid, or if there are fewer points than unknowns.
 
     Warns
     -----
     InputWarning
-        If the shaking of the data is used and differs from that of the rig.
+        If the shaking of the data is used, and the shaking of the rig differs from it.
     """
     check_progress(progress)
     starts, tried = whole(starts, "starts"), whole(tried, "tried", least=0)
@@ -197,20 +211,20 @@ def identify(
 
 
 def fitted_rig(result: xr.Dataset, test: str | None = None) -> Rig:
-    """Return the fitted rig, with the shaking of a test.
+    """Return the fitted rig with the shaking of one of the tests.
 
     Parameters
     ----------
     result
         Dataset of `identify`.
     test
-        Name of the test whose rig and shaking are returned. Default: the first test; required if
-        the rig is not the same in all tests.
+        Name of the test whose rig and shaking are returned. Default: the first test. The name is
+        required if the tests have different rigs.
 
     Raises
     ------
     InputError
-        If the dataset is not a fit, or it does not contain the test.
+        If the dataset is not a fit, or if it does not contain the test.
     """
     check_variables(result, ["fitted_value"], "result", "a dataset of identify")
     rigs = json.loads(result.attrs["rigs"])

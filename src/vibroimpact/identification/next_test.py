@@ -1,4 +1,4 @@
-"""The most informative next test: information of holds at candidate frequencies.
+"""The most informative next test: the information that each candidate would add to a fit.
 
 To first order, a hold at which excursions have the derivatives R (in standard deviations of the
 measurement) takes the covariance C of a fit to C − C Rᵀ (1 + R C Rᵀ)⁻¹ R C.
@@ -56,38 +56,44 @@ def next_test(
     noise: float | None = None,
     margin: float = 0.02,
 ) -> xr.Dataset:
-    """Find the hold of a stepped sine that would reduce the uncertainty of a fit most.
+    """Find the next measurement that would reduce the uncertainty of a fit most.
+
+    A candidate measurement is one frequency step of a stepped-sine test: the frequency and the
+    amplitude are held until the motion is steady, and its excursions are measured.
 
     Parameters
     ----------
     result
         Dataset of `identify`.
     frequencies
-        Candidate frequencies (Hz). Default: 121 from half the natural frequency to five times it.
+        Candidate frequencies (Hz). Default: 121 frequencies from 0.5 to 5 times the natural
+        frequency.
     amplitudes
-        Candidate peak base accelerations (m/s², or text). Default: from half to twice that of the
-        test.
+        Candidate peaks of the base acceleration (m/s², or text with units). Default: from 0.5 to 2
+        times the amplitude of the test.
     test
-        Name of the test whose rig would be tested. Default: the first.
+        Name of the test whose rig would be measured again. Default: the first test.
     noise
-        Standard deviation of the next test's values, as a share of the value. Default: that of the
-        fit.
+        Standard deviation of the noise in the next test, as a share of the measured value. Default:
+        the noise of the fit.
     margin
-        Smallest distance of a hold to the next jump in its direction, as a share of its frequency.
-        With 0, a hold may be as close as the uncertainty of the jump allows.
+        Smallest accepted distance between the candidate frequency and the next jump in the
+        direction of the sweep, as a share of the frequency. If it is 0, a candidate may be as close
+        to the jump as the uncertainty of the jump allows.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``candidate_amplitude``, ``direction``, ``frequency`` and ``parameter``:
-        ``remaining_error``, each standard error after the hold divided by that before it, and
-        ``information`` about all parameters together (nats). NaN where the motion does not settle,
-        or a jump is too close. The attribute ``findings`` describes the best holds in words.
+        The dims are ``candidate_amplitude``, ``direction``, ``frequency`` and ``parameter``.
+        ``remaining_error`` is the standard error of each parameter after the measurement, divided
+        by the standard error before it. ``information`` is the information about all parameters
+        together, in nats. Both are NaN where the motion does not settle, or where a jump is too
+        close. The attribute ``findings`` describes the best candidates in words.
 
     Raises
     ------
     InputError
-        If the dataset is not a fit, or a candidate is invalid.
+        If the dataset is not a fit, or if a candidate is invalid.
     """
     check_variables(result, ["covariance"], "result", "a dataset of identify")
     rigs = json.loads(result.attrs["rigs"])

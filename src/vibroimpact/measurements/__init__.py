@@ -1,1 +1,1 @@
-"""Measured data: files of tests as labelled datasets, whatever program wrote them."""
+"""Measured data: read the files of common measurement programs as labelled datasets."""

@@ -1,4 +1,4 @@
-"""What stands beside the columns of a file: the shaking, and what is not understood."""
+"""Entries of a file next to its columns: the shaking, and entries that are not understood."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ _SHAKEN = {"amplitude": ACCELERATION, "frequency": FREQUENCY}
 
 
 def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> dict[str, float]:
-    """Amplitude and frequency of the base, in SI units, as the call or the file says them.
+    """Return the amplitude and the frequency of the base in SI units, from the call or the file.
 
     Parameters
     ----------
     table
-        What was read.
+        The table that was read from the file.
     given
-        What the call says, which comes first; None where it says nothing.
+        Values in the call, which take precedence. None if the call has no value.
     notes
-        What was guessed, and the numbers that were left out, in words; added to.
+        List to which notes on assumptions and on numbers that were left out are added.
 
     Raises
     ------
     InputError
-        If one of them cannot be read, or is not above 0.
+        If a value cannot be read, or if it is not greater than 0.
     """
     written: dict[str, str] = {}
     left = []
@@ -60,17 +60,17 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
 
 
 def is_number(text: str) -> bool:
-    """Whether a text is a number, with a unit or without; a date is none."""
+    """Return whether a text is a number, with or without a unit. A date is not a number."""
     begin = _BARE.match(text)
     return begin is not None and re.fullmatch(r" *([^\W\d_].*|%)?", text[begin.end() :]) is not None
 
 
 def with_unit(text: str, unit: str | None) -> str:
-    """A number with the unit that its name ends in, where it has none of its own."""
+    """Return a number with the unit at the end of its name, if the number has no unit."""
     return f"{text} {spelled(unit)}" if unit and _BARE.fullmatch(text.strip()) else text
 
 
 def _odd(key: str, text: str) -> bool:
-    """Whether a number may matter, and is not used; what a format itself writes does not."""
+    """Return whether an entry is an unused number that the format itself does not write."""
     own = key.startswith("_") or key.lower().startswith(("matlab_", "wf_")) or key == "group"
     return is_number(text.strip()) and not own and not is_sampling(key)

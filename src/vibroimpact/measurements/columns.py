@@ -1,4 +1,4 @@
-"""What the formats of files have in common: named columns of numbers."""
+"""Common result of the readers of all file formats: named columns of numbers."""
 
 from __future__ import annotations
 
@@ -12,45 +12,45 @@ Array = NDArray[np.float64]
 
 
 class Column(NamedTuple):
-    """One channel of a file."""
+    """A channel of a file."""
 
     name: str
-    """As the file has it, without its unit."""
+    """Name in the file, without the unit."""
     unit: str | None
-    """As the file has it; None where it has none."""
+    """Unit in the file. None if the file states none."""
     values: NDArray[Any]
-    """Numbers, NaN where there is none; or words, such as the direction of a sweep."""
+    """Numbers (NaN if a number is missing), or words such as the direction of a sweep."""
     step: float | None = None
-    """Time between its samples (s), where the channel itself states it."""
+    """Time between samples (s), if the channel states it."""
     start: float = 0.0
-    """Time of its first sample (s)."""
+    """Time of the first sample (s)."""
     scale: float | None = None
-    """What its values are still to be multiplied by; None where nothing states it."""
+    """Factor by which the values must still be multiplied. None if the file states none."""
     offset: float | None = None
-    """What is to be added after that."""
+    """Offset that must be added after that."""
     doubt: str = ""
-    """What the file states of its unit or its scale and is not understood, in words."""
+    """Statements in the file about the unit or the scale that are not understood."""
 
 
 class Columns(NamedTuple):
-    """All channels of a file, or of one of its groups."""
+    """All channels of a file, or of a group in a file."""
 
     path: str
     columns: tuple[Column, ...]
     said: Mapping[str, str]
-    """What stands beside the numbers, such as ``amplitude``, as it is written."""
+    """Entries next to the numbers, such as ``amplitude``, as they are written in the file."""
     lines: NDArray[np.int64] | None = None
-    """Of a text file, the line of each row, from 1 on."""
+    """For a text file, the line number of each row, starting from 1."""
     notes: tuple[str, ...] = ()
-    """What was assumed, and what was left out, in words."""
+    """Notes on assumptions, and on what was left out."""
 
     def row(self, i: int) -> str:
-        """Where a row stands, in words."""
+        """Return the position of a row as text."""
         return f"row {i + 1}" if self.lines is None else f"line {self.lines[i]}"
 
 
 def of_one_length(path: str, columns: list[Column]) -> tuple[Column, ...]:
-    """The channels as long as the longest one, the shorter ones padded by NaN."""
+    """Return the channels with the same length. Shorter channels are padded with NaN."""
     longest = max((len(column.values) for column in columns), default=0)
     padded = []
     for column in columns:

@@ -1,4 +1,4 @@
-"""Stepped-sine curves from a table: a value a frequency and direction, none lost."""
+"""Stepped-sine curves from a table, with all values of each frequency and direction."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from vibroimpact.measurements.names import CURVES, Direction, Meaning, direction
 DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
 
 Known = dict[int, tuple[Meaning, Array]]
-"""What columns hold, by their number, in SI units."""
+"""Meaning of columns and their values in SI units, by number of the column."""
 
 
 def curves(
@@ -27,24 +27,24 @@ def curves(
     Parameters
     ----------
     table, known
-        What was read.
+        The table that was read from the file, and the meanings of its columns.
     direction
-        Of all rows, if nothing in the file says it.
+        Direction of all rows, if the file does not state it.
     notes
-        What was guessed or left out, in words; added to.
+        List to which notes on assumptions, and on what was left out, are added.
     facts
-        What the file does not hold, or holds more than once, in words; added to.
+        List to which facts are added: what the file does not contain, or contains more than once.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``direction`` and ``frequency`` (Hz, rising), NaN where nothing was measured; where a
-        frequency was held more than once, a last dim ``repeat``.
+        The dims are ``direction`` and ``frequency`` (Hz, rising). If a frequency was measured more
+        than once, there is a last dim ``repeat``. Values are NaN where nothing was measured.
 
     Raises
     ------
     InputError
-        If the direction of a row is unknown, or no values are left.
+        If the direction of a row is unknown, or if no values are left.
     """
     at = next(values for found, values in known.values() if found.variable == "frequency")
     ways = _directions(table, known, at, direction, notes)
@@ -94,7 +94,7 @@ def curves(
 def _directions(
     table: Columns, known: Known, at: Array, direction: str | None, notes: list[str]
 ) -> Sequence[Direction]:
-    """The direction of each row, where a column's name does not say it."""
+    """Return the direction of each row. It is used if the name of a column does not state it."""
     column = next((i for i, (found, _) in known.items() if found.variable == "direction"), None)
     if direction is not None:
         return [direction_of(direction, table.path, "direction")] * len(at)

@@ -1,8 +1,8 @@
 """Peaks, jumps and hysteresis of measured curves, with the resolution of the steps.
 
-What `vibroimpact.response.resonance` does for computed sweeps, with thresholds above the
-measurement's noise. The noise is that of the differences between the two directions where they
-follow one motion, or of the third differences of a single curve.
+The features are those of `vibroimpact.response.resonance` for computed sweeps, with thresholds
+above the noise of the measurement. The noise is estimated from the differences between the two
+directions where both follow the same motion, or from the third differences of a single curve.
 """
 
 from __future__ import annotations
@@ -20,14 +20,15 @@ from vibroimpact.response.peaks import CURVES, PROMINENCE
 from vibroimpact.response.resonance import APART, Features
 
 _NOISES = 6.0
-"""Least difference of two motions, and least prominence of a peak, in standard deviations."""
+"""Smallest difference of two motions, and smallest prominence of a peak, in standard deviations."""
 _ENOUGH = 8
-"""Values that are needed for an estimate."""
+"""Number of values that an estimate requires."""
 _APART = 8.0
-"""Standard deviations from the median of its hold above which a value is not noise."""
+"""Distance of a value from the median at its frequency, in standard deviations, above which the
+value is not noise."""
 _QUIET = 1e-3
-"""Noise is taken as no smaller a share, and a share of a value is reported for larger values
-only."""
+"""Lower limit of the noise, as a share. Relative values are reported only for values above this
+share."""
 _WORDS = {
     "eta_a": "η_a",
     "eta_d": "η_d",
@@ -39,16 +40,19 @@ _WORDS = {
     "displacement_min": "the displacement's minimum",
 }
 _LOW, _OF_NORMAL = 0.3, 0.3853
-"""A quantile, and what it is of the size of a standard normal number."""
+"""A quantile, and its value for the absolute value of a standard normal variable."""
 
 
 def strays(data: xr.Dataset) -> dict[str, NDArray[np.bool_]]:
-    """Which values of a hold lie far from the median of the hold, as those of another motion do.
+    """Find repeated values that lie far from the median at their frequency.
+
+    Such values belong to another motion.
 
     Returns
     -------
     dict
-        By variable that was measured again, over ``direction``, ``frequency`` and ``repeat``.
+        For each variable that was measured repeatedly: flags over ``direction``, ``frequency`` and
+        ``repeat``.
     """
     off: dict[str, NDArray[np.float64]] = {}
     for name in MEASURED:
@@ -70,9 +74,10 @@ def strays(data: xr.Dataset) -> dict[str, NDArray[np.bool_]]:
 
 
 def noise_of(data: xr.Dataset | Swept) -> float:
-    """Standard deviation of a measured value as a share of it, estimated robustly; 0 if unknown.
+    """Estimate the standard deviation of measured values, as a share of the value; 0 if unknown.
 
-    Where frequencies were held more than once, that of the repeated values is the best estimate.
+    The estimate is robust. If frequencies were measured repeatedly, it is computed from the
+    repeated values.
     """
     if isinstance(data, xr.Dataset) and (repeated := _of_repeats(data)):
         return repeated
@@ -80,7 +85,7 @@ def noise_of(data: xr.Dataset | Swept) -> float:
 
 
 def _of_neighbours(both: Swept) -> float:
-    """Of the differences between the directions, or between frequencies; 0 if these are few."""
+    """Estimate the noise from differences between directions or frequencies; 0 if there are few."""
     found: list[float] = []
     for name in CURVES:
         values = getattr(both, name)
@@ -98,7 +103,7 @@ def _of_neighbours(both: Swept) -> float:
 
 
 def _of_repeats(data: xr.Dataset) -> float:
-    """Of values that were measured again; 0 if these are few."""
+    """Estimate the noise from repeated values; 0 if there are few."""
     squares: list[float] = []
     spare = 0
     far = strays(data)
@@ -117,7 +122,7 @@ def _of_repeats(data: xr.Dataset) -> float:
 
 
 def measured_features(data: xr.Dataset) -> Features:
-    """All that measured curves show.
+    """Find the peaks, jumps and hysteresis of measured curves.
 
     Parameters
     ----------
@@ -127,8 +132,8 @@ def measured_features(data: xr.Dataset) -> Features:
     Returns
     -------
     Features
-        As of a computed sweep; jumps lie between two neighbouring frequencies, which are the
-        resolution of the measurement.
+        The same features as those of a computed sweep. A jump lies between two neighbouring
+        frequencies. Their distance is the resolution of the measurement.
 
     Raises
     ------
@@ -144,7 +149,7 @@ def measured_features(data: xr.Dataset) -> Features:
 
 
 def in_words(data: xr.Dataset) -> list[str]:
-    """What measured curves show, a line each."""
+    """Describe the features of measured curves, with one line per feature."""
     both = swept(data)
     found = measured_features(data)
     step = np.diff(both.frequency)

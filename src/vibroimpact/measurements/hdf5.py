@@ -1,4 +1,4 @@
-"""HDF5 files: vectors, a table for each group; units, scales and steps from their attributes."""
+"""HDF5 files: each group of vectors is a table; attributes state units, scales and steps."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from vibroimpact.measurements.tables import damaged, tables
 from vibroimpact.records.guard import within
 
 _HEAP = b"GCOL\x01\0\0\0"
-"""The beginning of a heap of texts."""
+"""Signature of a heap of texts."""
 
 
 def read(path: Path) -> list[Columns]:
-    """The tables of a file.
+    """Read the tables of a file.
 
     Raises
     ------
     InputError
-        If it is damaged, holds too much, or has its data elsewhere.
+        If the file is damaged, is too large, or has its data in another file.
     """
     import h5py
 
@@ -82,12 +82,12 @@ def read(path: Path) -> list[Columns]:
 
 
 def _check_heaps(data: bytes) -> None:
-    """Check the heaps of texts: HDF5 never ends at free space that has no size.
+    """Check the heaps of texts, because HDF5 never ends at free space of size 0.
 
     Raises
     ------
     ValueError
-        If there is one.
+        If there is such free space.
     """
     at = data.find(_HEAP)
     while at >= 0:
@@ -103,7 +103,7 @@ def _check_heaps(data: bytes) -> None:
 
 
 def _attributes(item: Any) -> dict[str, str]:
-    """What stands beside a group: single values, and lists of units or scales."""
+    """Return the attributes of a group: single values, and lists of units or scales."""
     return {
         name: _joined(value)
         for name, value in item.attrs.items()
@@ -116,7 +116,7 @@ def _joined(value: Any) -> str:
 
 
 def _lists(item: Any) -> tuple[dict[str, Any], list[str]]:
-    """The attributes of a dataset; and the units of its columns, if a list of them is one."""
+    """Return the attributes of a dataset, and the units of its columns if they are listed."""
     own: dict[str, Any] = {}
     each: list[str] = []
     fields = item.dtype.names

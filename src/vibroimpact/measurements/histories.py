@@ -1,4 +1,4 @@
-"""Time histories from a table: base and mass, as the names of `vibroimpact.simulate`."""
+"""Time histories from a table, with the variable names of `vibroimpact.simulate`."""
 
 from __future__ import annotations
 
@@ -11,31 +11,32 @@ from vibroimpact.measurements.curves import Known
 from vibroimpact.measurements.names import HISTORIES
 
 _EVEN = 0.01
-"""Share of a step by which a time may be off before the record counts as uneven."""
+"""Largest deviation of a time from an even step, as a share of the step."""
 
 
 def history(table: Columns, known: Known, notes: list[str], facts: list[str]) -> xr.Dataset:
-    """Channels over time, in SI units.
+    """Return the channels over time, in SI units.
 
     Parameters
     ----------
     table, known
-        What was read.
+        The table that was read from the file, and the meanings of its columns.
     notes
-        What was guessed or left out, in words; added to.
+        List to which notes on assumptions, and on what was left out, are added.
     facts
-        What the file does not hold, and what was computed instead, in words; added to.
+        List to which facts are added: what the file does not contain, and what was computed
+        instead.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``time`` (s, rising). ``displacement`` is relative to the base: where mass and base were
-        measured, their difference.
+        The dim is ``time`` (s, rising). ``displacement`` is relative to the base. If the
+        displacements of mass and base were measured, it is their difference.
 
     Raises
     ------
     InputError
-        If nothing is left, or two samples have one time.
+        If no channel is left, or if two samples have the same time.
     """
     time = next(values for found, values in known.values() if found.variable == "time")
     usable = np.isfinite(time)

@@ -1,4 +1,4 @@
-"""LabVIEW's measurement files: a table for all channels of a segment that share their times."""
+"""Measurement files of LabVIEW: a table contains all channels of a segment with the same times."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from vibroimpact.records.stated import parted
 
 
 def read(path: Path) -> list[Columns] | None:
-    """The tables of a file; None if it is of another format.
+    """Read the tables of a file. Return None if it has another format.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""MATLAB's files: vectors, those of structures too; version 7.3 is an HDF5 file."""
+"""MATLAB files: vectors, including those in structures. Version 7.3 is an HDF5 file."""
 
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from vibroimpact.records.guard import MOST_BYTES, unpacked, within
 _HEADER, _TAG = 128, 8
 _DIMENSIONS, _ARRAY, _PACKED = 5, 14, 15
 _KINDS = {*range(1, 8), 9, *range(12, 19)}
-"""Of elements: numbers, arrays, packed ones and texts."""
+"""Kinds of elements: numbers, arrays, compressed elements and texts."""
 _NUMERIC = {4: 4, 5: 5} | dict.fromkeys(range(6, 16), 4)
-"""Classes of texts, sparse and full numbers: how many parts they have, or one more if complex."""
+"""Number of parts of text, sparse and full arrays, by class. Complex arrays have one more part."""
 _COMPLEX = 0x800
 _DEEPEST = 50
-"""Arrays within arrays."""
+"""Largest depth of nested arrays."""
 
 
 def read(path: Path) -> list[Columns]:
-    """The tables of a file.
+    """Read the tables of a file.
 
     Raises
     ------
     InputError
-        If it is damaged, or holds too much.
+        If the file is damaged or too large.
     """
     import scipy.io
 
@@ -54,14 +54,14 @@ def read(path: Path) -> list[Columns]:
 
 
 def _checked(path: Path) -> None:
-    """Check that the variables of a file are whole, and not too large when they are unpacked.
+    """Check that the variables of a file are complete, and not too large when decompressed.
 
-    SciPy trusts the kinds of elements: a damaged one ends the process.
+    SciPy does not check the kinds of elements, so that a damaged file may crash the process.
 
     Raises
     ------
     InputError
-        If there is too much.
+        If the variables are too large.
     ValueError, struct.error, zlib.error, EOFError
         If the file is damaged.
     """
@@ -85,12 +85,12 @@ def _checked(path: Path) -> None:
 
 
 def _elements(data: bytes, at: int, end: int, order: str) -> Iterator[tuple[int, int, int]]:
-    """Kind, place and length of each element.
+    """Yield the kind, the position and the length of each element.
 
     Raises
     ------
     ValueError
-        If one has an unknown kind, or is longer than what holds it.
+        If an element has an unknown kind, or if it is longer than its container.
     """
     while at + _TAG <= end:
         kind, length = struct.unpack_from(f"{order}2I", data, at)
@@ -155,7 +155,7 @@ def _gather(
 
 
 def _whole(path: Path, value: Any) -> Any:
-    """A value; a sparse matrix with its zeros."""
+    """Return a value. A sparse matrix is converted to a full matrix."""
     if not hasattr(value, "toarray"):
         return value
     within(8 * int(np.prod(value.shape, dtype=float)), path, "measurement")
@@ -170,7 +170,7 @@ def _records(value: Any) -> bool:
 
 
 def _signal(record: Mapping[str, Any]) -> tuple[str, Any, dict[str, Any]] | None:
-    """Name, values and the rest of a record that is one channel, as Simulink's scopes save it."""
+    """Return name, values and other fields of a structure that Simulink saves as a channel."""
     names = [key for key in ("label", "name") if isinstance(record.get(key), str)]
     values = [key for key in ("values", "data") if key in record]
     if not names or not values or not record[names[0]]:

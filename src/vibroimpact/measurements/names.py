@@ -1,4 +1,4 @@
-"""What a column holds, by its name and its unit; guesses are reported."""
+"""The meaning of a column, from its name and its unit. Guesses are reported."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ CURVES: dict[str, Quantity] = {
     "eta_d": DIMENSIONLESS,
     "eta_a": DIMENSIONLESS,
 }
-"""What is measured at each frequency of a stepped sine."""
+"""Quantities that are measured at each frequency of a stepped sine."""
 
 HISTORIES: dict[str, Quantity] = {
     "displacement": LENGTH,
@@ -45,7 +45,7 @@ HISTORIES: dict[str, Quantity] = {
     "base_displacement": LENGTH,
     "contact_force": FORCE,
 }
-"""What is measured over time. Displacement and velocity are relative to the base."""
+"""Quantities that are measured over time. Displacement and velocity are relative to the base."""
 
 AXES: dict[str, Quantity] = {"frequency": FREQUENCY, "time": TIME}
 QUANTITIES: dict[str, Quantity] = {**AXES, **CURVES, **HISTORIES}
@@ -74,20 +74,20 @@ _MASS = {"mass", "absolute", "abs"}
 
 
 class Meaning(NamedTuple):
-    """What a column holds."""
+    """The meaning of a column."""
 
     variable: str
-    """One of `QUANTITIES`, or ``direction``."""
+    """Name of the variable: one of `QUANTITIES`, or ``direction``."""
     direction: Direction | None = None
-    """Of the sweep, where the name says it."""
+    """Sweep direction, if the name of the column states it."""
     unit: str | None = None
-    """At the end of the name."""
+    """Unit at the end of the name."""
     factor: float = 1.0
-    """2 of an amplitude, which is half an excursion."""
+    """Factor of the values: 2 for an amplitude, because it is half an excursion."""
 
 
 def meaning(name: str) -> Meaning | None:
-    """What the name of a column says; None if nothing."""
+    """Return the meaning of a column from its name, or None if it is not understood."""
     sure = re.search(r"/ *[A-Za-z0-9]+$", plain(name)) is not None
     words = words_of(name)
     key = "_".join(words)
@@ -143,12 +143,12 @@ def meaning(name: str) -> Meaning | None:
 
 
 def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[Array, str | None]:
-    """A column's values in SI units, and what was guessed, in words.
+    """Return the values of a column in SI units, and a note if the unit was guessed.
 
     Raises
     ------
     InputError
-        If its unit cannot be read, or is one of another quantity.
+        If the unit cannot be read, or if it belongs to another quantity.
     """
     quantity = QUANTITIES[found.variable]
     unit = said or column.unit or found.unit
@@ -180,7 +180,7 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
 
 
 def alike(one: str, other: str) -> bool:
-    """Whether two texts are the same unit."""
+    """Return whether two texts are the same unit."""
     if spelled(one) == spelled(other):
         return True
     return any(
@@ -197,12 +197,12 @@ def _size(unit: str, quantity: Quantity) -> float | None:
 
 
 def direction_of(word: object, path: str, where: str) -> Direction:
-    """Read a sweep's direction: a word, or 1 and −1.
+    """Read the direction of a sweep, which is a word, 1 or −1.
 
     Raises
     ------
     InputError
-        If it is neither.
+        If it is none of these.
     """
     text = str(word).strip().lower()
     if text in _FORWARD | {"f", "1", "1.0", "+1"}:

@@ -1,4 +1,4 @@
-"""Read measured data from files of common programs, as datasets with the names of this package."""
+"""Read measured data from files of common programs, with the variable names of this package."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _READERS = {
     ".tdms": tdms.read,
 }
 CALL = "the call"
-"""Where an amplitude is from that the file does not say."""
+"""Source of an amplitude that is passed in the call."""
 CREATED_BY = "vibroimpact.read_measurement"
 
 
@@ -49,52 +49,53 @@ def read_measurement(
     frequency: float | str | None = None,
     decimal: str | None = None,
 ) -> xr.Dataset:
-    """Read measured curves or time histories.
+    """Read measured resonance curves or time histories from a file.
 
     Parameters
     ----------
     path
-        A table of text (CSV and its relatives; LabVIEW's ``.lvm``), a MATLAB (``.mat``), HDF5
-        (``.h5``), universal (``.uff``, with ``vibroimpact[uff]``) or TDMS file (``.tdms``, with
-        ``vibroimpact[tdms]``), or a NetCDF file of this package.
+        The file. Accepted are text tables (CSV and similar formats, ``.lvm`` of LabVIEW), MATLAB
+        (``.mat``), HDF5 (``.h5``), universal files (``.uff``, requires ``vibroimpact[uff]``), TDMS
+        (``.tdms``, requires ``vibroimpact[tdms]``), and NetCDF files of this package.
     columns
-        Names of the file's columns by variable, such as ``{"displacement_excursion": "Ed"}``, if
-        the names alone are not understood.
+        Names of the columns in the file, by variable, such as ``{"displacement_excursion": "Ed"}``.
+        They are required only for columns whose names are not understood.
     units
-        Units by variable or by column, such as ``{"displacement_excursion": "mm"}``, which
-        replace those of the file.
+        Units by variable or by column, such as ``{"displacement_excursion": "mm"}``. They replace
+        the units in the file.
     direction
-        Sweep direction, ``"forward"`` or ``"backward"``, of curves for which the file states
-        none.
+        Sweep direction of curves, ``"forward"`` or ``"backward"``, if the file does not state it.
     group
-        Name of the test, if the file holds several.
+        Name of the test. It is required if the file holds several tests.
     amplitude
         Peak base acceleration of the test (m/s², or text such as ``"0.05 g"``). It replaces the
         value in the file (``amplitude = 0.05 g``, ``amplitude_g = 0.05``).
     frequency
         Forcing frequency (Hz) of a time history. It replaces the value in the file.
     decimal
-        Decimal mark of a text table, ``"."`` or ``","``. Default: detected; required if the
-        table is ambiguous.
+        Decimal mark of a text table, ``"."`` or ``","``. Default: detected from the table. If the
+        table is ambiguous, the mark is required.
 
     Returns
     -------
     xarray.Dataset
-        Curves have the dims ``direction`` and ``frequency``, and ``repeat`` where a frequency
-        was measured more than once; histories have ``time``. Variables are named as in `sweep`
-        and `simulate`, in SI units. The attribute ``notes`` lists, one per line, the assumptions
-        and the columns and numbers that were left out; ``left_out`` names the columns that were
-        not understood, and ``amplitude_source`` the source of the amplitude.
+        Curves have the dims ``direction`` and ``frequency``. If a frequency was measured more than
+        once, they also have the dim ``repeat``. Time histories have the dim ``time``. The variables
+        have the same names as in `sweep` and `simulate`, and SI units.
+
+        The attribute ``notes`` lists the assumptions, and the columns and numbers that were left
+        out, one per line. ``left_out`` names the columns that were not understood.
+        ``amplitude_source`` states where the amplitude comes from.
 
     Raises
     ------
     InputError
-        If the file cannot be read, or a column or unit is ambiguous.
+        If the file cannot be read, or if a column or a unit is ambiguous.
 
     Warns
     -----
     InputWarning
-        If assumptions were made, or columns or numbers were left out.
+        If assumptions were made, or if columns or numbers were left out.
     """
     file = check_path(path, "measurement")
     for field, given in (("columns", columns), ("units", units)):
@@ -140,7 +141,7 @@ def read_measurement(
 
 
 def _tables(file: Path, decimal: Decimal | None) -> list[Columns]:
-    """Read the tables of a file, by its ending; the first line identifies LabVIEW files."""
+    """Read the tables of a file: by its ending, or by the first line of LabVIEW files."""
     reader = _READERS.get(file.suffix.lower())
     if reader is not None:
         return reader(file)
@@ -154,7 +155,7 @@ def _clean(name: str) -> str:
 
 
 def _cleaned(table: Columns) -> Columns:
-    """Return a table whose texts are each on one line, without control characters."""
+    """Return a table in which each text is one line without control characters."""
     return table._replace(
         columns=tuple(
             one._replace(name=_clean(one.name), unit=one.unit and _clean(one.unit))
@@ -165,7 +166,7 @@ def _cleaned(table: Columns) -> Columns:
 
 
 def _filled(table: Columns, wanted: set[str]) -> Columns:
-    """Return a table without empty channels, which would hide others of the same meaning."""
+    """Return a table without empty channels, which would hide channels of the same meaning."""
     empty = [
         column
         for column in table.columns
@@ -187,7 +188,7 @@ def is_measured(data: object) -> bool:
 
 
 def _stated(amplitude: object, frequency: object) -> dict[str, Any]:
-    """Attributes for what the call says of the base."""
+    """Return attributes for the shaking that is passed in the call."""
     said = shaking(Columns("", (), {}), {"amplitude": amplitude, "frequency": frequency}, [])
     return {**said, **({"amplitude_source": CALL} if amplitude is not None else {})}
 
@@ -213,7 +214,7 @@ def as_measured(data: object, where: str = "data") -> xr.Dataset:
     Raises
     ------
     InputError
-        If it is none of these.
+        If the data are none of these.
     """
     if isinstance(data, str | Path):
         return read_measurement(data)
@@ -246,7 +247,7 @@ def _runs(table: Columns) -> list[Columns]:
 def _chosen(
     path: str, tables: list[Columns], group: str | None, wanted: set[str], notes: list[str]
 ) -> Columns:
-    """Return the requested test, or the only one that has a time or a frequency."""
+    """Return the requested test, or the only test that has a time or a frequency."""
     if not tables:
         raise InputError(
             f"measurement: {path!r} contains no columns of numbers; at least one is required"
@@ -271,7 +272,7 @@ def _chosen(
 
 
 def _has_axis(table: Columns, wanted: set[str]) -> bool:
-    """Return whether a table has a time, a frequency, or columns that are requested by name."""
+    """Return whether a table has a time, a frequency, or columns that were requested by name."""
     said = [meaning(column.name) for column in table.columns]
     known = any(one is not None and one.variable in AXES for one in said)
     return known or bool(wanted & {column.name for column in table.columns})
@@ -338,7 +339,7 @@ def _known(
 
 
 def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: list[str]) -> str:
-    """Describe how each column is read, what is missing, and how to specify it."""
+    """Describe how each column is read, what is missing, and how the user can specify it."""
     names = [column.name for column in table.columns]
     read = {names[i]: found.variable for i, (found, _) in known.items()}
     variables = set(read.values())

@@ -1,4 +1,4 @@
-"""Time of channels that say only how fast they were sampled."""
+"""Times of channels for which the file states only a sampling rate or a step."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ _STEPS = {"dt", "ts", "deltat", "timestep", "samplinginterval", "sampleinterval"
           "samplingperiod", "timeincrement", "increment", "wfincrement"}  # fmt: skip
 
 _SAME = 1e-3
-"""Share of a step by which another one that a file states may differ by rounding."""
+"""Largest relative difference of two steps that are the same except for rounding."""
 
 
 def timed(table: Columns) -> list[Columns]:
-    """A table with a time, made of how its channels were sampled where it has none.
+    """Return tables with times. If a table has none, they are computed from the sampling rate.
 
-    Channels that were sampled otherwise than others are tables of their own.
+    Channels with another sampling rate are returned as a separate table.
 
     Raises
     ------
     InputError
-        If a rate cannot be read, or is not above 0.
+        If a rate cannot be read, or if it is not greater than 0.
     """
     axes = {said.variable for c in table.columns if (said := meaning(c.name))}
     if not table.columns or axes & {"time", "frequency"}:
@@ -63,30 +63,30 @@ def timed(table: Columns) -> list[Columns]:
 
 
 def is_sampling(name: str) -> bool:
-    """Whether a name is that of a sampling rate, or of its step."""
+    """Return whether a name is the name of a sampling rate or of a sampling step."""
     return re.sub(r"[^a-z]", "", name.lower()) in _RATES | _STEPS
 
 
 def _stated(said: Mapping[str, str]) -> tuple[str, float] | None:
-    """What a file calls its sampling, and the seconds between two samples."""
+    """Return the name of the sampling rate or step in the file, and the step in seconds."""
     own = {name: text for name, text in said.items() if is_sampling(name)}
     return (next(iter(own)), one_step(own)) if own else None
 
 
 def one_step(said: Mapping[str, str], unit: str | None = None) -> float:
-    """The seconds between two samples that rates and steps state.
+    """Return the time between two samples (s) from the stated rates and steps.
 
     Parameters
     ----------
     said
-        Rates and steps, by what a file calls them.
+        Rates and steps, by their names in the file.
     unit
-        Of steps that have none of their own; None for s.
+        Unit of steps that have no unit. Default: s.
 
     Raises
     ------
     InputError
-        If one cannot be read, or is not above 0, or two differ.
+        If a value cannot be read or is not greater than 0, or if two values differ.
     """
     found: dict[str, float] = {}
     for name, text in said.items():
@@ -103,12 +103,12 @@ def one_step(said: Mapping[str, str], unit: str | None = None) -> float:
 
 
 def step_of(name: str, value: str) -> float:
-    """The seconds between two samples, from a rate or a step.
+    """Return the time between two samples (s) from a rate or a step.
 
     Raises
     ------
     InputError
-        If it cannot be read, or is not above 0.
+        If the value cannot be read, or if it is not greater than 0.
     """
     if is_rate(name):
         return 1.0 / to_si(_number(value), FREQUENCY, name, above=0.0)
@@ -116,7 +116,7 @@ def step_of(name: str, value: str) -> float:
 
 
 def is_rate(name: str) -> bool:
-    """Whether a name is that of a sampling rate."""
+    """Return whether a name is the name of a sampling rate."""
     return re.sub(r"[^a-z]", "", name.lower()) in _RATES
 
 

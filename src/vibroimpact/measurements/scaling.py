@@ -1,7 +1,8 @@
-"""Units and scales that stand beside the channels of a table, given to the channels; all formats.
+"""Units and scales that a file states next to its channels are assigned to the channels.
 
-``unit``, ``scale`` and the like are of the only channel, ``u_unit`` is that of ``u``. Where it is
-not clear which channel is meant, or what, the channels have a doubt.
+This applies to all file formats. ``unit`` and ``scale`` belong to the only channel. ``u_unit``
+belongs to ``u``. If it is not clear which channel or what quantity is meant, the channels get a
+doubt.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ _NUMBERS = "fiub"
 
 
 def agreed(*units: str | None) -> tuple[str | None, str]:
-    """The unit that all of some statements say; and a doubt, in words, where they differ."""
+    """Return the unit that several statements have in common, and a doubt if they differ."""
     stated = [unit for unit in units if known(unit)]
     for other in stated[1:]:
         if not alike(str(stated[0]), str(other)):
@@ -29,13 +30,13 @@ def agreed(*units: str | None) -> tuple[str | None, str]:
 
 
 def doubtful(column: Column, doubt: str) -> Column:
-    """A column with one more doubt."""
+    """Return a column with one more doubt."""
     parts = dict.fromkeys(part for part in (*column.doubt.split("; "), doubt) if part)
     return column._replace(doubt="; ".join(parts))
 
 
 def completed(table: Columns) -> Columns:
-    """A table whose channels have the units and scales that stand beside them, applied."""
+    """Return a table to whose channels the stated units and scales have been applied."""
     columns = list(table.columns)
     said = dict(table.said)
     for name in table.said:
@@ -75,9 +76,9 @@ def completed(table: Columns) -> Columns:
 
 
 def _listed(columns: list[Column]) -> list[Column]:
-    """Columns with a doubt where others are lists of units or scales that belong to none of them.
+    """Add a doubt to columns if another column lists units or scales without naming channels.
 
-    A list as long as the channels, such as a gain over frequency, is a channel.
+    A list with the length of the channels, such as a gain over frequency, is a channel.
     """
     found = columns
     longest = max((len(column.values) for column in columns), default=0)
@@ -99,7 +100,7 @@ def _listed(columns: list[Column]) -> list[Column]:
 
 
 def _given(columns: list[Column], kind: Kind, name: str, about: str, text: str) -> list[Column]:
-    """Columns, of which those that a statement is about have what it says."""
+    """Assign a stated unit, scale or offset to the columns that it refers to."""
     free = [c for c in columns if is_channel(c) and ("unit" not in kind or c.unit is None)]
     meant = _named(columns, about)
     if not meant and about and "unit" in kind:
@@ -123,13 +124,13 @@ def _given(columns: list[Column], kind: Kind, name: str, about: str, text: str) 
 
 
 def doubted(kind: Kind, text: str) -> bool:
-    """Whether a statement says anything, rightly or wrongly."""
+    """Return whether a statement has any content, even if it is invalid."""
     read, doubt = one(kind, text, text)
     return bool(doubt) or (read is not None and read not in (1.0 if kind == "scale" else 0.0,))
 
 
 def _with(column: Column, kind: Kind, name: str, text: str) -> Column:
-    """A column with what is stated of it."""
+    """Return a column with a stated unit, scale or offset."""
     read, doubt = one(kind, text, text)
     if doubt:
         return doubtful(column, f"{name} = {shown(text)}, which {doubt}")
@@ -145,7 +146,7 @@ def _with(column: Column, kind: Kind, name: str, text: str) -> Column:
 
 
 def _applied(column: Column) -> Column:
-    """A column whose values have its scale."""
+    """Return a column with its scale and offset applied to its values."""
     scale = 1.0 if column.scale is None else column.scale
     offset = column.offset or 0.0
     if scale == 1.0 and offset == 0.0:
@@ -180,7 +181,7 @@ def _is_time(column: Column) -> bool:
 
 
 def is_channel(column: Column) -> bool:
-    """Whether a column holds numbers, and is neither a time nor a frequency nor a direction."""
+    """Return whether a column holds numbers other than a time, a frequency or a direction."""
     found = meaning(column.name)
     other = found is not None and found.variable in (*AXES, "direction")
     return column.values.dtype.kind in _NUMBERS and not other

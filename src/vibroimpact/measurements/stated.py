@@ -1,8 +1,8 @@
-"""What the attributes of a channel state of it: its unit, its scale, its step, what is absent.
+"""Statements in the attributes of a channel: unit, scale, step, and marks of missing values.
 
-One reader for all formats: HDF5's attributes, TDMS's properties, fields of MATLAB's structures.
-What looks like a unit or a scale and is not understood is a doubt, which becomes an error where the
-channel is used.
+The same functions read the attributes of HDF5, the properties of TDMS and the fields of MATLAB
+structures. If an attribute looks like a unit or a scale, but is not understood, the channel gets a
+doubt. The doubt becomes an error if the channel is used.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _OF_UNITS = re.compile(
     r"([^\W\d_]*?)(?:units?|einheit(?:en)?)(?:string|text|label|lab|name|desc(?:ription)?)?"
 )
 _NO_UNITS = {"under", "id", "serial", "number", "system", "systems", "expects", "display", "code"}
-"""Words that make of a unit something else, as in ``unit_under_test``."""
+"""Words next to which ``unit`` does not mean a physical unit, as in ``unit_under_test``."""
 _OF_TIMES = {"t", "x", "time", "wf x", "x axis", "abscissa", "zeit"}
 _SCALES = {"scalefactor", "scale", "scaling", "scalingfactor", "multiplier"}
 _OFFSETS = {"addoffset", "scaleoffset"}
@@ -51,43 +51,43 @@ _BESIDE_UNITS = {
 _ABSENT = {"fillvalue", "missingvalue"}
 _STARTS = {"wfstartoffset", "tstart", "starttime", "xstart"}
 _APPLIED_BY_READERS = ("ni scale", "ni scaling", "ni number of scales")
-"""Of TDMS: npTDMS applies them."""
+"""Properties of TDMS files that npTDMS applies itself."""
 
 
 class Stated(NamedTuple):
-    """What is stated of a channel."""
+    """Statements about a channel."""
 
     unit: str | None = None
     scale: float | None = None
     offset: float | None = None
     doubt: str = ""
-    """What looks like a unit or a scale and is not understood, in words."""
+    """Description of attributes that look like a unit or a scale, but are not understood."""
     absent: tuple[float, ...] = ()
     step: float | None = None
     """In s."""
     start: float = 0.0
     """In s."""
     others: Mapping[str, str] = {}
-    """What is not one of these."""
+    """All other attributes."""
 
     def holes(self, values: NDArray[Any]) -> NDArray[Any]:
-        """The values, NaN where they are absent."""
+        """Return the values, with NaN in place of missing values."""
         if not self.absent or values.dtype.kind not in "fiub":
             return values
         return np.where(np.isin(values, self.absent), np.nan, values.astype(float))
 
 
 def words_in(name: str) -> list[str]:
-    """The words of the name of an attribute, in small letters: ``NI_UnitDescription`` has three."""
+    """Return the words of an attribute name in lower case: ``NI_UnitDescription`` has three."""
     parted = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name)
     return [word.lower() for word in re.findall(r"[^\W\d_]+|\d+", parted)]
 
 
 def kind_of(name: str) -> tuple[Kind | None, str]:
-    """What the name of an attribute looks like, and the channel that it names, if any.
+    """Return the kind of an attribute from its name, and the channel in its name, if any.
 
-    ``t_unit`` looks like the unit of times and names ``t``; ``gain`` is unclear, since it may have
-    been applied or not.
+    For example, ``t_unit`` is the unit of times and names the channel ``t``. ``gain`` is unclear,
+    because it may already have been applied to the values.
     """
     words = words_in(name)
     text, key = " ".join(words), "".join(words)
@@ -121,12 +121,12 @@ def stated(attributes: Mapping[str, Any]) -> Stated:
     Parameters
     ----------
     attributes
-        By name; texts, numbers or lists of one.
+        Attributes by name: texts, numbers, or lists with one entry.
 
     Raises
     ------
     InputError
-        If its step cannot be read.
+        If the step cannot be read.
     """
     found: dict[str, Any] = {}
     others: dict[str, str] = {}
@@ -174,7 +174,7 @@ def _agree(first: str | float, other: str | float) -> bool:
 
 
 def one(kind: Kind, value: Any, given: Any) -> tuple[str | float | None, str]:
-    """A unit, scale or offset that an attribute states; or why it is none, in words."""
+    """Return the unit, scale or offset in an attribute, or the reason why it is not one."""
     if kind in ("unit", "time_unit"):
         text = "" if value is None and np.size(given) == 0 else value
         if not isinstance(text, str):
@@ -191,13 +191,13 @@ def one(kind: Kind, value: Any, given: Any) -> tuple[str | float | None, str]:
 
 
 def known(value: Any) -> str | None:
-    """A text that says something; None of others."""
+    """Return a text, or None if it is empty or "none"."""
     text = "" if value is None else as_text(value).strip()
     return None if text.upper() in ("", "NONE") else text
 
 
 def as_text(value: Any) -> str:
-    """A text; bytes as UTF-8, or as Latin-1 where they are none."""
+    """Return a value as text. Bytes are decoded as UTF-8 or, if that fails, as Latin-1."""
     if not isinstance(value, bytes):
         return str(value)
     try:
@@ -207,7 +207,7 @@ def as_text(value: Any) -> str:
 
 
 def single(value: Any) -> Any:
-    """A text or a number; None of lists."""
+    """Return a text or a number, or None for a list of several values."""
     if isinstance(value, str | bytes):
         return as_text(value)
     array = np.asarray(value)
@@ -220,7 +220,7 @@ def single(value: Any) -> Any:
 
 
 def number(value: Any) -> float | None:
-    """A finite number, or a text of one; None of anything else."""
+    """Return a finite number, also from a text, or None for any other value."""
     try:
         size = float(value)
     except (TypeError, ValueError, OverflowError):

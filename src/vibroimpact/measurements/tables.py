@@ -1,4 +1,4 @@
-"""What the readers of binary files share: vectors in groups as tables of columns."""
+"""Common functions of the readers of binary files: groups of vectors become tables."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def tables(
     about: Mapping[str, Stated] | None = None,
     said: Mapping[str, Mapping[str, str]] | None = None,
 ) -> list[Columns]:
-    """A table for each group; or one of all groups, where each is one channel."""
+    """Return a table for each group, or one table if each group has only one channel."""
     found: list[Columns] = []
     about, said = about or {}, said or {}
     common = {**said.get("", {}), **columns(path, groups.get("", {}), {}, {}).said}
@@ -42,7 +42,7 @@ def tables(
 
 
 def _together(path: Path, tables: list[Columns]) -> Columns:
-    """One table of groups of one channel, whose name and unit are those of the group."""
+    """Join groups with one channel to one table. Each channel gets the name of its group."""
     found: list[Column] = []
     beside: dict[str, str] = {}
     for table in tables:
@@ -59,18 +59,18 @@ def columns(
     about: Mapping[str, Stated],
     said: Mapping[str, str],
 ) -> Columns:
-    """Vectors as columns; single numbers and texts are what stands beside them.
+    """Return vectors as columns. Single numbers and texts become entries next to the columns.
 
     Parameters
     ----------
     path
         The file.
     group
-        Values by name.
+        Values of the group, by name.
     about
-        What is stated of some of them.
+        Statements about some of the values.
     said
-        What stands beside them.
+        Entries next to the columns.
 
     Raises
     ------
@@ -119,14 +119,14 @@ def columns(
 
 
 def described(name: str, values: NDArray[Any], own: Stated, *units: str | None) -> Column:
-    """A channel with what is stated of it."""
+    """Return a channel with the statements about it."""
     unit, doubt = agreed(*units, own.unit)
     column = Column(name, unit, values, own.step, own.start, own.scale, own.offset, own.doubt)
     return doubtful(column, doubt)
 
 
 def told(name: str, text: str) -> tuple[str, str]:
-    """What stands beside the numbers, with the unit that its name ends in."""
+    """Return an entry next to the columns, with the unit at the end of its name."""
     bare, unit = parted(name)
     return bare, with_unit(text, unit)
 
@@ -134,7 +134,7 @@ def told(name: str, text: str) -> tuple[str, str]:
 def _words(
     vectors: Mapping[str, NDArray[Any]], count: int
 ) -> tuple[dict[str, list[str]], dict[str, list[str]]]:
-    """Lists of as many words as a table has columns: their names, and their units."""
+    """Find lists of words that are the names or the units of the columns of a table."""
     lists = {
         name: [str(word).strip() for word in values]
         for name, values in vectors.items()
@@ -145,12 +145,12 @@ def _words(
 
 
 def library(name: str, extra: str, path: Path) -> Any:
-    """A library that is installed on request.
+    """Import an optional library.
 
     Raises
     ------
     InputError
-        If it is not.
+        If the library is not installed.
     """
     try:
         return importlib.import_module(name)
@@ -162,7 +162,7 @@ def library(name: str, extra: str, path: Path) -> Any:
 
 
 def damaged(path: Path, kind: str, error: Exception) -> InputError:
-    """The error of a file that cannot be read, with what its library says, cut short."""
+    """Return the error for an unreadable file, with the shortened message of its library."""
     reason = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
     return InputError(
         f"measurement: {str(path)!r} is damaged or not a {kind} file ({reason}); a complete file "

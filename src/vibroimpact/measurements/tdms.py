@@ -1,4 +1,4 @@
-"""TDMS files: channels with their own units, steps and beginnings, a table for each group."""
+"""TDMS files: each group is a table; each channel has its own unit, step and start."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from vibroimpact.records.guard import within
 from vibroimpact.records.stated import parted
 
 _LEAD = 28
-"""Bytes before each segment: its mark, and how far off the next one is."""
+"""Lead-in of each segment: its signature, and the distance to the next segment."""
 _STARTED, _SCALES = "wf_start_time", "NI_Number_Of_Scales"
 
 
 def read(path: Path) -> list[Columns]:
-    """The tables of a file.
+    """Read the tables of a file.
 
     Raises
     ------
     InputError
-        If it is damaged, was cut, or holds too much.
+        If the file is damaged, truncated or too large.
     """
     nptdms = library("nptdms", "tdms", path)
     _whole(path)
@@ -48,9 +48,9 @@ def read(path: Path) -> list[Columns]:
 
 @contextmanager
 def _strict(nptdms: Any) -> Iterator[None]:
-    """Make errors of what npTDMS logs: data that it crops, or a scale that it leaves out.
+    """Turn log messages of npTDMS into errors, such as cropped data or an omitted scale.
 
-    Text that is not UTF-8, as of older programs, is read.
+    Text of older programs that is not UTF-8 is accepted.
     """
 
     def refuse(record: logging.LogRecord) -> bool:
@@ -69,12 +69,12 @@ def _strict(nptdms: Any) -> Iterator[None]:
 
 
 def _whole(path: Path) -> None:
-    """See to it that the file ends where its last segment does.
+    """Check that the file ends where its last segment ends.
 
     Raises
     ------
     InputError
-        If it ends before.
+        If the file ends earlier.
     """
     at, size = 0, path.stat().st_size
     with path.open("rb") as file:
@@ -93,7 +93,7 @@ def _whole(path: Path) -> None:
 
 
 def _table(path: Path, group: Any, said: dict[str, str]) -> Columns:
-    """The channels of a group."""
+    """Return the channels of a group."""
     channels = group.channels()
     begun = [c.properties[_STARTED] for c in channels if _STARTED in c.properties]
     first = min((np.datetime64(at) for at in begun), default=None)

@@ -1,8 +1,9 @@
-"""Tables of text: CSV and its relatives.
+"""Text tables: CSV and similar formats.
 
-Apart by commas, semicolons, tabs or blanks; with decimal commas where no comma parts the columns.
-Lines that begin with ``#`` may say ``amplitude = 0.05 g``, or ``amplitude; 0.05 g``. The last line
-of words before the numbers names the columns; a line of units may follow it.
+Columns are separated by commas, semicolons, tabs or blanks. Decimal commas are accepted if commas
+do not separate the columns. Lines that begin with ``#`` may contain ``amplitude = 0.05 g`` or
+``amplitude; 0.05 g``. The last line of words before the numbers contains the names of the columns.
+A line of units may follow it.
 """
 
 from __future__ import annotations
@@ -28,19 +29,19 @@ _ABSENT = {"", "nan", "na", "n/a", "none", "null", "-", "--", "#n/a", "missing"}
 
 
 def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
-    """The table of a text file.
+    """Read the table of a text file.
 
     Parameters
     ----------
     path
         The file.
     decimal
-        The decimal mark; None to find out.
+        The decimal mark. Default: detected from the table.
 
     Raises
     ------
     InputError
-        If it has no table of numbers, or a row of another width.
+        If the file has no table of numbers, or if a row has another number of columns.
     """
     lines = _decoded(path).splitlines()
     said: dict[str, str] = {}
@@ -97,7 +98,7 @@ def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
 
 
 def _pointed(text: str, decimal: str) -> str:
-    """A number with a decimal point; 1,000 where columns are parted by commas stays."""
+    """Return a number with a decimal point. With comma-separated columns, 1,000 is kept."""
     found = _COMMA.match(text)
     if not found or (decimal == "." and re.fullmatch(r"[+-]?[1-9]\d*,\d{3}", found[0])):
         return text
@@ -105,7 +106,7 @@ def _pointed(text: str, decimal: str) -> str:
 
 
 def _said(text: str) -> tuple[str, str] | None:
-    """A name and its stated value; after a semicolon, a number."""
+    """Return the name and the value of an entry. After a semicolon the value must be a number."""
     found = _SAID.match(text)
     if found is None or (found[2] == ";" and not is_number(found[3])):
         return None
@@ -126,7 +127,7 @@ def _decoded(path: Path) -> str:
 
 
 def _delimiter(lines: list[str], decimal: Decimal) -> str | None:
-    """What parts the columns; None for blanks."""
+    """Return the separator of the columns, or None for blanks."""
     last = lines[-1]
     for mark in (";", "\t"):
         if mark in last:
@@ -154,7 +155,7 @@ def _number(cell: str, decimal: str) -> float | None:
 
 
 def _is_data(cells: list[str], decimal: str) -> bool:
-    """Whether a line holds at least as many numbers as words, and one number."""
+    """Return whether a line has at least one number, and at least as many numbers as words."""
     numbers = [_number(cell, decimal) for cell in cells if cell.lower() not in _ABSENT]
     known = [number for number in numbers if number is not None]
     return len(known) >= max(1, len(numbers) - 1 - len(known))

@@ -1,4 +1,4 @@
-"""Universal files: functions over time or frequency (58), in their units or those of set 164."""
+"""Universal files: functions (set 58) with their own units, or with those of set 164."""
 
 from __future__ import annotations
 
@@ -18,20 +18,21 @@ from vibroimpact.measurements.tables import damaged, library
 from vibroimpact.records.stated import parted, spelled
 
 _ORDINATES = {8: "displacement", 9: "force", 11: "velocity", 12: "acceleration"}
-"""What a universal file's number of an ordinate's kind means."""
+"""Meanings of the numbers for the kind of an ordinate."""
 _FACTORS = {8: "length", 9: "force", 11: "length", 12: "length"}
-"""Which factor of set 164 is that of a kind: values of SI times it are in the file's units."""
+"""Factor of set 164 for each kind. Values in SI units times this factor are in the units of the
+file."""
 _SI = {8: "m", 9: "N", 11: "m/s", 12: "m/s^2"}
 _FREQUENCY = 18
 
 
 def read(path: Path) -> list[Columns]:
-    """A table for all functions that share their abscissa.
+    """Read the functions of a file. Functions with the same abscissa form a table.
 
     Raises
     ------
     InputError
-        If the file is damaged, or was cut.
+        If the file is damaged or truncated.
     """
     pyuff = library("pyuff", "uff", path)
     _whole(path)
@@ -68,7 +69,7 @@ def read(path: Path) -> list[Columns]:
 
 
 def _axis(one: Mapping[str, Any], x: Any) -> Column:
-    """The abscissa of a function, in the unit that it states."""
+    """Return the abscissa of a function, in the stated unit."""
     stated = known(one.get("abscissa_axis_units_lab"))
     spectral = int(one.get("abscissa_spec_data_type", 17)) == _FREQUENCY
     usual = "Hz" if spectral else "s"
@@ -77,16 +78,16 @@ def _axis(one: Mapping[str, Any], x: Any) -> Column:
 
 
 _BINARY = re.compile(rb"^\s*58b\s", re.MULTILINE)
-"""The header of a set of binary numbers."""
+"""Header of a set of binary numbers."""
 
 
 def _whole(path: Path) -> None:
-    """See to it that every set has its end.
+    """Check that each set has an end mark.
 
     Raises
     ------
     InputError
-        If the last one has none.
+        If the last set has no end mark.
     """
     given = path.read_bytes()
     lines = [line for one in given.splitlines() if (line := one.strip())]
@@ -108,7 +109,7 @@ def _cut(path: Path) -> InputError:
 
 
 def _called(one: Mapping[str, Any]) -> str:
-    """The first of what a function of a universal file is called that tells what it holds."""
+    """Return the first name of a function whose meaning is understood."""
     line, place, label = (
         known(one.get(key)) or "" for key in ("id1", "rsp_ent_name", "ordinate_axis_lab")
     )

@@ -1,6 +1,6 @@
 """Convert between physical and dimensionless parameters (the paper's Section 7).
 
-With ω0 = √(K/M), for the stop on side j:
+With ω0 = √(K/M), the dimensionless parameters are, for the stop on side j:
 
 - stiffness ratio λ_j = K_j/K;
 - relaxation time τ_j = ω0 C_j/K_j;
@@ -10,8 +10,8 @@ With ω0 = √(K/M), for the stop on side j:
 
 A rigid stop is the limit λ_j → ∞; its restitution is already dimensionless.
 
-The paper's text calls δ the sum of both sides' gaps, but its Table 1 holds the gap of one
-side. Here a gap is always that of one side.
+The paper's text defines δ as the sum of the gaps of both sides, but its Table 1 contains the gap of
+one side. In this package a gap is always the gap of one side.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from vibroimpact.model.units import to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 PerSide: TypeAlias = "float | str | tuple[float | str | None, float | str | None] | None"
-"""One value for both sides, or a pair (right, left); None is a side without a bumper."""
+"""One value for both sides, or a pair (right, left). None is a side without a bumper."""
 
 
 class DimensionlessBumper(Named):
@@ -44,7 +44,7 @@ class DimensionlessBumper(Named):
     stiffness_ratio
         λ_j = K_j/K, greater than 0.
     gap
-        δ0_j = G0_j/u_max; 1 is grazing, a negative gap is preloaded.
+        δ0_j = G0_j/u_max. At 1 the mass just grazes the bumper. A negative gap is a preload.
     relaxation_time
         τ_j = ω0 C_j/K_j, at least 0.
 
@@ -76,7 +76,7 @@ class DimensionlessRigidStop(Named):
     restitution
         e_j, from 0 to 1.
     gap
-        δ0_j = G0_j/u_max; 1 is grazing.
+        δ0_j = G0_j/u_max. At 1 the mass just grazes the stop.
 
     Raises
     ------
@@ -95,7 +95,7 @@ class DimensionlessRigidStop(Named):
 
     @property
     def stiffness_ratio(self) -> float:
-        """λ_j, infinite."""
+        """Stiffness ratio λ_j, which is infinite."""
         return math.inf
 
 
@@ -105,14 +105,14 @@ _STOPS = Kinds(DimensionlessBumper, DimensionlessRigidStop)
 
 
 class Dimensionless(Model):
-    """Dimensionless parameters of an oscillator under a given base acceleration.
+    """Dimensionless parameters of an oscillator at a given amplitude of the base acceleration.
 
     Parameters
     ----------
     damping_ratio
         ξ = C/(2√(K M)), at least 0.
     right, left
-        The stops, or None for a side without one.
+        The stops. None is a side without a stop. Default: None.
 
     Raises
     ------
@@ -145,22 +145,23 @@ class Dimensionless(Model):
         Parameters
         ----------
         mass
-            M in kg, or text with units.
+            Mass M in kg, or text with units. Default: 1 kg.
         stiffness
-            The isolator's K in N/m, or text with units.
+            Stiffness K of the isolator in N/m, or text with units. Default: 1 N/m.
         amplitude
-            Peak base acceleration A in m/s², or text with units. The gaps scale with it.
+            Peak base acceleration A in m/s², or text with units. The gaps are proportional to it.
+            Default: 1 m/s².
 
         Returns
         -------
         Rig
-            The oscillator and the amplitude in m/s².
+            Rig with this oscillator and this amplitude; its frequency is open.
 
         Raises
         ------
         InputError
-            If a value is invalid, or if a gap is not 0 and the motion without stops has no finite
-            resonance peak to scale it by (see ``peak_displacement``).
+            If a value is invalid. Also if a gap is not 0 and the motion without stops has no finite
+            resonance peak, because the gap is a multiple of this peak (see ``peak_displacement``).
         """
         m = to_si(mass, MASS, "mass", above=0.0)
         k = to_si(stiffness, STIFFNESS, "stiffness", above=0.0)
@@ -192,35 +193,37 @@ def from_dimensionless(
     stiffness: float | str = 1.0,
     amplitude: float | str = 1.0,
 ) -> Rig:
-    """Return the physical rig with given dimensionless parameters of its bumpers.
+    """Return the physical rig with given dimensionless parameters.
 
     Parameters
     ----------
     stiffness_ratio
         λ = K_j/K: one number for both sides, or a pair (right, left). None, alone or in the pair,
-        means a side without a bumper, for any gap and relaxation time.
+        is a side without a bumper. The gap and the relaxation time of such a side do not matter.
     gap
-        δ0 = G0_j/u_max of one side (1 is grazing); one number or a pair (right, left).
+        δ0 = G0_j/u_max of one side: one number for both sides, or a pair (right, left). At 1 the
+        mass just grazes the bumper.
     relaxation_time
-        τ = ω0 C_j/K_j; one number or a pair (right, left).
+        τ = ω0 C_j/K_j: one number for both sides, or a pair (right, left).
     damping_ratio
-        ξ of the isolator.
+        Damping ratio ξ of the isolator.
     mass, stiffness, amplitude
-        Scales: M in kg, the isolator's K in N/m, peak base acceleration A in m/s²; or texts
-        with units. With the defaults ω0 is 1 rad/s, so a frequency ratio r is the frequency
-        ``r * rig.oscillator.natural_frequency`` in Hz.
+        Physical scales: mass M in kg, stiffness K of the isolator in N/m, and peak base
+        acceleration A in m/s²; or texts with units. Default: 1 for each. In this case ω0 is 1
+        rad/s, and a frequency ratio r is the frequency ``r * rig.oscillator.natural_frequency`` in
+        Hz.
 
     Returns
     -------
     Rig
-        Rig with the base acceleration that scales the gaps; the dimensionless gaps hold only at
-        that acceleration.
+        Rig with the base acceleration A. The dimensionless gaps apply only at this base
+        acceleration.
 
     Raises
     ------
     InputError
-        If a value is invalid, or if a gap is not 0 and the motion without stops has no finite
-        resonance peak to scale it by (see ``peak_displacement``).
+        If a value is invalid. Also if a gap is not 0 and the motion without stops has no finite
+        resonance peak, because the gap is a multiple of this peak (see ``peak_displacement``).
 
     Examples
     --------
@@ -247,20 +250,22 @@ def to_dimensionless(rig: AnyRig) -> Dimensionless:
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file. One sine shakes
-        it; its free response scales the gaps.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file. It must be shaken by one sine, because the gaps are divided by the
+        response to this sine without stops.
 
     Returns
     -------
     Dimensionless
-        ξ, and for each side λ, δ0 and τ of its bumper, or e and δ0 of its rigid stop.
+        The damping ratio ξ, and for each side λ, δ0 and τ of the bumper, or e and δ0 of the rigid
+        stop.
 
     Raises
     ------
     InputError
-        If the isolator or a stop is not linear. If the amplitude is invalid, or if a gap is not 0
-        and the motion without stops has no finite resonance peak to scale it by (see
-        ``peak_displacement``).
+        If the isolator or a stop is not linear, or if the amplitude is invalid. Also if a gap is
+        not 0 and the motion without stops has no finite resonance peak, because the gap is divided
+        by this peak (see ``peak_displacement``).
     """
     found = as_rig(rig)
     oscillator, a = found.oscillator, scale_of(found)

@@ -1,7 +1,7 @@
 """Periodic excitation: one sine, or several harmonics.
 
-It either moves the base, with a given acceleration or displacement, or is a force on the mass. The
-dimension of the amplitude determines which.
+An excitation is an acceleration of the base, a displacement of the base, or a force on the mass.
+The dimension of the amplitude determines which of them.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from vibroimpact.model.units import one_of, pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 Of = Literal["acceleration", "displacement", "force"]
-"""What an amplitude is one of."""
+"""Quantity of an amplitude."""
 
 QUANTITIES: dict[Of, Quantity] = {
     "acceleration": ACCELERATION,
@@ -32,11 +32,11 @@ QUANTITIES: dict[Of, Quantity] = {
 
 
 MOST = 32
-"""How many harmonics there may be."""
+"""Largest number of harmonics."""
 
 
 class _Repeated(Model):
-    """Base of both excitations; `of` follows from the unit of the amplitude, if it has one."""
+    """Base class of both excitations. If the amplitude has a unit, the unit determines `of`."""
 
     _quiet: ClassVar[Mapping[str, Any]] = {"of": "acceleration"}
 
@@ -52,7 +52,7 @@ class _Repeated(Model):
 
     @property
     def moves_base(self) -> bool:
-        """Whether the base moves. Otherwise a force acts on the mass, and the base stands still."""
+        """Whether the base moves. If not, a force acts on the mass, and the base is at rest."""
         return self.of != "force"
 
     @property
@@ -82,16 +82,16 @@ class Harmonic(_Repeated):
     Parameters
     ----------
     amplitude
-        A, at least 0. A number is an acceleration of the base in m/s². A text or a quantity with
-        a unit may be an acceleration such as ``"0.05 g"``, where g is gravity, a displacement of
-        the base such as ``"5 mm"``, or a force on the mass such as ``"120 N"``.
+        Amplitude A, at least 0. A number is an acceleration of the base in m/s². A text or a
+        quantity with a unit is an acceleration of the base such as ``"0.05 g"`` (g is gravity), a
+        displacement of the base such as ``"5 mm"``, or a force on the mass such as ``"120 N"``.
     frequency
-        f in Hz, greater than 0; or text such as ``"2.5 Hz"``. An angle over a time, such as
-        ``"15.7 rad/s"``, is converted to cycles per second.
+        Frequency f in Hz, greater than 0; or text such as ``"2.5 Hz"``. An angular frequency such
+        as ``"15.7 rad/s"`` is converted to Hz.
     phase
-        φ in rad; or text such as ``"90 deg"``. Default: 0.
+        Phase φ in rad; or text such as ``"90 deg"``. Default: 0.
     of
-        Quantity of an amplitude without unit: ``"acceleration"`` (m/s², the default),
+        Quantity of an amplitude that has no unit: ``"acceleration"`` (m/s², the default),
         ``"displacement"`` (m) or ``"force"`` (N).
 
     Raises
@@ -126,7 +126,7 @@ class Harmonic(_Repeated):
 
     @property
     def half_wave(self) -> bool:
-        """Whether the excitation is antisymmetric over half a period, as a sine always is."""
+        """Whether the excitation changes its sign after half a period: always true for a sine."""
         return True
 
     def at(self, angle: ArrayLike) -> NDArray[np.float64]:
@@ -137,7 +137,7 @@ class Harmonic(_Repeated):
         return np.asarray(size * np.sin(angle))
 
     def acceleration(self, mass: float, omega: ArrayLike) -> NDArray[np.float64]:
-        """Return the equivalent peak base acceleration (m/s²) for this mass at ω (rad/s)."""
+        """Return the equivalent peak base acceleration (m/s²) for a mass (kg) at ω (rad/s)."""
         return _as_acceleration(self.of, np.asarray(self.amplitude), mass, np.asarray(omega))
 
 
@@ -149,19 +149,19 @@ class Periodic(_Repeated):
     frequency
         Fundamental frequency f in Hz, greater than 0; or text such as ``"2.5 Hz"``.
     amplitudes
-        A_1, A_2, …, each as the amplitude of a `Harmonic` and all of one dimension; at most 32.
-        0 omits a harmonic.
+        Amplitudes A_1, A_2, …, at most 32. Each is a number or a text, as the amplitude of a
+        `Harmonic`. All must have the same dimension. An amplitude of 0 omits the harmonic.
     phases
-        φ_1, φ_2, … in rad, or texts such as ``"90 deg"``. Default: all 0.
+        Phases φ_1, φ_2, … in rad, or texts such as ``"90 deg"``. Default: all are 0.
     phase
-        φ in rad: the point of the period at which the excitation starts. Default: 0.
+        Phase φ in rad, at which the excitation starts in its period. Default: 0.
     of
-        Quantity of amplitudes without unit, as in `Harmonic`.
+        Quantity of amplitudes that have no unit, as in `Harmonic`.
 
     Raises
     ------
     InputError
-        If a value is invalid, or the numbers of phases and amplitudes differ.
+        If a value is invalid, or if the numbers of phases and amplitudes differ.
     """
 
     frequency: Annotated[float, Accepts(FREQUENCY, above=0.0)]
@@ -211,12 +211,12 @@ class Periodic(_Repeated):
 
     @property
     def amplitude(self) -> float:
-        """Largest of the amplitudes, which is varied when the shape is kept."""
+        """Largest of the amplitudes. If it is varied, the shape of the excitation is kept."""
         return max(self.amplitudes)
 
     @property
     def half_wave(self) -> bool:
-        """Whether the excitation is antisymmetric over half a period: it has no even harmonics."""
+        """Whether the excitation has no even harmonics: it changes its sign after half a period."""
         return not any(self.amplitudes[1::2])
 
     def at(self, angle: ArrayLike) -> NDArray[np.float64]:
@@ -229,16 +229,17 @@ class Periodic(_Repeated):
         return np.asarray(np.sin(turned) @ sizes)
 
     def acceleration(self, mass: float, omega: ArrayLike) -> NDArray[np.float64]:
-        """Return the equivalent peak base accelerations (m/s²) of the harmonics for this mass at ω.
+        """Return the equivalent peak base acceleration (m/s²) of each harmonic for a mass (kg).
 
-        The last axis is that of the harmonics; ω (rad/s) is that of the fundamental.
+        ω (rad/s) is the angular frequency of the fundamental. The last axis of the result counts
+        the harmonics.
         """
         sizes = np.asarray(self.amplitudes)
         order = np.arange(1, len(sizes) + 1)
         return _as_acceleration(self.of, sizes, mass, np.asarray(omega)[..., np.newaxis] * order)
 
     def replace(self, **changes: Any) -> Self:
-        """Return a copy with some fields changed; a new `amplitude` scales all harmonics."""
+        """Return a copy with some fields changed. A new ``amplitude`` scales all harmonics."""
         if "amplitude" in changes:
             factor = to_si(changes.pop("amplitude"), self.quantity, "amplitude") / self.amplitude
             changes["amplitudes"] = tuple(factor * one for one in self.amplitudes)
@@ -246,7 +247,7 @@ class Periodic(_Repeated):
 
 
 Repeated: TypeAlias = Harmonic | Periodic
-"""What drives the oscillator over and over."""
+"""A periodic excitation."""
 
 
 def _as_acceleration(

@@ -1,12 +1,13 @@
 """The published shaking-table rig: its parameters, case codes and campaign.
 
-A case code such as ``B2-G1-A3`` names a bumper, a total gap and a peak table acceleration.
-Any part may be a value instead: ``B3-10mm-A3``, ``510kN/m-G1-0.05g``.
+A case code such as ``B2-G1-A3`` consists of a bumper, a total gap and a peak table acceleration.
+Each part may be a value with a unit instead of a name: ``B3-10mm-A3``, ``510kN/m-G1-0.05g``.
 
-Two parameter sets exist. ``"table"`` covers every case: the isolator's equivalent stiffness
-for each acceleration, with the paper's ξ = 0.15 and τ_r = 0.01 (Section 7 and Table 1).
-``"identified"`` covers the two cases of Section 5 whose parameters were fitted individually. They
-differ slightly from those of the table.
+The paper has two parameter sets. ``"table"`` exists for all cases: the isolator has an equivalent
+stiffness for each acceleration, and ξ = 0.15 and τ_r = 0.01 (Section 7 and Table 1).
+``"identified"`` exists for the two cases of Section 5 whose parameters were fitted individually.
+These parameters differ slightly from the table. A third set, ``"refined"``, has an isolator that
+softens; it was fitted to the table.
 """
 
 from __future__ import annotations
@@ -37,21 +38,22 @@ from vibroimpact.model.units import pretty, read
 Parameters: TypeAlias = Literal["table", "identified", "refined"]
 
 MASS = 550.0
-"""M in kg."""
+"""Mass M in kg."""
 DAMPING_RATIO = 0.15
-"""ξ of the isolator."""
+"""Damping ratio ξ of the isolator."""
 RELAXATION_TIME = 0.01
-"""τ_r = ω0 C_j/K_j of every bumper."""
+"""Relaxation time τ_r = ω0 C_j/K_j of all bumpers."""
 BUMPERS: Mapping[str, float] = {"B1": 100e3, "B2": 510e3, "B3": 680e3, "B4": 2300e3}
-"""Stiffness K_j in N/m."""
+"""Stiffness K_j of the bumpers in N/m."""
 GAPS: Mapping[str, float] = {"G1": 0.015, "G2": 0.020, "G3": 0.025, "G4": 0.030}
-"""Total gap G in m, shared equally by the two sides."""
+"""Total gap G in m. Each side has half of it."""
 ACCELERATIONS: Mapping[str, float] = {"A1": 0.2941995, "A2": 0.392266, "A3": 0.4903325}
 """Peak table acceleration A in m/s²: 0.03, 0.04 and 0.05 g."""
 ISOLATOR_STIFFNESS: Mapping[str, float] = {"A1": 33920.0, "A2": 28732.0, "A3": 26290.0}
-"""Equivalent stiffness K in N/m: the rubber isolator softens with the acceleration."""
+"""Equivalent stiffness K of the isolator in N/m. The rubber isolator softens as the acceleration
+increases."""
 FREQUENCIES: tuple[float, ...] = tuple(round(0.1 * k, 10) for k in range(5, 51))
-"""The stepped sweep of the tests: 0.5 to 5 Hz by 0.1 Hz."""
+"""Frequencies of the stepped sweep in the tests: from 0.5 to 5 Hz in steps of 0.1 Hz."""
 
 _NO_GAP_LIMIT = ("GINF", "G∞", "INF", "∞", "FREE")
 _ACCEPTED = (
@@ -74,7 +76,7 @@ IDENTIFIED: Mapping[str, _Identified] = {
     "B2-G1-A3": _Identified(26800.0, 1100.0, 510e3, 900.0),
     "B2-G2-A2": _Identified(31900.0, 1100.0, 510e3, 900.0),
 }
-"""The two cases whose parameters the paper fitted one by one (Section 5)."""
+"""The two cases whose parameters were fitted individually in the paper (Section 5)."""
 
 
 REFINED: Mapping[str, AnyIsolator] = {
@@ -82,29 +84,29 @@ REFINED: Mapping[str, AnyIsolator] = {
     "Bouc-Wen": BoucWenIsolator(46.5e3, 22.8e3, 336.0, 445.0),
     "bilinear": BilinearIsolator(41.2e3, 23.4e3, 347.0, 514.0),
 }
-"""Isolators that soften by themselves, one parameter set for all accelerations.
+"""Isolators that soften with the displacement. One parameter set applies to all accelerations.
 
-Each was fitted to the largest free flight that `ISOLATOR_STIFFNESS` and `DAMPING_RATIO` give at the
-three accelerations: its frequency and its height, of displacement and of acceleration. The root
-mean square of what is left, relative, is 2.5 %, 2.6 % and 2.7 %; the best is that of the parameter
-set ``"refined"``.
+Each was fitted to the resonance peaks without stops that follow from `ISOLATOR_STIFFNESS` and
+`DAMPING_RATIO` at the three accelerations: to the frequency and the height of the peaks of
+displacement and acceleration. The relative root mean square deviations are 2.5 %, 2.6 % and 2.7 %.
+The best isolator (the first one) is used in the parameter set ``"refined"``.
 """
 
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """One test of the rig.
+    """One test of the published rig.
 
     Attributes
     ----------
     code
-        Code of the case: names in capitals, values as passed.
+        Code of the case. Names are written in capitals, and values as they were passed.
     oscillator
         The oscillator.
     amplitude
         Peak table acceleration A in m/s².
     frequencies
-        The frequencies of the stepped sweep in Hz, rising.
+        The rising frequencies of the stepped sweep, in Hz.
     parameters
         The parameter set: ``"table"``, ``"identified"`` or ``"refined"``.
     """
@@ -117,12 +119,12 @@ class Case:
 
     @property
     def rig(self) -> Rig:
-        """The rig, with an open frequency."""
+        """The rig of this test, with an open frequency."""
         return Rig(self.oscillator, self.amplitude, name=self.code)
 
     @property
     def slug(self) -> str:
-        """The code as a file name: without slash, space or non-ASCII character."""
+        """The code as a file name, without slashes, spaces and non-ASCII characters."""
         return re.sub(r"[^A-Za-z0-9.+-]+", "_", self.code).strip("_")
 
     def __repr__(self) -> str:
@@ -151,14 +153,15 @@ class Case:
 class Table1(NamedTuple):
     """The dimensionless parameters of the paper's Table 1.
 
-    The paper prints the gaps to 0.01 and the stiffness ratios to 0.1.
+    The paper states the gaps to 0.01 and the stiffness ratios to 0.1.
     """
 
     gap: dict[str, dict[str, float]]
-    """δ by acceleration and gap: ``gap["A3"]["G1"]``. It is G/(2 u_max), the gap of one
-    side, as the printed numbers are (the text says the sum of both sides)."""
+    """δ by acceleration and gap, such as ``gap["A3"]["G1"]``. It is G/(2 u_max), which is the gap
+    of one side. The numbers in the paper's table are the same, although its text defines δ as the
+    sum of both sides."""
     stiffness_ratio: dict[str, dict[str, float]]
-    """λ by acceleration and bumper: ``stiffness_ratio["A3"]["B2"]``."""
+    """λ by acceleration and bumper, such as ``stiffness_ratio["A3"]["B2"]``."""
 
     def __str__(self) -> str:
         head = "".join(f"{name:>7}" for name in (*GAPS, *BUMPERS))
@@ -172,32 +175,33 @@ class Table1(NamedTuple):
 
 
 def case(code: str, parameters: Parameters = "table") -> Case:
-    """Return the test that a case code names.
+    """Return the published test with a given case code.
 
     Parameters
     ----------
     code
-        Bumper, total gap and table acceleration joined by hyphens, such as ``B2-G1-A3``. Any
-        part may be a value with its unit: ``B3-10mm-A3``, ``510kN/m-G1-0.05g``. ``Ginf`` means no
-        stops. Names may be written in any case; units may not.
+        Bumper, total gap and table acceleration joined by hyphens, such as ``B2-G1-A3``. Each part
+        may be a value with its unit: ``B3-10mm-A3``, ``510kN/m-G1-0.05g``. ``Ginf`` is a rig
+        without stops. Names may be written in upper or lower case. Units must be written in the
+        correct case.
     parameters
-        ``"table"``: the isolator's equivalent stiffness for the acceleration, ξ = 0.15 and
-        τ_r = 0.01. A value between two of the tested accelerations takes the stiffness
-        interpolated linearly between theirs; outside 0.03 to 0.05 g nothing was measured, and an
-        error is raised. ``"identified"``: the fitted parameters of Section 5, for B2-G1-A3 and
-        B2-G2-A2 only. ``"refined"``: the bumpers of ``"table"`` and the first isolator of
-        ``REFINED``.
+        Parameter set. ``"table"`` (the default) uses the equivalent stiffness of the isolator at
+        the acceleration, with ξ = 0.15 and τ_r = 0.01. Between two tested accelerations the
+        stiffness is interpolated linearly. Outside 0.03 to 0.05 g nothing was measured, and an
+        error is raised. ``"identified"`` uses the fitted parameters of Section 5. It exists only
+        for B2-G1-A3 and B2-G2-A2. ``"refined"`` uses the bumpers of ``"table"``, and the first
+        isolator of ``REFINED``, which softens.
 
     Returns
     -------
     Case
-        With ``.oscillator``, ``.amplitude`` and ``.frequencies``.
+        The test, with ``.rig``, ``.oscillator``, ``.amplitude`` and ``.frequencies``.
 
     Raises
     ------
     InputError
-        If the code or the parameter set is unknown, a value is invalid, or the case has no
-        identified parameters.
+        If the code or the parameter set is unknown, or if a value is invalid. Also if the case has
+        no identified parameters.
     """
     if not isinstance(code, str):
         raise InputError(f"case: {shown(code)} is not a case code; {_ACCEPTED}")
@@ -248,17 +252,18 @@ def campaign(parameters: Parameters = "table") -> tuple[Case, ...]:
     Parameters
     ----------
     parameters
-        As in `case`; ``"identified"`` does not cover all tests.
+        As in `case`. ``"identified"`` is not accepted, because it does not exist for all tests.
 
     Returns
     -------
     tuple of Case
-        Ordered by acceleration, then bumper, then gap: B1-G1-A1, B1-G2-A1, ..., B4-G4-A3.
+        The tests, ordered by acceleration, then by bumper, then by gap: B1-G1-A1, B1-G2-A1, ...,
+        B4-G4-A3.
 
     Raises
     ------
     InputError
-        If the parameter set is unknown or does not cover the campaign.
+        If the parameter set is unknown, or if it does not exist for all tests.
     """
     return tuple(
         case(f"{b}-{g}-{a}", parameters) for a in ACCELERATIONS for b in BUMPERS for g in GAPS
@@ -266,12 +271,12 @@ def campaign(parameters: Parameters = "table") -> tuple[Case, ...]:
 
 
 def table_1() -> Table1:
-    """Compute the dimensionless parameters that the paper's Table 1 prints.
+    """Compute the dimensionless parameters in the paper's Table 1.
 
     Returns
     -------
     Table1
-        δ = G/(2 u_max) and λ = K_j/K for every acceleration.
+        δ = G/(2 u_max) and λ = K_j/K for each acceleration.
     """
     rigs = {a: _from_table(BUMPERS["B1"], math.inf, k) for a, k in ISOLATOR_STIFFNESS.items()}
     return Table1(

@@ -1,8 +1,8 @@
 """The vibrating mass, its isolator and its two stops (the paper's Fig. 1).
 
-``M ü + C u̇ + K u + (contact force) = -M A_t(t)`` for the linear isolator, with ``u`` the
-displacement relative to the base. The other isolators have their own forces. A stop pushes and
-never pulls.
+For the linear isolator the equation of motion is
+``M ü + C u̇ + K u + (contact force) = -M A_t(t)``, where ``u`` is the displacement relative to the
+base. The other isolators have their own forces. A stop can push the mass, but not pull it.
 """
 
 from __future__ import annotations
@@ -28,34 +28,37 @@ _LEAST, _MOST = 1e-50, 1e50
 
 
 class Oscillator(Model):
-    """A mass on an isolator, between two stops that may differ or be absent.
+    """A mass on an isolator, with a stop on each side. The stops may differ, or be absent.
 
     Parameters
     ----------
     mass
-        M in kg, greater than 0; or text such as ``"550 kg"``. In a table, the ``weight`` M g may
-        replace it, in N or as text such as ``"50 MN"``.
+        Mass M in kg, greater than 0; or text such as ``"550 kg"``. In the table of a study file,
+        ``weight`` may replace the mass. It is the weight M g in N, or a text such as ``"50 MN"``.
     isolator
         An `Isolator`, `FrictionIsolator`, `BilinearIsolator`, `PolynomialIsolator`,
-        `BoucWenIsolator`, `ExponentialIsolator` or a `Law`; or a mapping with the fields of one
-        (with its ``kind`` if it is not linear), or with the arguments of its ``from_period`` or
-        ``from_strength`` for this mass.
+        `BoucWenIsolator`, `ExponentialIsolator` or `Law`. A mapping with the fields of such an
+        object is also accepted. It must have the key ``kind`` if the isolator is not linear. It may
+        have the arguments of ``from_period`` or ``from_strength`` (without the mass) instead of the
+        fields.
     right
-        Stop at positive displacement: a `Bumper`, a `RigidStop`, a `PowerBumper`, a
-        `JankowskiBumper`, a `Law` with a gap, or a mapping with the fields of one (with its
-        ``kind`` if it is not a `Bumper`; a `Bumper` may have a ``restitution`` for this mass
-        instead of its damping). Default: None, no stop.
+        Stop at positive displacement: a `Bumper`, `RigidStop`, `PowerBumper`, `JankowskiBumper`, or
+        a `Law` with a gap. A mapping with the fields of such an object is also accepted. It must
+        have the key ``kind`` if the stop is not a `Bumper`. For a `Bumper`, it may have the
+        coefficient of restitution of this mass, ``restitution``, instead of the damping. Default:
+        None, no stop.
     left
         Stop at negative displacement, as for ``right``.
     force
-        Constant force on the mass in N, positive to the right, such as its weight or wind; or text
-        such as ``"-5.4 kN"``. Default: 0.
+        Constant force on the mass in N, positive to the right; or text such as ``"-5.4 kN"``.
+        Examples are the weight of the mass and wind. Default: 0.
 
     Raises
     ------
     InputError
-        If a value is invalid; the message contains its path, such as ``right.gap``. If two rigid
-        stops leave the mass no room, or no spring or stop balances the force.
+        If a value is invalid. The message contains the path of the value, such as ``right.gap``.
+        Also if two rigid stops leave no room for the mass, or if no spring and no stop balances the
+        constant force.
     """
 
     _quiet: ClassVar[Mapping[str, Any]] = {"force": 0.0}
@@ -79,7 +82,7 @@ class Oscillator(Model):
 
     @classmethod
     def table_keys(cls) -> list[str]:
-        """Return the keys that a table of an oscillator may hold."""
+        """Return the keys that the table of an oscillator may have."""
         return [*super().table_keys(), "weight"]
 
     @model_validator(mode="before")
@@ -173,14 +176,14 @@ class Oscillator(Model):
 
     @property
     def stops(self) -> tuple[Stop, ...]:
-        """Existing stops, the right one first."""
+        """The stops that exist, with the right stop first."""
         return tuple(stop for stop in (self.right, self.left) if stop is not None)
 
     @property
     def angular_frequency(self) -> float:
-        """Undamped natural angular frequency without stops, ω0 = √(K/M), in rad/s; may be 0.
+        """Undamped natural angular frequency without stops, ω0 = √(K/M), in rad/s. It may be 0.
 
-        K is the isolator's ``initial_stiffness``: that of small motions.
+        K is the ``initial_stiffness`` of the isolator, which applies to small motions.
         """
         return math.sqrt(self.isolator.initial_stiffness / self.mass)
 
@@ -206,7 +209,7 @@ class Oscillator(Model):
         Raises
         ------
         InputError
-            If the isolator has no stiffness, or a damping exponent other than 1.
+            If the isolator has no stiffness, or if its damping exponent is not 1.
         """
         return self.isolator.damping / self.critical_damping
 
@@ -236,21 +239,21 @@ class Oscillator(Model):
 
     @property
     def linear(self) -> bool:
-        """Whether the forces are linear between the start and the end of contacts.
+        """Whether all forces are linear in flight and during contact.
 
-        True for an `Isolator` without damping exponent between stops of the kinds `Bumper` and
-        `RigidStop`.
+        This is true for an `Isolator` whose damping exponent is 1, with stops that are a `Bumper`
+        or a `RigidStop`.
         """
         return self.isolator.linear and all(stop.linear for stop in self.stops)
 
     def check_linear(self, what: str, stops: bool = True) -> None:
-        """Raise an error if a law is not linear.
+        """Raise an error if the law of the isolator or of a stop is not linear.
 
         Raises
         ------
         InputError
-            If the isolator, or one of the `stops`, follows another law; the message names the
-            missing ``what``.
+            If the law of the isolator is not linear, or, with ``stops``, if the law of a stop is
+            not linear. The message states that such a law does not have ``what``.
         """
         parts = {"isolator": self.isolator, "right": self.right, "left": self.left}
         for name, part in parts.items():
@@ -266,9 +269,9 @@ class Oscillator(Model):
         return self.right == self.left and self.force == 0.0
 
     def mirrored(self) -> Oscillator:
-        """Return the mirror image: right and left exchanged, and the force reversed."""
+        """Return the mirror image: the stops are exchanged, and the constant force is reversed."""
         return self.replace(right=self.left, left=self.right, force=-self.force + 0.0)
 
     def without_bumpers(self) -> Oscillator:
-        """Return the same mass and isolator without stops."""
+        """Return a copy with the same mass and isolator, but without stops."""
         return self.replace(right=None, left=None)

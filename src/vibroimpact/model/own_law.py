@@ -1,4 +1,4 @@
-"""A law of one's own, given as a formula: of an isolator or of a stop."""
+"""A law of an isolator or of a stop that the user defines by a formula."""
 
 from __future__ import annotations
 
@@ -36,48 +36,52 @@ _RESERVED = {*_FIELDS, *FUNCTIONS, "u", "v", "d"}
 
 
 class Parts(NamedTuple):
-    """What a formula is made of: terms that built-in laws have, and what remains."""
+    """The terms of a formula: those that built-in laws have, and the others."""
 
     stiffness: float
     damping: float
     cubic: float
     quintic: float
     square: float
-    """Of a drag c v |v|, where there is no other damping."""
+    """Coefficient c of a drag c v |v|. It is used only if there is no other damping."""
     rest: tuple[tuple[float, Node], ...]
-    """Its other terms, each with its sign."""
+    """The other terms, each with its sign."""
 
 
 class Law(Named):
-    """A law given as a formula, of the displacement and velocity or of a stop's deformation.
+    """A law of an isolator or of a stop that is defined by a formula.
 
-    As an isolator its force is a formula of ``u`` (m) and ``v`` (m/s), displacement and velocity of
-    the mass relative to the base. It changes its sign with both, as every isolator's force. With a
-    `gap` it is a stop: a formula of ``d`` (m), the depth to which the mass has gone into it, and
-    ``v`` (m/s), the rate of that. A stop pushes where the formula is above 0, and never pulls.
+    Without a ``gap``, the law is an isolator. Its force is a formula of ``u`` (m) and ``v`` (m/s),
+    the displacement and the velocity of the mass relative to the base. If ``u`` and ``v`` change
+    their signs, the force must change its sign, too.
 
-    A formula has the operations ``+ - * / **`` and the functions exp, sqrt, sinh, cosh, tanh, sin,
-    cos and abs; abs of ``u`` and ``v`` alone. It is parsed, and never run as code. Terms that the
-    built-in laws have are followed as these, bit by bit.
+    With a ``gap``, the law is a stop. Its force is a formula of ``d`` (m), the penetration depth of
+    the mass, and of ``v`` (m/s), the rate of ``d``. Where the formula is not greater than 0, the
+    force is 0: a stop can push, but not pull.
 
-    Its kind in a table is ``"formula"``.
+    A formula may contain the operations ``+ - * / **`` and the functions exp, sqrt, sinh, cosh,
+    tanh, sin, cos and abs. The argument of abs must be ``u`` or ``v``. The formula is parsed, and
+    is never run as code. If a built-in law has the same term, the term gives the same result, bit
+    for bit.
+
+    In a study file, its ``kind`` is ``"formula"``.
 
     Parameters
     ----------
     formula
-        Force in N, such as ``"k*u + k3*u**3 + c*v"``.
+        Formula of the force in N, such as ``"k*u + k3*u**3 + c*v"``.
     gap
-        Of a stop: distance in m from the mass at u = 0 to the stop at rest; or text such as
-        ``"7.5 mm"``. None for an isolator.
+        For a stop: distance from the mass at u = 0 to the undeformed stop, in m; or text such as
+        ``"7.5 mm"``. Default: None, for an isolator.
     **numbers
-        Each number that the formula names: text with a unit, such as ``k="26 kN/m"``, which is
-        checked against the formula; or a plain number, in SI units.
+        Values of the names in the formula. A text with a unit, such as ``k="26 kN/m"``, is checked
+        against the units of the formula. A plain number is in SI units.
 
     Raises
     ------
     InputError
-        If the formula cannot be read, names what is not declared, has units that do not fit, or a
-        divisor that may come to 0; the line names the column.
+        If the formula cannot be read, or if it contains a name without a value. Also if its units
+        do not agree, or if a divisor may become 0. The message states the column of the error.
 
     Examples
     --------
@@ -155,7 +159,7 @@ class Law(Named):
         yield from self.numbers
 
     def rows(self) -> list[tuple[str, str]]:
-        """Its kind, its formula, its numbers in SI units and its gap."""
+        """Return kind, formula, numbers in SI units and gap, as pairs of name and text."""
         gap = [] if self.gap is None else [("gap", pretty(self.gap, LENGTH))]
         named = [(name, plain(value)) for name, value in self.numbers]
         return [("kind", self.kind), ("formula", self.formula), *named, *gap]
@@ -166,7 +170,7 @@ class Law(Named):
 
     @property
     def is_stop(self) -> bool:
-        """Whether it is a stop's law."""
+        """Whether the law is a stop."""
         return self.gap is not None
 
     @property
@@ -176,12 +180,12 @@ class Law(Named):
 
     @property
     def parts(self) -> Parts:
-        """Its terms that built-in laws have, and the rest."""
+        """The terms that built-in laws have, and the other terms."""
         return _parts(self.formula, self.numbers, self.is_stop)
 
     @property
     def power(self) -> tuple[float, float, float | None] | None:
-        """The k, n and χ of a stop's force k dⁿ (1 + χ v), if it is one; χ may be missing."""
+        """The numbers k, n and χ if the force of a stop is k dⁿ (1 + χ v), or k dⁿ (χ is None)."""
         if not self.is_stop:
             return None
         (sign, term), *others = terms(self.read.tree)
@@ -189,60 +193,61 @@ class Law(Named):
 
     @property
     def operations(self) -> tuple[list[str | int], list[float]]:
-        """What the engine follows as a formula in reverse Polish notation, and its numbers.
+        """What the engine evaluates in reverse Polish notation, and the numbers in it.
 
-        Of an isolator that is what built-in laws do not have; of a stop all.
+        For an isolator, this part contains the terms that built-in laws do not have. For a stop, it
+        contains all terms.
         """
         read = self.read
         return operations(terms(read.tree) if self.is_stop else self.parts.rest, read.variables)
 
     @property
     def linear(self) -> bool:
-        """Whether its force is K u + C v."""
+        """Whether the force is K u + C v."""
         return self.parts[2:] == (0.0, 0.0, 0.0, ())
 
     @property
     def initial_stiffness(self) -> float:
-        """Tangent stiffness at rest, N/m."""
+        """Tangent stiffness at rest (N/m)."""
         return self.read.slope(0.0, 0.0, 0)
 
     @property
     def damping(self) -> float:
-        """Slope of the force by the velocity at rest, N s/m."""
+        """Derivative of the force with respect to the velocity, at rest (N s/m)."""
         return self.read.slope(0.0, 0.0, 1)
 
     def static_force(self, displacement: float) -> float:
-        """Force (N) of a slow displacement or deformation (m); of a stop never below 0."""
+        """Return the force (N) of a slow displacement or deformation (m); at least 0 for a stop."""
         if not self.is_stop:
             return self.read.value(displacement, 0.0)
         return max(self.read.value(displacement, 0.0), 0.0) if displacement > 0.0 else 0.0
 
     def viscous_force(self, velocity: float) -> float:
-        """Force (N) at u = 0 and a velocity (m/s)."""
+        """Return the force (N) at u = 0 and a velocity (m/s)."""
         return self.read.value(0.0, velocity)
 
     @property
     def remembers(self) -> bool:
-        """Whether its force depends on more than displacement and velocity."""
+        """Whether the force depends on more than displacement and velocity: always false."""
         return False
 
     def remembered(self, displacement: float) -> float:
-        """Its memory, which it has not."""
+        """Return the memory, which is 0, because the law has none."""
         return 0.0
 
     @property
     def reach(self) -> float:
-        """Displacement (m) up to which the static force grows; ∞ if it grows on and on."""
+        """Displacement (m) up to which the static force grows; ∞ if it always grows."""
         return _first_fall(lambda u: self.read.slope(u, 0.0, 0))
 
     @property
     def restoring_reach(self) -> float:
-        """Displacement (m) up to which its static force pushes back to rest; ∞ if everywhere."""
+        """Displacement (m) up to which the static force is restoring; ∞ if it always is."""
         return _first_fall(self.static_force)
 
     @property
     def strongest(self) -> float:
-        """What the static force does not exceed within the reach, N; ∞ if it is unbounded."""
+        """Upper bound of the static force within the reach (N); ∞ if it is unbounded."""
         if self.reach < math.inf:
             return self.static_force(self.reach)
         near, far = self.static_force(_FAR), self.static_force(100.0 * _FAR)
@@ -250,7 +255,7 @@ class Law(Named):
 
     @property
     def linear_and_bounded(self) -> tuple[float, float] | None:
-        """K, if the static force is K u."""
+        """The pair (K, 0) if the static force is K u; otherwise None."""
         parts = self.parts
         if parts.cubic or parts.quintic or parts.rest:
             return None
@@ -258,11 +263,11 @@ class Law(Named):
 
 
 _FAR = 1e6
-"""m; farther than any rig is displaced."""
+"""A displacement (m) that is larger than that of any rig."""
 
 
 def _first_fall(function: Any) -> float:
-    """The least u > 0 (m) at which a function is not above 0; ∞ if there is none."""
+    """Return the least u > 0 (m) at which a function is not above 0; ∞ if there is none."""
     before, u = 0.0, 1e-9
     while u < _FAR:
         if not function(u) > 0.0 and (before > 0.0 or function(1e-3 * u) <= 0.0):

@@ -35,14 +35,14 @@ class Record:
     Parameters
     ----------
     acceleration
-        The samples in m/s², at least 2; or a pint quantity.
+        At least 2 samples of the acceleration in m/s², or a pint quantity.
     step
         Time between samples in s, greater than 0; or text such as ``"10 ms"``.
 
     Raises
     ------
     InputError
-        If a sample is not finite, there are fewer than 2, or the step is invalid.
+        If a sample is not finite, if there are fewer than 2 samples, or if the step is invalid.
     """
 
     __slots__ = ("_about", "_acceleration", "_step")
@@ -64,38 +64,41 @@ class Record:
         label: str | None = None,
         decimal: str | None = None,
     ) -> Record:
-        """Read a record from a file, whose format is detected from its content.
+        """Read a record from a file. The format is detected from the content of the file.
 
-        PEER AT2, COSMOS and CSMIP V1 and V2, USGS SMC, GeoNet V1A and V2A, K-NET and KiK-net,
-        ESM, columns of numbers; SAC and miniSEED where obspy is installed. A file may be compressed
-        with gzip. The samples are not filtered, cut or shifted. Assumptions and doubts, such as a
-        missing unit or a peak of 30 g, raise an `InputWarning` and are listed in ``about.notes``.
+        The accepted formats are PEER AT2, COSMOS and CSMIP V1 and V2, USGS SMC, GeoNet V1A and V2A,
+        K-NET and KiK-net, ESM, and columns of numbers. SAC and miniSEED are accepted if obspy is
+        installed. A file may be compressed with gzip. The samples are not filtered, cut or shifted.
+        If something is assumed or doubtful, such as a missing unit or a peak of 30 g, an
+        `InputWarning` is issued. It is also listed in ``about.notes``.
 
         Parameters
         ----------
         path
             The file.
         component
-            Component, if the file holds several: its name in the file, such as ``"90"``, ``"Up"``
-            or ``"HNE"``, or its number, starting from 1.
+            Component that is read. It is required if the file has several components. It is the
+            name in the file, such as ``"90"``, ``"Up"`` or ``"HNE"``, or the number of the
+            component, starting from 1.
         unit
-            Unit of the values, which replaces that of the file: of an acceleration, such as
-            ``"g"``, or of a displacement of the base, such as ``"mm"`` (`from_displacement`).
-            Default: that of the file; m/s² if it states none.
+            Unit of the values, such as ``"g"``. It replaces the unit in the file. If it is a unit
+            of length, such as ``"mm"``, the values are displacements of the base, and the
+            acceleration is computed from them (see `from_displacement`). Default: the unit in the
+            file, or m/s² if the file states none.
         step
-            Time between samples (s, or text with a unit), which replaces that of the file or of its
-            times.
+            Time between samples (s, or text with a unit). It replaces the step or the times in the
+            file.
         station, label
-            Names of the station and of the component, which replace those of the file.
+            Names of the station and of the component. They replace the names in the file.
         decimal
-            Decimal mark of a table, ``"."`` or ``","``. Default: detected; required if the table is
-            ambiguous.
+            Decimal mark of a table, ``"."`` or ``","``. Default: detected from the table. If the
+            table is ambiguous, the mark is required.
 
         Raises
         ------
         InputError
-            If the file cannot be read (the message names the line), if it has several components
-            and none is chosen, or if its values do not form a record.
+            If the file cannot be read; the message then states the line. If the file has several
+            components and none is chosen. If the values do not form a record.
         """
         values, spacing, quantity, about = read_values(
             path, component, unit, step, checked(decimal)
@@ -124,24 +127,24 @@ class Record:
     def from_displacement(cls, displacement: ArrayLike, step: float | str) -> Record:
         """Return the record of a base whose displacement was measured.
 
-        The displacement is interpolated by a cubic spline (with de Boor's "not-a-knot" ends), whose
-        acceleration is linear between the samples. Its second derivative is accurate to the second
-        order of the step. The base's velocity at the first sample is that of the spline; a motion
-        from rest is at rest relative to the base.
+        The displacement is interpolated by a cubic spline (with de Boor's "not-a-knot" ends). The
+        acceleration of this spline is linear between the samples. It is accurate to the second
+        order of the step. At the first sample the base has the velocity of the spline. A motion
+        "from rest" starts at rest relative to the base.
 
         Parameters
         ----------
         displacement
-            The samples in m, at least 8; or a pint quantity.
+            At least 8 samples of the displacement in m, or a pint quantity.
         step
             Time between samples in s, greater than 0; or text such as ``"10 ms"``.
 
         Raises
         ------
         InputError
-            If a value is invalid, or the displacement cannot be differentiated twice: if it jumps,
-            or is so rough that the peak acceleration grows by more than half when all samples are
-            used instead of every other one.
+            If a value is invalid, or if the displacement cannot be differentiated twice. This is
+            the case if it jumps or is very rough: with all samples, the peak acceleration is larger
+            by more than half than with every second sample.
         """
         from scipy.interpolate import CubicSpline
 
@@ -178,7 +181,7 @@ class Record:
 
     @property
     def about(self) -> About:
-        """Source of the record (file, format, station, component, unit), and how it was changed."""
+        """Source of the record (file, format, station, component, unit), and its changes."""
         return self._about
 
     @property
@@ -202,19 +205,20 @@ class Record:
         return float(np.abs(self._acceleration).argmax()) * self._step
 
     def scaled(self, scale: float | str = 1.0, *, peak: float | str | None = None) -> Record:
-        """Return the record multiplied by a number, or scaled to a peak.
+        """Return the record multiplied by a factor, or scaled to a peak.
 
         Parameters
         ----------
         scale
-            Factor, not 0.
+            Factor by which the record is multiplied. It must not be 0.
         peak
-            Peak of the scaled record in m/s², or text such as ``"0.3 g"``; instead of ``scale``.
+            Peak of the scaled record in m/s², or text such as ``"0.3 g"``. Pass it instead of
+            ``scale``.
 
         Raises
         ------
         InputError
-            If a value is invalid, or the record is 0 throughout.
+            If a value is invalid. Also if a peak is passed and all samples of the record are 0.
         """
         factor = to_si(scale, DIMENSIONLESS, "scale")
         if peak is not None:
@@ -231,18 +235,18 @@ class Record:
         return self._changed(self._acceleration * factor, f"scaled by {factor:.6g}")
 
     def cut(self, start: float | str = 0.0, end: float | str | None = None) -> Record:
-        """Return the part between two times; the new record starts at time 0.
+        """Return the part of the record between two times. The new record starts at time 0.
 
         Parameters
         ----------
         start, end
-            Start and end of the part, in s or text with a unit; rounded to the nearest samples.
-            Default: the start and the end of the record.
+            Start and end of the part, in s or as text with a unit. They are rounded to the nearest
+            samples. Default: the start and the end of the record.
 
         Raises
         ------
         InputError
-            If the times are not in the record, or fewer than 2 samples are left.
+            If the times are outside the record, or if fewer than 2 samples are left.
         """
         last = len(self._acceleration) - 1
         whole = (last + 0.5) * self._step
@@ -263,7 +267,7 @@ class Record:
         Raises
         ------
         InputError
-            If the name of the baseline is unknown.
+            If ``baseline`` is not ``"mean"`` or ``"line"``.
         """
         degree = _DEGREES.get(baseline)
         if degree is None:
@@ -283,13 +287,13 @@ class Record:
         return made
 
     def at(self, time: ArrayLike) -> NDArray[np.float64]:
-        """Return the base acceleration (m/s²) at any times (s); 0 outside the record."""
+        """Return the base acceleration (m/s²) at any times (s). It is 0 outside the record."""
         return np.asarray(
             np.interp(np.asarray(time), self.time, self._acceleration, left=0.0, right=0.0)
         )
 
     def __eq__(self, other: object) -> bool:
-        """Return whether all samples and the step are the same."""
+        """Return whether both records have the same samples and the same step."""
         if not isinstance(other, Record):
             return NotImplemented
         return self._step == other._step and np.array_equal(self._acceleration, other._acceleration)
@@ -309,7 +313,7 @@ class Record:
         return table("Record", self.rows())
 
     def rows(self) -> list[tuple[str, str]]:
-        """Describe the record in words, with its source if it was read."""
+        """Return pairs of name and text that describe the record, and its source if it was read."""
         about = self._about
         return [
             *(

@@ -1,4 +1,4 @@
-"""The rig, an oscillator with its excitation: the first argument of every public function."""
+"""The rig, an oscillator with its excitation: the first argument of most public functions."""
 
 from __future__ import annotations
 
@@ -16,11 +16,12 @@ from vibroimpact.model.record import Record
 from vibroimpact.model.units import pretty, to_si
 
 Shaking: TypeAlias = float | str | Harmonic | Periodic | Record | Sequence[float | str]
-"""What a rig may be given as shaking: an amplitude, a text with its unit, one amplitude for each
-frequency of a sweep, or a `Harmonic`, a `Periodic` or a `Record`."""
+"""Accepted values for the shaking of a rig: an amplitude, a text with a unit, one amplitude per
+frequency of a sweep, a `Harmonic`, a `Periodic` or a `Record`."""
 
 ANY_FREQUENCY = 1.0
-"""Hz; stands in a periodic shaking whose frequency is left open, and has no meaning there."""
+"""Placeholder (Hz) for the frequency of a periodic shaking whose frequency is open. It has no
+meaning."""
 
 _EXAMPLE = 'Rig(oscillator, "0.05 g") or Rig(oscillator, Harmonic("0.05 g", "2 Hz"))'
 
@@ -34,32 +35,37 @@ class Rig:
     oscillator
         The mass with its isolator and its stops.
     shaking
-        The peak A of the base acceleration in m/s², greater than 0; or a text such as
-        ``"0.05 g"``, ``"5 mm"`` (displacement of the base) or ``"120 N"`` (force on the mass).
-        The frequency then stays open. Or a `Harmonic`, a `Periodic` or a `Record`. For sweeps, a
-        list with one amplitude per frequency. None leaves the shaking open, for functions that
-        get it from another argument.
+        What shakes the rig. It is one of:
+
+        - the peak A of the base acceleration in m/s², greater than 0, or a text such as
+          ``"0.05 g"`` (acceleration of the base), ``"5 mm"`` (displacement of the base) or
+          ``"120 N"`` (force on the mass). In this case the frequency is open: it is set later, by
+          ``frequency`` or by a function such as `sweep`;
+        - a `Harmonic`, a `Periodic` or a `Record`;
+        - for a sweep: a list with one amplitude per frequency;
+        - None, if a function gets the shaking from another argument.
     frequency
-        Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: that of the shaking; open
-        if the shaking is an amplitude alone.
+        Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: the frequency of the shaking.
+        If the shaking is only an amplitude, the frequency is open.
     name
-        Name of the rig in datasets, tables and legends.
+        Name of the rig in datasets, tables and legends. Default: no name.
 
     Attributes
     ----------
     oscillator : Oscillator
     shaking : Harmonic, Periodic, Record or None
-        If the frequency is open, that of the shaking has no meaning.
+        The excitation. If the frequency of the rig is open, the frequency of this object has no
+        meaning.
     frequency : float or None
-        In Hz; None if it is open, or a record shakes the rig.
+        Forcing frequency in Hz. None if it is open, or if a record shakes the rig.
     amplitudes : tuple of float or None
-        One per frequency of a sweep, in the units of the shaking.
+        One amplitude per frequency of a sweep, in the units of the shaking.
     name : str or None
 
     Raises
     ------
     InputError
-        If the oscillator is not an `Oscillator`, or the shaking or the frequency is invalid.
+        If ``oscillator`` is not an `Oscillator`, or if the shaking or the frequency is invalid.
 
     Examples
     --------
@@ -126,7 +132,7 @@ class Rig:
 
     @property
     def amplitude(self) -> float:
-        """Amplitude of the periodic shaking, or the largest of its harmonics (m/s², m or N)."""
+        """Amplitude of the periodic shaking, the largest one of its harmonics (m/s², m or N)."""
         return self.periodic.amplitude
 
     @property
@@ -136,7 +142,7 @@ class Rig:
         Raises
         ------
         InputError
-            If a record shakes the rig, or nothing does.
+            If a record shakes the rig, or if the rig has no shaking.
         """
         if isinstance(self.shaking, Harmonic | Periodic):
             return self.shaking
@@ -149,18 +155,18 @@ class Rig:
         Raises
         ------
         InputError
-            As in `periodic`, and if the frequency is open.
+            As in `periodic`. Also if the frequency is open.
         """
         self.check_frequency()
         return self.periodic
 
     def check_frequency(self) -> None:
-        """Raise an error for a rig without a forcing frequency.
+        """Raise an error if the rig has no forcing frequency.
 
         Raises
         ------
         InputError
-            If the frequency is open, or the shaking is not periodic.
+            If the frequency is open, or if the shaking is not periodic.
         """
         if not isinstance(self.shaking, Harmonic | Periodic):
             as_periodic(self.shaking, "shaking")  # which says what is wrong
@@ -174,19 +180,19 @@ class Rig:
     def of_open_frequency(
         cls, oscillator: Oscillator, shaking: Repeated | Record | None, name: str | None = None
     ) -> Rig:
-        """Return a rig whose shaking has a shape but an open frequency."""
+        """Return a rig with the shape of a periodic shaking, but with an open frequency."""
         rig = cls(oscillator, shaking, name=name)
         object.__setattr__(rig, "frequency", None)
         return rig
 
     @property
     def sine(self) -> Harmonic:
-        """The one sine that shakes the rig.
+        """The sine that shakes the rig.
 
         Raises
         ------
         InputError
-            If several harmonics or a record shake it, or nothing does.
+            If several harmonics or a record shake the rig, or if the rig has no shaking.
         """
         found = self.periodic
         if not isinstance(found, Harmonic):
@@ -200,7 +206,7 @@ class Rig:
         Raises
         ------
         InputError
-            If something else shakes the rig, or nothing does.
+            If a periodic excitation shakes the rig, or if the rig has no shaking.
         """
         if not isinstance(self.shaking, Record):
             raise InputError(
@@ -210,7 +216,7 @@ class Rig:
         return self.shaking
 
     def at(self, frequency: float | str) -> Rig:
-        """Return the rig shaken at a frequency (Hz, or text with a unit)."""
+        """Return a copy of the rig with another forcing frequency (Hz, or text with a unit)."""
         return Rig(self.oscillator, self.periodic, frequency, self.name)
 
     def with_parts(
@@ -220,9 +226,9 @@ class Rig:
         *,
         keep_open: bool = True,
     ) -> Rig:
-        """Return a copy with another oscillator, and optionally another shaking.
+        """Return a copy with another oscillator, and optionally with another shaking.
 
-        An open frequency stays open, unless ``keep_open`` is False.
+        If the frequency is open, it stays open, unless ``keep_open`` is False.
         """
         frequency = self.frequency
         if isinstance(shaking, Harmonic | Periodic) and not (frequency is None and keep_open):

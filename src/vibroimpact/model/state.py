@@ -1,4 +1,4 @@
-"""The state of an oscillator, from which a motion starts or is resumed."""
+"""The state of an oscillator, from which a motion can be started or resumed."""
 
 from __future__ import annotations
 
@@ -29,35 +29,38 @@ def _contact(value: Any) -> int | None:
 class State(Model):
     """The state of an oscillator at one instant.
 
-    The deformation of a bumper belongs to the state because it outlasts the contact: a bumper that
-    the mass has left is still relaxing.
+    The deformations of the bumpers are part of the state: after the mass has left a bumper, the
+    bumper is still deformed and relaxes.
 
     Parameters
     ----------
     displacement
-        u in m, relative to the base.
+        Displacement u in m, relative to the base.
     velocity
-        u̇ in m/s, relative to the base.
+        Velocity u̇ in m/s, relative to the base.
     right_bumper
-        Deformation u_R in m of the right bumper, at least 0. None: at rest, or pressed by
-        the mass if the displacement exceeds the gap. For a compressed stop without memory: the
-        speed in m/s at the start of the contact, which determines the dissipation if the stop has a
-        restitution.
+        Deformation u_R of the right bumper in m, at least 0. Default: the bumper is undeformed, or
+        compressed by the mass if the displacement exceeds the gap. For a stop without memory (any
+        other stop than a `Bumper`) the value has another meaning while the stop is compressed: the
+        speed in m/s at the start of the contact. If the stop has a coefficient of restitution, this
+        speed determines its dissipation.
     left_bumper
-        Deformation u_L in m of the left bumper, at most 0. None: as for the right one.
+        Deformation u_L of the left bumper in m, at most 0. Default: as for the right bumper.
     phase
-        Phase of the excitation at this instant in rad. None: the excitation's own.
+        Phase of the excitation at this instant, in rad. Default: the initial phase of the
+        excitation.
     contact
-        Stop that the mass touches: -1 left, 0 none, 1 right, 2 both. None: deduced from the
-        displacement and the deformations.
+        Stop that the mass touches: -1 (left), 0 (none), 1 (right) or 2 (both). Default: deduced
+        from the displacement and the deformations.
     isolator
-        Memory of a hysteretic isolator, in m: the deformation z of its elastic part, the z of Bouc
-        and Wen, or, for the exponential model, the hysteretic force divided by k_a - k_b.
+        Internal variable (memory) of a hysteretic isolator, in m. For the bilinear isolator it is
+        the deformation z of the elastic part. For the Bouc-Wen model it is z. For the exponential
+        model it is the hysteretic force divided by k_a - k_b.
 
     Raises
     ------
     InputError
-        If a value is not finite, has a wrong unit or a wrong sign.
+        If a value is not finite, has a wrong unit or has a wrong sign.
     """
 
     _quiet: ClassVar[Mapping[str, Any]] = {"isolator": 0.0}

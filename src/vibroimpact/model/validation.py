@@ -1,8 +1,8 @@
-"""What every part of the model shares: immutable, validated, printable.
+"""Base of all parts of the model: immutable, validated and printable objects.
 
-A mistake in a value raises `InputError` with one line that names the path of the field,
-the value and what is accepted, whether the value came from a constructor call, from a
-nested table of a study file or from a change to an existing object.
+An invalid value raises `InputError`. The message is one line with the path of the field, the value
+and what is accepted. It is the same for a constructor call, for a nested table of a study file and
+for a change of an existing object.
 """
 
 from __future__ import annotations
@@ -36,14 +36,15 @@ _ModelType = TypeVar("_ModelType", bound="Model")
 
 @dataclass(frozen=True, slots=True)
 class Accepts:
-    """Annotation of a field: which quantity it takes, within which bounds (SI units).
+    """Annotation of a field: its quantity and its bounds (SI units).
 
-    ``Annotated[float, Accepts(LENGTH, minimum=0.0)]`` is a float in metres that may be
-    given as a number or as text with units. With ``optional=True`` the field may also be
-    None, which means that the value is unknown.
+    ``Annotated[float, Accepts(LENGTH, minimum=0.0)]`` is a float in metres, which may be passed as
+    a number or as text with units. With ``optional=True`` the field may also be None, which means
+    that the value is unknown.
 
-    Where the unit depends on an exponent, `by` names the field that holds it, which the class must
-    declare before, and `family` gives the quantity for an exponent; `quantity` is the usual one.
+    If the unit depends on an exponent, `by` is the name of the field with the exponent. The class
+    must declare that field before. `family` returns the quantity for an exponent. `quantity` is the
+    usual quantity.
     """
 
     quantity: Quantity
@@ -55,14 +56,14 @@ class Accepts:
     family: Callable[[float], Quantity] | None = None
 
     def of(self, values: Mapping[str, Any]) -> Accepts:
-        """What is accepted beside these values of the other fields."""
+        """Return what is accepted, given the values of the other fields."""
         exponent = None if self.by is None else values.get(self.by)
         if exponent is None or self.family is None:
             return self
         return replace(self, quantity=self.family(exponent), by=None, family=None)
 
     def __call__(self, value: object) -> float | None:
-        """Return the value in SI units, or raise `InputError` without the field's name."""
+        """Return the value in SI units, or raise `InputError` without the name of the field."""
         if value is None and self.optional:
             return None
         number = read(
@@ -71,7 +72,7 @@ class Accepts:
         return check_size(value, number, SMALLEST if self.above == 0.0 else 0.0)
 
     def words(self) -> str:
-        """Say what is accepted."""
+        """Describe what is accepted."""
         return accepted(self.quantity, above=self.above, minimum=self.minimum, maximum=self.maximum)
 
     def __get_pydantic_core_schema__(
@@ -88,21 +89,21 @@ class Accepts:
 
 
 class Choice:
-    """Annotation of a field that takes one of several classes, each known by its kind."""
+    """Annotation of a field that accepts one of several classes, which differ by their kind."""
 
     classes: Mapping[str, type[BaseModel]]
 
     def unknown(self, value: object) -> str:
-        """Say what is wrong with a table of no known kind."""
+        """Describe the error of a table with an unknown kind."""
         raise NotImplementedError
 
 
 def constructor(init: _Init) -> _Init:
-    """Mark an ``__init__`` that only names the fields and passes them on.
+    """Mark an ``__init__`` that only passes the fields on.
 
-    pydantic then builds a nested table field by field, rather than by calling the
-    ``__init__``, and so knows the full path of a mistake in it. The mark is the one that
-    pydantic puts on its own ``__init__``.
+    With this mark, pydantic builds a nested table field by field instead of calling ``__init__``.
+    Therefore it knows the full path of an invalid field. pydantic puts the same mark on its own
+    ``__init__``.
     """
     init.__pydantic_base_init__ = True  # type: ignore[attr-defined]
     return init
@@ -115,9 +116,9 @@ else:
 
 
 class _Listed(ModelMetaclass):
-    """Lists what is the model's own: ``help`` shows that, and not a page of pydantic.
+    """Metaclass that lists only the names of the model: ``help`` leaves out those of pydantic.
 
-    A misspelt keyword is reported like a misspelt key of a table.
+    A misspelt keyword is reported in the same way as a misspelt key of a table.
     """
 
     def __call__(cls, *args: Any, **values: Any) -> Any:  # noqa: N805
@@ -146,21 +147,21 @@ class _Listed(ModelMetaclass):
 
 
 class Model(BaseModel, metaclass=_Listed):
-    """Base of the immutable model objects.
+    """Base class of the immutable model objects.
 
-    Objects compare and hash by value. ``repr`` is the exact constructor call in SI units;
-    ``str`` is for reading, with units of fitting size.
+    Objects are compared and hashed by value. ``repr`` is the exact constructor call in SI units.
+    ``str`` is a readable text with units of fitting size.
 
     Raises
     ------
     InputError
-        On construction, if a value cannot be used; on any attempt to set an attribute.
+        If a value is invalid, or if an attribute is set after the construction.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     _quiet: ClassVar[Mapping[str, Any]] = {}
-    """Fields that are not shown while they have this value."""
+    """Fields that are not shown if they have this value."""
 
     @constructor
     def __init__(self, /, **values: Any) -> None:
@@ -184,21 +185,21 @@ class Model(BaseModel, metaclass=_Listed):
 
     @classmethod
     def model_validate(cls, obj: Any, *, where: str = "", **options: Any) -> Self:
-        """Make an object from a table (a mapping), which may hold nested tables.
+        """Make an object from a table (a mapping), which may have nested tables.
 
         Parameters
         ----------
         obj
-            The table, or an object of this class, which is returned as it is.
+            The table, or an object of this class, which is returned unchanged.
         where
-            Path of the table in its file, such as ``"oscillator"``; messages begin with it.
+            Path of the table in its file, such as ``"oscillator"``. Error messages begin with it.
         **options
-            Passed to pydantic.
+            Options that are passed to pydantic.
 
         Raises
         ------
         InputError
-            If a key is unknown or missing, or a value cannot be used.
+            If a key is unknown or missing, or if a value is invalid.
         """
         try:
             return super().model_validate(obj, **options)
@@ -207,24 +208,24 @@ class Model(BaseModel, metaclass=_Listed):
 
     @classmethod
     def model_validate_json(cls, json_data: str | bytes | bytearray, **options: Any) -> Self:
-        """Make an object from JSON text; errors as for `model_validate`."""
+        """Make an object from JSON text, with the errors of `model_validate`."""
         try:
             return super().model_validate_json(json_data, **options)
         except ValidationError as error:
             raise InputError(_explain(error, cls, "")) from None
 
     def replace(self, **changes: Any) -> Self:
-        """Return a copy with some fields changed, validated like a new object.
+        """Return a copy with some fields changed. It is validated like a new object.
 
         Raises
         ------
         InputError
-            If a field is unknown or its new value cannot be used.
+            If a field is unknown, or if its new value is invalid.
         """
         return type(self).model_validate({**dict(self), **changes})
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
-        """Return a copy as `replace` does; pydantic's own would not validate the changes."""
+        """Return a copy as `replace` does; the method of pydantic would not validate changes."""
         return self.replace(**(update or {}))
 
     def __repr_args__(self) -> Iterator[tuple[str | None, Any]]:
@@ -243,17 +244,17 @@ class Model(BaseModel, metaclass=_Listed):
 
     @classmethod
     def table_keys(cls) -> list[str]:
-        """What a table of it may hold."""
+        """Return the keys that a table of this class may have."""
         return in_order(cls)
 
     def accepts(self, name: str) -> Accepts | None:
-        """What a field takes beside the other values, if it takes a quantity."""
+        """Return what a field accepts, given the other values, if it is a quantity."""
         metadata = type(self).model_fields[name].metadata
         found = next((m for m in metadata if isinstance(m, Accepts)), None)
         return None if found is None else found.of(dict(self))
 
     def rows(self) -> list[tuple[str, str]]:
-        """Paths of the fields, such as ``right.gap``, and their values with units."""
+        """Return the paths of the fields, such as ``right.gap``, and their values with units."""
         found = []
         for name, value, text in self._read():
             if isinstance(value, Model):
@@ -263,7 +264,7 @@ class Model(BaseModel, metaclass=_Listed):
         return found
 
     def _read(self) -> Iterator[tuple[str, Any, str]]:
-        """Each field's name, value, and text for reading."""
+        """Yield name, value and readable text of each field."""
         for name in in_order(type(self)):
             value = getattr(self, name)
             if self._unsaid(name, value):
@@ -276,7 +277,7 @@ class Model(BaseModel, metaclass=_Listed):
 
 
 def in_order(model: type[BaseModel]) -> list[str]:
-    """Names of the fields, in the order in which the constructor takes them."""
+    """Return the names of the fields, in the order of the arguments of the constructor."""
     said = [n for n in inspect.signature(model.__init__).parameters if n in model.model_fields]
     return [*said, *(name for name in model.model_fields if name not in said)]
 
@@ -289,7 +290,7 @@ def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelTy
     model
         The class, such as `Oscillator`.
     data
-        The table: a mapping of field names to numbers, texts with units or tables.
+        The table: a mapping from field names to numbers, texts with units or tables.
     where
         Path of the table in its file, such as ``"oscillator"``.
 
@@ -301,7 +302,8 @@ def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelTy
     Raises
     ------
     InputError
-        One line with the full path, such as ``oscillator.right.gap: '15 kg' is a mass; ...``.
+        If the table is invalid. The message is one line with the full path, such as
+        ``oscillator.right.gap: '15 kg' is a mass; ...``.
     """
     return model.model_validate(data, where=where)
 

@@ -1,1 +1,1 @@
-"""The published study computed again: its figures, and its statements with their verdicts."""
+"""The published study, computed again: its figures, and its statements with verdicts."""

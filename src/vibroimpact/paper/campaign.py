@@ -1,4 +1,4 @@
-"""Figs. 5 and 6: η_a and η_d of all tests, a panel for each bumper and acceleration."""
+"""Figs. 5 and 6: η_a and η_d of all tests, with a panel for each bumper and acceleration."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from vibroimpact.paper.study import PublishedStudy
 
 
 def panels_of(study: PublishedStudy, quantity: Literal["eta_a", "eta_d"]) -> Figure:
-    """Bumpers downwards, accelerations to the right; a curve for each gap and free flight."""
+    """Draw a row per bumper, a column per acceleration, and a curve per gap and for free flight."""
     data = study.campaign()
     bumpers, accelerations = tuple(laboratory.BUMPERS), tuple(laboratory.ACCELERATIONS)
     figure = Figure(figsize=(12.0, 13.0), layout="constrained")

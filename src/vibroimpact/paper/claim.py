@@ -10,7 +10,7 @@ from vibroimpact.paper.study import PublishedStudy
 
 
 class Verdict(StrEnum):
-    """What became of a statement."""
+    """Verdict on a statement."""
 
     REPRODUCED = "reproduced"
     NOT_REPRODUCED = "not reproduced"
@@ -21,43 +21,44 @@ class Kind(StrEnum):
     """Verdict on a statement."""
 
     COMPUTED = "computed"
-    """Nothing in the program was chosen with it in view: it might have come out otherwise."""
+    """No part of the program was chosen with regard to the statement. The result was open."""
     RULES = "set by the rules"
-    """The rules and thresholds that name scenarios were chosen to agree with such statements."""
+    """The rules and thresholds of the scenarios were chosen to agree with such statements."""
     INPUTS = "inputs"
-    """Whether the parameters that the paper gives agree with each other."""
+    """The statement is about the agreement of the parameters in the paper with each other."""
     REFINED = "with the refined isolator"
-    """Judged again with an isolator that softens by itself."""
+    """The statement is judged again with an isolator that softens with the displacement."""
     CONSTRUCTION = "by construction"
-    """The model's equations leave no other outcome: a test of the program."""
+    """The equations of the model allow no other result. The statement tests the program."""
 
 
 class Finding(NamedTuple):
-    """What was computed for a statement."""
+    """The result that was computed for a statement."""
 
     holds: bool | None
-    """Whether the statement holds for what was computed; None if only measurements can tell."""
+    """Whether the statement is true for the computed result. None if only measurements can decide
+    it."""
     number: str
-    """The numbers that decide it, with units."""
+    """The numbers that decide the statement, with units."""
 
     @property
     def verdict(self) -> Verdict:
-        """The verdict: it follows from what was computed."""
+        """The verdict, which follows from the computed result."""
         if self.holds is None:
             return Verdict.NEEDS_DATA
         return Verdict.REPRODUCED if self.holds else Verdict.NOT_REPRODUCED
 
 
 class Claim(NamedTuple):
-    """One testable statement."""
+    """A testable statement."""
 
     key: str
-    """Short name, unique."""
+    """Short, unique name."""
     section: str
-    """Where the paper says it, such as ``4.2``, ``Table 1``, ``Fig. 16``."""
+    """Place of the statement in the paper, such as ``4.2``, ``Table 1`` or ``Fig. 16``."""
     statement: str
-    """In our own words."""
+    """The statement in our own words."""
     quantity: str
-    """What is computed, and what decides."""
+    """The quantity that is computed, and the criterion that decides."""
     find: Callable[[PublishedStudy], Finding]
     kind: Kind = Kind.COMPUTED

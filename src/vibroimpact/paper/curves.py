@@ -12,7 +12,7 @@ from vibroimpact.paper.study import HIGH, LOW, PublishedStudy
 S3, S2, S1, S5 = "B2-G1-A3", "B2-G2-A2", "B2-G4-A1", "B3-0mm-A3"
 NAMES = ("I", "II", "III")
 S5_RANGE = 0.3, 10.0
-"""Up to twice the range of the tests (Hz)."""
+"""Frequency range for S5 (Hz), up to twice the highest frequency of the tests."""
 
 
 def curves_of(
@@ -21,7 +21,7 @@ def curves_of(
     parameters: laboratory.Parameters | None = None,
     reach: tuple[float, float] = (LOW, HIGH),
 ) -> Figure:
-    """The curves; of S3 with the three frequencies of Figs. 8 and 12 marked."""
+    """Draw the curves. For S3 the three frequencies of Figs. 8 and 12 are marked."""
     axes = resonance_curves(study.curves(code, parameters, *reach))
     if code == S3:
         places = study.regular_places(code, parameters)

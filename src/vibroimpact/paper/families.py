@@ -1,4 +1,4 @@
-"""Figs. 19 and 20: B3-A3 with gaps from zero to free flight, G3-A1 with bumpers soft to stiff."""
+"""Figs. 19 and 20: B3-A3 with different gaps, and G3-A1 with different bumper stiffnesses."""
 
 from __future__ import annotations
 
@@ -16,15 +16,16 @@ from vibroimpact.paper.study import GAPS, STIFFNESSES, PublishedStudy
 
 LOW, HIGH = 0.3, 8.0
 NEAR = (0.3, 2.0)
-"""Range that is magnified: there lie the secondary resonances (Hz)."""
+"""Magnified frequency range (Hz), which contains the secondary resonances."""
 NOT_NEAR = ("2mm", "5mm")
-"""Gaps left out of it: most of their motions there do not settle, and would hide the others."""
+"""Gaps that are left out of this range. Most of their motions do not settle there, and would cover
+the other curves."""
 SHOWN = (0.8, 1.8)
-"""Range of Fig. 20 in Hz; outside it all curves are those of free flight."""
+"""Range of Fig. 20 in Hz. Outside it all curves coincide with free flight."""
 
 
 def _by_gap(study: PublishedStudy) -> Figure:
-    """η_a above η_d, a curve for each gap; the whole range, and its lower part magnified."""
+    """Draw η_a above η_d with a curve for each gap, and magnify the lower part of the range."""
     names = {f"B3-{gap}-A3": _named(gap, laboratory.GAPS, 1e3, "mm") for gap in GAPS}
     scenarios = {code: study.classification(code, LOW, HIGH).scenario for code in names}
     data = study.by_gap()
@@ -40,9 +41,9 @@ def family_of(
     heading: str,
     near: xr.Dataset | None = None,
 ) -> Figure:
-    """Curves of several rigs, coloured by scenario, which the legend names as well.
+    """Draw curves of several rigs. Their colours and the legend show the scenarios.
 
-    Curves `near` are shown beside them, magnified.
+    The curves `near` are shown next to them as a magnified part.
     """
     parts = [data] if near is None else [data, near]
     figure = Figure(figsize=(10.4 if near is None else 14.4, 9.6), layout="constrained")
@@ -79,7 +80,7 @@ def family_of(
 
 
 def _by_stiffness(study: PublishedStudy) -> Figure:
-    """η_a above η_d, a curve for each stiffness."""
+    """Draw η_a above η_d, with a curve for each stiffness."""
     names = {
         f"{stiffness}-G3-A1": _named(stiffness, laboratory.BUMPERS, 1e-3, "kN/m")
         for stiffness in STIFFNESSES

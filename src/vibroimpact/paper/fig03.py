@@ -13,7 +13,7 @@ from vibroimpact.paper.study import PublishedStudy
 
 
 def draw(study: PublishedStudy) -> Figure:
-    """E_a above E_d, a curve for each acceleration."""
+    """Draw E_a above E_d, with a curve for each acceleration."""
     codes = {f"B1-Ginf-{a}": a for a in laboratory.ACCELERATIONS}
     data = study.family(tuple(codes))
     labels = {code: f"{a} = {_share(a)} g" for code, a in codes.items()}

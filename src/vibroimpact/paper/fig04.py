@@ -1,4 +1,4 @@
-"""Fig. 4: what contact changes, B4-G4-A3 beside free flight."""
+"""Fig. 4: the effect of contact, shown by B4-G4-A3 and by free flight."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ CODE, NO_BUMPERS = "B4-G4-A3", "B4-Ginf-A3"
 
 
 def draw(study: PublishedStudy) -> Figure:
-    """The cycles at resonance on the left, the curves on the right."""
+    """Draw the cycles at resonance on the left, and the curves on the right."""
     data, flight = study.curves(CODE), study.curves(NO_BUMPERS)
     at = _highest(data)
     at_free = _highest(flight)
@@ -41,7 +41,7 @@ def draw(study: PublishedStudy) -> Figure:
 
 
 def _highest(data: xr.Dataset) -> float:
-    """Frequency at which the forward sweep's acceleration is largest (Hz)."""
+    """Return the frequency (Hz) at which the acceleration of the forward sweep is largest."""
     one = data["eta_a"].sel(direction="forward")
     return float(one["frequency"][int(one.values.argmax())])
 

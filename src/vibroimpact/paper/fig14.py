@@ -1,4 +1,4 @@
-"""Fig. 14: the laboratory's tests and their scenarios."""
+"""Fig. 14: the laboratory tests and their scenarios."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from vibroimpact.paper.study import PublishedStudy
 
 
 def draw(study: PublishedStudy) -> Figure:
-    """A panel for each acceleration."""
+    """Draw a panel for each acceleration."""
     figure = scenario_cases(study.scenarios())[0].get_figure(root=True)
     assert figure is not None
     return figure

@@ -18,7 +18,7 @@ from vibroimpact.response.resonance import Features, features
 CODE = "B3-10mm-A3"
 LOW = 0.3
 BRANCH = (0.9, 1.4)
-"""Range in Hz over which the small antisymmetric motion is followed; it is stable at both ends."""
+"""Range in Hz in which the small antisymmetric motion is followed. It is stable at both ends."""
 
 _GREEN: dict[str, Any] = {
     "color": "#00795c",
@@ -30,7 +30,7 @@ _WILD: dict[str, Any] = {"facecolor": "#fbe3bd", "lw": 0.0, "label": "does not s
 
 
 def draw(study: PublishedStudy) -> Figure:
-    """The whole range on the left, that around 1 Hz on the right."""
+    """Draw the whole range on the left, and the range around 1 Hz on the right."""
     data = study.curves(CODE, low=LOW)
     found = features(data)
     branch = study.antisymmetric_branch(CODE, *BRANCH)
@@ -72,12 +72,12 @@ _EXCURSIONS = {"eta_a": "acceleration_excursion", "eta_d": "displacement_excursi
 
 
 def _reference(data: xr.Dataset, excursion: str) -> float:
-    """What the sweeps are normalised by: free flight's maximum on their frequencies."""
+    """Return the reference of the sweeps: the maximum of free flight at their frequencies."""
     return float(data[f"free_{excursion}"].max())
 
 
 def _unstable(ax: Axes, data: xr.Dataset, branch: xr.Dataset, excursion: str) -> None:
-    """Draw where the antisymmetric motion is unstable."""
+    """Draw the antisymmetric motion where it is unstable."""
     where = branch["stable"].values == 0
     ax.plot(
         branch["frequency"].values[where],
@@ -88,7 +88,7 @@ def _unstable(ax: Axes, data: xr.Dataset, branch: xr.Dataset, excursion: str) ->
 
 
 def _unsettled(ax: Axes, found: Features) -> None:
-    """Shade where nothing settles: the crosses would be lost among so many marks."""
+    """Shade the ranges without periodic motions: crosses are hard to see between many marks."""
     for line in list(ax.lines):
         if "not settled" in str(line.get_label()):
             line.remove()

@@ -13,7 +13,7 @@ from vibroimpact.scenarios.borders import jump_border
 
 
 def draw(study: PublishedStudy) -> Figure:
-    """The map, with the tests and the sections of Figs. 19 and 20."""
+    """Draw the map, with the tests and the lines of Figs. 19 and 20."""
     data = study.map()
     table = laboratory.table_1()
     scenarios = study.scenarios()

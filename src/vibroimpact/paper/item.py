@@ -1,4 +1,4 @@
-"""What the report consists of: a figure or a table a file."""
+"""Items of the report. Each file computes one or several figures or tables."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ class Table(NamedTuple):
 
 
 class Item(NamedTuple):
-    """One figure or table of the paper, computed."""
+    """A computed figure or table of the paper."""
 
     key: str
-    """For ``--only`` and file names, such as ``fig15``."""
+    """Key for ``--only`` and for file names, such as ``fig15``."""
     title: str
     caption: str
-    """What is seen, in our own words."""
+    """Caption in our own words."""
     draw: Callable[[PublishedStudy], Figure] | None = None
     table: Callable[[PublishedStudy], Table] | None = None

@@ -1,4 +1,4 @@
-"""All that the report consists of, in the paper's order, followed by a refined isolator."""
+"""All items of the report in the order of the paper, followed by those of the refined isolator."""
 
 from __future__ import annotations
 

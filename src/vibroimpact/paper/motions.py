@@ -1,4 +1,4 @@
-"""Figs. 8, 12, 16 and 18: motions at the frequencies marked in the curves before them."""
+"""Figs. 8, 12, 16 and 18: motions at the frequencies that are marked in the resonance curves."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ PLACES = (
 
 
 def _regular(study: PublishedStudy) -> Figure:
-    """Portrait, spectrum and histories; a column for each frequency."""
+    """Draw portrait, spectrum and time histories, with a column for each frequency."""
     columns = {
         f"{place}: {frequency:.2f} Hz": {
             f"{direction} sweep": study.motion(S3, frequency, direction, samples=1024)
@@ -37,7 +37,7 @@ def _regular(study: PublishedStudy) -> Figure:
 
 
 def _fitted(study: PublishedStudy) -> Figure:
-    """The three frequencies side by side."""
+    """Draw the motions at the three frequencies side by side."""
     figure = Figure(figsize=(12.6, 4.6), layout="constrained")
     axes = figure.subplots(1, len(PLACES))
     places = study.regular_places(S3, "identified")
@@ -61,7 +61,7 @@ def _fitted(study: PublishedStudy) -> Figure:
 
 
 def _irregular(study: PublishedStudy) -> Figure:
-    """Left hysteresis on the left, the motion that does not repeat itself on the right."""
+    """Draw the left hysteresis on the left, and the non-periodic motion on the right."""
     left, wild = study.other_places(fig15.CODE, fig15.LOW)
     columns = {
         f"$f_{{I}}$, left hysteresis: {left:.2f} Hz": {
@@ -78,7 +78,7 @@ def _irregular(study: PublishedStudy) -> Figure:
 
 
 def _attached(study: PublishedStudy) -> Figure:
-    """Portrait and spectrum above; histories on the left, clearances on the right."""
+    """Draw portrait and spectrum above, time histories below left, and clearances below right."""
     curve = study.curves(S5, None, *S5_RANGE)["eta_d"].sel(direction="forward")
     frequency = float(curve["frequency"][int(curve.values.argmax())])
     motion = study.motion(S5, frequency, "forward", samples=8192)

@@ -1,8 +1,9 @@
-"""The published rig with an isolator that softens by itself: figures and statements again.
+"""The published rig with an isolator that softens with the displacement.
 
-The paper ends with the wish for a model "that includes all the nonlinearities": with a linear
-isolator the upward jump comes at too low a frequency. Here the equivalent stiffness of each
-acceleration gives way to one law with one parameter set (`laboratory.REFINED`).
+With a linear isolator the upward jump occurs at a frequency that is too low. Therefore the paper
+ends with the wish for a model "that includes all the nonlinearities". In this module one law with
+one parameter set (`laboratory.REFINED`) replaces the equivalent stiffness of each acceleration.
+Figures and statements are computed again.
 """
 
 from __future__ import annotations
@@ -23,9 +24,9 @@ from vibroimpact.response.numerical_free_response import largest_flight, resonan
 
 
 def equivalent(isolator: str, acceleration: str) -> tuple[float, float]:
-    """Stiffness (N/m) and damping ratio of the linear isolator with the same largest free flight.
+    """Return stiffness (N/m) and damping ratio of the linear isolator with the same resonance peak.
 
-    Of the acceleration: of the same height, at the same frequency.
+    The peak of the acceleration without stops has the same height and the same frequency.
     """
     rig = Oscillator(laboratory.MASS, laboratory.REFINED[isolator])
     shaken = Harmonic(laboratory.ACCELERATIONS[acceleration], 1.0)
@@ -39,7 +40,7 @@ def equivalent(isolator: str, acceleration: str) -> tuple[float, float]:
 
 
 def isolators(study: PublishedStudy) -> Table:
-    """The laws, and what they amount to at each acceleration."""
+    """Return a table of the laws, and of their equivalent parameters at each acceleration."""
     wanted = [f"{1e-3 * k:.2f} kN/m, 0.15" for k in laboratory.ISOLATOR_STIFFNESS.values()]
     rows = [("wanted", "", *wanted)]
     for name, law in laboratory.REFINED.items():

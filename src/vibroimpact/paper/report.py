@@ -1,4 +1,4 @@
-"""The report: every figure of the paper computed again, and a verdict on each statement."""
+"""The report: all figures of the paper, computed again, and a verdict on each statement."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ Format = Literal["png", "svg"]
 Progress = Callable[[int, int | None], None]
 
 FIGURES = "figures"
-"""Folder of the images beside the report."""
+"""Folder of the images, next to the report."""
 _GRAZING = ("Ginf", "no bumpers: free flight")
 
 
 class Shown(NamedTuple):
-    """A figure or table as the report shows it."""
+    """A figure or table in the report."""
 
     item: Item
     image: str | None
-    """Path of the image from the report's folder."""
+    """Path of the image, relative to the folder of the report."""
     table: Table | None
 
 
@@ -41,32 +41,32 @@ class Judged(NamedTuple):
     claim: Claim
     finding: Finding
     place: int
-    """Its number in the report, from 1."""
+    """Number of the statement in the report, starting from 1."""
 
     @property
     def reason(self) -> str:
-        """Why it is not reproduced; empty if it is, or if no reason is given."""
+        """The reason why the statement is not reproduced. Empty if there is none."""
         lost = self.finding.verdict is Verdict.NOT_REPRODUCED
         return REASONS.get(self.claim.key, "") if lost else ""
 
 
 class Report(NamedTuple):
-    """All that was computed."""
+    """All computed figures, tables and statements."""
 
     shown: tuple[Shown, ...]
     judged: tuple[Judged, ...]
     whole: bool
-    """Whether nothing was left out on demand."""
+    """Whether the report is complete, so that the user left out no part."""
 
     @property
     def counts(self) -> dict[Verdict, int]:
-        """Statements by verdict."""
+        """Number of statements by verdict."""
         verdicts = [one.finding.verdict for one in self.judged]
         return {verdict: verdicts.count(verdict) for verdict in Verdict}
 
     @property
     def kinds(self) -> dict[Kind, dict[Verdict, int]]:
-        """Statements by kind and verdict; kinds of which there are any."""
+        """Number of statements by kind and verdict. Kinds without statements are left out."""
         pairs = [(one.claim.kind, one.finding.verdict) for one in self.judged]
         return {
             kind: {verdict: pairs.count((kind, verdict)) for verdict in Verdict}
@@ -75,12 +75,12 @@ class Report(NamedTuple):
         }
 
     def of(self, verdict: Verdict) -> tuple[Judged, ...]:
-        """The statements with a verdict."""
+        """Return the statements with a given verdict."""
         return tuple(one for one in self.judged if one.finding.verdict is verdict)
 
     @property
     def stem(self) -> str:
-        """Name of the files: a part is named by what it holds, and replaces no other report."""
+        """Name of the files. A partial report is named after its parts."""
         keys = [one.item.key for one in self.shown] + ["claims"] * bool(self.judged)
         return "report" if self.whole else "-".join(keys)
 
@@ -100,17 +100,18 @@ def compute(
     Parameters
     ----------
     study
-        The computations.
+        The study with its computations.
     folder
-        Existing folder of the report; images go into ``figures`` in it.
+        Folder of the report, which must exist. Images are written into its folder ``figures``.
     items, claims
-        What is computed.
+        Items and claims that are computed.
     whole
-        Whether this is all that there is.
+        Whether these are all items and claims.
     figure
-        Format of the images.
+        File format of the images.
     progress
-        Called with the items and claims done, and all of them.
+        Function that is called with the number of completed items and claims, and their total
+        number.
 
     Raises
     ------
@@ -153,7 +154,7 @@ def write(report: Report, folder: Path) -> dict[str, Path]:
     Returns
     -------
     dict
-        Their paths, ``"markdown"`` and ``"html"``.
+        Paths of the files ``"markdown"`` and ``"html"``.
 
     Raises
     ------
@@ -185,7 +186,7 @@ def _environment() -> Environment:
 
 
 def _cell(text: str) -> str:
-    """Text as a Markdown table's cell may hold it, and without accidental emphasis."""
+    """Escape a text for a cell of a Markdown table, without accidental emphasis."""
     plain = " ".join(text.split())
     for sign in "\\|*_<":
         plain = plain.replace(sign, f"\\{sign}")
@@ -193,12 +194,12 @@ def _cell(text: str) -> str:
 
 
 def _capital(text: str) -> str:
-    """Text that begins with a capital letter, where that is not a symbol such as η."""
+    """Capitalise the first letter of a text, unless it is a symbol such as η."""
     return text[:1].upper() + text[1:] if text[:1].isascii() else text
 
 
 def _row(cells: Iterable[str]) -> str:
-    """A row of a Markdown table."""
+    """Return a row of a Markdown table."""
     return f"| {' | '.join(_cell(cell) for cell in cells)} |"
 
 

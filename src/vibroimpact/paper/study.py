@@ -1,4 +1,4 @@
-"""Computations that figures and claims share, each made once, when first asked for."""
+"""Computations that figures and claims share. Each is made once, when it is first required."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ from vibroimpact.stability.steady import steady
 _T = TypeVar("_T")
 
 STEP = 0.01
-"""Step of all sweeps in Hz, a tenth of the tests'."""
+"""Step of all sweeps in Hz, which is a tenth of the step in the tests."""
 LOW, HIGH = 0.5, 5.0
-"""Range of the tests in Hz."""
+"""Frequency range of the tests in Hz."""
 
 GAPS = (
     "0mm",
@@ -53,29 +53,30 @@ GAPS = (
     "80mm",
     "Ginf",
 )
-"""Total gaps of the numerical Fig. 19 (B3-A3), those of the tests among them."""
+"""Total gaps of the numerical Fig. 19 (B3-A3), including the gaps of the tests."""
 STIFFNESSES = ("10kN/m", "20kN/m", "40kN/m", "B1", "200kN/m", "B2", "B3", "B4", "10000kN/m")
-"""Bumper stiffnesses of the numerical Fig. 20 (G3-A1), those of the tests among them."""
+"""Bumper stiffnesses of the numerical Fig. 20 (G3-A1), including the bumpers of the tests."""
 
 MAP_NODES, MAP_STEP = (15, 15), 0.02
-"""Of the map of Fig. 21: coarse, for the whole study takes less than a minute."""
+"""Number of nodes and step for the map of Fig. 21. They are coarse, so that the whole study takes
+less than a minute."""
 
 
 def grid(low: float = LOW, high: float = HIGH) -> NDArray[np.float64]:
-    """Frequencies by `STEP`, in Hz."""
+    """Return frequencies in Hz with the step `STEP`."""
     first, last = round(low / STEP), round(high / STEP)
     return np.array([round(k * STEP, 10) for k in range(first, last + 1)])
 
 
 class PublishedStudy:
-    """The published rig, computed as far as it is asked for.
+    """Results for the published rig, which are computed when they are required.
 
     Parameters
     ----------
     threads
         Number of threads (default: one per processor).
     parameters
-        Of the cases, unless one is asked for with its own.
+        Parameter set of the cases, unless a method is called with another set.
     """
 
     def __init__(
@@ -89,7 +90,7 @@ class PublishedStudy:
         return laboratory.case(code, parameters or self._parameters)
 
     def refined(self) -> PublishedStudy:
-        """The same study of the rig whose isolator softens by itself."""
+        """The same study, for the rig with the refined isolator."""
         return self._once("refined", lambda: PublishedStudy(self._threads, "refined"))
 
     def _once(self, key: Any, make: Callable[[], _T]) -> _T:
@@ -99,14 +100,14 @@ class PublishedStudy:
         return found
 
     def campaign(self) -> xr.Dataset:
-        """Resonance curves of the 48 tests, 0.5 to 5 Hz; dim ``rig`` of case codes."""
+        """Return the curves of the 48 tests, 0.5 to 5 Hz. The dim ``rig`` has the case codes."""
         return self._once(
             "campaign",
             lambda: sweeps(laboratory.campaign(self._parameters), grid(), threads=self._threads),
         )
 
     def family(self, codes: tuple[str, ...], low: float = LOW, high: float = HIGH) -> xr.Dataset:
-        """Resonance curves of some cases on one grid; dim ``rig`` of case codes."""
+        """Return the resonance curves of some cases. The dim ``rig`` has the case codes."""
         return self._once(
             ("family", codes, low, high),
             lambda: sweeps(
@@ -115,11 +116,11 @@ class PublishedStudy:
         )
 
     def by_gap(self) -> xr.Dataset:
-        """B3-A3 with the total gaps `GAPS`, 0.3 to 8 Hz (the paper's Fig. 19)."""
+        """Return the curves of B3-A3 with the gaps `GAPS`, 0.3 to 8 Hz (the paper's Fig. 19)."""
         return self.family(tuple(f"B3-{gap}-A3" for gap in GAPS), 0.3, 8.0)
 
     def by_stiffness(self) -> xr.Dataset:
-        """G3-A1 with the bumper stiffnesses `STIFFNESSES`, 0.5 to 5 Hz (the paper's Fig. 20)."""
+        """Return the curves of G3-A1 for `STIFFNESSES`, 0.5 to 5 Hz (the paper's Fig. 20)."""
         return self.family((*(f"{stiffness}-G3-A1" for stiffness in STIFFNESSES), "B1-Ginf-A1"))
 
     def curves(
@@ -129,7 +130,7 @@ class PublishedStudy:
         low: float = LOW,
         high: float = HIGH,
     ) -> xr.Dataset:
-        """Resonance curves of one case."""
+        """Return the resonance curves of one case."""
         case = self._case(code, parameters)
         return self._once(
             ("curves", code, parameters, low, high),
@@ -137,7 +138,7 @@ class PublishedStudy:
         )
 
     def tested(self, code: str, parameters: laboratory.Parameters | None = None) -> xr.Dataset:
-        """Resonance curves of one case by the frequencies that its test held, 0.1 Hz apart."""
+        """Return the resonance curves of one case at the frequencies of its test, 0.1 Hz apart."""
         case = self._case(code, parameters)
         return self._once(
             ("tested", code, parameters),
@@ -145,7 +146,7 @@ class PublishedStudy:
         )
 
     def features(self, code: str) -> Features:
-        """Peaks, jumps and hysteresis of one of the 48 tests."""
+        """Return the peaks, jumps and hysteresis of one of the 48 tests."""
         return self._once(
             ("features", code), lambda: features(self.campaign().sel(rig=code, drop=True))
         )
@@ -158,7 +159,7 @@ class PublishedStudy:
         parameters: laboratory.Parameters | None = None,
         samples: int = 256,
     ) -> xr.Dataset:
-        """The steady motion at which a sweep in that direction arrives (`vibroimpact.steady`)."""
+        """Return the steady motion that a sweep in a direction reaches (`vibroimpact.steady`)."""
         case = self._case(code, parameters)
         excitation = Harmonic(case.amplitude, frequency)
 
@@ -169,7 +170,7 @@ class PublishedStudy:
         return self._once(("motion", code, frequency, direction, parameters, samples), make)
 
     def motions(self, code: str, frequency: float) -> list[xr.Dataset]:
-        """All steady motions found at a frequency (`find_motions`)."""
+        """Return all steady motions that `find_motions` finds at a frequency."""
         case = self._case(code)
         return self._once(
             ("motions", code, frequency),
@@ -183,7 +184,7 @@ class PublishedStudy:
         high: float = HIGH,
         parameters: laboratory.Parameters | None = None,
     ) -> Classification:
-        """The scenario of a case over the range of the tests, with its evidence."""
+        """Return the scenario of a case over the range of the tests, with its evidence."""
         case = self._case(code, parameters)
         return self._once(
             ("classification", code, low, high, parameters),
@@ -195,10 +196,10 @@ class PublishedStudy:
     def regular_places(
         self, code: str, parameters: laboratory.Parameters | None = None
     ) -> tuple[float, float, float]:
-        """Three frequencies of an S3 rig in Hz (the paper's Figs. 7, 8, 11 and 12).
+        """Return three frequencies of an S3 rig in Hz (the paper's Figs. 7, 8, 11 and 12).
 
-        The secondary resonance, the valley after it, and the last one before the forward sweep
-        jumps down: all read off η_a of the forward sweep.
+        They are the secondary resonance, the valley after it, and the last frequency before the
+        forward sweep jumps down. All are determined from η_a of the forward sweep.
         """
         data = self.curves(code, parameters)
         found = features(data)
@@ -215,10 +216,10 @@ class PublishedStudy:
         return secondary.frequency, valley, down[-1].before
 
     def other_places(self, code: str, low: float = LOW) -> tuple[float, float]:
-        """Two frequencies of an S4 rig in Hz (the paper's Figs. 15 and 16).
+        """Return two frequencies of an S4 rig in Hz (the paper's Figs. 15 and 16).
 
-        The middle of the widest left hysteresis, and that of the widest range in which the
-        forward sweep does not settle.
+        They are the middle of the widest left hysteresis, and the middle of the widest range in
+        which the forward sweep reaches no periodic motion.
         """
         data = self.curves(code, low=low)
         found = features(data)
@@ -239,7 +240,7 @@ class PublishedStudy:
     def mirror_image(
         self, code: str, frequency: float, direction: Literal["forward", "backward"]
     ) -> xr.Dataset:
-        """The steady motion from the mirror image of where `motion` ends."""
+        """Return the steady motion that starts from the mirror image of the end of `motion`."""
         case = self._case(code)
         excitation = Harmonic(case.amplitude, frequency)
 
@@ -259,7 +260,7 @@ class PublishedStudy:
         return self._once(("mirror image", code, frequency, direction), make)
 
     def antisymmetric_branch(self, code: str, low: float, high: float) -> xr.Dataset:
-        """The branch, stable or not, of the motion that settles from rest at `high`."""
+        """Return the branch of the motion that is reached from rest at `high`, stable or not."""
         case = self._case(code)
         return self._once(
             ("antisymmetric branch", code, low, high),
@@ -269,7 +270,7 @@ class PublishedStudy:
     def antisymmetric_orbit(
         self, code: str, frequency: float, low: float, high: float
     ) -> xr.Dataset:
-        """The orbit of `antisymmetric_branch` at one frequency between its ends."""
+        """Return the orbit of `antisymmetric_branch` at one frequency between its ends."""
         case = self._case(code)
 
         def make() -> xr.Dataset:
@@ -281,13 +282,13 @@ class PublishedStudy:
         return self._once(("antisymmetric orbit", code, frequency, low, high), make)
 
     def scenarios(self) -> dict[str, str]:
-        """The scenario of each of the 48 tests, over the range of the tests."""
+        """Return the scenario of each of the 48 tests, over the range of the tests."""
         return {
             case.code: self.classification(case.code).scenario for case in laboratory.campaign()
         }
 
     def scenario_at(self, stiffness_ratio: float, gap: float) -> str:
-        """The scenario at λ and δ of one side, at ξ = 0.15 and τ = 0.01 (as in Fig. 21)."""
+        """Return the scenario at λ and δ of one side, for ξ = 0.15 and τ = 0.01 (as in Fig. 21)."""
         rig = from_dimensionless(
             stiffness_ratio, gap, laboratory.RELAXATION_TIME, laboratory.DAMPING_RATIO
         )
@@ -297,9 +298,9 @@ class PublishedStudy:
         )
 
     def twins(self, code: str) -> tuple[xr.Dataset, xr.Dataset]:
-        """Curves of a case, and of a physically different rig with the same ratios.
+        """Return the curves of a case, and of a physically different rig with the same ratios.
 
-        Both at the same multiples of their natural frequency.
+        Both are computed at the same multiples of their natural frequency.
         """
         case = self._case(code)
         group = to_dimensionless(Rig(case.oscillator, case.amplitude))
@@ -319,7 +320,7 @@ class PublishedStudy:
         )
 
     def map(self) -> xr.Dataset:
-        """Scenarios over λ and δ0 at ξ = 0.15 and τ = 0.01 (the paper's Fig. 21)."""
+        """Return the scenarios over λ and δ0 for ξ = 0.15 and τ = 0.01 (the paper's Fig. 21)."""
         return self._once(
             "map",
             lambda: scenario_map(

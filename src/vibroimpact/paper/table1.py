@@ -1,4 +1,4 @@
-"""Table 1: the dimensionless parameters of the campaign, computed and printed."""
+"""Table 1: the dimensionless parameters of the campaign, as computed and as printed."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ PRINTED: dict[str, dict[str, float]] = {
     "A2": dict(zip(_NAMES, (0.30, 0.40, 0.49, 0.59, 3.5, 17.8, 23.7, 80.1), strict=True)),
     "A3": dict(zip(_NAMES, (0.22, 0.29, 0.36, 0.43, 3.8, 19.4, 25.9, 87.5), strict=True)),
 }
-"""What the paper prints: δ by gap and λ by bumper, for each acceleration."""
+"""Values in the paper: δ by gap and λ by bumper, for each acceleration."""
 
 
 def computed() -> dict[str, dict[str, float]]:
-    """The same from the rig's parameters, not rounded."""
+    """Return the same values, computed from the parameters of the rig and not rounded."""
     found = laboratory.table_1()
     return {a: found.gap[a] | found.stiffness_ratio[a] for a in laboratory.ACCELERATIONS}
 
 
 def written(name: str, value: float) -> str:
-    """A value with the digits that the paper prints: gaps two, stiffness ratios one."""
+    """Return a value with the decimals of the paper: two for gaps, one for stiffness ratios."""
     return f"{value:.2f}" if name in laboratory.GAPS else f"{value:.1f}"
 
 
 def table(study: PublishedStudy) -> Table:
-    """For each acceleration a row of computed and one of printed values."""
+    """Return a table with a row of computed and a row of printed values for each acceleration."""
     head = tuple(f"δ {n}" if n in laboratory.GAPS else f"λ {n}" for n in _NAMES)
     rows = [
         (a, source, *(written(n, values[a][n]) for n in _NAMES))

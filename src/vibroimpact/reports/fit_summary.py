@@ -15,7 +15,7 @@ from vibroimpact.reports.identification import amplitude_of, parameter_rows
 
 
 def fit_summary(fits: ModelFits, tests: list[xr.Dataset]) -> tuple[RenderableType, dict[str, Any]]:
-    """Return what is printed of fits, and the same as plain values."""
+    """Return the summary of fits as text, and the same facts as plain values."""
     found, comparison = fits.own, fits.comparison
     notes = [line for test in tests for line in _notes(test, many=len(tests) > 1)]
     names = [str(test) for test in found["test"].values]
@@ -51,7 +51,7 @@ def fit_summary(fits: ModelFits, tests: list[xr.Dataset]) -> tuple[RenderableTyp
 
 
 def _table(found: xr.Dataset) -> Table:
-    """Return the parameters of a fit, one in each row."""
+    """Return a table of the parameters of a fit, with one parameter per row."""
     table = Table(box=None, pad_edge=False, padding=(0, 2))
     share = f"{100.0 * float(found.attrs['confidence']):g} % interval"
     for head in ("parameter", "value", "standard error", share):
@@ -73,7 +73,7 @@ def _values(found: xr.Dataset) -> dict[str, Any]:
 
 
 def _notes(test: xr.Dataset, *, many: bool) -> list[str]:
-    """Return the notes on reading a test; with the name of the file if there are several."""
+    """Return the notes on reading a test, with the name of the file if there are several tests."""
     source = test.attrs.get("source", "")
     lines = test.attrs.get("notes", "").splitlines()
     return [

@@ -1,4 +1,4 @@
-"""The report of a fit: parameters, uncertainty, defects of the model, and the best next test."""
+"""The report of a fit: parameters, uncertainty, adequacy of the model, and best next test."""
 
 from __future__ import annotations
 
@@ -35,10 +35,11 @@ from vibroimpact.reports.study import study_text
 from vibroimpact.response.sweep import sweep
 
 _DENSE = 4
-"""Least number of computed frequencies per measured one."""
+"""Smallest number of computed frequencies per measured frequency."""
 
 _MARKS = re.compile(r"[\\|<>`*]|\](?=[(\[:])")
-"""Characters that start a cell, a tag, code, emphasis or a link's address in Markdown."""
+"""Characters that start a table cell, a tag, code, emphasis or the address of a link in
+Markdown."""
 
 Format = Literal["png", "pdf", "svg"]
 
@@ -58,31 +59,31 @@ def fit_report(
     comparison: xr.Dataset | None = None,
     figure: Format = "png",
 ) -> dict[str, Path]:
-    """Write the report of a fit, with its figures and a study file per fitted rig.
+    """Write the report of a fit, its figures, and one study file for each fitted rig.
 
     Parameters
     ----------
     result
         Dataset of `identify`.
     folder
-        An existing folder.
+        Folder for the files. It must exist.
     name
-        Prefix of the file names.
+        Beginning of the file names.
     comparison
-        Dataset of `compare_fits`, if other models were fitted.
+        Dataset of `compare_fits`, if other models were also fitted.
     figure
         File format of the figures, such as ``"png"``.
 
     Returns
     -------
     dict
-        The paths: ``report`` (HTML), ``markdown``, ``study`` (one per different rig) and the
-        figures.
+        The paths of the files by name: ``report`` (HTML), ``markdown``, ``study`` (one for each
+        different rig) and the figures.
 
     Raises
     ------
     InputError
-        If the dataset is not a fit, the name contains control characters, or a file cannot be
+        If the dataset is not a fit, if the name contains control characters, or if a file cannot be
         written.
     """
     if not isinstance(result, xr.Dataset) or "fitted_value" not in result:
@@ -160,7 +161,7 @@ def _inert(text: str) -> str:
 
 
 def _each_text(value: Any, change: Callable[[str], str]) -> Any:
-    """Change each text in nested lists and mappings; for a figure its caption, not its file."""
+    """Change each text in nested lists and mappings. For a figure, only its caption is changed."""
     if isinstance(value, str):
         return change(value)
     if isinstance(value, dict):
@@ -233,7 +234,7 @@ def measured_of(result: xr.Dataset, test: str) -> xr.Dataset:
 
 
 def _dense(frequency: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """Return the measured frequencies, and others between them."""
+    """Return the measured frequencies, and further frequencies between them."""
     if len(frequency) < 2:
         return np.array(frequency)
     count = max(200, _DENSE * len(frequency))
@@ -244,7 +245,7 @@ def _dense(frequency: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
 
 
 def _studies(result: xr.Dataset, name: str) -> Iterable[tuple[str, str, str]]:
-    """Return key, text and label of the study files, one per different rig."""
+    """Return key, text and label of the study files, with one file for each different rig."""
     rigs = json.loads(result.attrs["rigs"])
     stems = file_stems(rigs)
     seen: set[str] = set()

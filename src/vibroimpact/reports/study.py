@@ -1,4 +1,4 @@
-"""A rig as a study file, which every command takes."""
+"""A rig as a study file, which all commands accept."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from vibroimpact.model import Oscillator
 
 
 def study_text(name: str, oscillator: Oscillator, amplitude: float, about: str = "") -> str:
-    """The text of a study file (TOML): numbers in SI units, with all their digits.
+    """Return the text of a study file (TOML), with numbers in SI units and with all digits.
 
     Parameters
     ----------
     name
-        Of the study.
+        Name of the study.
     oscillator
-        The rig.
+        The oscillator.
     amplitude
         Peak base acceleration (m/s²).
     about
-        A comment above it.
+        Comment at the beginning of the file. Default: no comment.
     """
     lines = [f"# {line}" for line in about.splitlines()]
     lines += [f"name = {json.dumps(name, ensure_ascii=False)}", "", "[oscillator]"]

@@ -1,4 +1,4 @@
-"""The contacts of a motion: times, durations, forces and energies."""
+"""The contacts of a motion: their times, durations, forces and energies."""
 
 from __future__ import annotations
 
@@ -33,32 +33,36 @@ speed."""
 
 
 def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
-    """List the contacts of a motion, one row per contact.
+    """List the contacts of a motion, with times, forces, impulses and energy losses.
 
-    Times, forces and integrals are exact to rounding and do not depend on the samples. A contact
-    that starts before the record or continues after its end is left out. In a periodic motion, a
-    contact that continues after the end is completed from the start of the period.
+    Times, forces and integrals are exact up to rounding errors. They do not depend on the samples.
+    If a contact starts before the simulated motion or continues after its end, it is left out. In a
+    periodic motion such a contact is complete, because the start of the period continues the end.
 
     Parameters
     ----------
     motion
         Dataset of `steady`, or of `simulate` with samples, including a motion through a `Record`.
     grazing
-        Share of the motion's largest speed below which a closing velocity is flagged as grazing.
+        A contact is flagged as grazing if its closing speed is below this share of the largest
+        speed of the motion.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``contact_number``, in the order of their start. Velocities are relative to the base;
-        forces on the mass are positive; energies are lost in the dashpot of the bumper. An impact
-        on a rigid stop lasts 0 s: its force has no finite peak (NaN), but it has an impulse and an
-        energy loss. A rest on the stop is a separate contact. A motion through a `Record` has no
-        period, so phases and shares of the period are missing.
+        The dim ``contact_number`` counts the contacts in the order in which they start. Velocities
+        are relative to the base. Forces on the mass are positive. Energy losses are the energies
+        dissipated in the dashpot of the bumper.
+
+        An impact on a rigid stop lasts 0 s. It has an impulse and an energy loss, but its force has
+        no finite peak (NaN). If the mass rests on a rigid stop, the rest is a separate contact. A
+        motion through a `Record` has no period. Therefore its contacts have no phases and no shares
+        of the period.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a motion with samples, or ``grazing`` is negative.
+        If the dataset does not hold a motion with samples, or if ``grazing`` is negative.
     """
     share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
     origin = any_recorded(motion)

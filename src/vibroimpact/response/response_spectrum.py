@@ -1,4 +1,4 @@
-"""Response spectra of records: the largest response of linear oscillators, also over directions."""
+"""Response spectra of records: the largest responses of linear oscillators."""
 
 from __future__ import annotations
 
@@ -34,39 +34,46 @@ def response_spectrum(
     *,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Compute the response spectra of a record, or of its two perpendicular components.
+    """Compute the response spectra of a record, or of two perpendicular components.
 
-    The spectra are the largest absolute values of the relative displacement u, of its velocity and
-    of the absolute acceleration ü + A_t of oscillators ü + 2ζω u̇ + ω² u = −A_t from rest. They are
-    exact for the record, which is linear between its samples and 0 after them: peaks between
-    samples, and in the free vibration after the record, are included (docs/theory.md, section 17).
+    Each oscillator ü + 2ζω u̇ + ω² u = −A_t starts from rest. The spectra are the largest absolute
+    values of its relative displacement u, of its relative velocity u̇ and of its absolute
+    acceleration ü + A_t. The record is linear between its samples and 0 after the last one. For
+    such a record the spectra are exact: they include peaks between the samples, and peaks in the
+    free vibration after the record (docs/theory.md, section 17).
 
     Parameters
     ----------
     record
-        A `Record`, or two components with the same step and length.
+        A `Record`, or a pair of records: two perpendicular components with the same step and
+        length.
     periods
-        Natural periods (s), 0 or greater; one or several. At 0 the mass moves with the base.
+        One or several natural periods (s), at least 0. At the period 0 the mass moves with the
+        base.
     damping
-        Damping ratios ζ, from 0 to less than 1; one or several.
+        One or several damping ratios ζ, at least 0 and less than 1.
     progress
-        Function that is called with the number of oscillators done and their total.
+        Function that reports progress, such as the result of `progress_bar`. It is called with the
+        number of completed oscillators and the number of all oscillators.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``damping_ratio`` and ``natural_period`` (s); a single number has no dim:
-        ``spectral_displacement`` (m), ``spectral_velocity`` (m/s), ``spectral_acceleration``
-        (m/s²), ``pseudo_velocity`` ω max|u| and ``pseudo_acceleration`` ω² max|u|. For two
-        components, an additional first dim ``orientation``: ``"first"``, ``"second"``, and the
-        median and the largest of the maxima in 180 directions in steps of one degree: ``"RotD50"``
-        and ``"RotD100"``.
+        The dims are ``damping_ratio`` and ``natural_period`` (s). If one of them is a single
+        number, it is not a dim. The variables are ``spectral_displacement`` (m),
+        ``spectral_velocity`` (m/s), ``spectral_acceleration`` (m/s²), ``pseudo_velocity`` ω max|u|
+        (m/s) and ``pseudo_acceleration`` ω² max|u| (m/s²).
+
+        For two components there is an additional first dim ``orientation``. ``"first"`` and
+        ``"second"`` are the two components. For ``"RotD50"`` and ``"RotD100"`` the maxima are
+        computed in 180 directions, in steps of one degree: ``"RotD50"`` is their median, and
+        ``"RotD100"`` the largest of them.
 
     Raises
     ------
     InputError
-        If `record` is not a record, components differ in step or length, or a period or a damping
-        ratio is invalid.
+        If ``record`` is not a record, if the components differ in step or length, or if a period or
+        a damping ratio is invalid.
     """
     check_progress(progress)
     components = _components(record)

@@ -1,4 +1,4 @@
-"""Poincaré sections of a motion: stroboscopic (once per forcing cycle), and at every contact."""
+"""Poincaré sections of a motion: once per forcing cycle, or at the start of each contact."""
 
 from __future__ import annotations
 
@@ -31,23 +31,25 @@ def stroboscopic_section(
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples; the motion is simulated from its start.
+        Dataset of `steady`, or of `simulate` with samples. The motion is simulated again from its
+        initial state.
     phase
-        Phase θ of the forcing at the section (rad): the base acceleration is then A sin θ.
+        Phase θ of the forcing at the section (rad). At this phase the base acceleration is A sin θ.
     cycles
-        Number of points. Default: the number of whole cycles of the motion.
+        Number of points. Default: the number of whole forcing cycles of the motion.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``section_point``: ``section_displacement``, ``section_velocity`` and the bumpers'
-        deformations. If the motion reached the event limit, there are fewer points than requested,
-        and a warning is issued.
+        The dim ``section_point`` counts the points. The variables are ``section_displacement``,
+        ``section_velocity``, and the deformations of the bumpers, ``section_right_bumper`` and
+        ``section_left_bumper``. If one forcing cycle has too many contacts, the simulation stops.
+        In that case there are fewer points than requested, and a warning is issued.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a motion with samples, or a value is invalid.
+        If the dataset does not hold a motion with samples, or if a value is invalid.
     """
     origin = recorded(motion)
     angle = to_si(phase, ANGLE, "phase")
@@ -88,22 +90,23 @@ def stroboscopic_section(
 
 
 def impact_section(motion: xr.Dataset) -> xr.Dataset:
-    """Compute the impact section of a motion: forcing phase and closing velocity at every contact.
+    """Compute the impact section: forcing phase and velocity at the start of each contact.
 
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples (one per cycle is enough).
+        Dataset of `steady`, or of `simulate` with samples. One sample per cycle is enough.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``contact_number``: side, start, phase and velocity at the start of each contact.
+        The dim ``contact_number`` counts the contacts. The variables are the side of the contact,
+        and the time, the phase and the relative velocity at its start.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a motion with samples.
+        If the dataset does not hold a motion with samples.
     """
     recorded(motion)  # its phases are asked for
     log = contacts(motion)

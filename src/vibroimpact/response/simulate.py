@@ -1,4 +1,4 @@
-"""Time histories: one sampled motion, with the exact time of every contact and detachment."""
+"""Time histories: one sampled motion, with the exact time of each contact and detachment."""
 
 from __future__ import annotations
 
@@ -49,45 +49,49 @@ def simulate(
     max_events: int = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Simulate a motion for a number of forcing cycles, or through a record.
+    """Simulate the motion of a rig for a number of forcing cycles, or through a record.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     cycles
-        Duration in forcing cycles, greater than 0; the last cycle may be incomplete. Not
-        accepted for a record, which has its own duration.
+        Duration in forcing cycles, greater than 0. It need not be a whole number. If a record
+        shakes the rig, do not pass ``cycles``: the record has its own duration.
     start
-        Initial state: a `State`, the dataset of an earlier call or its ``final_state`` (which
-        continues the phase). Default: rest.
+        Initial state: a `State`, the dataset of an earlier call, or its ``final_state``. The latter
+        two also continue the phase of the excitation. Default: the mass at rest in its equilibrium.
     samples
-        Samples per forcing cycle, or per step of a record. They affect no other result. Default:
-        256 per forcing cycle, or 1 per step of a record. With 0 only ``final_state`` is
-        returned, and memory does not grow with ``cycles``.
+        Number of samples per forcing cycle, or per step of a record. It does not affect the
+        computed motion. If it is 0, only ``final_state`` is returned, and the memory does not grow
+        with ``cycles``. Default: 256 per forcing cycle, or 1 per step of a record.
     frequency
-        Forcing frequency (Hz). Default: that of the rig.
+        Forcing frequency (Hz). Default: the frequency of the rig.
     tail
-        Duration of free vibration after a record, in seconds or as text such as ``"10s"``.
-        Default: 0.
+        Duration of free vibration after a record, in seconds or as text such as ``"10s"``. Default:
+        0.
     max_events
-        Number of contacts and detachments in one forcing cycle, or one step of a record, at which
-        the motion is given up.
+        Largest number of contacts and detachments in one forcing cycle, or in one step of a record.
+        When the motion reaches this number, the computation is given up.
     progress
-        Function that is called from time to time with the number of cycles, or steps of the
-        record, done and their total.
+        Function that reports progress, such as the result of `progress_bar`. It is called from time
+        to time with the number of completed cycles (or steps of the record) and the number of all
+        of them.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``time`` (s; including the end) and ``event``. ``left_bumper`` and its clearance
-        have the paper's signs (eq. 4). ``final_state`` can be passed as ``start``. If the motion
-        was given up, the dataset ends there, and the attribute ``status`` gives the reason.
+        The dim ``time`` (s) counts the samples, including one at the end of the motion. The dim
+        ``event`` counts the contacts and detachments. The deformation ``left_bumper`` and the
+        clearance on the left have the signs of the paper's equation 4. To resume the motion, pass
+        ``final_state`` as ``start``. If the computation was given up, the dataset ends at that
+        time, and the attribute ``status`` gives the reason.
 
     Raises
     ------
     InputError
-        If a value is invalid, or an undamped mass without stops is at resonance.
+        If a value is invalid, or if an undamped mass without stops is shaken at resonance.
     """
     rig = as_rig(rig, frequency)
     data = compute_history(rig, cycles, start, samples, tail, max_events, progress)

@@ -1,4 +1,4 @@
-"""Fourier spectra: exact harmonics of a periodic motion, a windowed transform of other motions."""
+"""Fourier spectra: exact harmonics of periodic motions, windowed transforms of others."""
 
 from __future__ import annotations
 
@@ -27,33 +27,35 @@ MOST_LINES = 20_000
 def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     """Compute the Fourier spectrum of displacement, velocity and absolute acceleration.
 
-    The acceleration is that of finite forces, without the impulses of impacts on rigid stops.
+    The acceleration is computed from finite forces. The impulses of impacts on rigid stops are left
+    out.
 
-    For a periodic motion the harmonics are exact: each phase is multiplied by exp(−iνt) and
-    integrated by the quadrature of its series (docs/theory.md, section 7), without leakage or
-    sampling error. Other motions are transformed with a Hann window over the whole forcing cycles
-    of the record. A line between two points of the transform is then up to 15 % too low, and lines
-    closer than two such points merge.
+    For a periodic motion the harmonics are exact, without leakage and without sampling error. They
+    are integrals over each contact and each flight, computed from the series of the motion
+    (docs/theory.md, section 7). Other motions are transformed by an FFT with a Hann window over
+    their whole forcing cycles. In that case a spectral line between two points of the transform is
+    up to 15 % too low. Lines that are closer than two points of the transform merge.
 
     Parameters
     ----------
     motion
-        Dataset of `steady`, or of `simulate` with samples; or a measured history, whose orders
-        refer to the sine of its base.
+        Dataset of `steady`, or of `simulate` with samples. A measured time history is also
+        accepted; its orders refer to the frequency of the sine that shakes its base.
     highest
-        Highest order f / f_exc of the result.
+        Highest order of the result. The order is the frequency divided by the forcing frequency.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``order`` (f / f_exc; order 0 is the mean), with ``line_frequency`` in Hz. Amplitudes
-        and phases of the cosines whose sum is the motion, counted from the start of the record. The
-        attribute ``method`` describes how they were computed.
+        The dim ``order`` is the frequency divided by the forcing frequency. Order 0 is the mean.
+        ``line_frequency`` is the frequency in Hz. The variables are the amplitudes and the phases
+        of cosines whose sum is the motion. The phases refer to the start of the motion. The
+        attribute ``method`` describes how the spectrum was computed.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a motion with samples, or ``highest`` is not positive.
+        If the dataset does not hold a motion with samples, or if ``highest`` is not positive.
     """
     limit = to_si(highest, DIMENSIONLESS, "highest", above=0.0)
     check_variables(motion, (), "motion", "the dataset of a motion")

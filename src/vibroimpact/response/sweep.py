@@ -1,7 +1,7 @@
-"""Stepped-sine sweeps: pseudo-resonance curves, forward and backward.
+"""Stepped-sine sweeps: resonance curves, forward and backward.
 
 As in the experiment (the paper's Section 3), each frequency is held until the motion is steady. The
-next one starts from the final state and phase.
+motion at the next frequency starts from the final state and phase.
 """
 
 from __future__ import annotations
@@ -54,32 +54,45 @@ def sweep(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Sweep the frequency up and down, and hold each frequency until the motion is steady.
+    """Sweep the forcing frequency up and down, and hold each frequency until the motion is steady.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     frequencies
-        Frequencies in Hz, rising; or texts such as ``"2.5 Hz"``.
+        Rising frequencies in Hz, or texts such as ``"2.5 Hz"``.
     directions
-        ``"forward"`` (rising), ``"backward"`` (falling) or both. Both sweeps start from ``start``.
+        Sweep directions: ``"forward"`` (rising frequency), ``"backward"`` (falling frequency) or
+        both. Each of the two sweeps starts from ``start``.
     start, phase, tolerance, max_cycles, window, max_events, threads, progress
         As in `sweeps`.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``direction`` and ``frequency``. ``eta_d`` and ``eta_a`` are the excursions divided by
-        the largest ones without stops at any frequency, independent of the swept range (the paper's
-        Section 4). Without damping of the isolator these do not exist, and the excursions are
-        divided by 2A/ω0² and 2A. ``displacement_max`` and ``displacement_min`` are the largest
-        displacements to the right and to the left of u = 0; ``peak_displacement`` and
-        ``peak_acceleration`` are the larger absolute values of both sides. ``peak_force_right`` and
-        ``peak_force_left`` are the largest contact forces of the stops, infinite for an impact on a
-        rigid stop, for which ``peak_impulse_right`` and ``peak_impulse_left`` are the largest
-        impulses. ``section`` is the state at the end of each hold; ``status`` and ``motion``
-        describe how each hold ended. Values are NaN only where ``status`` reports that none exists.
+        The dims are ``direction`` and ``frequency``. A hold is the motion at one frequency in one
+        direction. The variables of each hold are:
+
+        - ``displacement_excursion`` and ``acceleration_excursion``: maximum minus minimum of the
+          displacement and of the absolute acceleration;
+        - ``eta_d`` and ``eta_a``: these excursions, divided by the largest excursions without stops
+          at any frequency (the paper's Section 4). They do not depend on the swept range. If the
+          isolator has no damping, such largest excursions do not exist, and the excursions are
+          divided by 2A/ω0² and 2A;
+        - ``displacement_max`` and ``displacement_min``: the largest displacements to the right and
+          to the left of u = 0;
+        - ``peak_displacement`` and ``peak_acceleration``: the larger of the absolute values of
+          maximum and minimum;
+        - ``peak_force_right`` and ``peak_force_left``: the largest contact forces of the stops,
+          infinite for an impact on a rigid stop;
+        - ``peak_impulse_right`` and ``peak_impulse_left``: the largest impulses of impacts on rigid
+          stops;
+        - ``section``: the state at the end of the hold;
+        - ``status`` and ``motion``: how the hold ended, and the type of the motion.
+
+        Values are NaN only where ``status`` reports that there is no value.
 
     Raises
     ------
@@ -119,41 +132,47 @@ def sweeps(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Sweep many rigs in parallel.
+    """Sweep the forcing frequency of many rigs, in parallel.
 
     Parameters
     ----------
     rigs
-        Each a `Rig`, a laboratory case, its code, or the path of a study file; the keys of a
-        mapping name them.
+        One or several rigs. Each is a `Rig`, a published laboratory case or its code such as
+        ``"B2-G1-A3"``, or the path of a study file. If they are passed as a mapping, its keys are
+        the names of the rigs.
     frequencies, directions
         As in `sweep`.
     start
-        Initial state of every sweep. Default: rest.
+        Initial state of each sweep. Default: the mass at rest.
     phase
         Phase φ of the base acceleration A sin(ωt + φ) at the stroboscopic section, in rad.
     tolerance
-        A motion counts as steady once its stroboscopic state is within this distance (relative)
-        of an orbit of at most 16 forcing cycles.
+        Relative tolerance of a steady motion. A motion counts as steady when the distance of its
+        stroboscopic state from a periodic orbit is below this tolerance. The period of the orbit is
+        at most 16 forcing cycles.
     max_cycles
-        Largest number of forcing cycles before a motion is steady. A motion that is still
-        approaching an orbit, as with light damping, gets up to 50 times as many.
+        Largest number of forcing cycles to wait for a steady motion. If a motion is still
+        approaching a periodic orbit, for example with light damping, the limit is increased up to
+        50-fold.
     window
-        Number of forcing cycles over which a motion that did not settle is measured.
+        Number of forcing cycles over which a motion is measured if it did not become steady.
     max_events
-        Number of contacts and detachments in one forcing cycle at which a hold is given up.
+        Largest number of contacts and detachments in one forcing cycle. When a motion reaches this
+        number, its computation is given up.
     threads
-        Number of threads (default: one per processor). It does not affect the result.
+        Number of threads (default: one per processor). The number does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
-        of its scheduler (docs/how-to/many-machines.md). It does not affect the result.
+        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster. A cluster is
+        passed as a ``distributed.Client`` or as the address of its scheduler
+        (docs/how-to/many-machines.md). The choice does not affect the result.
     progress
-        Function that is called in the calling thread with the work done and the total.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the completed work and the total work.
 
     Returns
     -------
     xarray.Dataset
-        As in `sweep`, with the dim ``rig`` first.
+        As in `sweep`, with the additional first dim ``rig``.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Exact extremes of a whole motion, and its energies."""
+"""Exact extremes and energies of a whole motion."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from vibroimpact.response.phase_measures import measured, view
 
 
 def totals(motion: xr.Dataset) -> xr.Dataset:
-    """Compute the exact extremes of a motion, also between its samples, and its energies.
+    """Compute the exact extremes of a motion, even between its samples, and its energies.
 
     Parameters
     ----------
@@ -33,16 +33,19 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        The extremes and excursions of the displacement and of the absolute acceleration, as in a
-        sweep, and the energies over the whole motion: ``total_supplied`` by the excitation,
-        ``total_isolator`` and ``total_bumpers`` lost in the isolator and in the stops. They start
-        at ``initial_state``: if the mass starts on a rigid stop and moves into it, that impact is
-        included, although the first sample follows it (a note reports this).
+        The extremes and the excursions of the displacement and of the absolute acceleration have
+        the same names as in `sweep`. ``total_supplied`` is the energy that the excitation supplies
+        over the whole motion. ``total_isolator`` is the energy lost in the isolator, and
+        ``total_bumpers`` the energy lost in the stops.
+
+        The energies are counted from ``initial_state``. If the mass starts on a rigid stop and
+        moves into it, the energies include this impact, although the first sample lies after it. In
+        that case a note reports the impact.
 
     Raises
     ------
     InputError
-        If the dataset is not that of a motion with samples.
+        If the dataset does not hold a motion with samples.
     """
     origin = any_recorded(motion)
     every = cut(motion, origin)

@@ -1,4 +1,4 @@
-"""Classify one rig by its scenario, with the evidence."""
+"""Classify a rig by its scenario (S0 to S6), with the evidence."""
 
 from __future__ import annotations
 
@@ -78,37 +78,47 @@ def classify_scenario(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Classify a rig by its scenario: S0 to S6, or unclassified (the paper's Sections 4.3 and 6).
+    """Classify the resonance curves of a rig by their scenario: S0 to S6, or unclassified.
 
-    The rig is swept forward and backward. Motions that did not become periodic are classified by
-    the growth of disturbances. The branch of orbits through the primary resonance gives the exact
-    jumps, even if the hysteresis is so narrow that it lies between two frequencies.
+    A scenario describes which resonances, jumps and hysteresis the curves have (the paper's
+    Sections 4.3 and 6).
+
+    The frequency is swept forward and backward. A motion that does not become periodic is
+    classified by the growth of small disturbances. The branch of periodic orbits through the
+    primary resonance gives the exact frequencies of the jumps, even if a narrow hysteresis lies
+    between two frequencies of the sweep.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     frequencies
-        Frequencies of the sweeps in Hz, rising. Default: steps of a hundredth of the natural
-        frequency, from 0.4 times the natural frequency to beyond the highest possible primary
-        resonance.
+        Rising frequencies of the sweeps, in Hz. Default: from 0.4 times the natural frequency to
+        above the highest possible primary resonance, in steps of a hundredth of the natural
+        frequency.
     thresholds
-        Limits between the scenarios; see `Thresholds`.
+        Thresholds between the scenarios; see `Thresholds`.
     max_cycles
-        Number of forcing cycles to wait for a steady motion. Default: 2000, and more for light
-        damping.
+        Number of forcing cycles to wait for a steady motion. Default: 2000, or more if the damping
+        is light.
     threads, progress
         As in `sweeps`.
 
     Returns
     -------
     xarray.Dataset
-        The resonance curves, as in `sweep`, with the number of the ``scenario`` and the features
-        that determine it, named as in `scenario_map`. Each threshold is halved and doubled:
-        ``confidence`` is the share of these variations that give the same scenario.
-        ``fold_frequency`` holds the frequencies at which the branch of the primary resonance turns
-        back. Attributes: ``label`` (``"S0"`` to ``"S6"``, or ``"unclassified"``), ``meaning``,
-        ``evidence``, and ``alternatives``, which lists the variations that give another scenario.
+        The resonance curves have the same variables as in `sweep`. ``scenario`` is the number of
+        the scenario. The features that determine it have the same names as in `scenario_map`.
+        ``fold_frequency`` contains the frequencies at which the branch of the primary resonance
+        turns back.
+
+        To estimate the confidence, each threshold is halved and doubled in turn. ``confidence`` is
+        the share of these variations that give the same scenario.
+
+        The attribute ``label`` is the scenario as text (``"S0"`` to ``"S6"``, or
+        ``"unclassified"``). ``meaning`` describes this scenario, and ``evidence`` states why it was
+        chosen. ``alternatives`` lists the variations that give another scenario.
 
     Raises
     ------

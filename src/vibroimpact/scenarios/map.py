@@ -1,4 +1,4 @@
-"""Scenarios over two parameters, computed block by block."""
+"""Map of scenarios over two parameters, computed block by block."""
 
 from __future__ import annotations
 
@@ -61,61 +61,76 @@ def scenario_map(
 ) -> xr.Dataset:
     """Compute a map of scenarios over two parameters.
 
+    At each node of the map the rig is swept and classified, as in `classify_scenario`.
+
     Parameters
     ----------
     rig
-        The rig with all other parameters, shaken by one sine: a `Rig`, a laboratory case, its code,
-        or the path of a study file. Default: ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on both
-        sides.
+        The rig, which has all other parameters and is shaken by one sine: a `Rig`, a published
+        laboratory case or its code such as ``"B2-G1-A3"``, or the path of a study file. If it is
+        None, the rig has the dimensionless parameters ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on
+        both sides.
     x, y
-        Name and rising values of a parameter. Physical: ``"gap"`` (m, of each side),
-        ``"amplitude"`` (in the unit of the rig's amplitude), ``"bumper_stiffness"`` (N/m, at the
-        rig's damping C_j), ``"proportional_stiffness"`` (N/m, at the rig's C_j/K_j). Dimensionless:
-        ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ, ``"damping_ratio"`` ξ,
-        ``"restitution"`` e. They are set equally on both sides, if the stop has them; a rigid stop
-        has only a gap and a restitution. If both parameters are dimensionless and δ0 is not varied,
-        δ0 is kept; with a physical parameter the gap is kept. ``"log"`` or ``"linear"`` after the
-        values selects the spacing of refined values, if the values do not show it.
+        The parameters on the two axes. Each is a tuple of a name and rising values.
+
+        Physical parameters are ``"gap"`` (m, on each side), ``"amplitude"`` (in the unit of the
+        amplitude of the rig), ``"bumper_stiffness"`` (N/m, at the damping C_j of the rig) and
+        ``"proportional_stiffness"`` (N/m, at the C_j/K_j of the rig). Dimensionless parameters are
+        ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ, ``"damping_ratio"`` ξ
+        and ``"restitution"`` e.
+
+        A parameter of stops is set on both sides, if the stop has it. A rigid stop has only a gap
+        and a restitution. If both parameters are dimensionless and δ0 is not one of them, δ0 stays
+        constant. If one of the parameters is physical, the gap stays constant.
+
+        A third entry ``"log"`` or ``"linear"`` in the tuple selects the spacing of refined values.
+        It is required only if the values do not show their spacing.
     step
-        Step of the sweeps, as a share of the natural frequency.
+        Frequency step of the sweeps, as a share of the natural frequency.
     refine
-        Number of times that the nodes near a border are made twice as dense. No nodes are computed
-        between nodes of the same scenario, so regions smaller than a square of the first grid may
-        be missed.
+        Number of times that the map is refined to twice the density near the borders between
+        scenarios. No nodes are computed between nodes of the same scenario. Therefore regions
+        smaller than a square of the first grid may be missed.
     thresholds
-        See `Thresholds`.
+        Thresholds between the scenarios; see `Thresholds`.
     max_cycles
-        Number of forcing cycles to wait for a steady motion. Default: 300, and more for light
-        damping; a motion that is clearly chaotic after its transient is then not continued.
+        Number of forcing cycles to wait for a steady motion. Default: 300, or more if the damping
+        is light. With the default, a motion that is clearly chaotic after its transient is not
+        continued.
     store
-        Folder for the map as a Zarr group, written block by block. An unfinished computation of the
-        same map is resumed. Default: in memory.
+        Folder in which the map is stored as a Zarr group. It is written block by block. If the
+        folder holds an unfinished computation of the same map, that computation is resumed.
+        Default: the map is kept in memory.
     block
-        Number of nodes of the first grid along each side of a block. At most the unfinished blocks
-        are lost if the computation is stopped. One block is held in memory at a time.
+        Number of nodes of the first grid along each side of a block. If the computation is stopped,
+        at most the unfinished blocks are lost. Only one block is kept in memory at a time.
     threads
-        Number of threads (default: one per processor). It does not affect the result.
+        Number of threads (default: one per processor). The number does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
-        of its scheduler (docs/how-to/many-machines.md). Default: processes, if the first grid has
-        at least 500 nodes and more than one process may run; otherwise threads. It does not affect
-        the result.
+        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster. A cluster is
+        passed as a ``distributed.Client`` or as the address of its scheduler
+        (docs/how-to/many-machines.md). Default: processes if the first grid has at least 500 nodes
+        and more than one process may run, and threads otherwise. The choice does not affect the
+        result.
     progress
-        Function that is called in the calling thread with the number of nodes done and the number
-        required so far.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of completed nodes and the number of nodes that are known to
+        be required so far.
 
     Returns
     -------
     xarray.Dataset
-        Dims are the names of y and x. ``scenario`` (0 to 6, or 7 for unclassified;
-        ``flag_meanings`` names them), ``confidence``, ``level`` and features: peaks, jumps,
-        counts of left hystereses, of regular and of non-regular ranges. With a store, values are
-        read from it on demand.
+        The dims are the names of the parameters y and x. ``scenario`` is 0 to 6, or 7 for
+        unclassified; its attribute ``flag_meanings`` contains their names. ``confidence`` is
+        defined as in `classify_scenario`. ``level`` is the level of refinement at which a node was
+        computed. The other variables are features of the resonance curves: peaks, jumps, and
+        numbers of left hystereses, of regular secondary resonances and of ranges with non-regular
+        motions. If there is a ``store``, values are read from it on demand.
 
     Raises
     ------
     InputError
-        If a value is invalid, or the store holds another computation.
+        If a value is invalid, or if the folder ``store`` holds another computation.
     """
     check_progress(progress)
     start = _base(rig)

@@ -1,4 +1,4 @@
-"""The thresholds between scenarios, with their reasons."""
+"""The thresholds between scenarios, with the reasons for their values."""
 
 from __future__ import annotations
 
@@ -11,25 +11,27 @@ from vibroimpact.errors import InputError, shown
 
 @dataclass(frozen=True)
 class Thresholds:
-    """The thresholds of `classify_scenario`, all dimensionless.
+    """The thresholds between scenarios, which `classify_scenario` uses. All are dimensionless.
 
     Attributes
     ----------
     prominence
-        Least prominence of a secondary resonance in η_a, as a share of its height. No measurement
-        could detect smaller ripples. It separates S2 from S3.
+        Smallest prominence of a secondary resonance in η_a, as a share of its height. A measurement
+        could not detect a less prominent resonance. This threshold separates S2 from S3.
     extent
-        Least width of all secondary left hystereses and non-regular resonances together, as a
-        share of the natural frequency. A test steps by 0.08 to 0.09 of it (0.1 Hz, the paper's
-        Section 3): if they are narrower, a test may have no frequency step within them. It
-        separates S2 and S3 from S4.
+        Smallest total width of all secondary left hystereses and non-regular resonances, as a share
+        of the natural frequency. The frequency step of the tests is 0.1 Hz, which is 0.08 to 0.09
+        of the natural frequency (the paper's Section 3). If the total width is smaller than this
+        step, a test may have no frequency within them. This threshold separates S2 and S3 from S4.
     touch
-        Largest value of 1 - δ0 for which a contact is called grazing: the share by which the gap is
-        smaller than the amplitude without stops. The tests called grazing in the paper's Fig. 14
-        have 0.07, the next ones 0.22. It separates S1 from S2 and S6.
+        Largest value of 1 - δ0 for which a contact is called grazing. 1 - δ0 is the share by which
+        the gap is smaller than the amplitude without stops. It is 0.07 in the tests that the
+        paper's Fig. 14 calls grazing. The next larger value of a test is 0.22. This threshold
+        separates S1 from S2 and S6.
     deformation
-        Largest penetration, as a share of the gap, of a grazing contact: a lightly damped mass
-        that grazes on one motion may hit hard on another. It separates S1 from S2 and S6.
+        Largest penetration of a grazing contact, as a share of the gap. It is required because a
+        lightly damped mass may graze in one motion, and hit the stop hard in another motion. This
+        threshold separates S1 from S2 and S6.
 
     Raises
     ------
@@ -53,11 +55,11 @@ class Thresholds:
 
     @classmethod
     def names(cls) -> tuple[str, ...]:
-        """Names of the thresholds."""
+        """Return the names of the thresholds."""
         return tuple(field.name for field in fields(cls))
 
     def variations(self) -> Iterator[tuple[str, Thresholds]]:
-        """Yield thresholds with one of them halved or doubled, with its name and value."""
+        """Yield name and value of a halved or doubled threshold, and the thresholds with it."""
         for name in self.names():
             for factor in (0.5, 2.0):
                 yield name, replace(self, **{name: min(1.0, factor * getattr(self, name))})

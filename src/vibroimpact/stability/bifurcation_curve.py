@@ -1,6 +1,7 @@
-"""Curves of bifurcations in two parameters, as solutions of their defining systems.
+"""Curves of bifurcations in the plane of two parameters, as solutions of their defining systems.
 
-An orbit with P(z; p, q) = z and one more condition φ(z; p, q) = 0 is followed by pseudo-arclength:
+A periodic orbit satisfies P(z; p, q) = z, and at a bifurcation one more condition φ(z; p, q) = 0.
+The solutions are continued by the pseudo-arclength method:
 
 =====================  ====================================================================
 fold                   φ = det(M − I), or det(H − I) where the orbit is its own mirror image
@@ -10,7 +11,7 @@ Neimark–Sacker         φ = log of the modulus of the complex pair
 grazing                φ = the least clearance at a turning point, or minus the least depth
 =====================  ====================================================================
 
-In (z, p, q) the curve of folds is smooth where its projection has a cusp.
+In the space of (z, p, q) the curve of folds is smooth where its projection has a cusp.
 """
 
 from __future__ import annotations
@@ -62,39 +63,41 @@ def bifurcation_curve(
     most_points: int = 2000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Continue a bifurcation in two parameters.
+    """Continue a bifurcation as a curve in the plane of two parameters.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     start
-        One bifurcation of a dataset of `branch` or `resonance_diagram` along the first
-        parameter: ``data.isel(bifurcation=i)``.
+        One bifurcation of a dataset of `branch` or `resonance_diagram`, which was computed along
+        the first parameter: ``data.isel(bifurcation=i)``.
     frequency
-        Forcing frequency (Hz). Default: that of the rig.
+        Forcing frequency (Hz). Default: the frequency of the rig.
     parameters
         Names of the two parameters, as in `branch`.
     spans
-        Lowest and highest value of each parameter, in SI units or as text.
+        Lowest and highest value of each of the two parameters, in SI units or as text with units.
     most_points
-        Largest number of points in each direction.
+        Largest number of points in each direction along the curve.
     progress
-        Function that is called with the number of points so far and None, since the total is
-        unknown until the end.
+        Function that reports progress, such as the result of `progress_bar`. It is called with the
+        number of computed points and None, because the total is unknown until the end.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``point`` along the curve: both parameters by name, the ``section`` of the orbit and
-        its multipliers. Dim ``cusp_number``: the parameters ``cusp_first`` and ``cusp_second``
-        of each cusp, where the curve turns back on itself. The attributes ``ended_low`` and
-        ``ended_high`` give the reasons why it ends.
+        The dim ``point`` counts the points along the curve. Its variables are the two parameters by
+        name, the ``section`` of the orbit (its state at the stroboscopic section), and the Floquet
+        multipliers. The dim ``cusp_number`` counts the cusps, which are points where the curve
+        turns back on itself. ``cusp_first`` and ``cusp_second`` are the parameters there. The
+        attributes ``ended_low`` and ``ended_high`` state why the curve ends at either end.
 
     Raises
     ------
     InputError
-        If a value is invalid, or the start is not a bifurcation of this rig.
+        If a value is invalid, or if the start is not a bifurcation of this rig.
     """
     check_progress(progress)
     rig = as_rig(rig, frequency)

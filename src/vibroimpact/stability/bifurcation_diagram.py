@@ -1,4 +1,4 @@
-"""Bifurcation diagrams by brute force: the steady motions over any parameter."""
+"""Bifurcation diagrams by simulation ("brute force"): the steady motions over any parameter."""
 
 from __future__ import annotations
 
@@ -73,64 +73,70 @@ def bifurcation_diagram(
 ) -> xr.Dataset:
     """Compute a bifurcation diagram: the steady motions at a series of values of a parameter.
 
-    It shows attractors only, periodic or not, to which the initial states lead. `branch` follows
-    both stable and unstable orbits.
+    The diagram shows only attractors (periodic or not) to which the initial states lead. To follow
+    unstable orbits as well, use `branch`.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     parameter
         Name of the parameter that is varied, as in `branch`.
     span
-        Lowest and highest value of the parameter, in SI units or as text.
+        Lowest and highest value of the parameter, in SI units or as text with units.
     steps
-        Number of values, including both ends.
+        Number of values of the parameter, including both ends.
     frequency
-        Forcing frequency (Hz), if another parameter is varied. Default: that of the rig.
+        Forcing frequency (Hz), if another parameter is varied. Default: the frequency of the rig.
     directions
-        ``"up"``, ``"down"`` or both: the first value starts from rest, each other value from the
-        final state of the previous one.
+        Directions along the values: ``"up"``, ``"down"`` or both. The motion at the first value
+        starts from rest. The motion at each other value starts from the final state at the previous
+        value.
     starts
-        Further initial states by name; every value is also started from each of them.
+        Further initial states, by name. From each of them a motion is started at every value.
     random
-        Number of additional random initial states, the same at every value. Displacements reach 1.5
-        times the largest displacement of the other motions, or 1.5 times the widest gap if that is
-        larger. Velocities reach this value times the angular forcing frequency (its median, if the
-        frequency is varied).
+        Number of additional random initial states. The same states are used at every value. Their
+        displacements are at most 1.5 times the largest displacement of the other motions, or 1.5
+        times the widest gap if that is larger. Their velocities are at most this limit times the
+        angular forcing frequency (its median, if the frequency is varied).
     seed
-        Random seed. The same seed gives the same initial states.
+        Seed of the random initial states. The same seed gives the same initial states.
     section
-        ``"stroboscopic"``, once per forcing cycle; or ``"impacts"``, at the start of each
-        contact.
+        Poincaré section: ``"stroboscopic"``, once per forcing cycle; or ``"impacts"``, at the start
+        of each contact.
     log
-        Whether the values are spaced evenly on a logarithmic axis.
+        Whether the values are evenly spaced on a logarithmic axis.
     points
-        Number of forcing cycles whose section is kept for a motion that does not settle.
+        Number of forcing cycles whose section points are stored, if a motion does not become
+        periodic.
     exponent_cycles
-        Number of forcing cycles over which the growth of disturbances of such a motion is
-        averaged.
+        Number of forcing cycles over which the growth of disturbances is averaged, if a motion does
+        not become periodic.
     tolerance, max_cycles, max_events
         As in `sweeps`.
     threads
-        Number of threads (default: one per processor). It does not affect the result.
+        Number of threads (default: one per processor). The number does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster, as in `scenario_map`. It does not
-        affect the result.
+        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster, as in
+        `scenario_map`. The choice does not affect the result.
     progress
-        Function that is called in the calling thread with the number of holds done and their
-        total.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of completed motions and the number of all motions.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``start``, the parameter and ``section_point``. A stroboscopic section has
-        ``section_displacement``, ``section_velocity`` and the bumpers' deformations; a section
-        at impacts has ``contact_side``, ``contact_start_phase`` and ``contact_start_velocity``.
-        For a periodic motion it has the points of one period, and the rest is NaN. ``motion``
-        and ``period`` classify the motion; ``exponents`` (1/s) are its two largest Lyapunov
-        exponents, with ``exponents_uncertainty``. Extremes and forces are as in `sweep`, and
-        ``section`` is the state at the end of each hold, from which `branch` can start.
+        The dims are ``start`` (the direction or the initial state), the parameter, and
+        ``section_point``. A stroboscopic section has the variables ``section_displacement``,
+        ``section_velocity`` and the deformations of the bumpers. A section at impacts has the
+        variables ``contact_side``, ``contact_start_phase`` and ``contact_start_velocity``. If a
+        motion is periodic, the section has the points of one period, and the other entries are NaN.
+
+        ``motion`` and ``period`` describe the type of each motion. ``exponents`` (1/s) are its two
+        largest Lyapunov exponents, with ``exponents_uncertainty``. Extremes and forces are the same
+        as in `sweep`. ``section`` is the final state of each motion. You can pass it to `branch` as
+        the start.
 
     Raises
     ------

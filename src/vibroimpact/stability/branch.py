@@ -1,4 +1,4 @@
-"""Branches of stable and unstable periodic orbits over a parameter, with their bifurcations."""
+"""Branches of stable and unstable periodic orbits along a parameter, with their bifurcations."""
 
 from __future__ import annotations
 
@@ -37,55 +37,71 @@ def branch(
     most_points: int = 5000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Continue a branch of periodic orbits in both directions from one of its orbits.
+    """Continue a branch of periodic orbits along a parameter, in both directions from one orbit.
 
-    The method is pseudo-arclength continuation with the exact derivative of the map from section to
-    section. It continues around folds and through changes of the contact sequence. A motion that is
-    its own mirror image is continued as a symmetric one.
+    The method is pseudo-arclength continuation with the exact derivative of the stroboscopic map.
+    It follows the branch around folds, and through changes of the sequence of contacts. A motion
+    that is its own mirror image is continued as a symmetric motion.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     start
-        A state near the first orbit, at the phase of the excitation. Default: the steady motion
-        reached from rest.
+        A state near the first orbit, at the initial phase of the excitation. Default: the steady
+        motion that is reached from rest.
     frequency
-        Forcing frequency of the first orbit (Hz). Default: that of the rig; if it is open and the
-        frequency is varied, the lowest of the span.
+        Forcing frequency of the first orbit (Hz). Default: the frequency of the rig. If the rig
+        leaves the frequency open and the frequency is varied, the default is the lowest frequency
+        of the span.
     parameter
-        Name of the parameter that is varied: "frequency", "amplitude", "force" (constant); "gap",
-        "bumper_stiffness", "bumper_damping" or "restitution" of both sides, "right_gap",
-        "left_gap", "right_stiffness" and so on for one side; "stiffness", "damping" and any other
-        number of the isolator, such as "yield_force"; other numbers of the stops, such as
-        "dissipation", "bumper_exponent" or "bumper_mass"; "proportional_stiffness" and
-        "stiffness_ratio" (λ) of the bumpers at a fixed C_j/K_j, "stiffness_at_restitution" at a
-        fixed restitution, "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
+        Name of the parameter that is varied:
+
+        - of the excitation: "frequency", "amplitude" or "force" (a constant force);
+        - of the stops on both sides: "gap", "bumper_stiffness", "bumper_damping", "restitution",
+          "dissipation", "bumper_exponent" or "bumper_mass";
+        - of the stop on one side: "right_gap", "left_gap", "right_stiffness" and so on;
+        - of the isolator: "stiffness", "damping" or any other number of its law, such as
+          "yield_force";
+        - the stiffness of the bumpers at a fixed C_j/K_j: "proportional_stiffness" or
+          "stiffness_ratio" (λ);
+        - the stiffness of the bumpers at a fixed coefficient of restitution:
+          "stiffness_at_restitution";
+        - dimensionless: "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
     span
-        Lowest and highest value of the parameter, in SI units or as text.
+        Lowest and highest value of the parameter, in SI units or as text with units.
     period
-        Period of the orbits (forcing cycles). Default: that of the motion from rest, or 1 with a
-        start.
+        Period of the orbits, in forcing cycles. Default: the period of the motion that is reached
+        from rest, or 1 if there is a ``start``.
     most_points
-        Largest number of orbits in each direction.
+        Largest number of orbits in each direction along the branch.
     progress
-        Function that is called with the number of orbits so far and None, since the total is
-        unknown until the end.
+        Function that reports progress, such as the result of `progress_bar`. It is called with the
+        number of computed orbits and None, because the total is unknown until the end.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``point`` along the branch: the parameter by its name, ``arclength``, extremes,
-        excursions, ``eta_d`` and ``eta_a`` (divided by the largest excursion without stops at any
-        frequency), ``eccentricity``, impacts per cycle, ``multiplier_real`` and ``_imag`` (dim
-        ``multiplier``, the largest first), ``stable`` and ``section``. Dim ``bifurcation``: kind,
-        parameter, state and multipliers of each. The attributes ``ended_low`` and ``ended_high``
-        give the reasons why the branch ends on either side.
+        The dim ``point`` counts the orbits along the branch. The variables of each orbit are:
+
+        - the parameter by its name, and ``arclength``;
+        - extremes, excursions and ``eccentricity``;
+        - ``eta_d`` and ``eta_a``, the excursions divided by the largest excursion without stops at
+          any frequency;
+        - the impacts per cycle;
+        - ``multiplier_real`` and ``multiplier_imag``, the Floquet multipliers (dim ``multiplier``,
+          the largest first), and ``stable``;
+        - ``section``, the state of the orbit at the stroboscopic section.
+
+        The dim ``bifurcation`` counts the bifurcations, with the kind, the parameter, the state and
+        the multipliers of each. The attributes ``ended_low`` and ``ended_high`` state why the
+        branch ends at either end.
 
     Raises
     ------
     InputError
-        If a value is invalid, or Newton's method finds no orbit near the start.
+        If a value is invalid, or if Newton's method finds no orbit near the start.
     """
     check_progress(progress)
     rig = from_lowest(as_rig(rig, frequency), parameter, span)

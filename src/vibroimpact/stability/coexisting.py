@@ -1,4 +1,4 @@
-"""Coexisting steady motions at one frequency, found from several initial states."""
+"""Coexisting steady motions at one frequency, which are reached from several initial states."""
 
 from __future__ import annotations
 
@@ -58,43 +58,50 @@ def coexisting_motions(
 ) -> xr.Dataset:
     """Find the coexisting steady motions at one frequency from several initial states.
 
-    The initial states are rest, the final states of a forward sweep from below and of a backward
-    sweep from above, ``starts``, and random states. If the rig is symmetric, the mirror images of
-    the motions are used as well. Motions that differ only by whole forcing cycles count as one, and
-    so do a motion and its mirror image.
+    The initial states are rest, the final state of a forward sweep from below, the final state of a
+    backward sweep from above, the states in ``starts``, and random states. If the rig is symmetric,
+    the mirror images of the motions are initial states as well. Motions that differ only by a shift
+    of whole forcing cycles count as one motion. A motion and its mirror image also count as one.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     frequency
-        Forcing frequency (Hz). Default: that of the rig.
+        Forcing frequency (Hz). Default: the frequency of the rig.
     frequencies
-        Frequencies of the sweeps in Hz, rising. Those below the excitation frequency are swept
-        upwards, those above downwards. Default: steps of a hundredth of the natural frequency from
-        0.3 to 6 times it; of the excitation frequency if the isolator has no stiffness.
+        Rising frequencies of the sweeps, in Hz. Frequencies below the forcing frequency are swept
+        upwards, and frequencies above it are swept downwards. Default: from 0.3 to 6 times the
+        natural frequency, in steps of a hundredth of it. If the isolator has no stiffness, the
+        forcing frequency replaces the natural frequency.
     starts
-        Further initial states by name.
+        Further initial states, by name.
     random
-        Number of random initial states, with displacements and velocities up to 1.5 times the
-        largest values of the motions reached from the other initial states.
+        Number of random initial states. Their displacements and velocities are at most 1.5 times
+        the largest values of the motions that the other initial states lead to.
     seed
-        Random seed. The same seed gives the same initial states.
+        Seed of the random initial states. The same seed gives the same initial states.
     window, max_cycles, exponent_cycles, max_events
         As in `steady`.
     progress
-        Function that is called after each initial state with the number done and the total. The
-        total is None while mirror images may be added.
+        Function that reports progress, such as the result of `progress_bar`. It is called after
+        each initial state, with the number of completed initial states and the number of all
+        initial states. The latter is None as long as mirror images may be added.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``attractor``, the motion with the largest excursion first: the numbers of `steady`
-        (``motion``, ``period``, extremes, impacts, exponents, energies, …) and ``evidence``.
-        ``starts`` names the initial states that led to a motion, ``mirrored_starts`` those that led
-        to its mirror image; ``mirror_pair`` states whether the mirror image is a different motion.
-        Motions that were given up come last, with their ``status``. ``final_state`` continues a
-        motion; its history is ``steady(rig, start=found.isel(attractor=0))``.
+        The dim ``attractor`` counts the motions from the largest to the smallest excursion. The
+        variables are the single numbers of `steady` (``motion``, ``period``, extremes, impacts,
+        exponents, energies, …) and ``evidence``. ``starts`` names the initial states that led to a
+        motion. ``mirrored_starts`` names the initial states that led to its mirror image.
+        ``mirror_pair`` states whether the mirror image is a different motion. Motions whose
+        computation was given up come last; ``status`` gives the reason.
+
+        ``final_state`` is a state from which the motion can be continued. To compute the time
+        history of the first motion in a result ``found``, call
+        ``steady(rig, start=found.isel(attractor=0))``.
 
     Raises
     ------

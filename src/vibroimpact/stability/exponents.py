@@ -1,4 +1,4 @@
-"""Lyapunov exponents from the exact tangent flow, for many rigs and frequencies."""
+"""Lyapunov exponents from the exact linearised flow, for many rigs and frequencies."""
 
 from __future__ import annotations
 
@@ -60,47 +60,58 @@ def lyapunov_exponents(
 ) -> xr.Dataset:
     """Compute the two largest Lyapunov exponents of many motions in parallel.
 
-    Disturbances follow the closed form of each phase, and saltation matrices at contacts and
-    detachments (docs/theory.md, section 6). The computation does not wait until a motion settles:
-    if it settles, the exponents are those of its orbit only if ``transient`` is long enough.
+    Small disturbances are propagated exactly: in closed form between events, and by saltation
+    matrices at contacts and detachments (docs/theory.md, section 6). The computation does not wait
+    until a motion becomes periodic. If a motion does become periodic, its exponents are the
+    exponents of the orbit only if ``transient`` is long enough.
 
     Parameters
     ----------
     rigs
-        Each a `Rig`, a laboratory case, its code, or the path of a study file; the keys of a
-        mapping name them.
+        One or several rigs. Each is a `Rig`, a published laboratory case or its code such as
+        ``"B2-G1-A3"``, or the path of a study file. If they are passed as a mapping, its keys are
+        the names of the rigs.
     frequencies
-        Excitation frequencies in Hz, rising.
+        Rising forcing frequencies, in Hz.
     cycles
-        Number of forcing cycles over which the growth is averaged.
+        Number of forcing cycles over which the growth of disturbances is averaged.
     transient
-        Number of forcing cycles before the average; another 100 are used to align the disturbances.
+        Number of forcing cycles before the averaging starts. Another 100 forcing cycles are used to
+        align the disturbances.
     start
-        Initial state of every motion. Default: rest.
+        Initial state of each motion. Default: the mass at rest.
     vary
-        Values of parameters by name, as in `branch`, in all combinations: ``{"gap": [5e-3,
-        6e-3]}``.
+        Parameters that are varied, as a mapping from names to values, such as
+        ``{"gap": [5e-3, 6e-3]}``. The names are those of `branch`. All combinations of the values
+        are computed.
     phase
         Phase φ of the base acceleration A sin(ωt + φ) at the start, in rad.
     max_events
-        Number of contacts and detachments in one forcing cycle at which a motion is given up.
+        Largest number of contacts and detachments in one forcing cycle. When a motion reaches this
+        number, its computation is given up.
     threads
-        Number of threads (default: one per processor). It does not affect the result.
+        Number of threads (default: one per processor). The number does not affect the result.
     where
-        ``"threads"``, ``"processes"``, or a dask cluster, as in `scenario_map`. It does not affect
-        the result.
+        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster, as in
+        `scenario_map`. The choice does not affect the result.
     progress
-        Function that is called in the calling thread with the number of forcing cycles done and
-        their total, including those of ``transient`` and of the alignment.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of completed forcing cycles and the number of all forcing
+        cycles. Both include the cycles of ``transient`` and of the alignment.
 
     Returns
     -------
     xarray.Dataset
-        Dims ``rig``, ``frequency``, one per parameter that is varied, and ``exponent`` (the
-        largest first): ``exponents`` in 1/s,
-        their ``exponents_uncertainty`` (of the mean, from 32 blocks of cycles; infinite with
-        fewer cycles), ``effective_damping``, ``exponents_cycles``, ``status``, and ``settling``:
-        whether the motion was still converging to a periodic one, for which a warning is issued.
+        The dims are ``rig``, ``frequency``, one dim for each parameter that is varied, and
+        ``exponent`` (the largest exponent first). The variables are:
+
+        - ``exponents``, in 1/s;
+        - ``exponents_uncertainty``, the uncertainty of the mean, estimated from 32 blocks of
+          cycles. It is infinite if there are fewer than 32 cycles;
+        - ``effective_damping``, the mean damping per unit mass, in 1/s;
+        - ``exponents_cycles``, the number of averaged forcing cycles, and ``status``;
+        - ``settling``: whether the motion was still converging to a periodic motion. In that case a
+          warning is issued.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""One stable or unstable periodic orbit by Newton's method."""
+"""One stable or unstable periodic orbit, computed by Newton's method."""
 
 from __future__ import annotations
 
@@ -24,38 +24,43 @@ def orbit(
     frequency: float | str | None = None,
     samples: int = 256,
 ) -> xr.Dataset:
-    """Compute the periodic orbit near a state, stable or unstable.
+    """Compute the periodic orbit near a state, whether it is stable or unstable.
 
-    The method is Newton's, applied to the stroboscopic map over the period with its exact
-    derivative.
+    Newton's method is applied to the stroboscopic map over one period, with its exact derivative.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     start
-        A state near the orbit, at the phase of the excitation. Default: the steady motion reached
-        from rest.
+        A state near the orbit, at the initial phase of the excitation. Default: the steady motion
+        that is reached from rest.
     period
-        Period in forcing cycles. Default: that of the motion from rest, or 1 with a start. Without
-        a start, a warning is issued if the orbit is not the motion reached from rest.
+        Period of the orbit, in forcing cycles. Default: the period of the motion that is reached
+        from rest, or 1 if there is a ``start``. If there is no ``start`` and the orbit differs from
+        the motion that is reached from rest, a warning is issued.
     frequency
-        Forcing frequency (Hz). Default: that of the rig.
+        Forcing frequency (Hz). Default: the frequency of the rig.
     samples
-        Samples per forcing cycle, at least 1.
+        Number of samples per forcing cycle, at least 1.
 
     Returns
     -------
     xarray.Dataset
-        The variables of `steady` for the orbit, and ``monodromy`` (the derivative of u, u̇, u_R,
-        u_L after one period with respect to their initial values), ``multiplier_real`` and
-        ``_imag``, ``residual`` (of the map, divided by the size of the motion); the attribute
-        ``contacts`` is the sequence of contacts, R or L.
+        The dataset contains the variables of `steady` for the orbit, and:
+
+        - ``monodromy``, the derivative of u, u̇, u_R and u_L after one period with respect to their
+          initial values;
+        - ``multiplier_real`` and ``multiplier_imag``, the Floquet multipliers;
+        - ``residual``, the residual of the map, divided by the size of the motion.
+
+        The attribute ``contacts`` is the sequence of contacts, with R for right and L for left.
 
     Raises
     ------
     InputError
-        If a value is invalid, or Newton's method finds no orbit near the start.
+        If a value is invalid, or if Newton's method finds no orbit near the start.
     """
     rig = as_rig(rig, frequency)
     rig.check_frequency()

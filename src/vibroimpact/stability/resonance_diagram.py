@@ -1,4 +1,4 @@
-"""Full resonance diagrams: all branches of orbits that sweeps and bifurcations lead to."""
+"""Full resonance diagrams: all branches of periodic orbits that sweeps and bifurcations lead to."""
 
 from __future__ import annotations
 
@@ -50,48 +50,50 @@ def resonance_diagram(
 ) -> xr.Dataset:
     """Compute all branches of periodic orbits over a range of the frequency or another parameter.
 
-    Branches start from the steady motions of sweeps up and down the range, from the motion
-    without contact, and from every symmetry breaking and period doubling on these branches. A
-    branch that none of these leads to is isolated. ``random`` initial states at each value find
-    it if some of its orbits are stable; `basins` find it more reliably, even if its basins are
-    small.
+    Branches start from the steady motions of sweeps up and down the range, from the motion without
+    contact, and from each symmetry breaking and each period doubling on these branches. A branch
+    that is not connected to any of these is called isolated. ``random`` initial states find an
+    isolated branch if some of its orbits are stable. Datasets of basins of attraction (``basins``)
+    find it more reliably, even if its basins are small.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     span
-        Lowest and highest value of the parameter, in SI units or as text.
+        Lowest and highest value of the parameter, in SI units or as text with units.
     parameter
         Name of the parameter that is varied, as in `branch`.
     frequency
-        Forcing frequency (Hz), if another parameter is varied. Default: that of the rig.
+        Forcing frequency (Hz), if another parameter is varied. Default: the frequency of the rig.
     phase
-        Phase of the forcing at the sections (rad).
+        Phase of the forcing at the stroboscopic section (rad).
     longest
-        Longest period of the orbits (forcing cycles).
+        Longest period of the orbits, in forcing cycles.
     most_branches, most_points
-        Largest number of branches, and of orbits in each direction of a branch.
+        Largest number of branches, and largest number of orbits in each direction along a branch.
     starts
         Number of values of the parameter at which motions are started.
     random
-        Number of random initial states at each value of the parameter at which motions are
-        started (40 values by default). They find isolated branches of stable orbits.
+        Number of random initial states at each value of the parameter at which motions are started
+        (40 values by default). They find isolated branches with stable orbits.
     seed
-        Random seed. The same seed gives the same initial states.
+        Seed of the random initial states. The same seed gives the same initial states.
     basins
-        Datasets of `basins` at values of the parameter, whose motions are continued as well.
-        Default: none.
+        Datasets of `basins` at some values of the parameter. Their steady motions are continued as
+        well. Default: none.
     progress
-        Function that is called with the number of branches done and of branches known so far, at
-        each point.
+        Function that reports progress, such as the result of `progress_bar`. It is called at each
+        point with the number of completed branches and the number of branches that are known so
+        far.
 
     Returns
     -------
     xarray.Dataset
-        As in `branch`, with the number of the ``branch`` of each point. Only one of a mirrored
-        pair of branches is computed. The attribute ``complete`` is 0 if ``most_branches`` was
-        reached.
+        As in `branch`. ``branch`` is the number of the branch to which each point belongs. If two
+        branches are mirror images of each other, only one of them is computed. The attribute
+        ``complete`` is 0 if ``most_branches`` was reached.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Steady motions: measured exactly and classified."""
+"""Steady motions, measured exactly and classified."""
 
 from __future__ import annotations
 
@@ -71,44 +71,53 @@ def steady(
     max_events: int = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Simulate a rig until its motion is steady; record, measure and classify the motion.
+    """Simulate a rig until its motion is steady; then record, measure and classify this motion.
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     start
-        Initial state. Default: rest.
+        Initial state. Default: the mass at rest.
     samples
-        Samples per forcing cycle, at least 1. They affect no other result.
+        Number of samples per forcing cycle, at least 1. It affects only the recorded time history.
     frequency
-        Forcing frequency (Hz). Default: that of the rig.
+        Forcing frequency (Hz). Default: the frequency of the rig.
     window
-        Number of recorded forcing cycles of a motion that does not settle.
+        Number of forcing cycles that are recorded if a motion does not become periodic.
     tolerance, max_cycles, max_events
         As in `sweeps`.
     exponent_cycles
-        Number of forcing cycles over which the growth of disturbances is averaged, if it is needed
-        to classify the motion. The exponents of a periodic motion follow from one period.
+        Number of forcing cycles over which the growth of disturbances is averaged, if this is
+        required to classify the motion. It is not required for a periodic motion, whose exponents
+        follow from one period.
     progress
-        Function that is called in the calling thread with the number of cycles done and the largest
-        possible number: first until the motion settles, then for the average of the exponents.
+        Function that reports progress, such as the result of `progress_bar`. It is called in the
+        calling thread with the number of completed cycles and the largest possible number of
+        cycles. These are first counted until the motion is steady, and then counted again while the
+        exponents are averaged.
 
     Returns
     -------
     xarray.Dataset
-        The variables of `simulate`, over one period or over the window; those of `contacts`; and
-        ``motion`` ("periodic", "quasi-periodic", "chaotic" or "undecided") with ``period``,
-        ``exponents``, ``exponents_uncertainty`` and ``exponents_cycles``, whether it is
-        ``stable`` and ``antisymmetric``, the exact extremes, ``eccentricity``, impacts and
-        energies per forcing cycle. The attribute ``evidence`` gives the reason for the
-        classification. If the motion reached the event limit, the record ends there, and ``status``
-        reports it.
+        The dataset contains the variables of `simulate`, over one period or over the window, and
+        the variables of `contacts`. Further variables are:
+
+        - ``motion`` ("periodic", "quasi-periodic", "chaotic" or "undecided") and ``period``;
+        - ``exponents``, ``exponents_uncertainty`` and ``exponents_cycles``;
+        - ``stable`` and ``antisymmetric``: whether the motion is stable, and whether it is its own
+          mirror image half a period later;
+        - the exact extremes and ``eccentricity``, and the impacts and the energies per forcing
+          cycle.
+
+        The attribute ``evidence`` gives the reason for the classification. If the motion reached
+        ``max_events``, the recorded history ends at that time, and ``status`` reports it.
 
     Raises
     ------
     InputError
-        If a value is invalid, or an undamped mass without stops is at resonance.
+        If a value is invalid, or if an undamped mass without stops is shaken at resonance.
     """
     rig = as_rig(rig, frequency)
     oscillator = rig.oscillator

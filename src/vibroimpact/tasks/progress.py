@@ -1,4 +1,4 @@
-"""Progress of a long computation: a line in a notebook or on a terminal."""
+"""Progress of a long computation, as a line in a notebook or on a terminal."""
 
 from __future__ import annotations
 
@@ -68,18 +68,19 @@ def progress_lines(what: str) -> Progress:
 def progress_bar(what: str = "done", *, every: float = 0.2) -> Progress:
     """Return a function that shows progress, for the argument ``progress`` of long computations.
 
-    In a notebook it updates one line. On a terminal it updates one line on standard error, which it
-    clears at the end. Elsewhere, such as in the log of a batch job, it writes a line every half
-    minute. It estimates the remaining time, and needs no other package::
+    In a notebook, the function updates one line. On a terminal, it updates one line on standard
+    error, and clears this line at the end. Elsewhere, such as in the log of a batch job, it writes
+    a line every half minute. It also estimates the remaining time. No other package is required.
+    Example::
 
         vi.scenario_map(x, y, rig, progress=vi.progress_bar("map"))
 
     Parameters
     ----------
     what
-        Name of the computation, in a word.
+        Name of the computation, in one word.
     every
-        Least time between two updates (s).
+        Shortest time between two updates (s).
     """
     clock, shown = _Clock(), -math.inf
     display = _notebook()

@@ -1,4 +1,4 @@
-"""Ensembles: the response of a rig whose parameters are uncertain."""
+"""Ensembles: the responses of a rig whose parameters are uncertain."""
 
 from __future__ import annotations
 
@@ -47,49 +47,54 @@ def ensemble(
     block: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Draw rigs from the distributions of their parameters, and compute the response of each.
+    """Draw random rigs from distributions of their parameters, and compute their responses.
 
-    The response is any function of a list of rigs that returns a dataset with the dim ``rig``:
-    `sweeps`, `demands` and `lyapunov_exponents` are such functions, with their other arguments
-    fixed by ``functools.partial``. `for_each_rig` makes one from a function of a single rig::
+    The response is any function of a list of rigs that returns a dataset with the dim ``rig``.
+    `sweeps`, `demands` and `lyapunov_exponents` are such functions, if ``functools.partial`` fixes
+    their other arguments. To use a function of a single rig, convert it with `for_each_rig`.
+    Example::
 
         vi.ensemble(case, {"gap": "normal:5%"}, functools.partial(vi.sweeps, frequencies=grid))
 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a laboratory case, its code, or the path of a study file; or an
-        `Oscillator` alone, for a response to records.
+        The rig with the nominal values: a `Rig`, a published laboratory case or its code such as
+        ``"B2-G1-A3"``, or the path of a study file. For a response to records, it may be an
+        `Oscillator` alone.
     distributions
-        Distributions by name of the parameter, as in `branch`: frozen distributions of
-        ``scipy.stats`` in SI units, or texts such as ``"normal:7.5 mm:0.5 mm"``,
-        ``"lognormal:0.2"`` or ``"uniform:10%"`` (of the rig's own value). The parameters are drawn
+        Distributions of the uncertain parameters, as a mapping from names to distributions. The
+        names are those of `branch`. A distribution is a frozen distribution of ``scipy.stats`` in
+        SI units, or a text such as ``"normal:7.5 mm:0.5 mm"``, ``"lognormal:0.2"`` or
+        ``"uniform:10%"``. A percentage refers to the value of the rig. The parameters are drawn
         independently of each other.
     response
-        Function that is called with a list of rigs, several at a time.
+        Function that computes the responses. It is called with a list of several rigs at a time.
     draws
-        Number of random rigs; a power of 2 for the method ``"sobol"``.
+        Number of random rigs. For the method ``"sobol"`` it must be a power of 2.
     method
         Sampling method: ``"sobol"`` (scrambled Sobol sequence), ``"latin"`` (Latin hypercube) or
         ``"random"``.
     seed
-        Random seed. The same seed gives the same rigs.
+        Seed of the random rigs. The same seed gives the same rigs.
     block
-        Number of rigs per call of the response. Default: as many as take two seconds, at least 64.
+        Number of rigs in each call of ``response``. Default: as many as can be computed in two
+        seconds, but at least 64.
     progress
-        Function that is called with the number of rigs done and their total.
+        Function that reports progress, such as the result of `progress_bar`. It is called with the
+        number of completed rigs and the number of all rigs.
 
     Returns
     -------
     xarray.Dataset
-        The response, with the dim ``sample`` instead of ``rig``, and the drawn values of each
-        parameter as a coordinate with its name.
+        The response, with the dim ``sample`` in place of ``rig``. The drawn values of each
+        parameter are a coordinate with the name of the parameter.
 
     Raises
     ------
     InputError
-        If a value is invalid, a drawn value is outside the range of its parameter, or the response
-        does not return a dataset over rigs.
+        If a value is invalid, or if a drawn value is outside the accepted range of its parameter.
+        Also if the response does not return a dataset with the dim ``rig``.
     """
     check_progress(progress)
     drawn = uncertain(rig, distributions)
@@ -166,13 +171,14 @@ def labelled(data: xr.Dataset, drawn: Uncertain, values: _Array) -> xr.Dataset:
 def for_each_rig(
     function: Callable[[Rig], xr.Dataset], threads: int | None = None
 ) -> Callable[[list[Rig]], xr.Dataset]:
-    """Make a function of many rigs from a function of one rig, for `ensemble` and `sensitivity`.
+    """Convert a function of one rig to a function of many rigs, for `ensemble` and `sensitivity`.
 
     Parameters
     ----------
     function
-        Function of a rig that returns a dataset whose dims have the same sizes for all rigs. For
-        example ``lambda rig: vi.steady(rig)[["displacement_max", "period"]]``.
+        Function of one rig that returns a dataset. The dims of this dataset must have the same
+        sizes for all rigs. An example is ``lambda rig: vi.steady(rig)[["displacement_max",
+        "period"]]``.
     threads
         Number of threads (default: one per processor).
     """

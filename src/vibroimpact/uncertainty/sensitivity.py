@@ -1,4 +1,4 @@
-"""Sensitivity of a response to uncertain parameters: Sobol's indices of the variance."""
+"""Sensitivity of a response to uncertain parameters: Sobol indices of the variance."""
 
 from __future__ import annotations
 
@@ -40,39 +40,46 @@ def sensitivity(
     block: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Compute the share of the variance of a response that is due to each uncertain parameter.
+    """Compute Sobol indices: the share of a response's variance that is due to each parameter.
 
-    The estimators are those of Saltelli et al. (2010), from ``draws`` × (parameters + 2) rigs.
+    The estimators are those of Saltelli et al. (2010). They require ``draws`` × (number of
+    parameters + 2) rigs.
 
     Parameters
     ----------
     rig, distributions, response, block
         As in `ensemble`.
     quantity
-        Name of a variable of the response; the result has its other dims.
+        Name of a variable of the response. The result has the dims of this variable, except the dim
+        of the rigs.
     draws
-        Number of points in each of the two sets, a power of 2.
+        Number of points in each of the two sets of random rigs. It must be a power of 2.
     seed
-        Random seed. The same seed gives the same indices.
+        Seed of the random rigs. The same seed gives the same indices.
     resamples
-        Number of bootstrap samples for 95 % intervals of the indices; 0 for no intervals.
+        Number of bootstrap samples from which 95 % intervals of the indices are computed. If it is
+        0, there are no intervals.
     progress
-        Function that is called with the number of rigs done and their total.
+        Function that reports progress, such as the result of `progress_bar`. It is called with the
+        number of completed rigs and the number of all rigs.
 
     Returns
     -------
     xarray.Dataset
-        Dim ``uncertain_parameter``, and those of the quantity: ``first_order``, the share of the
-        variance due to the parameter alone, and ``total_order``, the share including its
-        interactions with other parameters; their ``first_order_interval`` and
-        ``total_order_interval`` (dim ``bound``) if ``resamples`` is not 0; ``mean`` and
-        ``variance`` of the quantity, over the first two sets. An index is NaN if a response is
-        NaN or does not vary.
+        The dims are ``uncertain_parameter`` and the dims of the quantity. The variables are:
+
+        - ``first_order``, the share of the variance that is due to the parameter alone;
+        - ``total_order``, the share that also includes its interactions with other parameters;
+        - ``first_order_interval`` and ``total_order_interval`` (dim ``bound``), if ``resamples`` is
+          not 0;
+        - ``mean`` and ``variance`` of the quantity, over the first two sets of rigs.
+
+        An index is NaN if a response is NaN, or if the response does not vary.
 
     Raises
     ------
     InputError
-        As in `ensemble`; or if the response has no such quantity.
+        As in `ensemble`. Also if the response does not contain the quantity.
     """
     check_progress(progress)
     drawn = uncertain(rig, distributions)

@@ -24,7 +24,7 @@ AnyIsolator: TypeAlias = (
     | ExponentialIsolator
     | Law
 )
-"""Whatever can carry the mass."""
+"""All types of isolators."""
 
 ISOLATORS = Kinds(
     Isolator,

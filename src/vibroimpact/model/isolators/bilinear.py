@@ -11,24 +11,27 @@ from vibroimpact.model.validation import constructor
 class BilinearIsolator(YieldingLaw):
     """A bilinear isolator: two stiffnesses, a yield force, kinematic hardening, and a dashpot.
 
-    A spring k_p is parallel to an elastic, perfectly plastic element of stiffness k_e - k_p that
-    yields at ±u_y = F_y/k_e. The force is k_p u + (k_e - k_p) z, where z' = v while ``|z| < u_y``,
-    or while v reduces ``|z|``; otherwise z' = 0. It starts with z = 0.
+    A spring k_p is parallel to an elastic, perfectly plastic element of stiffness k_e - k_p, which
+    yields at the displacement u_y = F_y/k_e. The force is k_p u + (k_e - k_p) z. The deformation z
+    of the plastic element follows the mass (z' = v) while ``|z| < u_y``, and while v reduces
+    ``|z|``. While the element yields, z' = 0. A motion starts with z = 0.
 
-    Its kind in a table is ``"bilinear"``.
+    In a study file, its ``kind`` is ``"bilinear"``.
 
     Parameters
     ----------
     elastic_stiffness
-        k_e in N/m, greater than 0; or text such as ``"500 kN/m"``.
+        Elastic stiffness k_e in N/m, greater than 0; or text such as ``"500 kN/m"``.
     post_yield_stiffness
-        k_p in N/m, from 0 to k_e.
+        Post-yield stiffness k_p in N/m, from 0 to k_e.
     yield_force
-        F_y in N, greater than 0: the force at first yield; or text such as ``"1 kN"``.
+        Yield force F_y in N, greater than 0; or text such as ``"1 kN"``. It is the force at the
+        first yield.
     damping
-        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     damping_exponent
-        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
+        Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
+        (s/m)^α. Default: 1.
 
     Raises
     ------
@@ -61,5 +64,5 @@ class BilinearIsolator(YieldingLaw):
 
     @property
     def strongest(self) -> float:
-        """Largest static force (N): ∞, or F_y without a post-yield stiffness."""
+        """Largest static force (N): ∞, or F_y if the post-yield stiffness is 0."""
         return super().strongest if self.post_yield_stiffness else self.yield_force

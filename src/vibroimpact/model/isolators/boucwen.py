@@ -14,7 +14,7 @@ from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.validation import Accepts, constructor
 
 _SETTLED = 40.0
-"""The n (x - 1) from which on y is 1 to the last digit, for 1 - yⁿ < exp(-n (x - 1))."""
+"""Value of n (x - 1) above which y is 1 to the last digit, because 1 - yⁿ < exp(-n (x - 1))."""
 
 
 _DIGITS = 290.0
@@ -29,33 +29,37 @@ def _whole(value: Any) -> int:
 
 
 class BoucWenIsolator(YieldingLaw):
-    """A smooth hysteretic isolator of Bouc and Wen, with a dashpot.
+    """The smooth hysteretic isolator of Bouc and Wen, with a dashpot.
 
-    The force is k_p u + (k_e - k_p) z with ``z' = v [1 - |z/u_y|ⁿ (γ + β sgn(v z))]`` and
-    u_y = F_y/k_e (Wen, J. Eng. Mech. Div. 102 (1976) 249). It starts with z = 0, and ``|z|`` stays
-    below u_y/(β + γ)^(1/n). If β + γ = 1, the model approaches the `BilinearIsolator` with the same
-    stiffnesses and yield force as n increases.
+    The force is k_p u + (k_e - k_p) z, with ``z' = v [1 - |z/u_y|ⁿ (γ + β sgn(v z))]`` and u_y =
+    F_y/k_e (Wen, J. Eng. Mech. Div. 102 (1976) 249). A motion starts with z = 0, and ``|z|`` stays
+    below u_y/(β + γ)^(1/n). If β + γ = 1 and n increases, the model approaches the
+    `BilinearIsolator` with the same stiffnesses and the same yield force.
 
-    Its kind in a table is ``"bouc-wen"``.
+    In a study file, its ``kind`` is ``"bouc-wen"``.
 
     Parameters
     ----------
     elastic_stiffness
-        k_e in N/m, greater than 0; or text such as ``"500 kN/m"``.
+        Elastic stiffness k_e in N/m, greater than 0; or text such as ``"500 kN/m"``.
     post_yield_stiffness
-        k_p in N/m, from 0 to k_e.
+        Post-yield stiffness k_p in N/m, from 0 to k_e.
     yield_force
-        F_y in N, greater than 0; or text such as ``"1 kN"``.
+        Yield force F_y in N, greater than 0; or text such as ``"1 kN"``.
     damping
-        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     exponent
-        n, a whole number from 1 to 100: sharpness of the yielding.
+        Exponent n, a whole number from 1 to 100. The larger it is, the sharper is the transition to
+        yielding. Default: 1.
     beta
-        β, at least 0: hysteretic dissipation. 0 is a nonlinear elastic spring.
+        Parameter β of the hysteretic dissipation, at least 0. If it is 0, the law is a nonlinear
+        elastic spring. Default: 0.5.
     gamma
-        γ, with β + γ greater than 0. For γ = β it unloads with the elastic stiffness.
+        Parameter γ. The sum β + γ must be greater than 0. If γ = β, the isolator unloads with the
+        elastic stiffness. Default: 0.5.
     damping_exponent
-        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
+        Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
+        (s/m)^α. Default: 1.
 
     Raises
     ------
@@ -130,7 +134,7 @@ class BoucWenIsolator(YieldingLaw):
 
     @property
     def strongest(self) -> float:
-        """Largest static force (N): ∞; without a post-yield stiffness, k_e times the limit of z."""
+        """Largest static force (N): ∞, or k_e times the limit of z if k_p is 0."""
         if self.post_yield_stiffness:
             return super().strongest
         return self.elastic_stiffness * self.hysteretic_limit

@@ -1,4 +1,4 @@
-"""Design values, such as periods, which define an isolator together with a mass."""
+"""Design values, such as periods, which define an isolator for a given mass."""
 
 from __future__ import annotations
 
@@ -35,12 +35,12 @@ _ACCEPTS = {
 
 
 def design(**given: object) -> list[float]:
-    """Read the numbers of a design by name, in SI units.
+    """Read design values by name, in SI units.
 
     Raises
     ------
     InputError
-        If one is not finite, has a wrong unit or lies outside its bounds.
+        If a value is not finite, has a wrong unit or lies outside its bounds.
     """
     found = []
     for name, value in given.items():
@@ -56,7 +56,7 @@ def design(**given: object) -> list[float]:
 
 
 def force_of_strength(mass: float, strength: object) -> float:
-    """Return a strength in N, from a force or a share of the weight of a mass (kg).
+    """Return a strength in N. It is read as a force, or as a share of the weight of a mass (kg).
 
     Raises
     ------
@@ -75,21 +75,21 @@ def force_of_strength(mass: float, strength: object) -> float:
 
 
 def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | None) -> Any:
-    """Return the isolator of a table that holds the arguments of one of its law's `designs`.
+    """Return the isolator of a table that has the arguments of one of its law's `designs`.
 
     Parameters
     ----------
     table
-        May have a ``kind``.
+        Table, which may have a ``kind``.
     law
-        The class of that kind.
+        The class of this kind.
     mass
-        Mass that it carries (kg); None if the mass is invalid.
+        Mass on the isolator (kg). None if the mass is invalid.
 
     Returns
     -------
     IsolatorLaw
-        The isolator, or the table itself if it has none of those arguments.
+        The isolator, or the table itself if it has none of these arguments.
 
     Raises
     ------
@@ -112,7 +112,7 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
 
 
 def design_keys(law: type[IsolatorLaw]) -> list[str]:
-    """Return the keys that a table of this law may hold instead of its fields."""
+    """Return the keys that a table of this law may have instead of its fields."""
     return list(dict.fromkeys(p.name for name in law.designs for p in _arguments(law, name)))
 
 

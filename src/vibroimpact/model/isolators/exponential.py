@@ -15,7 +15,7 @@ from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import Accepts, constructor
 
 _LARGEST = 300.0
-"""What of |β| u the hyperbolic sine takes without overflow."""
+"""Largest |β| u for which the hyperbolic sine does not overflow."""
 
 
 class ExponentialIsolator(IsolatorLaw):
@@ -25,30 +25,33 @@ class ExponentialIsolator(IsolatorLaw):
 
         Q (e^{βu} - e^{-βu} - 2 βu) + k_b u + s f̄ - s (k_a - k_b)/α e^{-α(s u - u_j)},
 
-    f̄ = (k_a - k_b)/(2 α), and at each reversal u_j is chosen such that the force is continuous
-    (Vaiana, Sessa, Marmo and Rosati, Nonlinear Dynamics 93 (2018) 1647,
-    doi 10.1007/s11071-018-4282-2, where Q is 1 in the unit of force). It starts with zero force at
-    u = 0.
+    where f̄ = (k_a - k_b)/(2 α). At each reversal of the motion, u_j is chosen so that the force is
+    continuous (Vaiana, Sessa, Marmo and Rosati, Nonlinear Dynamics 93 (2018) 1647, doi
+    10.1007/s11071-018-4282-2; in that paper Q is 1 in the unit of force). A motion starts with zero
+    force at u = 0.
 
-    Its kind in a table is ``"exponential"``.
+    In a study file, its ``kind`` is ``"exponential"``.
 
     Parameters
     ----------
     reversal_stiffness
-        k_a in N/m, greater than 0: the tangent at u = 0 just after the reversal of a large loop;
-        or text such as ``"500 kN/m"``.
+        Reversal stiffness k_a in N/m, greater than 0; or text such as ``"500 kN/m"``. It is the
+        tangent stiffness at u = 0 just after a reversal in a large loop.
     final_stiffness
-        k_b in N/m, from 0 to k_a: the tangent far after a reversal, at u = 0.
+        Final stiffness k_b in N/m, from 0 to k_a. It is the tangent stiffness at u = 0 long after a
+        reversal.
     decay
-        α in 1/m, greater than 0: rate of the transition from k_a to k_b.
+        Rate α of the transition from k_a to k_b, in 1/m, greater than 0.
     damping
-        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     hardening
-        β in 1/m: rate of hardening at large displacements. A negative β softens; 0 means neither.
+        Rate β of hardening at large displacements, in 1/m. A negative β means softening. At 0 the
+        law neither hardens nor softens. Default: 0.
     hardening_force
-        Q in N, at least 0.
+        Force Q of the hardening, in N, at least 0. Default: 1.
     damping_exponent
-        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
+        Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
+        (s/m)^α. Default: 1.
 
     Raises
     ------
@@ -107,7 +110,7 @@ class ExponentialIsolator(IsolatorLaw):
 
     @property
     def initial_stiffness(self) -> float:
-        """Tangent stiffness at the start, (k_a + k_b)/2 (N/m)."""
+        """Tangent stiffness at the start of a motion, (k_a + k_b)/2 (N/m)."""
         return 0.5 * (self.reversal_stiffness + self.final_stiffness)
 
     def elastic_force(self, displacement: float) -> float:
@@ -142,7 +145,7 @@ class ExponentialIsolator(IsolatorLaw):
 
     @property
     def reach(self) -> float:
-        """Displacement of the largest static force of a softening law (m); ∞ if it hardens."""
+        """Displacement (m) of the largest static force if the law softens; ∞ if it does not."""
 
         def tangent(u: float) -> float:
             bent = 2.0 * math.sinh(0.5 * self.hardening * u) ** 2  # cosh βu - 1
@@ -163,7 +166,7 @@ class ExponentialIsolator(IsolatorLaw):
 
     @property
     def restoring_reach(self) -> float:
-        """Displacement at which the elastic force of a softening law changes its sign (m)."""
+        """Displacement (m) at which the elastic force of a softening law changes its sign."""
         return self._falling_zero(lambda u: self.elastic_force(u) / u if u else 0.0)
 
     def _falling_zero(self, falling: Callable[[float], float]) -> float:

@@ -13,23 +13,25 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class FrictionIsolator(SpringLaw):
-    """A linear spring and dashpot with parallel Coulomb friction.
+    """A linear spring and a dashpot, in parallel with Coulomb friction.
 
-    The force is K u + C v + F_c sgn v while the mass slides. If it stops and the other forces do
-    not exceed F_c, it sticks until they do.
+    While the mass slides, the force is K u + C v + F_c sgn v. If the mass stops and the other
+    forces on it do not exceed F_c, it sticks until they exceed F_c.
 
-    Its kind in a table is ``"friction"``.
+    In a study file, its ``kind`` is ``"friction"``.
 
     Parameters
     ----------
     stiffness
-        K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
+        Stiffness K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
     damping
-        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     friction
-        F_c in N, at least 0, equal for sliding and sticking; or text such as ``"120 N"``.
+        Friction force F_c in N, at least 0; or text such as ``"120 N"``. It is the same for sliding
+        and for sticking.
     damping_exponent
-        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
+        Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
+        (s/m)^α. Default: 1.
 
     Raises
     ------
@@ -66,26 +68,28 @@ class FrictionIsolator(SpringLaw):
         coefficient: float | str | None = None,
         **others: Any,
     ) -> Self:
-        """Return the isolator with a given period while sliding, and a given friction.
+        """Return the isolator that gives a mass a sliding period and a friction force.
 
         Parameters
         ----------
         mass
-            Mass that it carries, M in kg, greater than 0; or text such as ``"5000 t"``.
+            Mass M on the isolator in kg, greater than 0; or text such as ``"5000 t"``.
         period
-            T in s of the spring, greater than 0; or text such as ``"2.5 s"``. A friction pendulum
-            of radius R has T = 2π √(R/g) for any mass.
+            Natural period T of the mass on the spring while it slides, in s, greater than 0; or
+            text such as ``"2.5 s"``. A friction pendulum of radius R has T = 2π √(R/g) for any
+            mass.
         damping_ratio
-            ξ of the parallel dashpot, at least 0.
+            Damping ratio ξ of the parallel dashpot, at least 0. Default: 0.
         coefficient
-            Coefficient of friction μ, at least 0, for F_c = μ M g.
+            Coefficient of friction μ, at least 0. The friction force is F_c = μ M g.
         **others
-            ``friction``, the force F_c, instead of the coefficient.
+            Other fields of the isolator, such as ``friction``, the force F_c, instead of the
+            coefficient.
 
         Returns
         -------
         FrictionIsolator
-            K = M (2π/T)² and C = 2 ξ M 2π/T.
+            Isolator with K = M (2π/T)² and C = 2 ξ M 2π/T.
 
         Raises
         ------
@@ -114,20 +118,20 @@ class FrictionIsolator(SpringLaw):
         Parameters
         ----------
         mass
-            Mass that it carries, M in kg, greater than 0; or text such as ``"550 kg"``.
+            Mass M on the isolator in kg, greater than 0; or text such as ``"550 kg"``.
         radius
-            Effective radius of the concave surface, R in m, greater than 0; or text such as
+            Effective radius R of the concave surface in m, greater than 0; or text such as
             ``"2.5 m"``.
         coefficient
             Coefficient of friction μ, at least 0.
         damping
-            C in N s/m, at least 0.
+            Damping coefficient C in N s/m, at least 0. Default: 0.
 
         Returns
         -------
         FrictionIsolator
-            K = M g/R and F_c = μ M g, for displacements much smaller than R (Zayas, Low and
-            Mahin, Earthquake Spectra 6 (1990) 317).
+            Isolator with K = M g/R and F_c = μ M g. It is valid for displacements much smaller than
+            R (Zayas, Low and Mahin, Earthquake Spectra 6 (1990) 317).
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Base classes of isolators: a dashpot, and a restoring force."""
+"""Base classes of isolators, which have a restoring force and a dashpot."""
 
 from __future__ import annotations
 
@@ -16,25 +16,26 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class IsolatorLaw(Named):
-    """Base of the isolators: a restoring force plus the viscous force ``c |v|^α sgn v``.
+    """Base class of the isolators: a restoring force plus the viscous force ``c |v|^α sgn v``.
 
-    A new law defines its `initial_stiffness` and its `static_force`, and where that force stops
-    growing (`reach`) or is bounded (`strongest`).
+    A new law defines its `initial_stiffness` and its `static_force`. If the static force stops
+    growing, it also defines the displacement where it does (`reach`). If the force is bounded, it
+    also defines the bound (`strongest`).
 
     Attributes
     ----------
     damping
-        c in N (s/m)^α, at least 0.
+        Damping coefficient c in N (s/m)^α, at least 0.
     damping_exponent
-        α, greater than 0: 1 is a linear dashpot, 2 the drag of a turbulent fluid, less than 1 a
-        fluid damper.
+        Exponent α, greater than 0. It is 1 for a linear dashpot, 2 for the drag of a turbulent
+        fluid, and less than 1 for a fluid damper.
     """
 
     _quiet: ClassVar = {"damping_exponent": 1.0}
 
     designs: ClassVar[tuple[str, ...]] = ()
-    """Constructors from what a designer knows of the isolator of a mass, such as its period; a
-    table inside an `Oscillator` may hold their arguments instead of the fields."""
+    """Names of constructors from design values, such as the period. A table inside an `Oscillator`
+    may have their arguments instead of the fields."""
 
     # The exponent stands first, for the unit of the damping depends on it.
     damping_exponent: Annotated[float, Accepts(DIMENSIONLESS, above=0.0)] = 1.0
@@ -57,12 +58,12 @@ class IsolatorLaw(Named):
         raise NotImplementedError
 
     def static_force(self, displacement: float) -> float:
-        """Return the force (N) after a first, slow displacement (m) from rest: an odd function."""
+        """Return the force (N) of a first, slow displacement (m) from rest: an odd function."""
         raise NotImplementedError
 
     @property
     def remembers(self) -> bool:
-        """Whether the force depends on a memory z as well as on displacement and velocity."""
+        """Whether the force also depends on an internal variable z (memory)."""
         return False
 
     def remembered(self, displacement: float) -> float:
@@ -71,7 +72,7 @@ class IsolatorLaw(Named):
 
     @property
     def reach(self) -> float:
-        """Displacement (m) up to which the static force grows; ∞ if it grows without end."""
+        """Displacement (m) up to which the static force grows; ∞ if it always grows."""
         return math.inf
 
     @property
@@ -81,12 +82,12 @@ class IsolatorLaw(Named):
 
     @property
     def linear_and_bounded(self) -> tuple[float, float] | None:
-        """The static force as K u + q with ``|q|`` at most Q: (K, Q), or None."""
+        """The pair (K, Q) if the static force is K u + q with ``|q|`` at most Q; otherwise None."""
         return None
 
     @property
     def restoring_reach(self) -> float:
-        """Displacement (m) up to which the elastic force is restoring; ∞ if everywhere."""
+        """Displacement (m) up to which the elastic force is restoring; ∞ if it always is."""
         return math.inf
 
     def viscous_force(self, velocity: float) -> float:
@@ -95,7 +96,7 @@ class IsolatorLaw(Named):
 
     @classmethod
     def table_keys(cls) -> list[str]:
-        """Return the keys that a table of this law may hold."""
+        """Return the keys that a table of this law may have."""
         return [*super().table_keys(), *design_keys(cls)]
 
     @classmethod
@@ -108,7 +109,7 @@ class IsolatorLaw(Named):
 
 
 class SpringLaw(IsolatorLaw):
-    """Base of the laws with a linear spring K."""
+    """Base class of the laws with a linear spring K."""
 
     designs: ClassVar[tuple[str, ...]] = ("from_period",)
 
@@ -122,29 +123,30 @@ class SpringLaw(IsolatorLaw):
     def from_period(
         cls, mass: float | str, period: float | str, damping_ratio: float | str, **others: Any
     ) -> Self:
-        """Return the isolator that gives a mass a period and a damping ratio.
+        """Return the isolator that gives a mass a natural period and a damping ratio.
 
         Parameters
         ----------
         mass
-            What it carries, M in kg, greater than 0; or text such as ``"5000 t"``.
+            Mass M on the isolator in kg, greater than 0; or text such as ``"5000 t"``.
         period
-            T of the linear spring in s, greater than 0; or text such as ``"2.5 s"``.
+            Natural period T of the mass on the linear spring in s, greater than 0; or text such as
+            ``"2.5 s"``.
         damping_ratio
-            ξ of the parallel dashpot, at least 0; or text such as ``"15 %"``.
+            Damping ratio ξ of the parallel dashpot, at least 0; or text such as ``"15 %"``.
         **others
             Other fields of the law.
 
         Returns
         -------
         IsolatorLaw
-            K = M (2π/T)² and C = 2 ξ M 2π/T.
+            Isolator with K = M (2π/T)² and C = 2 ξ M 2π/T.
 
         Raises
         ------
         InputError
-            If a value is not finite, has a wrong unit or lies outside its bounds, or is determined
-            by the period.
+            If a value is not finite, has a wrong unit or lies outside its bounds. Also if one of
+            the other fields is already determined by the period.
 
         Examples
         --------
@@ -157,7 +159,7 @@ class SpringLaw(IsolatorLaw):
 
     @property
     def initial_stiffness(self) -> float:
-        """K, N/m."""
+        """Stiffness K (N/m)."""
         return self.stiffness
 
 
@@ -168,9 +170,10 @@ def spring_and_dashpot(mass: float, period: float, damping_ratio: float) -> dict
 
 
 class YieldingLaw(IsolatorLaw):
-    """Base of the laws with a spring k_p parallel to a yielding element of stiffness k_e - k_p.
+    """Base class of the laws with a spring k_p parallel to a yielding element.
 
-    The force is k_p u + (k_e - k_p) z; the law defines the evolution of z.
+    The stiffness of the yielding element is k_e - k_p. The force is k_p u + (k_e - k_p) z. Each law
+    defines how z evolves.
     """
 
     designs: ClassVar[tuple[str, ...]] = ("from_strength",)
@@ -198,32 +201,33 @@ class YieldingLaw(IsolatorLaw):
         Parameters
         ----------
         mass
-            What it carries, M in kg, greater than 0; or text such as ``"5000 t"``.
+            Mass M on the isolator in kg, greater than 0; or text such as ``"5000 t"``.
         strength
-            Characteristic strength Q_d, the force at zero displacement of a loop, as a share of
-            the weight M g from 0 to 1, 0 excluded; or as a force, in text such as ``"2.5 MN"``.
+            Characteristic strength Q_d: the force of a hysteresis loop at zero displacement. A
+            number is a share of the weight M g, greater than 0 and at most 1. A text such as
+            ``"2.5 MN"`` is a force.
         yield_displacement
-            u_y in m, greater than 0; or text such as ``"10 mm"``.
+            Yield displacement u_y in m, greater than 0; or text such as ``"10 mm"``.
         post_yield_period
-            T_p in s, greater than 0: period of the mass on the post-yield stiffness alone; or text
-            such as ``"2.5 s"``.
+            Natural period T_p of the mass on the post-yield stiffness alone, in s, greater than 0;
+            or text such as ``"2.5 s"``.
         post_yield_damping_ratio
-            ξ_p of the dashpot, at least 0, relative to the post-yield period. Yielding dissipates
-            far more.
+            Damping ratio ξ_p of the dashpot at the post-yield period, at least 0. Yielding
+            dissipates far more energy than this dashpot. Default: 0.
         **others
             Other fields of the law.
 
         Returns
         -------
         YieldingLaw
-            k_p = M (2π/T_p)², F_y = Q_d + k_p u_y, k_e = F_y/u_y and C = 2 ξ_p M 2π/T_p (Naeim
-            and Kelly, Design of Seismic Isolated Structures, 1999, ch. 5).
+            Isolator with k_p = M (2π/T_p)², F_y = Q_d + k_p u_y, k_e = F_y/u_y and C = 2 ξ_p M
+            2π/T_p (Naeim and Kelly, Design of Seismic Isolated Structures, 1999, ch. 5).
 
         Raises
         ------
         InputError
-            If a value is not finite, has a wrong unit or lies outside its bounds, or is determined
-            by the strength.
+            If a value is not finite, has a wrong unit or lies outside its bounds. Also if one of
+            the other fields is already determined by the strength.
 
         Examples
         --------
@@ -276,12 +280,12 @@ class YieldingLaw(IsolatorLaw):
 
     @property
     def initial_stiffness(self) -> float:
-        """k_e, N/m."""
+        """Elastic stiffness k_e (N/m)."""
         return self.elastic_stiffness
 
     @property
     def linear_and_bounded(self) -> tuple[float, float]:
-        """The pair of k_p, and (k_e - k_p) times the limit of z."""
+        """The pair of k_p and (k_e - k_p) times the limit of z."""
         return self.post_yield_stiffness, self.hysteretic_stiffness * self.hysteretic_limit
 
     @property

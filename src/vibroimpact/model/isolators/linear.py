@@ -9,18 +9,19 @@ from vibroimpact.model.validation import constructor
 
 
 class Isolator(SpringLaw):
-    """A linear spring and dashpot that carry the mass (the paper's damper D).
+    """A linear spring and a dashpot that carry the mass (the paper's damper D).
 
-    Its kind, ``"linear"``, may be omitted in a table.
+    In a study file, its ``kind`` is ``"linear"``, which may be omitted.
 
     Parameters
     ----------
     stiffness
-        K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
+        Stiffness K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
     damping
-        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     damping_exponent
-        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
+        Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
+        (s/m)^α. Default: 1.
 
     Raises
     ------
@@ -51,7 +52,7 @@ class Isolator(SpringLaw):
 
     @property
     def linear(self) -> bool:
-        """Whether its force is K u + C v."""
+        """Whether the force is K u + C v."""
         return self.damping_exponent == 1.0
 
     def static_force(self, displacement: float) -> float:

@@ -1,4 +1,4 @@
-"""Hardening or softening spring of Duffing."""
+"""Duffing's spring, which hardens or softens."""
 
 from __future__ import annotations
 
@@ -11,22 +11,24 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class PolynomialIsolator(SpringLaw):
-    """An isolator with the restoring force K u + k₃ u³ + k₅ u⁵ (Duffing), and a dashpot.
+    """A nonlinear spring with the force K u + k₃ u³ + k₅ u⁵ (Duffing), and a dashpot.
 
-    Its kind in a table is ``"polynomial"``.
+    In a study file, its ``kind`` is ``"polynomial"``.
 
     Parameters
     ----------
     stiffness
-        K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
+        Stiffness K in N/m, at least 0; or text such as ``"26.8 kN/m"``.
     damping
-        C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
+        Damping coefficient C in N s/m, at least 0; or text such as ``"1.1 kN s/m"``.
     cubic
-        k₃ in N/m³; or text such as ``"5 MN/m^3"``. A negative value softens the spring. Default: 0.
+        Coefficient k₃ in N/m³; or text such as ``"5 MN/m^3"``. A negative value makes the spring
+        soften. Default: 0.
     quintic
-        k₅ in N/m⁵; or text such as ``"5 MN/m^5"``. Default: 0.
+        Coefficient k₅ in N/m⁵; or text such as ``"5 MN/m^5"``. Default: 0.
     damping_exponent
-        α of the viscous force ``C |v|^α sgn v``, greater than 0; C is then in N (s/m)^α.
+        Exponent α of the viscous force ``C |v|^α sgn v``, greater than 0. The unit of C is N
+        (s/m)^α. Default: 1.
 
     Raises
     ------
@@ -63,7 +65,7 @@ class PolynomialIsolator(SpringLaw):
 
     @property
     def linear_and_bounded(self) -> tuple[float, float] | None:
-        """The pair (K, 0) without powers; otherwise None."""
+        """The pair (K, 0) if k₃ and k₅ are 0; otherwise None."""
         return None if self.cubic or self.quintic else (self.stiffness, 0.0)
 
     @property
@@ -73,7 +75,7 @@ class PolynomialIsolator(SpringLaw):
 
     @property
     def strongest(self) -> float:
-        """Largest static force within the reach (N); 0 without any spring."""
+        """Largest static force within the reach (N); 0 if there is no spring."""
         if not (self.stiffness or self.cubic or self.quintic):
             return 0.0
         return super().strongest

@@ -15,20 +15,20 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class Bumper(Named):
-    """A massless deformable stop: spring and dashpot in parallel (Kelvin-Voigt).
+    """A massless deformable stop: a spring and a dashpot in parallel (Kelvin-Voigt).
 
-    Its kind, ``"kelvin-voigt"``, may be omitted in a table.
+    In a study file, its ``kind`` is ``"kelvin-voigt"``, which may be omitted.
 
     Parameters
     ----------
     stiffness
-        K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
+        Stiffness K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
     damping
-        C_j in N s/m, at least 0; or text such as ``"0.9 kN s/m"``.
+        Damping coefficient C_j in N s/m, at least 0; or text such as ``"0.9 kN s/m"``.
     gap
-        G0_j in m: the distance from the mass at u = 0 to the bumper at rest; or text such as
-        ``"7.5 mm"``. The total gap of a symmetric rig is twice as large. A negative gap is a
-        preload: at u = 0 the bumper is compressed by that much.
+        Gap G0_j in m, or text such as ``"7.5 mm"``. It is the distance from the mass at u = 0 to
+        the undeformed bumper. The total gap of a symmetric rig is twice this gap. A negative gap is
+        a preload: at u = 0 the bumper is compressed by this amount.
 
     Raises
     ------
@@ -55,29 +55,30 @@ class Bumper(Named):
         restitution: float | str,
         gap: float | str,
     ) -> Self:
-        """Return the bumper whose dashpot gives a coefficient of restitution.
+        """Return the bumper whose dashpot gives a mass a coefficient of restitution.
 
-        It holds for an impact of the mass on the bumper at rest without other forces, which ends
-        when the contact force falls to zero. The isolator and the base change the restitution of a
-        real contact; the stiffer the bumper, the smaller the change.
+        The coefficient applies to an impact of the mass on the undeformed bumper without other
+        forces. The impact ends when the contact force falls to zero. In a rig, the forces of the
+        isolator and the motion of the base change the restitution of a contact. The stiffer the
+        bumper, the smaller is this change.
 
         Parameters
         ----------
         mass
-            M in kg, greater than 0; or text such as ``"550 kg"``.
+            Mass M in kg, greater than 0; or text such as ``"550 kg"``.
         stiffness
-            K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
+            Stiffness K_j in N/m, greater than 0; or text such as ``"510 kN/m"``.
         restitution
             Coefficient of restitution (rebound velocity divided by impact velocity), greater than 0
-            and at most 1; 1 needs no dashpot.
+            and at most 1. At 1 the bumper has no dashpot.
         gap
-            G0_j in m; or text such as ``"7.5 mm"``.
+            Gap G0_j in m; or text such as ``"7.5 mm"``.
 
         Returns
         -------
         Bumper
-            Bumper with C_j = 2 z √(K_j M), z from Schwager and Pöschel, Granular Matter 9 (2007)
-            465.
+            Bumper with C_j = 2 z √(K_j M), where z follows from Schwager and Pöschel, Granular
+            Matter 9 (2007) 465.
 
         Raises
         ------
@@ -96,12 +97,12 @@ class Bumper(Named):
 
     @classmethod
     def table_keys(cls) -> list[str]:
-        """Return the keys that a table of this stop may hold."""
+        """Return the keys that a table of this stop may have."""
         return [*super().table_keys(), "restitution"]
 
     @property
     def linear(self) -> bool:
-        """Whether the force is K_j d + C_j d'."""
+        """Whether the force is linear in the deformation d and its rate d': K_j d + C_j d'."""
         return True
 
     def static_force(self, deformation: float) -> float:

@@ -1,4 +1,4 @@
-"""Pounding of structures: a Hertz contact that dissipates energy while it closes."""
+"""Pounding of structures: a Hertz contact that dissipates energy during the approach."""
 
 from __future__ import annotations
 
@@ -14,26 +14,27 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class JankowskiBumper(Named):
-    """A massless Hertz stop that dissipates energy in the approach only.
+    """A massless Hertz stop that dissipates energy only during the approach.
 
-    F = k δ^1.5 + 2 ξ √(m k √δ) δ' while δ' > 0, and k δ^1.5 after that, where δ is the penetration
-    depth of the mass (Jankowski, Earthquake Eng. Struct. Dyn. 34 (2005) 595; ξ of 35 (2006) 517).
+    The force is F = k δ^1.5 + 2 ξ √(m k √δ) δ' during the approach (δ' > 0), and F = k δ^1.5 during
+    the rebound. δ is the penetration depth of the mass (Jankowski, Earthquake Eng. Struct. Dyn. 34
+    (2005) 595; ξ is from 35 (2006) 517).
 
-    Its kind in a table is ``"jankowski"``.
+    In a study file, its ``kind`` is ``"jankowski"``.
 
     Parameters
     ----------
     stiffness
-        k in N/m^1.5, greater than 0; or text such as ``"2 GN/m^1.5"``.
+        Stiffness k in N/m^1.5, greater than 0; or text such as ``"2 GN/m^1.5"``.
     gap
-        Distance in m from the mass at u = 0 to the stop at rest; or text such as ``"7.5 mm"``.
+        Distance from the mass at u = 0 to the undeformed stop, in m; or text such as ``"7.5 mm"``.
         A negative gap is a preload.
     restitution
-        e, greater than 0 and at most 1: approximate coefficient of restitution of an impact of the
-        mass m.
+        Coefficient of restitution e of an impact of the mass m, greater than 0 and at most 1. The
+        model reaches it approximately.
     mass
-        m in kg, greater than 0: the mass that hits the stop, m₁ m₂/(m₁ + m₂) for two bodies; or
-        text such as ``"550 kg"``.
+        Mass m that hits the stop, in kg, greater than 0; or text such as ``"550 kg"``. For two
+        bodies that hit each other it is m₁ m₂/(m₁ + m₂).
 
     Raises
     ------
@@ -78,7 +79,7 @@ class JankowskiBumper(Named):
 
     @property
     def linear(self) -> bool:
-        """Whether the force is K_j d + C_j d'."""
+        """Whether the force is linear in the deformation d and its rate d': K_j d + C_j d'."""
         return False
 
     def static_force(self, deformation: float) -> float:

@@ -1,4 +1,4 @@
-"""Power-law contacts: Hertz, with the damping of Hunt and Crossley."""
+"""Power-law contacts, such as the contact of Hertz, with the damping of Hunt and Crossley."""
 
 from __future__ import annotations
 
@@ -25,39 +25,45 @@ _EXPONENT = replace(DIMENSIONLESS, example="1.5", number=1.5)
 class PowerBumper(Named):
     """A massless stop whose force is a power of its deformation (Hertz, Hunt and Crossley).
 
-    F = k δⁿ (1 + χ δ') for δ > 0, and never less than 0, where δ is the penetration depth of the
-    mass. n = 1.5 is Hertz's contact of curved surfaces, n = 1 a spring. The dissipation is set by
-    χ, or by the coefficient of restitution of impacts, from which each contact gets its own χ =
-    d/v₀ with its closing speed v₀. With neither, the contact is elastic. A contact that does not
-    start with an impact, such as that of a preloaded stop, has no closing speed; with a restitution
-    it is elastic until the mass has left the stop.
+    The force is F = k δⁿ (1 + χ δ') for δ > 0, and never less than 0. δ is the penetration depth of
+    the mass. n = 1.5 is the contact of Hertz between curved surfaces, and n = 1 is a spring.
 
-    Its kind in a table is ``"power"``.
+    There are two ways to specify the dissipation: the coefficient χ, or the coefficient of
+    restitution of impacts. In the second case each contact has its own χ = d/v₀, where v₀ is its
+    closing speed and d follows from the coefficient of restitution. If neither is specified, the
+    contact is elastic.
+
+    A contact that does not start with an impact, such as the contact with a preloaded stop, has no
+    closing speed. With a coefficient of restitution, such a contact is elastic until the mass has
+    left the stop.
+
+    In a study file, its ``kind`` is ``"power"``.
 
     Parameters
     ----------
     stiffness
-        k in N/mⁿ, greater than 0; or text such as ``"2 GN/m^1.5"``.
+        Stiffness k in N/mⁿ, greater than 0; or text such as ``"2 GN/m^1.5"``.
     gap
-        Distance in m from the mass at u = 0 to the stop at rest; or text such as ``"7.5 mm"``.
+        Distance from the mass at u = 0 to the undeformed stop, in m; or text such as ``"7.5 mm"``.
         A negative gap is a preload.
     exponent
-        n, at least 1.
+        Exponent n, at least 1. Default: 1.5.
     dissipation
-        χ in s/m, at least 0. Default: None, see above.
+        Dissipation coefficient χ in s/m, at least 0. Default: None, see above.
     restitution
-        e, from 0 to 1: rebound velocity divided by impact velocity without other forces. Default:
-        None, see above.
+        Coefficient of restitution e, from 0 to 1: the rebound velocity divided by the impact
+        velocity, without other forces. Default: None, see above.
     relation
-        Relation from which d is computed for e: ``"exact"`` (the default), which gives exactly e;
-        or one of the approximations ``"hunt-crossley"``, ``"lankarani-nikravesh"``, ``"flores"``
-        and ``"gonthier"``. The exact relation and the last two need an e greater than 0.
+        Relation by which d is computed from e. ``"exact"`` (the default) gives exactly the
+        restitution e. ``"hunt-crossley"``, ``"lankarani-nikravesh"``, ``"flores"`` and
+        ``"gonthier"`` are approximations. ``"exact"``, ``"flores"`` and ``"gonthier"`` require an e
+        greater than 0.
 
     Raises
     ------
     InputError
-        If a value is not finite, has a wrong unit or lies outside its bounds; if both dissipation
-        and restitution are given.
+        If a value is not finite, has a wrong unit or lies outside its bounds. Also if both
+        ``dissipation`` and ``restitution`` are passed.
     """
 
     kind: ClassVar[str] = "power"
@@ -111,7 +117,7 @@ class PowerBumper(Named):
 
     @property
     def dissipation_number(self) -> float | None:
-        """The d = χ v₀ of all impacts; None for a given χ, with which it depends on the impact."""
+        """The number d = χ v₀ of all impacts. None if χ is specified: d then varies."""
         if self.dissipation is not None:
             return None
         return (
@@ -120,7 +126,7 @@ class PowerBumper(Named):
 
     @property
     def linear(self) -> bool:
-        """Whether the force is K_j d + C_j d'."""
+        """Whether the force is linear in the deformation d and its rate d': K_j d + C_j d'."""
         return False
 
     def static_force(self, deformation: float) -> float:

@@ -1,4 +1,4 @@
-"""A wall that does not give way."""
+"""A rigid wall."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from vibroimpact.model.validation import Accepts, constructor
 
 
 class RigidStop(Named):
-    """A rigid wall from which the mass rebounds at once; the mass may come to rest on it.
+    """A rigid wall. The mass rebounds from it at once, or comes to rest on it.
 
-    If the mass reaches the wall with velocity v, it leaves with -e v. If a force presses it against
-    the wall and e < 1, it chatters: infinitely many impacts occur in a finite time. Then it rests
-    on the wall until the pressing force vanishes.
+    If the mass reaches the wall with the velocity v, it leaves the wall with the velocity -e v. If
+    a force presses the mass against the wall and e < 1, the mass chatters: infinitely many impacts
+    occur in a finite time. After that the mass rests on the wall until the pressing force vanishes.
 
     Parameters
     ----------
     restitution
         Coefficient of restitution e, from 0 to 1: rebound velocity divided by impact velocity.
     gap
-        Distance in m from the mass at u = 0 to the wall; or text such as ``"7.5 mm"``. With a
-        negative gap the mass rests on the wall, away from u = 0, until it is shaken off.
+        Distance from the mass at u = 0 to the wall, in m; or text such as ``"7.5 mm"``. If the gap
+        is negative, the mass rests on the wall, away from u = 0, until the shaking lifts it off.
 
     Raises
     ------
@@ -41,5 +41,5 @@ class RigidStop(Named):
 
     @property
     def linear(self) -> bool:
-        """Whether the wall keeps the motion between impacts linear."""
+        """Whether the motion between impacts stays linear: always true for a rigid wall."""
         return True

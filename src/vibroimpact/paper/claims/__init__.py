@@ -1,4 +1,4 @@
-"""The paper's testable statements, in its order, each with the computation that judges it."""
+"""The testable statements in the order of the paper, each with the computation that judges it."""
 
 from __future__ import annotations
 
@@ -40,7 +40,8 @@ LINEAR: tuple[Claim, ...] = (
     *grazing.MODEL,
     *_of(*_ALONG),
 )
-"""All of them, judged with the paper's model; keys are unique."""
+"""All statements, judged with the model of the paper. Their keys are unique."""
 
 CLAIMS: tuple[Claim, ...] = (*LINEAR, *refined.judged_again(LINEAR))
-"""And those that it could not judge or got wrong, with the refined isolator."""
+"""All statements, and those that the model of the paper could not judge or did not reproduce,
+judged again with the refined isolator."""

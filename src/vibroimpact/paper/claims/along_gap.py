@@ -17,7 +17,7 @@ _CODES = tuple(f"B3-{gap}-A3" for gap in reversed(GAPS))
 
 
 def jumps_of(data: xr.Dataset) -> dict[str, tuple[float, float]]:
-    """Downward and upward jump at the primary resonance (Hz), by the rigs that have both."""
+    """Return the downward and upward jump at the primary resonance (Hz) of rigs that have both."""
     found = {}
     for code in data["rig"].values:
         jumps = [j for j in features(data.sel(rig=code, drop=True)).jumps if j.settled]
@@ -39,7 +39,7 @@ def jumps_of(data: xr.Dataset) -> dict[str, tuple[float, float]]:
     Kind.RULES,
 )
 def along_gap(study: PublishedStudy) -> Finding:
-    """Never back, and none left out."""
+    """Check that the order never reverses, and that no scenario is missing."""
     found = [study.classification(code, *_RANGE).scenario for code in _CODES]
     told = ", ".join(
         f"{code.split('-')[1]} {scenario}" for code, scenario in zip(_CODES, found, strict=True)
@@ -59,7 +59,7 @@ def along_gap(study: PublishedStudy) -> Finding:
     "upward jump by less over the family.",
 )
 def jumps_along_gap(study: PublishedStudy) -> Finding:
-    """From the widest gap with a jump to the smallest."""
+    """Compare the jumps from the widest gap with a jump to the smallest one."""
     found = jumps_of(study.by_gap().sel(rig=list(_CODES)))
     down, up = np.array(list(found.values())).T
     told = ", ".join(f"{code.split('-')[1]} {d:.2f} and {u:.2f}" for code, (d, u) in found.items())
@@ -68,7 +68,7 @@ def jumps_along_gap(study: PublishedStudy) -> Finding:
 
 
 def _maxima(study: PublishedStudy, curve: Curve, direction: Direction) -> tuple[Array, float]:
-    """Largest excursions along falling gaps, and that without a gap, a scenario of its own."""
+    """Return the largest excursions along falling gaps, and separately without a gap."""
     most = study.by_gap()[curve].sel(rig=list(_CODES), direction=direction).max("frequency")
     return most.values[:-1], float(most[-1])
 
@@ -86,7 +86,7 @@ def _gap(k: int) -> str:
     "then falls; and the range of the backward maxima is the smaller one.",
 )
 def bell_along_gap(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check the maxima of both sweep directions."""
     told, ranges, holds = [], [], True
     for way in BOTH:
         values, none = _maxima(study, "eta_a", way)
@@ -112,7 +112,7 @@ def bell_along_gap(study: PublishedStudy) -> Finding:
     "where bumpers are hit.",
 )
 def displacement_along_gap(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check the maxima of both sweep directions."""
     told, holds = [], True
     for way in BOTH:
         values, none = _maxima(study, "eta_d", way)

@@ -30,7 +30,7 @@ _CODES = tuple(f"{stiffness}-G3-A1" for stiffness in STIFFNESSES)
     "Scenarios for the bumper stiffnesses from 10 kN/m to 10 MN/m: S6 first, then S2, no other.",
 )
 def soft(study: PublishedStudy) -> Finding:
-    """In the order of stiffness."""
+    """Check the scenarios in the order of rising stiffness."""
     found = [study.classification(code).scenario for code in _CODES]
     told = ", ".join(f"{s} {f}" for s, f in zip(STIFFNESSES, found, strict=True))
     return Finding(found == sorted(found, reverse=True) and set(found) == {"S6", "S2"}, told)
@@ -45,7 +45,7 @@ def soft(study: PublishedStudy) -> Finding:
     "all higher harmonics of the displacement together are below 10 % of the first.",
 )
 def soft_motion(study: PublishedStudy) -> Finding:
-    """At the resonance of each."""
+    """Check the spectrum at the resonance of each stiffness."""
     codes = [code for code in _CODES if study.classification(code).scenario == "S6"]
     if not codes:
         raise AbsentError("no stiffness gives S6")
@@ -69,7 +69,7 @@ def soft_motion(study: PublishedStudy) -> Finding:
     Kind.RULES,
 )
 def no_secondary(study: PublishedStudy) -> Finding:
-    """By the classification's evidence."""
+    """Use the evidence of the classification."""
     found = {}
     for code in _CODES:
         one = study.classification(code)
@@ -91,7 +91,7 @@ def no_secondary(study: PublishedStudy) -> Finding:
     "more than the step of 0.01 Hz over the family, and the upward one by less.",
 )
 def jumps_along_stiffness(study: PublishedStudy) -> Finding:
-    """Upwards it jumps where free flight reaches the gap."""
+    """Follow both jumps; the upward one is where the motion without stops reaches the gap."""
     found = jumps_of(study.by_stiffness().sel(rig=list(_CODES)))
     down, up = np.array(list(found.values())).T
     rises = [bool((np.diff(v) >= 0).all()) and v[-1] - v[0] > 1.5 * STEP for v in (down, up)]
@@ -109,7 +109,7 @@ def jumps_along_stiffness(study: PublishedStudy) -> Finding:
     "Maxima of both directions of G3-A1 along rising stiffness: rising in η_a, falling in η_d.",
 )
 def maxima_along_stiffness(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check the maxima of both sweep directions."""
     data = study.by_stiffness().sel(rig=list(_CODES))
     told, holds = [], True
     for curve, sign, name in zip(CURVES, (1, -1), ("η_a", "η_d"), strict=True):

@@ -44,7 +44,7 @@ def _resonance(study: PublishedStudy) -> float:
     "What the sweeps from 0.3 to 10 Hz show, and the largest difference of the directions.",
 )
 def smooth(study: PublishedStudy) -> Finding:
-    """One peak a curve."""
+    """Check that each curve has only one peak."""
     data = _curves(study)
     found = features(data)
     others = [p for p in found.peaks if not p.primary]
@@ -64,7 +64,7 @@ def smooth(study: PublishedStudy) -> Finding:
     "Frequency of the largest η_d: 5.4 Hz to the digit printed (5.35 to 5.45 Hz).",
 )
 def resonance(study: PublishedStudy) -> Finding:
-    """With the parameters of Table 1."""
+    """Use the parameters of Table 1."""
     found = _resonance(study)
     rig = _curves(study)["eta_a"].sel(direction="forward")
     return Finding(
@@ -82,7 +82,7 @@ def resonance(study: PublishedStudy) -> Finding:
     "at resonance all higher harmonics of the displacement together are below 10 % of the first.",
 )
 def one_motion(study: PublishedStudy) -> Finding:
-    """Sampled where the spectrum is concerned."""
+    """Check all frequencies; spectra are computed at some of them."""
     data = _curves(study)
     places = [1.0, 3.0, _resonance(study), 8.0]
     shares = [higher(study.motion(_CODE, f, "forward")) for f in places]
@@ -104,7 +104,7 @@ def one_motion(study: PublishedStudy) -> Finding:
     "below 5 %.",
 )
 def flights(study: PublishedStudy) -> Finding:
-    """The bumper just left has nearly recovered."""
+    """Measure the time between contacts: the bumper that was just left has nearly recovered."""
     place = _resonance(study)
     motion = study.motion(_CODE, place, "forward")
     flight = 1.0 - float(motion["contact_duration_share"].sum())
@@ -124,7 +124,7 @@ def flights(study: PublishedStudy) -> Finding:
     "is met over the same: below 10 % and below 1 %.",
 )
 def recovered(study: PublishedStudy) -> Finding:
-    """From the log of events."""
+    """Use the deformations in the log of events."""
     motion = study.motion(_CODE, _resonance(study), "forward")
     largest = float(motion["contact_penetration"].max())
     side, begins = motion["event_side"].values, motion["event_contact"].values == 1

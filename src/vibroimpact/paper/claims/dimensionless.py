@@ -18,7 +18,7 @@ from vibroimpact.response.resonance import UNSETTLED_APART
 
 _GAPS = tuple(laboratory.GAPS)
 _SAME = ("B2-G1-A3", "B2-G2-A2", "B2-G4-A1", "B3-10mm-A3", "B3-0mm-A3", "20kN/m-G3-A1")
-"""A case of each scenario from S1 to S6."""
+"""One case for each scenario from S1 to S6."""
 
 
 def _printed_again(names: tuple[str, ...]) -> Finding:
@@ -43,7 +43,7 @@ def _printed_again(names: tuple[str, ...]) -> Finding:
     Kind.INPUTS,
 )
 def table_gaps(study: PublishedStudy) -> Finding:
-    """Of one side, as the printed numbers are."""
+    """Compare the gaps of one side, because the printed numbers are those of one side."""
     return _printed_again(_GAPS)
 
 
@@ -55,12 +55,12 @@ def table_gaps(study: PublishedStudy) -> Finding:
     Kind.INPUTS,
 )
 def table_ratios(study: PublishedStudy) -> Finding:
-    """Bumper over isolator."""
+    """Compare the stiffness of each bumper with that of the isolator."""
     return _printed_again(BUMPERS)
 
 
 def _of_tests() -> dict[str, tuple[float, float]]:
-    """λ and δ of the tests, from the rigs themselves."""
+    """Return λ and δ of the tests, computed from their rigs."""
     found = {}
     for code in CODES:
         case = laboratory.case(code)
@@ -78,7 +78,7 @@ def _of_tests() -> dict[str, tuple[float, float]]:
     Kind.INPUTS,
 )
 def total_gap(study: PublishedStudy) -> Finding:
-    """The printed numbers are those of one side."""
+    """Compare both definitions: the printed numbers are those of one side."""
     printed = table1.PRINTED["A3"]["G1"]
     one = table1.computed()["A3"]["G1"]
     return Finding(
@@ -95,7 +95,7 @@ def total_gap(study: PublishedStudy) -> Finding:
     Kind.INPUTS,
 )
 def range_gaps(study: PublishedStudy) -> Finding:
-    """To the digits printed."""
+    """Compare the smallest gap to the printed digits."""
     least = min(gap for _, gap in _of_tests().values())
     return Finding(least >= 0.215, f"smallest δ {least:.4f}")
 
@@ -108,7 +108,7 @@ def range_gaps(study: PublishedStudy) -> Finding:
     Kind.INPUTS,
 )
 def range_ratios(study: PublishedStudy) -> Finding:
-    """B1-A1 and B4-A3."""
+    """Compare the extreme ratios, which are those of B1-A1 and B4-A3."""
     tests = {code: ratio for code, (ratio, _) in _of_tests().items()}
     least, most = min(tests, key=tests.__getitem__), max(tests, key=tests.__getitem__)
     holds = (f"{tests[least]:.0e}", f"{tests[most]:.0e}") == ("3e+00", "9e+01")
@@ -124,7 +124,7 @@ def range_ratios(study: PublishedStudy) -> Finding:
     Kind.INPUTS,
 )
 def with_acceleration(study: PublishedStudy) -> Finding:
-    """For the isolator softens."""
+    """Check both trends, which follow from the softening isolator."""
     values = table1.computed()
     ratios = np.array([[values[a][b] for a in ACCELERATIONS] for b in BUMPERS])
     gaps = np.array([[values[a][g] for a in ACCELERATIONS] for g in _GAPS])
@@ -144,7 +144,7 @@ def with_acceleration(study: PublishedStudy) -> Finding:
     Kind.INPUTS,
 )
 def middle(study: PublishedStudy) -> Finding:
-    """The same at every acceleration."""
+    """Compare neighbouring bumpers. The result is the same at each acceleration."""
     values = table1.computed()["A3"]
     ratios = [values[BUMPERS[k + 1]] / values[BUMPERS[k]] for k in range(3)]
     told = ", ".join(f"{BUMPERS[k + 1]}/{BUMPERS[k]} {ratios[k]:.2f}" for k in range(3))
@@ -161,7 +161,7 @@ def middle(study: PublishedStudy) -> Finding:
     Kind.CONSTRUCTION,
 )
 def only_ratios(study: PublishedStudy) -> Finding:
-    """Swept as two physically different rigs."""
+    """Sweep two physically different rigs with the same ratios."""
     settled, loose, same = 0.0, 0.0, True
     for code in _SAME:
         one, other = study.twins(code)
@@ -186,7 +186,7 @@ def only_ratios(study: PublishedStudy) -> Finding:
     Kind.RULES,
 )
 def counts(study: PublishedStudy) -> Finding:
-    """Counted."""
+    """Count the scenarios of the tests."""
     found = list(study.scenarios().values())
     told = {s: found.count(s) for s in sorted(set(found))}
     holds = set(told) == {"S1", "S2", "S3"} and told["S1"] == 4 and told["S2"] > len(CODES) / 2
@@ -211,7 +211,7 @@ def _region(
     "Scenarios at λ = 0.5, 1, 1.5 and 1.9 with δ = 0.25, 0.5 and 0.75: all S6.",
 )
 def soft_region(study: PublishedStudy) -> Finding:
-    """At δ above 0.2; below it is the other region without tests."""
+    """Check the region at δ above 0.2; below it lies the other region without tests."""
     return _region(study, (0.5, 1.0, 1.5, 1.9), (0.25, 0.5, 0.75), "S6")
 
 
@@ -223,7 +223,7 @@ def soft_region(study: PublishedStudy) -> Finding:
     "Scenarios at δ = 0.1, 0.15 and 0.19 with λ = 3, 25.9 and 87.5, as wide as the tests': all S4.",
 )
 def small_gap_region(study: PublishedStudy) -> Finding:
-    """The paper itself leaves open what else is in there."""
+    """Check the region of small gaps, whose other scenarios the paper leaves open."""
     return _region(study, (3.0, 25.9, 87.5), (0.1, 0.15, 0.19), "S4")
 
 

@@ -19,7 +19,7 @@ _CODES = tuple(f"B1-Ginf-{a}" for a in ACCELERATIONS)
     "Nothing: the model's isolator is linear, so that its free flight can show neither.",
 )
 def softening(study: PublishedStudy) -> Finding:
-    """The model cannot decide this; the computation shows that it has no hysteresis."""
+    """Report that the model cannot decide this: its computed curves have no hysteresis."""
     worst = float(apart(study.family(_CODES)).max())
     return Finding(
         None,
@@ -37,7 +37,7 @@ def softening(study: PublishedStudy) -> Finding:
     Kind.INPUTS,
 )
 def larger_and_lower(study: PublishedStudy) -> Finding:
-    """With the equivalent stiffness of each acceleration."""
+    """Use the equivalent stiffness of each acceleration."""
     data = study.family(_CODES).sel(direction="forward")
     a = data["acceleration_excursion"].max("frequency").values
     d = data["displacement_excursion"].max("frequency").values

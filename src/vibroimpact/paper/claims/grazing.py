@@ -1,4 +1,4 @@
-"""Scenario S1: what a mass that only just reaches its bumpers does (Sections 4.3, 6 and 7)."""
+"""Scenario S1: motions in which the mass just reaches its bumpers (Sections 4.3, 6 and 7)."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ _CODE = "B2-G4-A1"
 _TESTS = tuple(f"{bumper}-G4-A1" for bumper in laboratory.BUMPERS)
 """The tests that the paper calls grazing."""
 _COMPUTED = "B3-65mm-A3"
-"""The computed case with a gap next below free flight's amplitude (Fig. 19)."""
+"""The computed case whose gap is the next smaller one to the amplitude of free flight (Fig. 19)."""
 _LIKE_FREE = 0.1
-"""Largest difference from free flight's maximum of curves that are called similar to it."""
+"""Largest difference from the maximum of free flight for curves that are called similar to it."""
 _COINCIDE = 0.01
-"""Acceleration of curves that coincide with it according to the paper."""
+"""Acceleration of the curves that coincide with free flight according to the paper."""
 _SHALLOW = 0.1
-"""Largest penetration over the gap of one side of bumpers that are hardly deformed."""
+"""Largest penetration divided by the gap of one side, for bumpers that are hardly deformed."""
 
 
 _CURVES: tuple[tuple[str, Curve], ...] = (("displacement", "eta_d"), ("acceleration", "eta_a"))
@@ -59,7 +59,7 @@ _FREE = tuple(
     Kind.RULES,
 )
 def hardly_deformed(study: PublishedStudy) -> Finding:
-    """In millimetres because the paper gives no number."""
+    """State the penetrations in millimetres, because the paper gives no number."""
     gap = 0.5 * laboratory.GAPS["G4"]
     most = study.campaign()["displacement_max"].max(["direction", "frequency"])
     deep = [float(most.sel(rig=code)) - gap for code in _TESTS]
@@ -79,7 +79,7 @@ def hardly_deformed(study: PublishedStudy) -> Finding:
     "of η_d from free flight, at most 0.01, and no jump.",
 )
 def free_flight(study: PublishedStudy) -> Finding:
-    """Of the cases that are grazing by the paper and in Fig. 19, not of a gap of just u_max."""
+    """Check the cases that graze in the paper and in Fig. 19, not a gap of exactly u_max."""
     told, holds = [], True
     for code in (*_TESTS, _COMPUTED):
         data = (study.by_gap() if code == _COMPUTED else study.campaign()).sel(rig=code, drop=True)
@@ -102,7 +102,7 @@ def free_flight(study: PublishedStudy) -> Finding:
     Kind.CONSTRUCTION,
 )
 def at_one(study: PublishedStudy) -> Finding:
-    """A hundredth to both sides, for the sweep's frequencies miss the peak a little."""
+    """Check a hundredth to both sides, because the frequencies miss the peak slightly."""
     table = table1.computed()
     gaps = [1e3 * laboratory.GAPS["G1"] / table[a]["G1"] for a in ACCELERATIONS]
     hits = []

@@ -1,4 +1,4 @@
-"""Section 5: the model with the parameters fitted to single tests."""
+"""Section 5: the model with parameters that were fitted to single tests."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _CLOSE = 0.05
 
 
 def _jumps(study: PublishedStudy, code: str) -> str:
-    """The jumps of the primary resonance with fitted parameters, in words."""
+    """Describe the jumps of the primary resonance with fitted parameters."""
     found = features(study.curves(code, "identified")).jumps
     told = []
     for way in BOTH:
@@ -36,7 +36,7 @@ def _jumps(study: PublishedStudy, code: str) -> str:
     Kind.RULES,
 )
 def scenarios(study: PublishedStudy) -> Finding:
-    """By the classification."""
+    """Use the classification of the computed curves."""
     found = {c: study.classification(c, parameters="identified").scenario for c in (_S3, _S2)}
     return Finding(
         found == {_S3: "S3", _S2: "S2"}, ", ".join(f"{c}: {s}" for c, s in found.items())
@@ -50,7 +50,7 @@ def scenarios(study: PublishedStudy) -> Finding:
     "Changes of the velocity's sign in a forcing cycle at f_I: more than the two of a plain orbit.",
 )
 def loops(study: PublishedStudy) -> Finding:
-    """A loop turns the velocity round twice more."""
+    """Count the sign changes of the velocity: an inner loop adds two."""
     place = regular_places(study, _S3, "identified")[0]
     count = turns(study.motion(_S3, place, "forward", "identified", samples=1024))
     return Finding(count > 2.5, f"{count:.0f} changes of sign a cycle at {place:.2f} Hz")
@@ -64,7 +64,7 @@ def loops(study: PublishedStudy) -> Finding:
     "The computed places; the measured markers are published as pictures only.",
 )
 def agreement(study: PublishedStudy) -> Finding:
-    """What is to be compared."""
+    """Report the computed values that have to be compared with the measurement."""
     return Finding(
         None,
         f"computed jumps: {_S3} {_jumps(study, _S3)}; {_S2} {_jumps(study, _S2)}; needed: the "
@@ -80,7 +80,7 @@ def agreement(study: PublishedStudy) -> Finding:
     "The computed upward jump; the measured one is not given as a number.",
 )
 def upward(study: PublishedStudy) -> Finding:
-    """What is to be compared."""
+    """Report the computed value that has to be compared with the measurement."""
     return Finding(
         None,
         f"computed jumps of {_S3}: {_jumps(study, _S3)}; needed: the frequency of the measured "
@@ -95,7 +95,7 @@ def upward(study: PublishedStudy) -> Finding:
     "The computed extremes; the measured orbits are published as pictures only.",
 )
 def portraits(study: PublishedStudy) -> Finding:
-    """What is to be compared."""
+    """Report the computed values that have to be compared with the measurement."""
     sizes = []
     with suppress(AbsentError):  # the verdict stays: nothing computed can give another
         for frequency in regular_places(study, _S3, "identified"):
@@ -117,7 +117,7 @@ def portraits(study: PublishedStudy) -> Finding:
     Kind.INPUTS,
 )
 def stiffness(study: PublishedStudy) -> Finding:
-    """Both describe the isolator at one acceleration."""
+    """Compare both stiffnesses, which describe the isolator at the same acceleration."""
     told, off = [], []
     for code in (_S3, _S2):
         fitted = laboratory.IDENTIFIED[code].stiffness
@@ -135,7 +135,7 @@ def stiffness(study: PublishedStudy) -> Finding:
     Kind.INPUTS,
 )
 def damping(study: PublishedStudy) -> Finding:
-    """Section 7 assumes what Section 5 fits."""
+    """Compare the assumption of Section 7 with the fitted parameters of Section 5."""
     told, off = [], []
     for code in (_S3, _S2):
         case = laboratory.case(code, "identified")

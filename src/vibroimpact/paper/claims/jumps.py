@@ -1,4 +1,4 @@
-"""Section 4.2: where the jumps lie, and how gap, acceleration and bumper move them."""
+"""Section 4.2: the frequencies of the jumps, and the effects of gap, acceleration and bumper."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ _MOVES = tuple(
 
 
 def _rises(study: PublishedStudy) -> dict[str, tuple[float, float]]:
-    """Rise of η_a and η_d at the backward sweep's upward jump, by test."""
+    """Return the rise of η_a and η_d at the upward jump of the backward sweep, by test."""
     found = {}
     for code in CODES:
         up = [
@@ -80,7 +80,7 @@ def _rises(study: PublishedStudy) -> dict[str, tuple[float, float]]:
     "Rise of η_d and of η_a at the upward jump: smaller in all tests that have one.",
 )
 def less_evident(study: PublishedStudy) -> Finding:
-    """Compared test by test."""
+    """Compare the two quantities test by test."""
     rises = _rises(study)
     less = [code for code, (a, d) in rises.items() if abs(d) < abs(a)]
     most = max((abs(d) / abs(a) for a, d in rises.values()), default=float("nan"))
@@ -98,7 +98,7 @@ def less_evident(study: PublishedStudy) -> Finding:
     "every sequence.",
 )
 def fades(study: PublishedStudy) -> Finding:
-    """By the same rule as all other trends."""
+    """Apply the same rule as to all other trends."""
     rises = {code: d for code, (_, d) in _rises(study).items()}
     gap, acceleration = (
         trend(sequences, rises.get, 1) for sequences in (ALONG_GAP, ALONG_ACCELERATION)

@@ -1,4 +1,4 @@
-"""Section 6: scenario S4, a gap smaller than the tested ones; its left hystereses."""
+"""Section 6: scenario S4, with a gap smaller than in the tests, and its left hystereses."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ from vibroimpact.response.resonance import Features, Hysteresis, features
 CODE = "B3-10mm-A3"
 START = 0.3
 AROUND = (0.9, 1.4)
-"""Range round the non-regular resonance (Hz)."""
+"""Frequency range around the non-regular resonance (Hz)."""
 
 
 def curves(study: PublishedStudy) -> xr.Dataset:
-    """Sweeps from 0.3 Hz."""
+    """Return the sweeps from 0.3 Hz."""
     return study.curves(CODE, low=START)
 
 
 def found_features(study: PublishedStudy) -> Features:
-    """What they show."""
+    """Return the features of these sweeps."""
     return features(curves(study))
 
 
 def _left(study: PublishedStudy) -> list[Hysteresis]:
-    """Left hystereses below 0.9 Hz, by frequency."""
+    """Return the left hystereses below 0.9 Hz, by frequency."""
     return [
         item
         for item in found_features(study).hysteresis
@@ -45,7 +45,7 @@ def _left(study: PublishedStudy) -> list[Hysteresis]:
 
 
 def places(study: PublishedStudy) -> tuple[float, float]:
-    """`PublishedStudy.other_places`, or `AbsentError`."""
+    """Return `PublishedStudy.other_places`, or raise `AbsentError`."""
     try:
         return study.other_places(CODE, START)
     except ValueError:
@@ -63,7 +63,7 @@ def places(study: PublishedStudy) -> tuple[float, float]:
     "or more. From 0.44 Hz, where `vibroimpact classify` begins, there are fewer.",
 )
 def left(study: PublishedStudy) -> Finding:
-    """From 0.3 Hz, in steps of 0.01 Hz."""
+    """Count the left hystereses from 0.3 Hz, in steps of 0.01 Hz."""
     found = _left(study)
     ends = ", ".join(f"{i.ends[0]:.3f} to {i.ends[1]:.3f}" for i in found)
     above = sum(item.low >= EDGE_LOW for item in found)
@@ -82,7 +82,7 @@ def left(study: PublishedStudy) -> Finding:
     "The motions that the two sweeps reach in the middle of the widest left hysteresis.",
 )
 def two_motions(study: PublishedStudy) -> Finding:
-    """At f_I."""
+    """Compare the motions at f_I."""
     place = places(study)[0]
     forward, backward = (study.motion(CODE, place, way) for way in BOTH)
     sizes = [1e3 * float(m["displacement_excursion"]) for m in (forward, backward)]
@@ -103,7 +103,7 @@ def two_motions(study: PublishedStudy) -> Finding:
     "Impacts per forcing cycle and side of both motions.",
 )
 def two_and_one(study: PublishedStudy) -> Finding:
-    """At f_I."""
+    """Count the impacts of both motions at f_I."""
     place = places(study)[0]
     counts = [impacts(study.motion(CODE, place, way)) for way in BOTH]
     return Finding(
@@ -121,7 +121,7 @@ def two_and_one(study: PublishedStudy) -> Finding:
     "first one.",
 )
 def loops(study: PublishedStudy) -> Finding:
-    """A loop that crosses the bumper is a second impact."""
+    """Count loops and impacts: a loop that crosses the bumper is a second impact."""
     place = places(study)[0]
     both = [study.motion(CODE, place, way, samples=1024) for way in BOTH]
     counts, more = [turns(m) for m in both], [impacts(m)[0] - 1.0 for m in both]
@@ -139,7 +139,7 @@ def loops(study: PublishedStudy) -> Finding:
     "Orbits of the followed branch in the middle of the widest left hysteresis, by stability.",
 )
 def third(study: PublishedStudy) -> Finding:
-    """Two stable, one unstable."""
+    """Check that there are two stable orbits and an unstable one."""
     place, found = places(study)[0], _left(study)
     widest = max(found, key=lambda item: item.high - item.low)
     branch = study.antisymmetric_branch(CODE, widest.low - 0.1, widest.high + 0.1)
@@ -157,7 +157,7 @@ def third(study: PublishedStudy) -> Finding:
     "Impacts a side in the middle of each left hysteresis, from the highest frequency down.",
 )
 def more_impacts(study: PublishedStudy) -> Finding:
-    """Counted in the sweeps."""
+    """Count the impacts in the sweeps."""
     data, rows = curves(study), []
     for item in reversed(_left(study)):
         inside = data.sel(frequency=slice(item.low - 1e-9, item.high + 1e-9))

@@ -1,4 +1,4 @@
-"""Section 4.2: how high the resonances are, and how gap, acceleration and bumper change that."""
+"""Section 4.2: the heights of the resonances, and the effects of gap, acceleration and bumper."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def _maxima(study: PublishedStudy, pair: str, direction: Direction) -> list[floa
 
 
 def _less(forward: list[float], backward: list[float]) -> bool:
-    """Whether the backward sweep's maxima change less, largest less smallest."""
+    """Return whether the maxima of the backward sweep have the smaller range."""
     return bool(np.ptp(backward) < np.ptp(forward))
 
 
@@ -47,7 +47,7 @@ def _told(forward: list[float], backward: list[float]) -> str:
     "range of the backward ones is the smaller one.",
 )
 def bell(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check the maxima of both sweep directions."""
     both = [_maxima(study, "B2-A3", way) for way in BOTH]
     holds = all(int(np.argmax(values)) in (1, 2) for values in both)
     return Finding(holds and _less(*both), _told(*both))
@@ -62,7 +62,7 @@ def bell(study: PublishedStudy) -> Finding:
     "range of the backward ones is the smaller one.",
 )
 def ascending(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check the maxima of both sweep directions."""
     both = [_maxima(study, "B1-A1", way) for way in BOTH]
     holds = all((np.diff(values) > 0).all() for values in both)
     return Finding(holds and _less(*both), _told(*both))
@@ -77,7 +77,7 @@ def ascending(study: PublishedStudy) -> Finding:
     "range of the backward ones is the smaller one.",
 )
 def descending(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check the maxima of both sweep directions."""
     both = [_maxima(study, "B4-A3", way) for way in BOTH]
     holds = all((np.diff(values) < 0).all() for values in both)
     return Finding(holds and _less(*both), _told(*both))
@@ -95,7 +95,7 @@ def _rise(study: PublishedStudy, sequences: Sequences, direction: Direction) -> 
     "Height of the forward resonance from A1 to A3: rises in all 16 pairs of bumper and gap.",
 )
 def with_acceleration(study: PublishedStudy) -> Finding:
-    """Forward."""
+    """Check the forward sweep."""
     return _rise(study, ALONG_ACCELERATION, "forward")
 
 
@@ -107,7 +107,7 @@ def with_acceleration(study: PublishedStudy) -> Finding:
     "Height of the backward resonance from A1 to A3: rises in all 16 pairs, less than forward.",
 )
 def with_acceleration_backward(study: PublishedStudy) -> Finding:
-    """Backward."""
+    """Check the backward sweep."""
     forward, backward = (peak_trend(study, ALONG_ACCELERATION, "eta_a", way, 1) for way in BOTH)
     example = listed(backward.values["B2-G1"], ".3f")
     return Finding(
@@ -122,7 +122,7 @@ def with_acceleration_backward(study: PublishedStudy) -> Finding:
     "Height of the forward resonance from B1 to B4: rises in all 12 pairs of gap and acceleration.",
 )
 def with_bumper(study: PublishedStudy) -> Finding:
-    """Forward."""
+    """Check the forward sweep."""
     return _rise(study, ALONG_BUMPER, "forward")
 
 
@@ -133,7 +133,7 @@ def with_bumper(study: PublishedStudy) -> Finding:
     "Height of the backward resonance from B1 to B4: rises in all 12 pairs.",
 )
 def with_bumper_backward(study: PublishedStudy) -> Finding:
-    """Backward."""
+    """Check the backward sweep."""
     return _rise(study, ALONG_BUMPER, "backward")
 
 
@@ -152,7 +152,7 @@ def _fall(study: PublishedStudy, sequences: Sequences) -> Finding:
     "Height of the resonance from G4 to G1: falls in all 12 pairs of bumper and acceleration.",
 )
 def displacement_gap(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check both sweep directions."""
     return _fall(study, ALONG_GAP)
 
 
@@ -163,7 +163,7 @@ def displacement_gap(study: PublishedStudy) -> Finding:
     "Height of the resonance from A1 to A3: falls in all 16 pairs of bumper and gap.",
 )
 def displacement_acceleration(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check both sweep directions."""
     return _fall(study, ALONG_ACCELERATION)
 
 
@@ -174,7 +174,7 @@ def displacement_acceleration(study: PublishedStudy) -> Finding:
     "Height of the resonance from B1 to B4: falls in all 12 pairs of gap and acceleration.",
 )
 def displacement_bumper(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check both sweep directions."""
     return _fall(study, ALONG_BUMPER)
 
 
@@ -185,7 +185,7 @@ def displacement_bumper(study: PublishedStudy) -> Finding:
     "Difference of the two heights from B1 to B4: falls in all 12 pairs of gap and acceleration.",
 )
 def directions_closer(study: PublishedStudy) -> Finding:
-    """With the softest bumper and a small acceleration the hysteresis is too short for it."""
+    """Compare the directions. With B1 and a small acceleration the hysteresis is too short."""
 
     def difference(code: str) -> float:
         forward, backward = (peak(study, code, "eta_d", way).value for way in BOTH)

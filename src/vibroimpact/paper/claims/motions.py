@@ -46,7 +46,7 @@ _SETS: dict[laboratory.Parameters, str] = {
     Kind.RULES,
 )
 def s3(study: PublishedStudy) -> Finding:
-    """By the branch of orbits: the sweeps step over what is narrower than 0.01 Hz."""
+    """Use the branch of orbits, because the sweeps miss a hysteresis narrower than 0.01 Hz."""
     found, left = study.classification(_S3), left_folds(study, _S3)
     resonances = ", ".join(f"{f:.2f} Hz ({p:.0%} prominent)" for f, p in secondary(study, _S3))
     right = [f"{item.ends[0]:.3f} to {item.ends[1]:.3f} Hz" for item in found.features.right]
@@ -64,7 +64,7 @@ def s3(study: PublishedStudy) -> Finding:
     "First frequency of the forward sweep with impacts.",
 )
 def s3_contact(study: PublishedStudy) -> Finding:
-    """From 0.5 Hz."""
+    """Check contact from 0.5 Hz on."""
     low, high = contact_span(study, _S3)
     return Finding(low == 0.5, f"{low:g} to {high:g} Hz")
 
@@ -78,7 +78,7 @@ def s3_contact(study: PublishedStudy) -> Finding:
     "on the secondary resonance, between exact folds of the branch either.",
 )
 def s3_coincide(study: PublishedStudy) -> Finding:
-    """To rounding, and between two frequencies of the sweep."""
+    """Compare the directions to rounding, and also between two frequencies of the sweep."""
     first, valley, _ = regular_places(study, _S3)
     differ = apart(study.campaign().sel(rig=_S3))
     worst = float(differ.sel(frequency=[first, valley], method="nearest").max())
@@ -99,7 +99,7 @@ def s3_coincide(study: PublishedStudy) -> Finding:
     "does not name the quantity.",
 )
 def s3_harmonics(study: PublishedStudy) -> Finding:
-    """Exact Fourier coefficients."""
+    """Use exact Fourier coefficients."""
     told, holds = [], True
     for name, frequency in zip(("f_I", "f_II"), regular_places(study, _S3), strict=False):
         motion = study.motion(_S3, frequency, "forward")
@@ -118,7 +118,7 @@ def s3_harmonics(study: PublishedStudy) -> Finding:
     "Impacts per cycle, right and left, of the forward sweep's motion at the three frequencies.",
 )
 def s3_impacts(study: PublishedStudy) -> Finding:
-    """Of periodic motions."""
+    """Count the impacts of periodic motions."""
     places = regular_places(study, _S3)
     found = [study.motion(_S3, f, "forward") for f in places]
     counts = [impacts(motion) for motion in found]
@@ -135,7 +135,7 @@ def s3_impacts(study: PublishedStudy) -> Finding:
     "Longest contact of the forward sweep's motion over T at the three frequencies: rising.",
 )
 def s3_duration(study: PublishedStudy) -> Finding:
-    """Contact time over T."""
+    """Compare the contact time divided by T."""
     shares = [
         float(study.motion(_S3, f, "forward")["contact_duration_share"].max())
         for f in regular_places(study, _S3)
@@ -150,7 +150,7 @@ def s3_duration(study: PublishedStudy) -> Finding:
     "Excursion and impacts of the motions that the two sweeps reach at f_III.",
 )
 def s3_two(study: PublishedStudy) -> Finding:
-    """Forward large, backward small."""
+    """Compare the large motion of the forward sweep with the small one of the backward sweep."""
     place = regular_places(study, _S3)[2]
     large, small = (study.motion(_S3, place, way) for way in BOTH)
     sizes = [1e3 * float(motion["displacement_excursion"]) for motion in (large, small)]
@@ -170,7 +170,7 @@ def s3_two(study: PublishedStudy) -> Finding:
     "does not name the quantity; the acceleration's are listed as well.",
 )
 def s3_one_line(study: PublishedStudy) -> Finding:
-    """Of the displacement."""
+    """Use the harmonics of the displacement."""
     place = regular_places(study, _S3)[2]
     both = [study.motion(_S3, place, way) for way in BOTH]
     shares, others = ([higher(motion, of) for motion in both] for of in LINES)
@@ -191,7 +191,7 @@ def s3_one_line(study: PublishedStudy) -> Finding:
     "listed as well.",
 )
 def s3_ellipses(study: PublishedStudy) -> Finding:
-    """A single harmonic is an ellipse."""
+    """Use the higher harmonics, because a motion with a single harmonic is an ellipse."""
     _, valley, last = regular_places(study, _S3)
     places = [round(float(f), 2) for f in np.linspace(valley, last, 5)]
     motions = [study.motion(_S3, f, "forward") for f in places]
@@ -211,7 +211,7 @@ def s3_ellipses(study: PublishedStudy) -> Finding:
     "Contacts and differences of the two directions of B2-G1-A3 above f_III.",
 )
 def s3_above(study: PublishedStudy) -> Finding:
-    """Free flight."""
+    """Check that the motion is that without contact."""
     last = regular_places(study, _S3)[2]
     above = study.campaign().sel(rig=_S3, frequency=slice(last + 0.005, None))
     hits, differ = int(touching(above).sum()), float(apart(above).max())
@@ -227,7 +227,7 @@ def s3_above(study: PublishedStudy) -> Finding:
     "Nothing: the accidental gaps are not given, and the model's are equal.",
 )
 def dissymmetry(study: PublishedStudy) -> Finding:
-    """The computed eccentricity is zero."""
+    """Report that the computed eccentricity is zero."""
     worst = 1e3 * float(np.abs(study.campaign()["eccentricity"].sel(rig=_S3)).max())
     return Finding(
         None,
@@ -244,7 +244,7 @@ def dissymmetry(study: PublishedStudy) -> Finding:
     Kind.RULES,
 )
 def s2(study: PublishedStudy) -> Finding:
-    """By the classification."""
+    """Use the classification of the computed curves."""
     found, others = study.classification(_S2), secondary(study, _S2)
     ends = [f"{item.ends[0]:.3f} to {item.ends[1]:.3f} Hz" for item in found.features.right]
     return Finding(
@@ -262,7 +262,7 @@ def s2(study: PublishedStudy) -> Finding:
     "with the parameters fitted to this test: each within one step.",
 )
 def s2_contact(study: PublishedStudy) -> Finding:
-    """The same with the parameters of all tests is reported next to it."""
+    """Also report the result with the parameters of all tests."""
     told, holds = [], []
     for parameters, name in _SETS.items():
         data = study.tested(_S2, parameters).sel(direction="forward")
@@ -283,7 +283,7 @@ def s2_contact(study: PublishedStudy) -> Finding:
     "Orbits of the followed branch in the middle between the jumps, by stability.",
 )
 def s2_three(study: PublishedStudy) -> Finding:
-    """Counted on the branch."""
+    """Count the orbits on the branch."""
     return three_between_jumps(study, _S2)
 
 
@@ -294,7 +294,7 @@ def s2_three(study: PublishedStudy) -> Finding:
     "First frequency of the forward sweep with impacts, in both tests.",
 )
 def s2_later(study: PublishedStudy) -> Finding:
-    """The gap is wider, the acceleration smaller."""
+    """Compare both tests: here the gap is wider, and the acceleration smaller."""
     one, other = contact_span(study, _S2)[0], contact_span(study, _S3)[0]
     return Finding(one > other == 0.5, f"{one:.2f} Hz, against {other:.2f} Hz in {_S3}")
 

@@ -1,4 +1,4 @@
-"""Section 6 and Fig. 14: which scenario each of the tests is."""
+"""Section 6 and Fig. 14: the scenario of each test."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from vibroimpact.paper.claims.reading import claim, listed
 from vibroimpact.paper.study import HIGH, LOW, PublishedStudy
 
 EDGE, EDGE_LOW = "B1-G1-A3", 0.44
-"""A test with a peak at the lower edge of the tests' range, and the lowest frequency (Hz) of
-`classify_scenario`."""
+"""A test with a peak at the lower end of the frequency range of the tests, and the lowest frequency
+(Hz) of `classify_scenario`."""
 
 
 def from_below(study: PublishedStudy) -> str:
-    """Classify the test at the edge from 0.5 Hz, and from where `classify_scenario` begins."""
+    """Classify the test at the edge from 0.5 Hz, and from the start of `classify_scenario`."""
     there = study.classification(EDGE, EDGE_LOW, HIGH).scenario
     here = study.scenarios()[EDGE]
     return f"swept from {LOW:g} Hz, where {EDGE} is {here}; from {EDGE_LOW:g} Hz it is {there}"
@@ -34,7 +34,7 @@ def _with(found: dict[str, str], scenario: str, acceleration: str) -> list[str]:
     Kind.RULES,
 )
 def at_a1(study: PublishedStudy) -> Finding:
-    """Fig. 14's lowest plane."""
+    """Compare with the lowest plane of Fig. 14."""
     found = study.scenarios()
     grazing, rest = _with(found, "S1", "A1"), _with(found, "S2", "A1")
     holds = {c.split("-")[1] for c in grazing} == {"G4"} and (len(grazing), len(rest)) == (4, 12)
@@ -49,7 +49,7 @@ def at_a1(study: PublishedStudy) -> Finding:
     Kind.RULES,
 )
 def at_a2_a3(study: PublishedStudy) -> Finding:
-    """Fig. 14's upper planes."""
+    """Compare with the upper planes of Fig. 14."""
     found = [s for c, s in study.scenarios().items() if not c.endswith("A1")]
     told = ", ".join(f"{s}: {found.count(s)}" for s in sorted(set(found)))
     return Finding(set(found) == {"S2", "S3"}, f"{told}; {from_below(study)}")
@@ -64,7 +64,7 @@ def at_a2_a3(study: PublishedStudy) -> Finding:
     Kind.RULES,
 )
 def transition(study: PublishedStudy) -> Finding:
-    """No exception."""
+    """Check that there is no exception."""
     found = study.scenarios()
     exceptions, both = [], True
     for a in ("A2", "A3"):
@@ -89,7 +89,7 @@ def transition(study: PublishedStudy) -> Finding:
     Kind.RULES,
 )
 def region(study: PublishedStudy) -> Finding:
-    """Counted."""
+    """Count the tests that are S3."""
     found = study.scenarios()
     counts = [len(_with(found, "S3", a)) for a in laboratory.ACCELERATIONS]
     return Finding(

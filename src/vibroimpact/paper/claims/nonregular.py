@@ -1,4 +1,4 @@
-"""Section 6: scenario S4, the motions that are not regular near 1 Hz."""
+"""Section 6: scenario S4, with non-regular motions near 1 Hz."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from vibroimpact.scenarios.resonance_curves import UNEVEN
 
 _CURVES = {"eta_a": "acceleration_excursion", "eta_d": "displacement_excursion"}
 _CONSTANT = 0.25
-"""Largest range of an excursion that is called constant, over the resonance's height."""
+"""Largest range of an excursion that is called constant, divided by the height of the resonance."""
 
 
 @claim(
@@ -26,7 +26,7 @@ _CONSTANT = 0.25
     "difference of the directions: below 10⁻⁶ where they settle, and below 10 % elsewhere.",
 )
 def no_hysteresis(study: PublishedStudy) -> Finding:
-    """Where nothing settles, two windows of one motion differ a little."""
+    """Allow a small difference: two windows of one non-periodic motion differ a little."""
     wild = [r for r in found_features(study).unsettled if AROUND[0] < r.low < AROUND[1]]
     data = curves(study).sel(frequency=slice(*AROUND))
     settled = (data["motion"] == "periodic").all("direction")
@@ -51,7 +51,7 @@ def no_hysteresis(study: PublishedStudy) -> Finding:
     "motion.",
 )
 def plateau(study: PublishedStudy) -> Finding:
-    """Against the resonance's own height: all curves are flat beside the primary resonance."""
+    """Compare with the height of this resonance, because next to the primary one all look flat."""
     places(study)
     data = curves(study)
     near = data.sel(direction="forward", frequency=slice(*AROUND))
@@ -84,7 +84,7 @@ def plateau(study: PublishedStudy) -> Finding:
     "leads to: within 10 %, for neither repeats itself.",
 )
 def pair(study: PublishedStudy) -> Finding:
-    """A motion and its mirror image."""
+    """Compare a motion with the motion from its mirror image."""
     place = places(study)[1]
     one = study.motion(CODE, place, "forward")
     other = study.mirror_image(CODE, place, "forward")
@@ -111,7 +111,7 @@ def pair(study: PublishedStudy) -> Finding:
     "quasi-periodic motion is zero, that of a chaotic one positive.",
 )
 def quasi_periodic(study: PublishedStudy) -> Finding:
-    """A planar map that contracts area has no attracting closed curve."""
+    """Use Lyapunov exponents: an area-contracting planar map has no attracting closed curve."""
     place = places(study)[1]
     motion = study.motion(CODE, place, "forward")
     kind = str(motion["motion"].item())
@@ -123,7 +123,7 @@ def quasi_periodic(study: PublishedStudy) -> Finding:
 
 
 def _by_cycle(motion: xr.Dataset) -> dict[str, list[int]]:
-    """Numbers of contacts that begin in each forcing cycle of the record, by side."""
+    """Return the number of contacts that begin in each recorded forcing cycle, by side."""
     start, side = motion["contact_start"].values, motion["contact_side"].values
     time, cycle = motion["time"].values, motion["cycle"].values
     period = (time[-1] - time[0]) / (cycle[-1] - cycle[0])
@@ -145,7 +145,7 @@ def _by_cycle(motion: xr.Dataset) -> dict[str, list[int]]:
     "the other.",
 )
 def changing(study: PublishedStudy) -> Finding:
-    """By the record's window."""
+    """Count the impacts within the recorded window."""
     place = places(study)[1]
     counts = _by_cycle(study.motion(CODE, place, "forward"))
     steady = [name for name, found in counts.items() if set(found) == {1}]
@@ -162,7 +162,7 @@ def changing(study: PublishedStudy) -> Finding:
     "The orbit of the antisymmetric branch at f_II: excursion, eccentricity and symmetry.",
 )
 def small(study: PublishedStudy) -> Finding:
-    """By Newton's method."""
+    """Compute the orbit by Newton's method."""
     place = places(study)[1]
     one = study.antisymmetric_orbit(CODE, place, *AROUND)
     other = study.motion(CODE, place, "forward")
@@ -184,7 +184,7 @@ def small(study: PublishedStudy) -> Finding:
     "Stability of the orbit: whatever starts beside an unstable one leaves it.",
 )
 def small_reached(study: PublishedStudy) -> Finding:
-    """Its multipliers decide."""
+    """Use the Floquet multipliers of the orbit."""
     place = places(study)[1]
     found = study.antisymmetric_orbit(CODE, place, *AROUND)
     largest = float(np.hypot(found["multiplier_real"], found["multiplier_imag"]).max())
@@ -196,7 +196,7 @@ def small_reached(study: PublishedStudy) -> Finding:
 
 
 def _uneven(study: PublishedStudy) -> xr.Dataset:
-    """The forward sweep around 1 Hz, with `uneven` where it settles on one of a pair."""
+    """Return the forward sweep around 1 Hz; `uneven` is true where it reaches one of a pair."""
     data = curves(study).sel(direction="forward", frequency=slice(*AROUND))
     uneven = np.abs(data["eccentricity"]) > UNEVEN * data["displacement_excursion"]
     return data.assign(uneven=uneven & (data["motion"] == "periodic"))
@@ -212,7 +212,7 @@ def _uneven(study: PublishedStudy) -> xr.Dataset:
     "first and the last of them: more than 2, then 2.",
 )
 def pair_settles(study: PublishedStudy) -> Finding:
-    """Up to where the symmetry is restored."""
+    """Check the frequencies up to the one where the symmetry is restored."""
     places(study)
     data = _uneven(study)
     f = data["frequency"].values
@@ -239,7 +239,7 @@ def pair_settles(study: PublishedStudy) -> Finding:
     "frequencies between the two.",
 )
 def one_motion(study: PublishedStudy) -> Finding:
-    """Both directions."""
+    """Check both sweep directions."""
     places(study)
     right = [h for h in found_features(study).hysteresis if h.side == "right"]
     pairs = _uneven(study)

@@ -1,4 +1,4 @@
-"""How claims are made, and what several of them read off the study."""
+"""Functions that make claims, and quantities of the study that several claims use."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from vibroimpact.response.spectrum import fourier_spectrum
 from vibroimpact.scenarios.evidence import SAME
 
 TEST_STEP = 0.1
-"""Step of the tests' sweeps in Hz: a frequency that the paper gives as "about" may be off by it."""
+"""Frequency step of the tests in Hz. A frequency that the paper calls "about" may differ by it."""
 ROUNDING = 1e-9
-"""Largest difference of numbers of about 1 that is reported as none."""
+"""Largest difference of numbers of about 1 that is reported as no difference."""
 ALMOST_ONE_LINE = 0.1
-"""All higher harmonics together over the first one, below which that one is predominant."""
+"""Ratio of all higher harmonics to the first one below which the first one is predominant."""
 
 ACCELERATIONS = tuple(laboratory.ACCELERATIONS)
 BUMPERS = tuple(laboratory.BUMPERS)
 FALLING_GAPS = tuple(laboratory.GAPS)[::-1]
 CODES = tuple(f"{b}-{g}-{a}" for a in ACCELERATIONS for b in BUMPERS for g in laboratory.GAPS)
-"""The 48 tests."""
+"""Codes of the 48 tests."""
 
 BOTH: tuple[Direction, Direction] = ("forward", "backward")
 
@@ -36,7 +36,7 @@ SYMBOLS: Mapping[Curve, str] = {"eta_a": "η_a", "eta_d": "η_d"}
 
 Array = NDArray[np.float64]
 Sequences = Mapping[str, Sequence[str]]
-"""Cases in the order of one parameter, by what stays the same."""
+"""Cases in the order of one parameter, by the parameters that stay constant."""
 
 ALONG_GAP: Sequences = {
     f"{b}-{a}": [f"{b}-{g}-{a}" for g in FALLING_GAPS] for a in ACCELERATIONS for b in BUMPERS
@@ -50,13 +50,13 @@ ALONG_BUMPER: Sequences = {
 
 
 class AbsentError(LookupError):
-    """What a statement speaks of does not occur, so that it does not hold."""
+    """Exception for a feature that does not occur, so that a statement about it is not true."""
 
 
 def claim(
     key: str, section: str, statement: str, quantity: str, kind: Kind = Kind.COMPUTED
 ) -> Callable[[Callable[[PublishedStudy], Finding]], Claim]:
-    """Make a claim of the function below."""
+    """Return a decorator that turns a function into a claim."""
 
     def made(find: Callable[[PublishedStudy], Finding]) -> Claim:
         def found(study: PublishedStudy) -> Finding:
@@ -73,7 +73,7 @@ def claim(
 
 
 def peak(study: PublishedStudy, code: str, curve: Curve, direction: Direction) -> Peak:
-    """The primary resonance of a test."""
+    """Return the primary resonance of a test."""
     return next(
         p
         for p in study.features(code).peaks
@@ -82,7 +82,7 @@ def peak(study: PublishedStudy, code: str, curve: Curve, direction: Direction) -
 
 
 def jump(study: PublishedStudy, code: str, direction: Direction) -> float | None:
-    """Frequency of a test's jump at the primary resonance (Hz): forward down, backward up."""
+    """Return the frequency (Hz) of the jump at the primary resonance: forward down, backward up."""
     return max(
         (
             j.frequency
@@ -94,7 +94,7 @@ def jump(study: PublishedStudy, code: str, direction: Direction) -> float | None
 
 
 def both_jumps(study: PublishedStudy, code: str) -> tuple[float, float]:
-    """Frequencies of the downward and the upward jump (Hz), or `AbsentError`."""
+    """Return the frequencies (Hz) of the downward and the upward jump, or raise `AbsentError`."""
     down, up = (jump(study, code, way) for way in BOTH)
     if down is None or up is None:
         raise AbsentError(f"{code} does not jump")
@@ -102,21 +102,22 @@ def both_jumps(study: PublishedStudy, code: str) -> tuple[float, float]:
 
 
 class Trend(NamedTuple):
-    """How a value changes along each of several sequences of cases."""
+    """The changes of a value along several sequences of cases."""
 
     held: int
-    """Sequences along which it never turns, and changes by more than the least."""
+    """Number of sequences along which the value is monotonic, and changes by more than the smallest
+    accepted change."""
     moves: dict[str, float]
-    """The last value less the first one."""
+    """Last value minus first value."""
     values: dict[str, list[float]]
 
     @property
     def all_hold(self) -> bool:
-        """Whether there is any sequence, and every one holds."""
+        """Return whether there are sequences, and all have the trend."""
         return bool(self.moves) and self.held == len(self.moves)
 
     def told(self, digits: str, unit: str = "") -> str:
-        """In words."""
+        """Describe the trend in words."""
         low, high = min(self.moves.values()), max(self.moves.values())
         return (
             f"{self.held} of {len(self.moves)} sequences; "
@@ -127,9 +128,9 @@ class Trend(NamedTuple):
 def trend(
     sequences: Sequences, value: Callable[[str], float | None], sign: int, least: float = 0.0
 ) -> Trend:
-    """The trend of a value; `sign` is 1 if it should rise, -1 if it should fall.
+    """Return the trend of a value. `sign` is 1 if it should rise, and -1 if it should fall.
 
-    Cases that have no such value are left out, and so are sequences with fewer than two others.
+    Cases without a value are left out. Sequences with fewer than two other cases are left out, too.
     """
     held, moves, kept = 0, {}, {}
     for name, codes in sequences.items():
@@ -145,21 +146,21 @@ def trend(
 
 
 def jump_trend(study: PublishedStudy, sequences: Sequences, direction: Direction) -> Trend:
-    """Trend of the jump's frequency: it has to rise by more than the step of the sweeps."""
+    """Return the trend of the frequency of a jump, which must rise by more than one step."""
     return trend(sequences, lambda code: jump(study, code, direction), 1, 1.5 * STEP)
 
 
 def peak_trend(
     study: PublishedStudy, sequences: Sequences, curve: Curve, direction: Direction, sign: int
 ) -> Trend:
-    """Trend of the primary resonance's height."""
+    """Return the trend of the height of the primary resonance."""
     return trend(sequences, lambda code: peak(study, code, curve, direction).value, sign)
 
 
 def backward_less(forward: Trend, backward: Trend) -> bool:
-    """Whether the backward sweep's value rises in all sequences, and less than the forward one's.
+    """Return whether the backward value rises in all sequences, and less than the forward value.
 
-    Of sequences of different length (a test without a jump is left out of both) as of others.
+    Sequences may have different lengths, because a test without a jump is left out of both.
     """
     return backward.all_hold and all(
         abs(move) < abs(forward.moves[name]) for name, move in backward.moves.items()
@@ -167,12 +168,12 @@ def backward_less(forward: Trend, backward: Trend) -> bool:
 
 
 def touching(data: xr.Dataset) -> xr.DataArray:
-    """Where a sweep's mass hits a bumper."""
+    """Return where the mass hits a bumper in a sweep."""
     return in_contact(data)
 
 
 def contact_span(study: PublishedStudy, code: str) -> tuple[float, float]:
-    """First and last frequency of the forward sweep at which a bumper is hit (Hz)."""
+    """Return the first and last frequency (Hz) of the forward sweep at which a bumper is hit."""
     spans = [c for c in study.features(code).contact if c.direction == "forward"]
     if not spans:
         raise AbsentError(f"{code} never hits its bumpers")
@@ -180,22 +181,22 @@ def contact_span(study: PublishedStudy, code: str) -> tuple[float, float]:
 
 
 def free(data: xr.Dataset, curve: Curve) -> xr.DataArray:
-    """Free flight on the same scale as η_a or η_d."""
+    """Return free flight on the same scale as η_a or η_d."""
     name = {"eta_a": "free_acceleration_excursion", "eta_d": "free_displacement_excursion"}[curve]
     return data[name] / data[f"largest_{name}"]
 
 
 def secondary(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
-    """Secondary resonances without hysteresis of a test: frequency (Hz), prominence as a share."""
+    """Return frequency (Hz) and relative prominence of secondary resonances without hysteresis."""
     found = study.classification(code)
     return found.features.secondary_resonances(found.thresholds.prominence)
 
 
 def left_folds(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
-    """Left hystereses below the primary resonance of a test between exact folds (Hz).
+    """Return the left hystereses of a test below its primary resonance, between exact folds (Hz).
 
-    They are those of the followed branch, so that none is too narrow for the sweeps' step; what
-    the sweeps alone show is among them.
+    They are determined on the branch, so that even hystereses narrower than the step of the sweeps
+    are found. Hystereses that only the sweeps show are included.
     """
     found = study.classification(code).features
     folds = sorted(found.folds or ())
@@ -212,16 +213,16 @@ def left_folds(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
 
 
 def told_left(found: list[tuple[float, float]]) -> str:
-    """Left hystereses in words, with their widths."""
+    """Describe left hystereses in words, with their widths."""
     told = [f"{low:.4f} to {high:.4f} Hz ({high - low:.3f} Hz wide)" for low, high in found]
     return f"left hysteresis {', '.join(told)}" if told else "no left hysteresis"
 
 
 def at_onset(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
-    """Peaks of η_a where contact begins, with free flight at their foot.
+    """Return the peaks of η_a where contact begins, with free flight at their foot.
 
-    They are the transition onto the primary resonance, not secondary resonances. Frequency (Hz)
-    and prominence as a share, each once.
+    They belong to the transition to the primary resonance, and are not secondary resonances. Each
+    is returned once, as frequency (Hz) and relative prominence.
     """
     found = study.classification(code)
     least = found.thresholds.prominence
@@ -236,7 +237,7 @@ def at_onset(study: PublishedStudy, code: str) -> list[tuple[float, float]]:
 
 
 def told_onset(study: PublishedStudy, codes: Iterable[str]) -> str:
-    """The peaks that are left out because contact begins there, in words."""
+    """Describe in words the peaks that are left out because contact begins there."""
     told = [
         f"{code} {share:.0%} at {frequency:.2f} Hz"
         for code in codes
@@ -248,7 +249,7 @@ def told_onset(study: PublishedStudy, codes: Iterable[str]) -> str:
 def regular_places(
     study: PublishedStudy, code: str, parameters: laboratory.Parameters = "table"
 ) -> tuple[float, float, float]:
-    """`PublishedStudy.regular_places`, or `AbsentError`."""
+    """Return `PublishedStudy.regular_places`, or raise `AbsentError`."""
     try:
         return study.regular_places(code, parameters)
     except (ValueError, IndexError, StopIteration):
@@ -256,7 +257,7 @@ def regular_places(
 
 
 def impacts(motion: xr.Dataset) -> tuple[float, float]:
-    """Impacts right and left per forcing cycle."""
+    """Return the impacts per forcing cycle, right and left."""
     return float(motion["impacts_right"]), float(motion["impacts_left"])
 
 
@@ -265,7 +266,7 @@ LINES: tuple[Line, Line] = ("displacement", "acceleration")
 
 
 def harmonics(motion: xr.Dataset, of: Line = "displacement", highest: int = 20) -> Array:
-    """Amplitudes of the harmonics 1, 2, ... of a quantity over the first one."""
+    """Return the amplitudes of the harmonics 1, 2, ... of a quantity, divided by the first one."""
     lines = fourier_spectrum(motion, highest)
     whole = lines.sel(order=list(range(1, highest + 1)))[f"{of}_amplitude"].values
     shares: Array = whole / whole[0]
@@ -273,19 +274,19 @@ def harmonics(motion: xr.Dataset, of: Line = "displacement", highest: int = 20) 
 
 
 def higher(motion: xr.Dataset, of: Line = "displacement") -> float:
-    """All higher harmonics of a quantity together, over the first one."""
+    """Return the size of all higher harmonics of a quantity together, divided by the first one."""
     return float(np.sqrt((harmonics(motion, of)[1:] ** 2).sum()))
 
 
 def turns(motion: xr.Dataset) -> float:
-    """Changes of the velocity's sign per forcing cycle."""
+    """Return the number of sign changes of the velocity per forcing cycle."""
     sign = np.sign(motion["velocity"].values)
     sign = sign[sign != 0.0]
     return float((sign[1:] != sign[:-1]).sum()) / float(motion["cycle"][-1] - motion["cycle"][0])
 
 
 def orbits_at(branch: xr.Dataset, frequency: float) -> tuple[int, int]:
-    """Stable and unstable orbits of a branch at a frequency, where it passes by."""
+    """Return the stable and unstable orbits at which a branch passes through a frequency."""
     along, stable = branch["frequency"].values, branch["stable"].values == 1
     passes = (along[1:] - frequency) * (along[:-1] - frequency) < 0.0
     both = stable[1:] & stable[:-1]
@@ -293,7 +294,7 @@ def orbits_at(branch: xr.Dataset, frequency: float) -> tuple[int, int]:
 
 
 def three_between_jumps(study: PublishedStudy, code: str) -> Finding:
-    """Whether half-way between a test's jumps there are two stable orbits and an unstable one."""
+    """Return whether half-way between the jumps there are two stable orbits and an unstable one."""
     middle = 0.5 * sum(both_jumps(study, code))
     stable, unstable = orbits_at(study.antisymmetric_branch(code, LOW, HIGH), middle)
     return Finding(
@@ -302,7 +303,7 @@ def three_between_jumps(study: PublishedStudy, code: str) -> Finding:
 
 
 def apart(data: xr.Dataset) -> xr.DataArray:
-    """How far the two directions of a sweep differ, in η_a or η_d, as a share of the larger."""
+    """Return the difference of the two sweep directions in η_a or η_d, as a share of the larger."""
 
     def one(curve: Curve) -> xr.DataArray:
         eta = data[curve]
@@ -312,22 +313,22 @@ def apart(data: xr.Dataset) -> xr.DataArray:
 
 
 def span(low: float, high: float, unit: str = "Hz") -> str:
-    """A range in words."""
+    """Return a range in words."""
     return f"{low:g} to {high:g} {unit}".rstrip()
 
 
 def at_most(value: float, digits: str = ".1e", unit: str = "") -> str:
-    """A largest difference in words; less than rounding explains is none."""
+    """Return a largest difference in words. A difference within rounding counts as none."""
     return "0 to rounding" if abs(value) < ROUNDING else f"at most {value:{digits}}{unit}"
 
 
 def listed(values: Iterable[float], digits: str = ".3g") -> str:
-    """Values in their order."""
+    """Return values in their order, as text."""
     return ", ".join(f"{value:{digits}}" for value in values)
 
 
 def runs(frequency: Array, true: NDArray[np.bool_]) -> Iterator[tuple[float, float]]:
-    """Ranges of frequency in which something is so."""
+    """Return the frequency ranges in which a condition is true."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], true, [False]])))
     for first, end in edges.reshape(-1, 2):
         yield float(frequency[first]), float(frequency[end - 1])

@@ -1,4 +1,4 @@
-"""Why statements are not reproduced, as far as the computation tells: read beside the numbers."""
+"""Reasons why statements are not reproduced, as far as the computation shows them."""
 
 from __future__ import annotations
 
@@ -106,4 +106,4 @@ REASONS: Mapping[str, str] = {
         "other behaviour is possible there."
     ),
 }
-"""By key of the claim. They are printed only if the computed verdict matches."""
+"""Reasons by the key of the claim. They are printed only if the computed verdict matches."""

@@ -1,4 +1,4 @@
-"""Statements that the linear isolator could not judge or got wrong, with one that softens."""
+"""Statements that the linear isolator could not judge or reproduce, with a softening one."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _AGAIN = (
     "s3-secondary-without-hysteresis",
     "s1-acceleration-like-free-flight",
 )
-"""Statements that the linear isolator got wrong, or that its stiffness was chosen for."""
+"""Statements that the linear isolator did not reproduce, or for which its stiffness was chosen."""
 
 
 @claim(
@@ -42,7 +42,7 @@ _AGAIN = (
     Kind.REFINED,
 )
 def softening(study: PublishedStudy) -> Finding:
-    """By where the displacement has fallen by √2."""
+    """Compare the frequencies at which the displacement has fallen by a factor of √2."""
     codes = tuple(f"B1-Ginf-{a}" for a in laboratory.ACCELERATIONS)
     leaning, others = ([_lean(one, code) for code in codes] for one in (study.refined(), study))
     differ = float(apart(study.refined().family(codes)).sel(rig=codes[-1]).max())
@@ -72,7 +72,7 @@ def _lean(study: PublishedStudy, code: str) -> float:
     Kind.REFINED,
 )
 def upward(study: PublishedStudy) -> Finding:
-    """Test by test."""
+    """Compare the isolators test by test."""
     pairs = {
         code: (one, other)
         for code in CODES
@@ -94,7 +94,7 @@ def upward(study: PublishedStudy) -> Finding:
 
 
 def judged_again(claims: Sequence[Claim]) -> tuple[Claim, ...]:
-    """Statements about the tests, judged with the refined isolator."""
+    """Return the statements about the tests, judged with the refined isolator."""
     known = {one.key: one for one in claims}
     again = []
     for key in _AGAIN:

@@ -1,4 +1,4 @@
-"""Section 4.2: penetration, likeness of curves, and where secondary resonances appear."""
+"""Section 4.2: penetration, similarity of curves, and the tests with secondary resonances."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from vibroimpact.response.peaks import CURVES, Curve
 
 
 def _penetration(study: PublishedStudy, code: str, low: float, high: float) -> tuple[float, float]:
-    """Least and largest penetration in a range of the forward sweep (m)."""
+    """Return the smallest and largest penetration in a range of the forward sweep (m)."""
     bumper = laboratory.case(code).oscillator.right
     assert bumper is not None
     most = study.campaign()["displacement_max"].sel(rig=code, direction="forward")
@@ -44,7 +44,7 @@ def _penetration(study: PublishedStudy, code: str, low: float, high: float) -> t
     "acceleration.",
 )
 def penetration(study: PublishedStudy) -> Finding:
-    """Largest over the frequency."""
+    """Use the largest penetration over the frequency."""
     found = trend(ALONG_BUMPER, lambda code: _penetration(study, code, 0.0, 10.0)[1], -1)
     example = listed([1e3 * value for value in found.values["G1-A3"]], ".2f")
     return Finding(
@@ -60,7 +60,7 @@ def penetration(study: PublishedStudy) -> Finding:
     "forward sweep, from B1 to B4: falls in all 12 pairs of gap and acceleration.",
 )
 def flat(study: PublishedStudy) -> Finding:
-    """On a range that the four bumpers have in common."""
+    """Use the range of frequencies in which all four bumpers are hit."""
 
     def change(code: str) -> float:
         others = [f"{b}-{code.split('-', 1)[1]}" for b in BUMPERS]
@@ -77,7 +77,7 @@ def flat(study: PublishedStudy) -> Finding:
 
 
 def _distance(study: PublishedStudy, one: str, other: str) -> float:
-    """Root mean square difference of two tests' curves, both quantities and directions."""
+    """Return the root mean square difference of two tests' curves, over both quantities."""
     data = study.campaign()
     squares = [((data[c].sel(rig=one) - data[c].sel(rig=other)) ** 2).mean() for c in CURVES]
     return float(np.sqrt(sum(squares)))
@@ -91,7 +91,7 @@ def _distance(study: PublishedStudy, one: str, other: str) -> float:
     "smallest of the six in all 12 pairs of gap and acceleration.",
 )
 def alike(study: PublishedStudy) -> Finding:
-    """Both quantities, both directions."""
+    """Compare both quantities in both sweep directions."""
     held, shares = 0, []
     for codes in ALONG_BUMPER.values():
         pairs = dict(
@@ -112,7 +112,7 @@ def alike(study: PublishedStudy) -> Finding:
 
 
 def _from_free(study: PublishedStudy, curve: Curve) -> dict[str, float]:
-    """Root mean square difference from free flight, by bumper and acceleration."""
+    """Return the root mean square difference from free flight, by bumper and acceleration."""
     data = study.campaign()
     square = ((data[curve] - free(data, curve)) ** 2).mean(["direction", "frequency"])
     return {
@@ -134,7 +134,7 @@ def _told(found: dict[Curve, dict[str, float]], chosen: dict[Curve, str]) -> str
     "pairs, in η_a and in η_d.",
 )
 def closest(study: PublishedStudy) -> Finding:
-    """In both quantities."""
+    """Compare both quantities."""
     found = {curve: _from_free(study, curve) for curve in CURVES}
     least = {curve: min(values, key=values.__getitem__) for curve, values in found.items()}
     return Finding(set(least.values()) == {"B1-A1"}, _told(found, least))
@@ -148,7 +148,7 @@ def closest(study: PublishedStudy) -> Finding:
     "pairs, in η_a and in η_d.",
 )
 def furthest(study: PublishedStudy) -> Finding:
-    """In both quantities."""
+    """Compare both quantities."""
     found = {curve: _from_free(study, curve) for curve in CURVES}
     most = {curve: max(values, key=values.__getitem__) for curve, values in found.items()}
     return Finding(set(most.values()) == {"B4-A3"}, _told(found, most))
@@ -164,7 +164,7 @@ def furthest(study: PublishedStudy) -> Finding:
     Kind.RULES,
 )
 def secondary_where(study: PublishedStudy) -> Finding:
-    """By the tests that have one."""
+    """List the tests that have a secondary resonance."""
     found = [code for code in CODES if secondary(study, code)]
     parts = {part for code in found for part in code.split("-")[1:]}
     return Finding(
@@ -183,7 +183,7 @@ def secondary_where(study: PublishedStudy) -> Finding:
     Kind.RULES,
 )
 def secondary_grows(study: PublishedStudy) -> Finding:
-    """No exception in the grid of tests."""
+    """Check that there is no exception in the grid of tests."""
     found = {code for code in CODES if secondary(study, code)}
     lost = []
     for code in found:
@@ -206,7 +206,7 @@ def secondary_grows(study: PublishedStudy) -> Finding:
     "one: rising.",
 )
 def secondary_higher(study: PublishedStudy) -> Finding:
-    """Height, not prominence."""
+    """Compare the heights, not the prominences."""
     told, holds = [], True
     for pair in ALONG_BUMPER:
         heights = []

@@ -1,4 +1,4 @@
-"""Section 4.2: what bumpers do to the resonance curves."""
+"""Section 4.2: the effects of bumpers on the resonance curves."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _CURVES: tuple[tuple[str, str, Curve], ...] = (
     ("displacement", "Fig. 6", "eta_d"),
 )
 _CROSS = 0.05
-"""Largest spread of four curves that cross according to the paper, over their mean."""
+"""Largest spread of four curves that cross according to the paper, divided by their mean."""
 
 
 @claim(
@@ -50,7 +50,7 @@ _CROSS = 0.05
     "The smallest of the 96 maxima of η_a (48 tests, two directions).",
 )
 def acceleration(study: PublishedStudy) -> Finding:
-    """All maxima above 1."""
+    """Check that all maxima are above 1."""
     most = study.campaign()["eta_a"].max("frequency")
     least = float(most.min())
     code = str(most.min("direction").idxmin("rig").item())
@@ -64,7 +64,7 @@ def acceleration(study: PublishedStudy) -> Finding:
     "The largest of the 96 maxima of η_d.",
 )
 def displacement(study: PublishedStudy) -> Finding:
-    """All maxima below 1."""
+    """Check that all maxima are below 1."""
     most = study.campaign()["eta_d"].max("frequency")
     largest = float(most.max())
     code = str(most.max("direction").idxmax("rig").item())
@@ -106,7 +106,7 @@ _HIGHER = tuple(
     Kind.CONSTRUCTION,
 )
 def overlap(study: PublishedStudy) -> Finding:
-    """To rounding."""
+    """Compare the curves to rounding."""
     data = study.campaign()
     apart_by = abs(data["eta_d"] / free(data, "eta_d") - 1.0)
     worst = float(apart_by.where(~touching(data)).max())
@@ -121,7 +121,7 @@ def overlap(study: PublishedStudy) -> Finding:
     "Jumps of both directions, and whether bumpers are hit on their far sides.",
 )
 def hysteresis(study: PublishedStudy) -> Finding:
-    """Down into free flight, up out of it."""
+    """Check the jumps: downwards to free flight, upwards away from it."""
     down, up = both_jumps(study, _EXAMPLE)
     hit = touching(study.campaign().sel(rig=_EXAMPLE))
     forward, backward = hit.sel(direction="forward"), hit.sel(direction="backward")
@@ -143,7 +143,7 @@ def hysteresis(study: PublishedStudy) -> Finding:
     "Orbits of the followed branch of B4-G4-A3 in the middle between its jumps, by stability.",
 )
 def three_motions(study: PublishedStudy) -> Finding:
-    """Counted on the branch."""
+    """Count the orbits on the branch."""
     return three_between_jumps(study, _EXAMPLE)
 
 
@@ -155,7 +155,7 @@ def three_motions(study: PublishedStudy) -> Finding:
     "0.5 Hz, where some tests hit already.",
 )
 def onset(study: PublishedStudy) -> Finding:
-    """Falls until it reaches the beginning of the sweep."""
+    """Check that the frequency falls until it reaches the beginning of the sweep."""
     found = trend(ALONG_GAP, lambda code: contact_span(study, code)[0], -1)
     strictly = all(
         later < earlier or later == LOW
@@ -173,7 +173,7 @@ def onset(study: PublishedStudy) -> Finding:
     "Frequencies at which η_d exceeds free flight's by more than 1 % in the forward sweep.",
 )
 def larger(study: PublishedStudy) -> Finding:
-    """Above free flight's resonance, on the hardened branch."""
+    """Find the frequencies, which lie above the resonance of free flight."""
     data = study.campaign().sel(direction="forward")
     more = data["eta_d"] > (1.0 + APART) * free(data, "eta_d")
     count = int(more.any("frequency").sum())
@@ -191,7 +191,7 @@ def larger(study: PublishedStudy) -> Finding:
     "B3 and B4 at A2 and A3 within one step of the tests, 0.1 Hz, of 1 Hz, and below 5 %.",
 )
 def fixed_point(study: PublishedStudy) -> Finding:
-    """Forward, below the lowest upward jump."""
+    """Use the forward sweep below the lowest upward jump."""
     data = study.campaign().sel(direction="forward")
     parts, holds = [], True
     for a in ACCELERATIONS[1:]:
@@ -219,7 +219,7 @@ def fixed_point(study: PublishedStudy) -> Finding:
     "frequencies where both settled, 48 tests.",
 )
 def coincide(study: PublishedStudy) -> Finding:
-    """By construction less than the distance between two distinct motions, and in fact far less."""
+    """Compare the directions. They differ by far less than two distinct motions would."""
     data = study.campaign()
     differ = apart(data).where((data["motion"] == "periodic").all("direction"))
     worst = 0.0
