@@ -10,5 +10,5 @@ import vibroimpact as vi
 from vibroimpact.figures import scenario_cases
 
 cases = vi.laboratory.campaign()
-found = {case.code: str(vi.classify_scenario(case).scenario) for case in cases}
+found = {case.code: vi.classify_scenario(case).attrs["label"] for case in cases}
 scenario_cases(found)
