@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import COMPONENTS
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import section_map
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT
+from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError
@@ -155,6 +155,8 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
         if touches:
             mode |= RIGHT if sign == 1 else LEFT
         deformations[i] = deformation
+    if mode == BOTH and not _overlap(oscillator):
+        mode = _deeper(oscillator, u, v)
     vector = np.zeros(layout.STATE)
     vector[layout.MODE] = mode
     vector[layout.FRESH] = mode  # what touches begins to
@@ -162,6 +164,22 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     vector[layout.RIGHT_BUMPER], vector[layout.LEFT_BUMPER] = deformations
     vector[layout.ISOLATOR] = state.isolator
     return vector
+
+
+def _overlap(oscillator: Oscillator) -> bool:
+    """Whether the mass can press both stops at once."""
+    return sum(stop.gap for stop in oscillator.stops) < 0.0
+
+
+def _deeper(oscillator: Oscillator, u: float, v: float) -> int:
+    """Return the side that is pressed where both stops begin at one place.
+
+    Both are touched to within rounding there, and the engine has no motion that presses both.
+    """
+    assert oscillator.right is not None
+    assert oscillator.left is not None
+    right, left = u - oscillator.right.gap, -u - oscillator.left.gap
+    return RIGHT if (right, v) >= (left, -v) else LEFT
 
 
 def _on_power_law(
