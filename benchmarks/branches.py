@@ -48,8 +48,9 @@ def branches() -> Table:
     folds = _TURN * data["bifurcation_value"].values[kinds == "fold"]
     grazings = _TURN * data["bifurcation_value"].values[kinds == "grazing"]
     table.notes.append(
-        f"The stops: {data.sizes['point']} orbits; upper fold at Ω = {folds.max():.9f}, grazing "
-        f"at Ω = {grazings.max():.12f}, no contact smoothed."
+        f"The branch with elastic stops has {data.sizes['point']} orbits. Its upper fold is at "
+        f"Ω = {folds.max():.9f}, and its grazing is at Ω = {grazings.max():.12f}. No contact is "
+        "smoothed."
     )
     ours = Spread.of(seconds["branch"]).median
     for smoothing, intervals, longest in _AUTO:

@@ -89,7 +89,7 @@ def clusters() -> Table:
             table.add(f"{name}: processes over threads", others.text(), "", "")
             table.add(f"{name}: threads, s", Spread.of(taken["threads"]).text(), "", "")
     table.notes.append(
-        "The same call, three ways in turn, in each of "
-        f"{_ROUNDS} rounds; the cluster and the processes have been started."
+        f"In each of {_ROUNDS} rounds, the same call runs in three ways, in turn. The cluster and "
+        "the processes are started before."
     )
     return table

@@ -62,9 +62,10 @@ def _diagram(table: Table) -> None:
         met(ratio > _FASTER),
     )
     table.notes.append(
-        f"Problem P over gaps from {low} to {high}; each value is held until the motion is steady, "
-        f"{cycles:,.0f} forcing cycles in all, those of the exponents left out. scipy (DOP853, "
-        f"rtol {_RTOL:g}) does {len(gaps)} of the gaps once, from rest: times {2 * _SHARE}."
+        f"The diagram shows problem P over gaps from {low} to {high}. Each value is held until the "
+        f"motion is steady. This takes {cycles:,.0f} forcing cycles in all, without those of the "
+        f"exponents. scipy (DOP853, rtol {_RTOL:g}) computes {len(gaps)} of the gaps once, from "
+        f"rest. Its time is multiplied by {2 * _SHARE}."
     )
 
 
@@ -102,8 +103,9 @@ def _ensemble(table: Table) -> None:
         met(ratio > _FASTER),
     )
     table.notes.append(
-        "The ensemble draws P's gap, bumper stiffness and damping; scipy does ten rigs one way, "
-        f"for as many cycles as the holds took on average, and is taken {2 * _SHARE} times."
+        "The ensemble draws P's gap, bumper stiffness and damping. scipy computes ten rigs in one "
+        "direction, for as many cycles as the holds took on average. Its time is multiplied by "
+        f"{2 * _SHARE}."
     )
 
 

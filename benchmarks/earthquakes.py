@@ -54,8 +54,9 @@ def earthquakes() -> Table:
     impacts = found["impact_count"]
     table.notes.append(
         f"B3-A3 at gaps of 5 to 20 mm and peaks of 0.1 to 3 m/s²: {float((impacts > 0).mean()):.0%}"
-        f" of the runs hit, {float(impacts.mean()):.1f} contacts a run. Peaks, forces, impulses, "
-        "counts and residual displacements of each, in a labelled dataset."
+        f" of the runs touch a bumper, with {float(impacts.mean()):.1f} contacts per run on "
+        "average. The labelled dataset contains the peaks, forces, impulses, counts and residual "
+        "displacements of each run."
     )
     try:
         peer = import_module("benchmarks.peers.opensees_peer")
@@ -83,8 +84,9 @@ def earthquakes() -> Table:
             met(ratio > _TIMES) if last else "",
         )
     table.notes.append(
-        f"OpenSees on {len(chosen)} of the runs, one after the other, with the largest "
-        "displacement of its steps. Here peaks are right to rounding, which no number of steps "
-        "reaches there: the ratio at the same error is larger than that of the last row."
+        f"OpenSees computes {len(chosen)} of the runs, one after the other. Its peak is the "
+        "largest displacement of its steps. The peaks of vi.demands are right to rounding. "
+        "OpenSees does not reach this accuracy with any number of steps. At the same error, the "
+        "ratio is therefore larger than in the last row."
     )
     return table

@@ -95,9 +95,10 @@ def identification() -> Table:
     table.add(f"the same by solve_ivp, {_CYCLES} cycles a frequency, s", f"{others:.1f}", "", "")
     table.add("ratio", f"{others / own:,.0f}", "", "")
     table.notes.append(
-        f"B2-G1-A3, from half to one and a half times each value; {fit.attrs['starts_alike']} of "
-        f"{fit.attrs['starts']} starts came to the same fit, {fit.attrs['evaluations']} "
-        "evaluations. solve_ivp (RK45, rtol 1e-6, at least 50 steps a cycle) has no events: it "
-        "smears each contact, and its 40 cycles do not settle everywhere."
+        "The fit of B2-G1-A3 starts from half to one and a half times each value. "
+        f"{fit.attrs['starts_alike']} of {fit.attrs['starts']} starts led to the same fit, with "
+        f"{fit.attrs['evaluations']} evaluations. solve_ivp (RK45, rtol 1e-6, at least 50 steps "
+        "per cycle) does not locate events. It therefore smears each contact, and its 40 cycles do "
+        "not settle everywhere."
     )
     return table

@@ -51,8 +51,8 @@ def yielding() -> Table:
             *held,
         )
     table.notes.append(
-        "Bumpers, dashpot, spring and forcing are those of P. Events are all that ends a stretch: "
-        "contacts, detachments, turns, yields."
+        "Bumpers, dashpot, spring and forcing are those of P. Events are contacts, detachments, "
+        "turns of the mass, and the beginning of yielding."
     )
     return table
 
@@ -79,9 +79,9 @@ def sampling() -> Table:
         met(1e9 * spread.median < _NANOSECONDS),
     )
     table.notes.append(
-        f"{_PERIODS:,} periods with {_SAMPLES} samples each, less the same without samples; "
-        "displacement, velocity, acceleration, both bumpers and the contact of each sample, all "
-        "events, and the labelled dataset are in the difference."
+        f"The time is that of {_PERIODS:,} periods with {_SAMPLES} samples each, minus that of the "
+        "same periods without samples. It includes displacement, velocity, acceleration, both "
+        "bumpers and the contact of each sample, all events, and the labelled dataset."
     )
     return table
 
@@ -106,6 +106,6 @@ def laws() -> Table:
         )
     table.notes.append(
         "Mass, isolator and forcing are those of P. The motions differ, and so does the number of "
-        "their events, contacts, impacts and detachments."
+        "their events. Events are contacts, impacts and detachments."
     )
     return table

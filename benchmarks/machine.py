@@ -26,8 +26,8 @@ def machine() -> Table:
     table.add("load when it began", f"{busy:.1f}")
     if busy > 0.5:
         table.notes.append(
-            "The machine was not idle: times on the wall are too long, and a second thread finds "
-            "its processor taken."
+            "The machine was not idle. Wall-clock times are therefore too long, and a second "
+            "thread must share its processor."
         )
     return table
 

@@ -29,7 +29,10 @@ def memory() -> Table:
             "none",
             met(growth <= _ALLOWED),
         )
-    table.notes.append(f"Up to {_ALLOWED:,.0f} KiB count as none: the allocator's pages.")
+    table.notes.append(
+        f"A growth of up to {_ALLOWED:,.0f} KiB counts as none, because the allocator reserves "
+        "whole pages."
+    )
     return table
 
 

@@ -81,5 +81,8 @@ def page() -> Table | None:
         value = took[name]
         table.add(words, f"{value:.0f}", f"under {limit:g} ms", met(value < limit))
     table.add("slider to painted frame, 95 of 100 within, ms", f"{took['most']:.0f}", "", "")
-    table.notes.append(f"{FIRST}, its gap turned; Chromium without a screen at 1280 × 720.")
+    table.notes.append(
+        f"The page shows {FIRST}, and the slider changes its gap. Chromium runs without a screen "
+        "at 1280 × 720."
+    )
     return table

@@ -51,8 +51,8 @@ def records() -> Table:
     table.add("the same, final state alone, ms", Spread.of(seconds["end"]).text(1e3), "", "")
     contacts = int((fine["event_contact"] == 1).sum())
     table.notes.append(
-        f"{contacts} contacts; peak {1e3 * peak:.4f} mm. The time of vi.simulate has its labelled "
-        "dataset in it, with every sample and event."
+        f"The motion has {contacts} contacts and a peak of {1e3 * peak:.4f} mm. The time of "
+        "vi.simulate includes its labelled dataset, with every sample and event."
     )
     try:
         peer = import_module("benchmarks.peers.opensees_peer")
@@ -74,7 +74,8 @@ def records() -> Table:
             met(ratio > _TIMES) if last else "",
         )
     table.notes.append(
-        "Peaks are those at the record's samples. Here they are right to rounding, which no number "
-        "of steps reaches there: the ratio at the same error is larger than that of the last row."
+        "Peaks are those at the record's samples. The peaks of vi.simulate are right to rounding. "
+        "OpenSeesPy does not reach this accuracy with any number of steps. At the same error, the "
+        "ratio is therefore larger than in the last row."
     )
     return table

@@ -166,9 +166,9 @@ def startup(compiled: Compiling) -> Table:
         value = f"{compiled.cold[entry]:.1f}, then {compiled.cached[entry]:.2f}"
         table.add(f"compiling for {public}, then loading, s", value, "", "")
     table.notes.append(
-        "The vi.sweep is of B2-G1-A3 at the 46 published frequencies, forward and backward; the "
-        "command steps by 0.01 Hz and writes a figure, a NetCDF file and a summary too. Targets "
-        "are for the time on the wall, which on a quiet machine is near the processor time."
+        "vi.sweep computes B2-G1-A3 at the 46 published frequencies, forward and backward. The "
+        "command uses steps of 0.01 Hz, and also writes a figure, a NetCDF file and a summary. "
+        "Targets are for the wall-clock time. On a quiet machine, it is near the processor time."
     )
     return table
 

@@ -119,9 +119,10 @@ def trajectory(others: Peers, ready: str) -> list[Table]:
             ready if name in (ENGINE, SIMULATE) else others.solvers[name].ready,
         )
     table.notes.append(
-        f"Median and, in brackets, range over {_ROUNDS} interleaved rounds (scipy: "
-        f"{_SCIPY_ROUNDS}); ratios are taken round by round. scipy runs {SCIPY_PERIODS} periods; "
-        "its error is that after them. A contact is the landing and the detachment together."
+        f"Values are the median and, in brackets, the range over {_ROUNDS} interleaved rounds "
+        f"(scipy: {_SCIPY_ROUNDS}). Ratios are computed round by round. scipy runs "
+        f"{SCIPY_PERIODS} periods, and its error is the error after them. A contact consists of "
+        "the landing and the detachment."
     )
     table.notes += [f"{name} is not installed and was left out." for name in others.missing]
 
@@ -186,7 +187,8 @@ def short_runs(others: Peers) -> Table:
     for name in columns[0]:
         table.add(name, *(c[name].text(1e6) if name in c else "" for c in columns))
     table.notes.append(
-        "The engine makes its tables anew in each run; heyoka's integrator is compiled before."
+        "The engine computes its tables again in each run. heyoka's integrator is compiled before "
+        "the runs."
     )
     return table
 
@@ -229,8 +231,8 @@ def many(others: Peers) -> Table | None:
         behind = "1" if name == names[0] else ratio(seconds[name], seconds[names[0]]).text()
         table.add(name, Spread.of(seconds[name]).text(scale), behind, f"{off:.1e}")
     table.notes.append(
-        "The batch has several starts, the others run from rest; all end on the same orbit, so the "
-        "reference serves them all."
+        "The trajectories of the batch have different initial states. The other solvers run from "
+        "rest. All trajectories end on the same orbit, so one reference is valid for all."
     )
     return table
 
