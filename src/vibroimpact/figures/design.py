@@ -61,13 +61,11 @@ def design_chart(
     Parameters
     ----------
     data
-        Dataset of `design_chart` over one or two parameters, with at least two values of each
-        parameter.
+        Dataset of `design_chart` over one or two parameters, with at least two values of each.
     axes
         Axes to draw on, one per quantity. Default: a new figure.
     quantities
-        Quantities that are drawn: ``"peak_displacement"``, ``"peak_acceleration"`` or
-        ``"peak_force"``.
+        Drawn quantities: ``"peak_displacement"``, ``"peak_acceleration"`` or ``"peak_force"``.
     title
         Title of the figure, if a new one is made.
 
