@@ -62,13 +62,6 @@ def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]
     }
 
 
-def add_notes(data: xr.Dataset, notes: Iterable[str]) -> xr.Dataset:
-    """Put further notes after those that a dataset has."""
-    if lines := [*noted(data), *notes]:
-        data.attrs["notes"] = "\n".join(lines)
-    return data
-
-
 def noted(data: xr.Dataset) -> list[str]:
     """Return the notes of a dataset, as a list of lines."""
     return str(data.attrs.get("notes", "")).splitlines()

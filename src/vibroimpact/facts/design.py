@@ -13,6 +13,7 @@ from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from vibroimpact.datasets.description import noted
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.design.limits import QUANTITIES
@@ -106,7 +107,7 @@ def text(
 
 
 def _notes(least: xr.Dataset) -> list[str]:
-    return str(least.attrs.get("notes", "")).splitlines()
+    return noted(least)
 
 
 def _records_facts(gap: xr.Dataset) -> dict[str, Any]:

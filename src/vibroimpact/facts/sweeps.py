@@ -8,6 +8,7 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
+from vibroimpact.datasets.description import noted
 from vibroimpact.facts import largest
 from vibroimpact.facts.tables import titled_table
 from vibroimpact.model.units import plain
@@ -62,7 +63,7 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
         _ranges("Contact with a bumper", found.contact, "nowhere"),
         _ranges("Not settled", found.unsettled, "nowhere"),
     ]
-    notes = str(data.attrs.get("notes", "")).splitlines()
+    notes = noted(data)
     parts += [Text(f"Note: {line}") for line in notes if line.startswith((UNBOUNDED, STIFF))]
     parts += [Text(f"Advice: {line}", style="yellow") for line in advice]
     return Group(*parts)

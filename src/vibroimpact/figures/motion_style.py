@@ -54,8 +54,8 @@ def named(
     Raises
     ------
     InputError
-        If there is no motion, or if a dataset does not hold a motion with samples. Motions through
-        a `Record` are accepted only with ``records``.
+        If there is no motion, if a dataset does not contain a motion with samples, or if a motion
+        through a `Record` is passed without ``records``.
     """
     # A dataset is a mapping, too.
     if isinstance(motions, Mapping) and not isinstance(motions, xr.Dataset):

@@ -9,6 +9,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from vibroimpact.datasets.description import noted
 from vibroimpact.identification.model_selection import OWN_MODEL, ModelFits
 from vibroimpact.identification.next_test import next_test
 from vibroimpact.reports.identification import amplitude_of, parameter_rows
@@ -75,7 +76,7 @@ def _values(found: xr.Dataset) -> dict[str, Any]:
 def _notes(test: xr.Dataset, *, many: bool) -> list[str]:
     """Return the notes on reading a test, with the name of the file if there are several tests."""
     source = test.attrs.get("source", "")
-    lines = test.attrs.get("notes", "").splitlines()
+    lines = noted(test)
     return [
         line if not many or line.startswith(f"{source}: ") else f"{source}: {line}"
         for line in lines

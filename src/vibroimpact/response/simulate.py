@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import (
     COMPONENTS,
-    add_notes,
     describe,
     excitation_parameters,
+    noted,
     oscillator_parameters,
 )
 from vibroimpact.engine import batch
@@ -96,7 +96,8 @@ def simulate(
     rig = as_rig(rig, frequency)
     data = compute_history(rig, cycles, start, samples, tail, max_events, progress)
     # A short motion shows nothing: only the closed form of free flight counts.
-    return add_notes(data, doubt_gaps(rig, stacklevel=4))
+    notes = [*noted(data), *doubt_gaps(rig, stacklevel=4)]
+    return describe(data, "vibroimpact.simulate", notes=notes)
 
 
 def compute_history(

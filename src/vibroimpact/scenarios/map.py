@@ -20,7 +20,7 @@ from vibroimpact.model.count_checks import share, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.scenarios.axes import Axis, Base, axis, check_pair, one_sine
 from vibroimpact.scenarios.map_node import RIG, classified
-from vibroimpact.scenarios.map_store import MapStore, map_store
+from vibroimpact.scenarios.map_store import MapStore, chunk_slices, map_store
 from vibroimpact.scenarios.sweep_frequencies import STEP
 from vibroimpact.scenarios.thresholds import Thresholds, checked
 from vibroimpact.tasks.executors import PROCESSES, THREADS, placed
@@ -199,10 +199,9 @@ class _Plan(NamedTuple):
 
     def blocks(self) -> Iterator[tuple[int, int, tuple[slice, slice]]]:
         """Row, column and place of each block."""
-        rows, columns = (range(0, n, self.chunk) for n in self.nodes.shape)
-        for r, row in enumerate(rows):
-            for c, column in enumerate(columns):
-                yield r, c, (slice(row, row + self.chunk), slice(column, column + self.chunk))
+        rows, columns = (chunk_slices(n, self.chunk) for n in self.nodes.shape)
+        for (r, row), (c, column) in itertools.product(enumerate(rows), enumerate(columns)):
+            yield r, c, (row, column)
 
     def values(self, row: int, column: int) -> Values:
         """Return the values of both parameters at a node."""

@@ -64,7 +64,7 @@ class MapStore:
     def inherit(self, scenarios: NDArray[np.int8]) -> None:
         """Put the scenarios of all nodes; the levels show which were computed."""
         array = self._array("scenario")
-        for rows, columns in itertools.product(*map(_chunk_slices, array.shape, array.chunks)):
+        for rows, columns in itertools.product(*map(chunk_slices, array.shape, array.chunks)):
             part = {"scenario": scenarios[rows, columns]}
             write_block(self._group, _KIND, (rows, columns), part)
 
@@ -133,7 +133,7 @@ def map_store(
     """
     of = parameters["base"].get("of", "acceleration")
     make = partial(_make, axes=axes, chunk=chunk, levels=levels, of=of)
-    rows, columns = (_chunk_slices(len(one.values), chunk) for one in reversed(axes))
+    rows, columns = (chunk_slices(len(one.values), chunk) for one in reversed(axes))
     blocks = (
         Block(tuple((level, r, c) for level in range(levels)), (row, column))
         for r, row in enumerate(rows)
@@ -143,7 +143,7 @@ def map_store(
         yield MapStore(group)
 
 
-def _chunk_slices(length: int, chunk: int) -> list[slice]:
+def chunk_slices(length: int, chunk: int) -> list[slice]:
     """Return the parts of a dim that are chunks."""
     return [slice(start, start + chunk) for start in range(0, length, chunk)]
 

@@ -116,12 +116,14 @@ def write_block(
     known = []
     for array in arrays:
         there = np.asarray(array[place])
-        new = np.broadcast_to(values.get(array.basename, there), there.shape).astype(there.dtype)
-        known.append((_checksum(array, place, there), _checksum(array, place, new)))
-    group["checksum"][_chunk_number(arrays[0], place)] = known  # type: ignore[index]
-    for array in arrays:
+        before = after = _checksum(array, place, there)
         if array.basename in values:
-            array[place] = values[array.basename]
+            new = np.broadcast_to(values[array.basename], there.shape).astype(there.dtype)
+            after = _checksum(array, place, new)
+        known.append((before, after))
+    group["checksum"][_chunk_number(arrays[0], place)] = known  # type: ignore[index]
+    for name, part in values.items():
+        group[name][place] = part  # type: ignore[index]
 
 
 def _checksum(array: Any, place: tuple[slice, ...], values: Any) -> int:
