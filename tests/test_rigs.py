@@ -173,7 +173,7 @@ RECORD = vi.Record([0.1, 0.2], 0.01)
         (lambda: vi.sweeps(3, GRID), r"^rigs: 3 is not a rig"),
         (lambda: vi.sweeps([], GRID), r"^rigs: the list is empty"),
         (lambda: vi.sweeps(["B9-G1-A3"], GRID), r"^rigs\[0\]: .*bumper 'B9'"),
-        (lambda: vi.Rig(SHAKEN, OSCILLATOR), r"^oscillator: a Harmonic shakes a rig and comes se"),
+        (lambda: vi.Rig(SHAKEN, OSCILLATOR), r"^oscillator: a Harmonic is the shaking, which is"),
         (lambda: vi.Rig(550.0, AMPLITUDE), r"^oscillator: 550.0 is not an Oscillator; Rig\("),
         (lambda: vi.Rig(OSCILLATOR, OSCILLATOR), r"^shaking: .* is not an excitation; Rig\("),
         (lambda: vi.Rig(OSCILLATOR, -1.0), r"^shaking: -1"),

@@ -121,7 +121,7 @@ def test_unstable_curves_end_on_the_motions():
     away = np.linalg.norm(ends[:, None] - motions[None], axis=2)
     assert away.min(axis=1).max() < 1e-3
     assert set(away.argmin(axis=1)) == {0, 1}
-    assert list(found()["curve_ended"].values[2:]) == ["it ends on a motion"] * 2
+    assert list(found()["curve_ended"].values[2:]) == ["the curve ends at a steady motion"] * 2
 
 
 @pytest.mark.parametrize("kind", ["stable", "unstable"])
@@ -203,7 +203,7 @@ def test_crossings_of_lines_that_are_known():
     ("saddles", "words", "named"),
     [
         (vi.State(0.0026, -0.027), {}, "saddles[0]: its multipliers"),
-        (xr.Dataset(), {}, "saddles[0]: it is not an orbit"),
+        (xr.Dataset(), {}, "saddles[0]: this is not an orbit"),
         (None, {"spacing": 0.0}, "spacing: "),
         (None, {"longest": -1.0}, "longest: "),
         (None, {"period": 0}, "period: 0"),
@@ -218,7 +218,9 @@ def test_what_is_refused(saddles, words, named):
 
 def test_an_orbit_at_another_phase_is_refused():
     orbit = vi.orbit(vi.Rig(CASE.oscillator, EXCITATION), vi.State(0.0053, 0.002))
-    with pytest.raises(vi.InputError, match="its phase is 0, that of the excitation 1"):
+    with pytest.raises(
+        vi.InputError, match="its phase is 0 rad, but the phase of the excitation is 1"
+    ):
         vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION.replace(phase=1.0)), orbit, *WINDOW)
 
 

@@ -379,7 +379,7 @@ def test_an_isolator_without_stiffness(run, tmp_path):
     assert run("study.toml", *span[:2]) == (
         2,
         "",
-        "vibroimpact: error: --to: missing; the isolator has no stiffness, so that there is no "
+        "vibroimpact: error: --to: missing; the isolator has no stiffness, so there is no "
         "natural frequency and no default; a frequency greater than 0 is accepted\n",
     )
 

@@ -56,7 +56,7 @@ def test_several_harmonics_are_refused(run, tmp_path):
     for words in (("saw",), ("saw", "--from", "1Hz")):
         code, out, errors = run(*words)
         assert (code, out) == (2, "")
-        assert "excitation: a Periodic, whose harmonics cause resonances" in errors
+        assert "excitation: the harmonics of a Periodic cause resonances" in errors
         assert errors.count("\n") == 1
 
 

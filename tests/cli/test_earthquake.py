@@ -108,8 +108,8 @@ def test_each_record_of_a_suite_has_its_own_component_and_scale(run, tmp_path, q
         given = [*words[:4], value] if option == "--component" else [*words, option, value]
         assert run(*given)[::2] == (
             2,
-            f"vibroimpact: error: {option}: '1,2,3' are 3 for 2 records; one for all, or one for "
-            "each, is accepted\n",
+            f"vibroimpact: error: {option}: '1,2,3' has 3 values for 2 records; one value for "
+            "all records, or one value per record, is accepted\n",
         )
 
 
@@ -154,7 +154,7 @@ def test_two_files_of_one_name_are_refused(run, tmp_path, quake):
     (tmp_path / "b" / quake).write_text((tmp_path / quake).read_text())
     code, out, errors = run("B2-G1-A3", quake, f"b/{quake}")
     assert (code, out) == (2, "")
-    assert errors.startswith(f"vibroimpact: error: RECORD: 'b/{quake}' has the name of another one")
+    assert errors.startswith(f"vibroimpact: error: RECORD: 'b/{quake}' has the same name as")
 
 
 def test_what_is_said_in_place_of_a_file_is_told(run, tmp_path):
@@ -175,7 +175,7 @@ def test_what_is_said_in_place_of_a_file_is_told(run, tmp_path):
 def test_a_unit_that_nobody_says_is_told(run, tmp_path):
     (tmp_path / "bare.csv").write_text("\n".join(f"{i % 3 - 1}" for i in range(50)) + "\n")
     code, _, errors = run("B2-G1-A3", "bare.csv", "--step", "10ms")
-    note = "unit m/s², for the file says none"
+    note = "unit m/s², because the file states none"
     assert code == 0
     assert errors == f"vibroimpact: warning: record 'bare.csv': {note}\n"
     (tmp_path / "rig.toml").write_text(
@@ -191,11 +191,11 @@ def test_a_unit_that_nobody_says_is_told(run, tmp_path):
     ("words", "line"),
     [
         (["--scale", "0"], "scale: 0"),
-        (["--scale", "2", "--peak", "1"], "peak: '1' beside"),
+        (["--scale", "2", "--peak", "1"], "peak: '1' is given together"),
         (["--tail", "-1s"], "--tail: '-1s' is less than 0"),
         (["--samples", "0"], "--samples: 0; a whole number of at least 1"),
         (["--amplitude", "0.1g"], "--amplitude: '0.1g', but a record shakes this rig"),
-        (["--component", "Up"], "component: 'Up' is none of 'quake.csv'"),
+        (["--component", "Up"], "component: 'Up' is not a component of 'quake.csv'"),
         (["nothing.AT2"], "record: 'nothing.AT2' cannot be read"),
     ],
 )

@@ -98,11 +98,11 @@ def test_an_amplitude_without_a_unit_is_told_and_named_where_nothing_fits(file, 
     told = " ".join(capsys.readouterr().out.split())
     assert "amplitude of bare: 0.004079 g, from bare.csv" in told
     assert "amplitude has no unit: taken as 0.04 m/s² (0.00408 g)" in told
-    assert "the amplitude was taken as 0.004079 g, from bare.csv" in told
+    assert "the fit used the amplitude 0.004079 g, from bare.csv" in told
     assert main([*words, "-o", str(tmp_path), "--amplitude", "0.04 g", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["amplitudes"] == {"bare": "0.04 g, from the call"}
-    assert not any("the amplitude was taken" in line for line in found["findings"])
+    assert not any("the fit used the amplitude" in line for line in found["findings"])
 
 
 def test_the_model_that_wins_has_values_a_report_and_a_study(tmp_path, capsys):

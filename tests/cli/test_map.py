@@ -134,8 +134,8 @@ def test_ranges(text, expected):
     ("words", "named"),
     [
         (["--x", "gip", "0:1"], "--x: 'gip'; one of gap, amplitude, bumper-stiffness"),
-        (["--x", "gap", "0:1"], "--y: 'gap_ratio' is 'gap' in other units"),
-        (["--x", "gap-ratio", "0:1"], "--y: 'gap_ratio' is that of x"),
+        (["--x", "gap", "0:1"], "--y: 'gap_ratio' is the same quantity as 'gap'"),
+        (["--x", "gap-ratio", "0:1"], "--y: 'gap_ratio' is also the parameter of x"),
         (["--x", "stiffness-ratio", "1"], "--x: '1'; a range LOW:HIGH[:log][:NODES] is accepted"),
         (["--x", "stiffness-ratio", "1:2:lag"], "--x: 'lag' nodes"),
         (["--x", "stiffness-ratio", "1:2:1"], "--x: '1' nodes"),

@@ -369,9 +369,12 @@ def test_a_motion_that_is_given_up(run, tmp_path):
         (["--frequency", ""], "--frequency"),
         (["--frequency", "2Hz,,3Hz"], "--frequency"),
         (["--frequency", "2Hz,-3Hz"], "--frequency"),
-        (["--frequency", "2Hz,2.0Hz"], "names one twice"),
-        (["--frequency", "2Hz,2.0000001Hz"], "names one twice"),  # files and columns are one
-        (["--frequency", "1Hz,2Hz,3Hz,4Hz,5Hz,6Hz,7Hz"], "7 given; at most 6"),
+        (["--frequency", "2Hz,2.0Hz"], "names a frequency twice"),
+        (
+            ["--frequency", "2Hz,2.0000001Hz"],
+            "names a frequency twice",
+        ),  # files and columns are one
+        (["--frequency", "1Hz,2Hz,3Hz,4Hz,5Hz,6Hz,7Hz"], "7 frequencies; at most 6"),
         (["--frequency", "2Hz", "--branch", "sideways"], "sideways"),
         (["--frequency", "0.1Hz", "--branch", "forward"], "--branch: no forward sweep reaches 0.1"),
         (["--frequency", "20Hz", "--branch", "backward"], "--branch: no backward sweep reaches 20"),

@@ -61,7 +61,7 @@ def test_changes_in_their_order_and_json(run, quake):
         "step",
         "unit",
         "cut",
-        "less",
+        "mean",
         "scaled",
     ]
     assert facts["files"] == {"data": "out/made-record.nc", "figure": "out/made-record.svg"}
@@ -73,7 +73,9 @@ def test_one_of_several_components(run, tmp_path):
     (tmp_path / "quake.V2").write_text("\n".join([*csmip(1, "90 DEG"), *csmip(2, "UP")]) + "\n")
     code, _, errors = run("quake.V2")
     assert code == 2
-    assert errors.startswith("vibroimpact: error: component: missing, and 'quake.V2' has 2; ")
+    assert errors.startswith(
+        "vibroimpact: error: component: missing, and 'quake.V2' has 2 components; "
+    )
     assert run("quake.V2", "--component", "up", "--periods", "5")[0] == 0
     assert (tmp_path / "out/quake.V2-up-record.nc").is_file()
 
@@ -102,8 +104,8 @@ def test_a_study_takes_a_component(tmp_path, run):
         (["--step", "-1s"], "--step: '-1s' is not greater than 0"),
         (["--start", "99s"], "--start: '99s' is greater than"),
         (["--scale", "0"], "--scale: 0"),
-        (["--scale", "2", "--peak", "1"], "--peak: '1' beside"),
-        (["--component", "east"], "--component: 'east' is none of 'quake.AT2'"),
+        (["--scale", "2", "--peak", "1"], "--peak: '1' is given together"),
+        (["--component", "east"], "--component: 'east' is not a component of 'quake.AT2'"),
         (["--output", "/proc/vibroimpact"], "--output"),
     ],
 )

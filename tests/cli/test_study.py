@@ -155,7 +155,7 @@ def test_a_study_needs_no_ending(write):
         ),
         (
             RIG.replace("damping =", 'period = "2 s", damping_ratio = 0.1, damping =', 1),
-            r"oscillator.isolator.(stiffness|damping): given beside period; one of the two is",
+            r"oscillator.isolator.(stiffness|damping): given together with period; one of the",
         ),
         (RIG.replace("550 kg", "550 g"), r"oscillator.mass: '550 g' has a g, which is gravity"),
         (RIG.replace("550", "-550"), r"oscillator.mass: '-550 kg' is not greater than 0"),
@@ -171,7 +171,7 @@ def test_a_study_needs_no_ending(write):
         ('case = "B2-G1-A3"\n[sweep]\nfrequencies = 1', r"sweep.frequencies: 1 is refused"),
         (
             'case = "B2-G1-A3"\n[sweep]\nfrequencies = [1]\nto = 2',
-            r"sweep: frequencies are listed and given by from, to or step",
+            r"sweep: frequencies are listed and also given by from, to or step",
         ),
         ("case =\n\n", r"is not TOML \(.*line 1"),
     ],
@@ -234,7 +234,7 @@ class TestWhatShakes:
         path = write(
             RIG + '[excitation]\nrecord = "quake.csv"\nstep = "20 ms"\n[simulate]\ntail = "5 s"\n'
         )
-        with pytest.warns(vi.InputWarning, match="unit m/s², for the file says none"):
+        with pytest.warns(vi.InputWarning, match="unit m/s², because the file states none"):
             what = subject(str(path), RigOptions())
         assert what.shaking == vi.Record(values, 0.02)
         assert what.study.simulate.tail == 5.0
@@ -286,7 +286,7 @@ class TestWhatShakes:
         [
             (
                 'amplitudes = ["1 mm", "2 mm"]\nphases = [0.0]',
-                r"phases: 1 of them, but 2 amplitudes",
+                r"phases: 1 given for 2 amplitudes",
             ),
             ('amplitudes = ["0.05 g", "20 N"]', r"amplitudes\[1\]: '20 N' is a force; an acceler"),
             ('amplitude = "3 kg"', r"amplitude: '3 kg' is a mass; an acceleration greater than 0"),

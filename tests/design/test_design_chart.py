@@ -165,7 +165,7 @@ def test_threads_change_no_bit_and_it_is_saved(tmp_path) -> None:
 
 def test_what_has_no_bound_is_infinite() -> None:
     soft = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 0.5, -50.0, 0.0))
-    with pytest.warns(RuntimeWarning, match=r"design: 1 of 2 designs were given up: "):
+    with pytest.warns(RuntimeWarning, match=r"design: .* given up for 1 of 2 designs: "):
         data = vi.design_chart(vi.Rig(soft, 3.0), {"damping": [1.0, 40.0]})
     assert np.isinf(data["peak_acceleration"].values[0])
     assert np.isfinite(data["peak_acceleration"].values[1])
@@ -175,7 +175,7 @@ def test_what_has_no_bound_is_infinite() -> None:
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        ({"vary": {}}, "vary: {}; values of one parameter"),
+        ({"vary": {}}, "vary: {}; values of at least one parameter"),
         ({"vary": {"length": [1.0]}}, "vary: 'length'; one of "),
         ({"vary": {"amplitude": [1.0]}}, "vary: 'amplitude' is that of a sine"),
         ({"vary": {"gap": []}}, "gaps: empty"),
@@ -184,7 +184,7 @@ def test_what_has_no_bound_is_infinite() -> None:
         ({"records": [RECORDS["a"], 3]}, r"records\['1'\]: 3; a Record"),
         ({"shaking": "3 s"}, "shaking: '3 s'"),
         ({"shaking": -1.0}, "shaking: -1"),
-        ({"shaking": vi.Periodic(1.0, [1.0, 2.0])}, "shaking: a Periodic"),
+        ({"shaking": vi.Periodic(1.0, [1.0, 2.0])}, "shaking: the harmonics of a Periodic"),
         (
             {"records": RECORDS, "frequency_span": (1, 2)},
             "frequency_span: not accepted with records",

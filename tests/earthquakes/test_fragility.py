@@ -142,7 +142,7 @@ def test_without_overlap_there_is_no_curve() -> None:
     below, above = np.array([0.5, 0.6, 2.0]), np.array([0.5, 3.0, 2.0])
     scales = np.array([1.0, 2.0, 3.0])
     none = suite(np.array([below, below, below]), scales)
-    finer = r"^limit: 1.0; fewer than two levels have .*; finer levels between 2 and 3 are needed"
+    finer = r"^limit: 1.0; at fewer than two levels, .*; finer levels between 2 and 3 are needed"
     with pytest.raises(vi.InputError, match=finer):
         vi.fragility(none, "peak_displacement", 1.0)
     one = suite(np.array([below, above, below]), scales)
@@ -169,10 +169,10 @@ def test_without_overlap_there_is_no_curve() -> None:
     lone = suite(np.array([first, early, last, last]), scales)
     with pytest.warns(
         RuntimeWarning,
-        match=r"^fragility: no interval is given if fewer than two .*: lower and higher l",
+        match=r"^fragility: there is no interval, because .*: lower and higher l",
     ):
         found = vi.fragility(lone, "peak_displacement", 1.0)
-    assert found.attrs["unbounded"].endswith("needed for one: lower and higher levels")
+    assert found.attrs["unbounded"].endswith("needed for an interval: lower and higher levels")
     assert found["median_capacity_bound"].values.tolist() == [0.0, np.inf]
     assert found["dispersion_bound"].values.tolist() == [0.0, np.inf]
     assert found["fitted_probability_bound"].values.tolist() == [[0.0] * 4, [1.0] * 4]
@@ -181,13 +181,12 @@ def test_without_overlap_there_is_no_curve() -> None:
 def test_what_would_bound_an_interval_is_told_by_curve() -> None:
     """Of three gaps: levels end too early, or begin too late, or both."""
     data = _gaps((2.0, *(9.0,) * 4), (*(0.0,) * 4, 3.0), (0.0, 0.0, 3.0, 9.0, 9.0))
-    with pytest.warns(RuntimeWarning, match="^fragility: no interval"):
+    with pytest.warns(RuntimeWarning, match="^fragility: there is no interval"):
         told = vi.fragility(data, "peak_displacement", 1.0).attrs["unbounded"]
     assert told == (
-        "no interval is given if fewer than two records begin to exceed within the levels; "
-        "needed for one: for gap 200 mm higher levels; for gap 300 mm lower levels; for gap 400 "
-        "mm lower "
-        "and higher levels"
+        "there is no interval, because fewer than two records begin to exceed the limit within "
+        "the levels; needed for an interval: for gap 200 mm higher levels; for gap 300 mm lower "
+        "levels; for gap 400 mm lower and higher levels"
     )
     rng = np.random.default_rng(5)
     sound = vi.fragility(lognormal(rng, 20, SCALES, BETA), "peak_displacement", 1.0)
@@ -212,7 +211,7 @@ def test_which_of_several_have_no_curve_is_told() -> None:
     with pytest.warns(RuntimeWarning, match=r"^fragility: no curve for gap 200 mm: ") as told:
         found = vi.fragility(data, "peak_displacement", 1.0)
     assert len(told) == 1
-    none = "fewer than two levels have some records above the limit and others not; "
+    none = "at fewer than two levels, some records are above the limit and others are not; "
     reasons = {
         0.2: none + "finer levels between 1 and 3 are needed",
         0.4: "no record is above the limit at any level; higher levels are needed",

@@ -41,7 +41,7 @@ def test_what_went_beyond_all_limits_is_infinite_and_others_are_refused() -> Non
     assert found.tolist() == [2.0, np.inf]
     assert float(vi.exceedance(data, "peak_displacement", 1.5)["probability"][0]) == 2.0 / 3.0
     data["status"].values[2] = 2
-    with pytest.raises(vi.InputError, match=r"^demands: 1 runs were given up, .*max_events"):
+    with pytest.raises(vi.InputError, match=r"^demands: the values of 1 of .* runs .*max_events"):
         vi.fractiles(data)
 
 

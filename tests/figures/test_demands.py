@@ -25,10 +25,12 @@ def test_incremental_curves() -> None:
         np.testing.assert_allclose(line.get_ydata(), 1e3 * found.sel(fractile=share))
         assert line.get_label() == f"{100 * share:g} %"
     assert ax.lines[-1].get_ydata()[0] == 1500.0
-    with pytest.raises(vi.InputError, match=r"^demands: one scale"):
+    with pytest.raises(vi.InputError, match=r"^demands: it has one scale"):
         incremental_curves(data.isel(scale=[0]))
     several = data.expand_dims(gap=[0.01, 0.02]).transpose("record", "scale", "gap")
-    with pytest.raises(vi.InputError, match=r"^demands: over gap as well; .*isel\(gap=0\)"):
+    with pytest.raises(
+        vi.InputError, match=r"^demands: the dataset also extends over gap; .*isel\(gap=0\)"
+    ):
         incremental_curves(several)
 
 
@@ -127,7 +129,7 @@ def test_what_has_no_curve_says_which_levels_would_give_one() -> None:
 
 def test_what_are_no_axes_is_refused() -> None:
     data = lognormal(np.random.default_rng(1), 12, SCALES, 0.4)
-    with pytest.raises(vi.InputError, match=r"^ax: 'peak_force'; .* a peak as quantity='peak_f"):
+    with pytest.raises(vi.InputError, match=r"^ax: 'peak_force'; .* a peak, use quantity='peak_f"):
         incremental_curves(data, "peak_force")
     found = vi.fragility(data, "peak_displacement", 1.0)
     with pytest.raises(vi.InputError, match=r"^ax: 3; axes of matplotlib, or None, are accepted"):

@@ -73,7 +73,7 @@ def test_curves_over_one(data) -> None:
 
 def test_the_front(data) -> None:
     ax = pareto_front(data)
-    front = next(line for line in ax.lines if line.get_label() == "beaten by no other")
+    front = next(line for line in ax.lines if line.get_label() == "not dominated by another")
     best = data["pareto"].values
     u, a = (np.sort(data[f"peak_{what}"].values[best]) for what in ("displacement", "acceleration"))
     np.testing.assert_allclose(front.get_xdata(), 1e3 * u)
@@ -92,7 +92,9 @@ def test_of_a_long_front_some_are_numbered() -> None:
     count = int(long["pareto"].sum())
     assert count > 5
     told = " ".join(pareto_front(long).texts[-1].get_text().split("\n"))
-    assert told.startswith(f"5 of the {count} that are beaten by no other: gap of each side 1 ")
+    assert told.startswith(
+        f"5 of the {count} that are not dominated by another: gap of each side 1 "
+    )
 
 
 def test_what_exceeds_a_limit_is_marked(data) -> None:
@@ -251,8 +253,8 @@ def test_a_front_within_limits_is_named_so(data) -> None:
     some = limited(data, penetration=0.025)
     for ax in (pareto_front(some), *design_chart(some), *design_chart(some.isel(gap=0))):
         words = [text.get_text() for text in ax.get_legend().get_texts()]
-        assert "beaten by none within the limits" in words
-        assert "beaten by no other" not in words
+        assert "not dominated within the limits" in words
+        assert "not dominated by another" not in words
 
 
 def test_a_fractile_over_the_records_is_named() -> None:
@@ -277,9 +279,9 @@ def test_a_fractile_over_the_records_is_named() -> None:
 
 
 def test_refused(data) -> None:
-    with pytest.raises(vi.InputError, match=r"^data: this is not a design"):
+    with pytest.raises(vi.InputError, match=r"^data: this is not a dataset of designs"):
         pareto_front(data.drop_vars("pareto"))
     with pytest.raises(vi.InputError, match=r"^quantities: 'speed'"):
         design_chart(data, quantities=("speed",))
-    with pytest.raises(vi.InputError, match=r"^data: over .*; one or two parameters"):
+    with pytest.raises(vi.InputError, match=r"^data: the dims are .*; one or two parameters"):
         design_chart(data.isel(gap=[0]))

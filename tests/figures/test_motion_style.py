@@ -676,7 +676,7 @@ def test_what_is_no_recorded_motion_is_refused(draw):
 
 
 def test_a_rig_without_bumpers_has_no_clearance():
-    refused(lambda: clearances(bare()), "motions: they have no bumper")
+    refused(lambda: clearances(bare()), "motions: their rigs have no bumper")
     assert curves(phase_portrait(bare()))  # the other figures need none
     # Beside one with bumpers it is just not drawn.
     names = [line.get_label() for line in curves(clearances({"a": bare(), "b": free()})[0])]

@@ -120,7 +120,7 @@ def test_features():
 def test_what_cannot_be_drawn_is_refused():
     with pytest.raises(vi.InputError, match="data: this is not a map"):
         scenario_map(xr.Dataset())
-    with pytest.raises(vi.InputError, match="border: it is not in stiffness_ratio and gap_ratio"):
+    with pytest.raises(vi.InputError, match="border: its parameters are not stiffness_ratio and"):
         scenario_map(made(), border=xr.Dataset())
     with pytest.raises(vi.InputError, match="name: 'nothing'; one of chaotic_count is accepted"):
         feature_map(made(), "nothing")

@@ -115,8 +115,8 @@ def test_a_logarithmic_axis():
 @pytest.mark.parametrize(
     ("data", "options", "told"),
     [
-        (lambda: branch(), {}, "data: this is branches, which figures.branch_diagram draws"),
-        (lambda: xr.Dataset(), {}, "data: this is no such diagram"),
+        (lambda: branch(), {}, "data: this is a dataset of branches, which figures.branch_"),
+        (lambda: xr.Dataset(), {}, "data: this is not a bifurcation diagram"),
         (lambda: diagram(), {"quantity": "contact_start_phase"}, "quantity: "),
         (lambda: diagram(), {"branches": diagram().assign_attrs(parameter="mass")}, "branches: "),
         (lambda: diagram(), {"axes": [None]}, "axes: 1 given"),

@@ -226,8 +226,8 @@ def test_too_few_points_and_no_amplitude():
 @pytest.mark.parametrize(
     ("low", "told"),
     [
-        (1, "twice: forward, 3 Hz: 1 of 4 values lies far from the others, as on another motion"),
-        (2, "twice: forward, 3 Hz: its 4 values lie far apart, as on two motions"),
+        (1, "twice: forward, 3 Hz: 1 of 4 values lies far from the others, as if from another"),
+        (2, "twice: forward, 3 Hz: its 4 values lie far apart, as if from two motions"),
     ],
 )
 def test_a_value_of_another_motion_is_named(low, told):
@@ -253,7 +253,7 @@ def test_a_column_that_was_not_understood_is_named(tmp_path):
     path = tmp_path / "own.csv"
     path.write_text("\n".join(["f (Hz),Ed (mm),Kanal 7", *rows]), encoding="utf-8")
     with pytest.warns(
-        vi.InputWarning, match="columns that were not understood and were left out: Kanal 7"
+        vi.InputWarning, match="columns were not understood and were left out: Kanal 7"
     ):
         fit = vi.identify(rig, path, "stiffness", tried=0, starts=1, profiles=False)
-    assert "own: 'Kanal 7' of the file not understood, and not used" in fit.attrs["findings"]
+    assert "own: 'Kanal 7' of the file not understood and not used" in fit.attrs["findings"]

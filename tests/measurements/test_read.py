@@ -121,8 +121,8 @@ def test_units_repeats_gaps_and_rows_without_a_frequency_are_told(tmp_path):
         0.980665
     )
     notes = data.attrs["notes"].splitlines()
-    assert "1 rows without a frequency are left out (line 9)" in notes
-    assert "1 values are missing" in notes
+    assert "rows without a frequency are left out: 1 (line 9)" in notes
+    assert "missing values: 1" in notes
     assert any("held up to 2 times" in note for note in notes)
     assert data.attrs["left_out"] == "remark"
 
@@ -160,8 +160,8 @@ def test_an_amplitude_with_a_decimal_comma(tmp_path, said, mark, amplitude):
         ("# Amplitude [g]: 0,04", 0.392266, ""),
         ("# amplitude;0.04 g", 0.392266, ""),
         ("# amplitude_g = 0.04 g", 0.392266, ""),
-        ("# A_g = 0.04", None, "columns that were not understood and were left out: A_g = 0.04"),
-        ("# peak; 4 mm", None, "columns that were not understood and were left out: peak = 4 mm"),
+        ("# A_g = 0.04", None, "columns were not understood and were left out: A_g = 0.04"),
+        ("# peak; 4 mm", None, "columns were not understood and were left out: peak = 4 mm"),
         ("# Date: 2024-05-01\n# at 12:30\n# table peak 0.04 g\n# by: us", None, ""),
     ],
 )
@@ -210,7 +210,7 @@ def test_numbers_and_letters_beside_the_vectors_of_hdf5(tmp_path):
         data = vi.read_measurement(tmp_path / name)
         assert data.attrs["amplitude"] == pytest.approx(0.392266)
         assert data.attrs["notes"].endswith(
-            "columns that were not understood and were left out: A_g = 0.04"
+            "columns were not understood and were left out: A_g = 0.04"
         )
 
 

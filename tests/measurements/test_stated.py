@@ -55,9 +55,12 @@ def test_scales_and_absent_values_of_hdf5(tmp_path):
         ({"units": "furlong-ish"}, "a unit that"),
         ({"units": "mm", "scale": "twice"}, "states scale = 'twice', which is not a scale"),
         ({"units": "mm", "scale_factor": [1.0, 2.0]}, r"scale_factor = \[1.0, 2.0\], which is no"),
-        ({"units": "mm", "scale": 2.0, "scale_factor": 3.0}, "scale_factor = 3.0 beside the scale"),
+        (
+            {"units": "mm", "scale": 2.0, "scale_factor": 3.0},
+            "scale_factor = 3.0 in addition to the",
+        ),
         ({"units": ["mm", "s"]}, r"states units = \['mm', 's'\], which is not a unit"),
-        ({"units": "mm", "unit": "m"}, "beside the unit 'm'"),
+        ({"units": "mm", "unit": "m"}, "in addition to the unit 'm'"),
         *(
             ({"units": "mm", name: 0.5}, f"states {name} = 0.5, which may have been applied")
             for name in ("gain", "Sensitivity", "offset", "full_scale", "cal_factor", "pre_gain")
@@ -136,10 +139,10 @@ def test_scales_are_used_wherever_they_are_stated(tmp_path, where):
 def test_a_scale_beside_several_channels_is_refused(tmp_path):
     path = tmp_path / "a.mat"
     scipy.io.savemat(path, {"time": TIME, "u_mm": U, "acceleration": U, "scale": 0.5})
-    with pytest.raises(vi.InputError, match=r"scale = '0\.5', which is of one channel, and"):
+    with pytest.raises(vi.InputError, match=r"scale = '0\.5', which belongs to one channel, but"):
         vi.read_measurement(path)
     scipy.io.savemat(path, {"time": TIME, "u_mm": U, "acceleration": U, "force_gain": 0.5})
-    with pytest.raises(vi.InputError, match=r"force_gain = '0\.5', and there is no channel"):
+    with pytest.raises(vi.InputError, match=r"force_gain = '0\.5', but there is no channel"):
         vi.read_measurement(path)
 
 
@@ -191,7 +194,7 @@ def test_units_of_steps_beside_the_channels(tmp_path):
         data = vi.read_measurement(tmp_path / "a.mat")
         np.testing.assert_allclose(data["time"], TIME, rtol=1e-12)
     scipy.io.savemat(tmp_path / "a.mat", {"u_mm": U, "dt": 0.004, "fs": 200.0})
-    with pytest.raises(vi.InputError, match="two different steps"):
+    with pytest.raises(vi.InputError, match="two different time steps"):
         vi.read_measurement(tmp_path / "a.mat")
     scipy.io.savemat(tmp_path / "a.mat", {"u_mm": U, "dt": 0.004, "fs": 250.0})
     np.testing.assert_allclose(vi.read_measurement(tmp_path / "a.mat")["time"], TIME, rtol=1e-12)
@@ -328,7 +331,7 @@ def test_units_of_tdms_that_differ_are_refused(tmp_path):
     path = tdms(tmp_path / "a.tdms", ("u_mm", U, {"wf_increment": 0.004, "unit_string": "m"}))
     data = vi.read_measurement(path)
     np.testing.assert_allclose(data["displacement"], U, rtol=1e-12)
-    assert "'u_mm' is taken in m, not in the mm of its name" in data.attrs["notes"]
+    assert "'u_mm' is read in m, although its name states mm" in data.attrs["notes"]
 
 
 @pytest.mark.parametrize("name", ["displacement", "time"])
@@ -339,7 +342,7 @@ def test_an_empty_channel_hides_no_other(tmp_path, name, about):
     data = vi.read_measurement(path)
     np.testing.assert_allclose(data["displacement"], 1e-3 * U, rtol=1e-12)
     np.testing.assert_allclose(data["time"], TIME, rtol=1e-12)
-    assert f"columns without values, which were left out: {name}" in data.attrs["notes"]
+    assert f"columns without values were left out: {name}" in data.attrs["notes"]
 
 
 def test_names_of_files_steer_no_terminal(tmp_path):
@@ -351,7 +354,7 @@ def test_names_of_files_steer_no_terminal(tmp_path):
     assert "spare" in told
     assert not any(letter < " " and letter != "\n" for letter in told)
     lines = (data.attrs["notes"] + "\n" + data.attrs["left_out"]).splitlines()
-    begins = ("the time", "columns that were not understood", "spare")
+    begins = ("the time", "columns were not understood", "spare")
     assert all(line.startswith(begins) for line in lines)
     again = vi.read_measurement(path, columns={"acceleration": spare[0]}, units={spare[0]: "g"})
     np.testing.assert_allclose(again["acceleration"], 9.80665 * U, rtol=1e-12)
@@ -438,7 +441,7 @@ def test_values_that_are_not_finite_and_cells_that_are_too_long(tmp_path):
 def test_a_pipe_is_no_file(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     for read in (vi.read_measurement, vi.Record.read):
-        with pytest.raises(vi.InputError, match="is no regular file; a file is accepted"):
+        with pytest.raises(vi.InputError, match="is not a regular file; a file is accepted"):
             read(tmp_path / "pipe")
 
 

@@ -112,15 +112,15 @@ def test_a_table_takes_the_mass_of_its_oscillator(table, made):
         ({"damping_ratio": 0.1}, "period: missing beside damping_ratio; a time greater than 0"),
         (
             {"period": 2, "damping_ratio": 0.1, "stiffness": 3},
-            "stiffness: given beside period; one of the two is accepted",
+            "stiffness: given together with period; one of the two is accepted",
         ),
         (
             {"period": 2, "damping_ratio": 0.1, "damping": 3},
-            "damping: given beside period; one of the two",
+            "damping: given together with period; one of the two",
         ),
         (
             {"period": 2, "damping_ratio": 0.1, "damping_exponent": 2},
-            "damping_exponent: given beside period",
+            "damping_exponent: given together with period",
         ),
         ({"period": "2 Hz", "damping_ratio": 0.1}, "period: '2 Hz' is a frequency; a time gr"),
         ({"period": 0, "damping_ratio": 0.1}, "period: 0 is not greater than 0; a time"),
@@ -140,7 +140,7 @@ def test_a_table_takes_the_mass_of_its_oscillator(table, made):
                 "post_yield_period": 1,
                 "yield_force": 1,
             },
-            "yield_force: given beside strength",
+            "yield_force: given together with strength",
         ),
     ],
 )
@@ -206,5 +206,5 @@ def test_a_branch_follows_the_period_and_a_curve_does_not():
         state = data["section"].isel(point=k)
         after = vi.simulate(vi.Rig(here, shaken), 1, state, samples=0)["final_state"]
         assert after[:2].values == pytest.approx(state[:2].values, abs=1e-9)
-    with pytest.raises(vi.InputError, match=r"^parameters: 'isolator_period' does not count in"):
+    with pytest.raises(vi.InputError, match="not depend linearly on 'isolator_period'"):
         plane(vi.Rig(case.oscillator, shaken), ("frequency", "isolator_period"))

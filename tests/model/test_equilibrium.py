@@ -140,7 +140,9 @@ def test_friction_holds_what_it_can():
 
 
 def test_a_softening_isolator_that_a_preload_pushes_over():
-    with pytest.raises(InputError, match=r"^isolator: it softens; 2 N at 1 m is its largest force"):
+    with pytest.raises(
+        InputError, match=r"^isolator: it softens, and its largest force, 2 N at 1 m"
+    ):
         resting(PolynomialIsolator(3.0, 0.0, -1.0), Bumper(100.0, 0.0, -9.0))
     held = resting(PolynomialIsolator(3.0, 0.0, -1.0), Bumper(100.0, 0.0, -9.0), RigidStop(0, 0.5))
     assert held == -0.5

@@ -119,10 +119,10 @@ def test_there_and_back(one):
 @pytest.mark.parametrize(
     ("make", "line"),
     [
-        (lambda: Periodic(1.0, (1.0, 2.0), (0.0,)), "phases: 1 of them, but 2 amplitudes; "),
-        (lambda: Periodic(1.0, (1.0,), (0.0, 1.0)), "phases: 2 of them, but 1 amplitudes; "),
-        (lambda: Periodic(1.0, ()), "amplitudes: 0 of them; 1 to 32"),
-        (lambda: Periodic(1.0, [1.0] * 33), "amplitudes: 33 of them; 1 to 32"),
+        (lambda: Periodic(1.0, (1.0, 2.0), (0.0,)), "phases: 1 given for 2 amplitudes; "),
+        (lambda: Periodic(1.0, (1.0,), (0.0, 1.0)), "phases: 2 given for 1 amplitude; "),
+        (lambda: Periodic(1.0, ()), "amplitudes: 0 given; 1 to 32"),
+        (lambda: Periodic(1.0, [1.0] * 33), "amplitudes: 33 given; 1 to 32"),
         (lambda: Periodic(1.0, (0.0, 0.0)), r"amplitudes: \[0.0, 0.0\] are all 0"),
         (lambda: Periodic(1.0, ("5 mm", "1 N")), r"amplitudes\[1\]: "),
         (lambda: Periodic(1.0, (1.0, math.nan)), r"amplitudes\[1\]: "),

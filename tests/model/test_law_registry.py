@@ -91,7 +91,9 @@ def test_mistakes_are_named_by_their_path(table, message):
 
 
 def test_a_table_of_another_kind_is_refused():
-    with pytest.raises(InputError, match=r"kind: 'kelvin-voigt' is another; 'rigid' is accepted"):
+    with pytest.raises(
+        InputError, match=r"kind: 'kelvin-voigt' is another kind; 'rigid' is accepted"
+    ):
         RigidStop.model_validate({**WALL, "kind": "kelvin-voigt"})
 
 

@@ -148,7 +148,7 @@ def test_scaled_cut_and_levelled_say_so():
         tilted.acceleration, record.levelled("line").acceleration, atol=1e-14
     )
     (note,) = tilted.about.notes
-    assert note == "less its line, 2.4 m/s² at the beginning and -0.4 m/s² at the end"
+    assert note == "line subtracted: 2.4 m/s² at the beginning and -0.4 m/s² at the end"
     assert ("notes", note) in tilted.rows()
 
 
@@ -156,7 +156,7 @@ def test_scaled_cut_and_levelled_say_so():
     ("change", "line"),
     [
         (lambda r: r.scaled(0), "scale: 0; a number other than 0"),
-        (lambda r: r.scaled(2, peak=1), "peak: 1 beside scale = 2; one of them"),
+        (lambda r: r.scaled(2, peak=1), "peak: 1 is given together with scale = 2;"),
         (lambda r: r.scaled(peak="-1 g"), "peak: '-1 g' is not greater than 0"),
         (lambda r: vi.Record([0, 0], 1).scaled(peak=1), "peak: 1, but the record is 0 throughout"),
         (lambda r: r.cut(2, 1), "end: 1, with start 2; at least 2 samples"),

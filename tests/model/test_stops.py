@@ -52,7 +52,11 @@ def test_a_power_bumper_of_every_way():
 @pytest.mark.parametrize(
     ("kind", "changes", "message"),
     [
-        ("power", {"restitution": 0.5}, "dissipation: 0.4 s/m, and a restitution of 0.5 as well"),
+        (
+            "power",
+            {"restitution": 0.5},
+            "dissipation: 0.4 s/m is given together with a restitution",
+        ),
         (
             "power",
             {"dissipation": None, "restitution": 0.5, "relation": "hertz"},

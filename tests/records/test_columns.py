@@ -58,9 +58,14 @@ def test_units(tmp_path):
         ("1\n2\n", None, "m/s^2", r"step: missing, and .* has no times"),
         ("1\n2\n", 0.0, "m/s^2", r"step: 0.0 is not greater than 0"),
         ("1\n2\nend\n", 0.1, "m/s^2", r"record: .*, line 3: 'end' is not a row of numbers"),
-        ("1,2,3\n4,5,6\n7,8,9\n", None, "m/s^2", r"component: missing, and .* has 2; '1', '2', or"),
-        ("1,2\n3\n", None, "m/s^2", r"record: .*, line 2: a row of 1 numbers, where"),
-        ("1,2\n3,4\n5\n", None, "m/s^2", r"record: .*, line 3: a row of 1 numbers, where those"),
+        (
+            "1,2,3\n4,5,6\n7,8,9\n",
+            None,
+            "m/s^2",
+            r"component: missing, and .* has 2 components; '1', '2', or",
+        ),
+        ("1,2\n3\n", None, "m/s^2", r"record: .*, line 2: the row has 1 number, but the rows"),
+        ("1,2\n3,4\n5\n", None, "m/s^2", r"record: .*, line 3: the row has 1 number, but the rows"),
         ("0,1\n0.1,2\n0.5,3\n", None, "m/s^2", r"record: .*, line 2: .* not evenly spaced"),
         ("0,0.1,0.5\n1,2,3\n", None, "m/s^2", r"record: .*, sample 1: .* not evenly spaced"),
         ("0,1\n-0.1,2\n-0.2,3\n", None, "m/s^2", r"record: .*not evenly spaced"),
@@ -91,7 +96,9 @@ def test_names_and_units_above_the_columns(tmp_path):
     record = vi.Record.read(path, "east")
     np.testing.assert_allclose(record.acceleration, [98.0665, 196.133, -294.1995])
     assert (record.about.component, record.about.unit) == ("East", "g")
-    with pytest.raises(vi.InputError, match="has 2; 'North', 'East', or a number from 1 to 2"):
+    with pytest.raises(
+        vi.InputError, match="has 2 components; 'North', 'East', or a number from 1"
+    ):
         vi.Record.read(path)
     assert vi.Record.read(path, 1, unit="m/s^2").peak == 3.0
 
@@ -101,7 +108,7 @@ def test_a_step_above_the_values(tmp_path, line):
     record = vi.Record.read(written(tmp_path, f"made up\n{line}\n1\n2\n-3\n0\n"))
     np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0, 0.0])
     assert record.step == pytest.approx(0.01, rel=1e-14)
-    assert record.about.notes == ("unit m/s², for the file says none",)
+    assert record.about.notes == ("unit m/s², because the file states none",)
 
 
 COMMAS = {
@@ -202,5 +209,5 @@ def test_a_sentence_above_the_numbers_names_no_columns(tmp_path):
     path = tmp_path / "sentence.txt"
     rows = [f"{0.01 * i:.4f} {math.sin(i):.6f}" for i in range(60)]
     path.write_text("\n".join(["Kobe station", *rows]), encoding="utf-8")
-    with pytest.warns(vi.InputWarning, match="the file says none"):
+    with pytest.warns(vi.InputWarning, match="the file states none"):
         vi.Record.read(path)

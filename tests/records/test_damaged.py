@@ -55,7 +55,7 @@ def traces(path: Path, *parts: tuple[str, str, float, np.ndarray], form: str = "
 def test_two_stations_are_told_apart(tmp_path):
     values = np.sin(0.1 * np.arange(500))
     path = traces(tmp_path / "a", ("AAA", "HNE", 0, values), ("BBB", "HNE", 0, 2.0 * values))
-    with pytest.raises(vi.InputError, match=r"has 2; 'XX\.AAA HNE', 'XX\.BBB HNE'"):
+    with pytest.raises(vi.InputError, match=r"has 2 components; 'XX\.AAA HNE', 'XX\.BBB HNE'"):
         vi.Record.read(path, unit="m/s^2")
     assert vi.Record.read(path, "XX.BBB HNE", unit="m/s^2").peak == pytest.approx(2.0, rel=1e-3)
 
@@ -84,7 +84,7 @@ def test_a_gap_of_years_takes_no_memory(tmp_path):
 def test_the_scale_of_sac_is_used_of_counts_and_noted_of_others(tmp_path):
     counts = np.round(1000.0 * np.sin(0.1 * np.arange(500))).astype(np.float32)
     path = traces(tmp_path / "a.sac", ("AAA", "HNE", 0, counts), form="SAC", calib=1e-3)
-    with pytest.warns(vi.InputWarning, match="values times 0.001, the scale of the header"):
+    with pytest.warns(vi.InputWarning, match="values multiplied by 0.001, the scale of the header"):
         record = vi.Record.read(path, unit="m/s^2")
     np.testing.assert_allclose(record.acceleration, 1e-3 * counts, rtol=1e-6)
     scaled = (counts / 3000.0).astype(np.float32)

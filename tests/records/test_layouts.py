@@ -91,7 +91,7 @@ def test_knet_keeps_its_offset_and_says_so(written):
     assert record.step == 0.1
     assert (record.about.station, record.about.component) == ("NWH001", "N-S")
     (left,) = vi.Record.read(written(knet())).about.notes
-    assert left.startswith("mean 0.847639 g left in, 27.7 % of")
+    assert left.startswith("mean 0.847639 g not subtracted, 27.7 % of")
     assert vi.Record.read(written(knet("5"))).about.component == "E-W, surface"
     assert vi.Record.read(written(knet("1")), "N-S").about.component == "N-S, borehole"
 
@@ -118,16 +118,18 @@ def test_one_of_several_components(written, layout):
         vi.Record.read(path)
     listed = ", ".join(map(repr, names))
     accepted = f"{listed}, or a number from 1 to 3, is accepted"
-    assert str(refused.value) == f"component: missing, and {path!r} has 3; {accepted}"
+    assert str(refused.value) == f"component: missing, and {path!r} has 3 components; {accepted}"
     for wrong in ("90", "4", "", "0"):
         with pytest.raises(vi.InputError) as refused:
             vi.Record.read(path, wrong)
-        assert str(refused.value) == f"component: {wrong!r} is none of {path!r}; {accepted}"
+        assert (
+            str(refused.value) == f"component: {wrong!r} is not a component of {path!r}; {accepted}"
+        )
 
 
 def test_a_name_that_two_components_have(written):
     path = written([*csmip(1, "UP"), *csmip(2, "UP")])
-    with pytest.raises(vi.InputError, match="component: 'up' are 2 of "):
+    with pytest.raises(vi.InputError, match="component: 'up' matches 2 components of "):
         vi.Record.read(path, "up")
     assert vi.Record.read(path, 2).peak == 3.5 * CM
 
@@ -151,7 +153,7 @@ DAMAGED = {
     "peer, none": (peer("NPTS= 0, DT= .01 SEC"), 4, "0 values"),
     "smc, truncated": (smc()[:-1], 29, "the file ends after 8 of 10 values"),
     "smc, header alone": (smc()[:20], 20, "the file ends within the header"),
-    "smc, no comments": (replaced(smc(), "| made", "  made"), 28, "no comment"),
+    "smc, no comments": (replaced(smc(), "| made", "  made"), 28, "this is not a comment"),
     "cosmos, truncated": (cosmos()[:-2], 46, "the file ends after 8 of 10 values"),
     "cosmos, in the header": (cosmos()[:30], 30, "the file ends after"),
     "cosmos, too many": (replaced(cosmos(), "   10  accel", "    8  accel"), 47, "a further value"),
@@ -169,13 +171,17 @@ DAMAGED = {
     "geonet, not a number": (replaced(geonet(), " -1.2500", "     nan"), 27, "'nan' is not finite"),
     "geonet, a second header": (geonet()[:27] + geonet(), 28, "is not a number"),
     "knet, truncated": (knet()[:-1], 18, "the file ends after 8 of 10"),
-    "knet, no scale": (knet(scale="none"), 14, "'none' is no Scale Factor"),
+    "knet, no scale": (knet(scale="none"), 14, "'none' is not a Scale Factor"),
     "knet, too long": (knet() + knet()[-1:], 20, "a further value after the 10"),
     "esm, truncated": (esm()[:-2], 19, "the file ends after 8 of 10"),
     "esm, two headers": (esm() + esm(), 22, "a second header"),
     "esm, count": (replaced(esm(), "NDATA: 10", "NDATA: ten"), 7, "NDATA: 'ten' is not a number"),
     "esm, decimal commas": (replaced(esm(), "-3.5", "-3,5"), 15, "'-3,500000' has a comma"),
-    "columns, rows": (["0 1", "0.1 2", "0.2"], 3, "a row of 1 numbers, where those above have 2"),
+    "columns, rows": (
+        ["0 1", "0.1 2", "0.2"],
+        3,
+        "the row has 1 number, but the rows above have 2",
+    ),
     "columns, nan": (["0 1", "0.1 nan", "0.2 3"], 2, "nan is not finite"),
     "columns, announced": (["3 0.01", "1", "2"], 1, "3 values are announced, and 2 follow"),
 }

@@ -24,7 +24,7 @@ def test_records_of_all_layouts(tmp_path, times, decimal, separator):
         np.testing.assert_allclose(record.acceleration, factor * np.array(VALUES), rtol=1e-14)
         assert record.step == 0.01
         assert (record.about.format, record.about.notes) == ("LabVIEW", ())
-    with pytest.raises(vi.InputError, match="has 2; 'North', 'East', or a number"):
+    with pytest.raises(vi.InputError, match="has 2 components; 'North', 'East', or a number"):
         vi.Record.read(path)
 
 
@@ -74,5 +74,5 @@ def test_a_label_and_a_name_that_differ_are_refused(tmp_path):
     with pytest.warns(vi.InputWarning, match=r"unit g, not the file's mm/s\^2"):
         assert vi.Record.read(path, 1, unit="g").about.unit == "g"
     lines = [line.replace("North", "North_g") for line in lvm()]
-    with pytest.warns(vi.InputWarning, match="taken in .+, not in the g of its name"):
+    with pytest.warns(vi.InputWarning, match="read in .+, although its name states g"):
         vi.Record.read(written(tmp_path, lines), 1)

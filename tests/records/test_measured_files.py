@@ -158,7 +158,9 @@ def test_what_is_read_is_what_the_file_states(name):
         assert values[at] / unit == pytest.approx(stated.peak, rel=1e-5)
         assert record.peak_time == pytest.approx(stated.time, abs=1e-9)
     if len(components) > 1:
-        with pytest.raises(vi.InputError, match=r"component: missing, and .* has 3; '") as refused:
+        with pytest.raises(
+            vi.InputError, match=r"component: missing, and .* has 3 components; '"
+        ) as refused:
             vi.Record.read(path)
         assert "\n" not in str(refused.value)
         _, _, names = read_channel(path, components[0].component)
@@ -176,15 +178,15 @@ def test_counts_need_a_unit():
     left, large, scaled = record.about.notes
     assert large.startswith("the peak is 7.72e+03 g, more than the 5 g of usual records")
     assert left.startswith("mean ")
-    assert "left in, 46.2 % of the peak" in left
+    assert "not subtracted, 46.2 % of the peak" in left
     assert scaled == "scaled by 4.65662e-06"
-    assert "less its mean, -0.16298" in record.levelled().about.notes[-1]
+    assert "mean subtracted: -0.16298" in record.levelled().about.notes[-1]
 
 
 def test_a_record_of_sac_says_that_its_unit_was_taken_for_granted():
     pytest.importorskip("obspy")
     record = vi.Record.read(measured("records/sac/BRIHN1.GS..sac"))
-    assert "unit m/s², for the file says none" in record.about.notes
+    assert "unit m/s², because the file states none" in record.about.notes
 
 
 def test_a_record_of_one_header_line_with_count_and_step():

@@ -64,7 +64,7 @@ def test_an_at2_file_that_states_no_unit_is_in_g_and_says_so(tmp_path):
     path = written(tmp_path, "\n".join(peer(stated="Acceleration")) + "\n")
     record, told = noted(path)
     assert record.peak == pytest.approx(3.5 * GRAVITY, rel=1e-14)
-    assert told == "unit g, that of PEER, for the file states none"
+    assert told == "unit g, the usual unit of PEER files, because the file states none"
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def test_a_unit_after_a_single_column(tmp_path):
         record, told = noted(written(tmp_path, head + "# dt: 10 ms\n" + rows))
         assert (record.about.unit, told) == ("g", "")
     _, told = noted(written(tmp_path, "# dt: 10 ms\n" + rows))
-    assert told == "unit m/s², for the file says none"
+    assert told == "unit m/s², because the file states none"
 
 
 @pytest.mark.parametrize(
@@ -160,7 +160,7 @@ def test_a_record_that_ends_in_motion_is_not_doubted(tmp_path):
 def test_datasets_keep_what_was_noted(tmp_path):
     rows = "".join(f"{a!r}\n" for a in SWAY.tolist())
     record, told = noted(written(tmp_path, rows), step=0.01)
-    assert told == "unit m/s², for the file says none"
+    assert told == "unit m/s², because the file states none"
     motion = vi.simulate(vi.Rig(RIG, record), tail=1.0)
     demands = vi.demands(RIG, {"quake": record, "made": vi.Record(SWAY, 0.01)})
     made = {
@@ -214,7 +214,7 @@ def test_two_spellings_of_one_unit_are_no_conflict(tmp_path, head):
 def test_the_ending_of_a_name_yields_to_a_line_of_units_and_is_noted(tmp_path):
     record, told = noted(written(tmp_path, "time,acc_g\ns,cm/s^2\n" + ROWS))
     assert record.peak == pytest.approx(0.03)
-    assert "taken in cm/s^2, not in the g of its name" in told
+    assert "read in cm/s^2, although its name states g" in told
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such names of files")

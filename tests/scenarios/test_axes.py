@@ -124,9 +124,9 @@ def test_text_with_units():
 
 def test_axes_that_do_not_go_together():
     gap, ratio = axis(("gap", [0, 1]), "x"), axis(("gap_ratio", [0, 1]), "y")
-    with pytest.raises(vi.InputError, match=r"^y: 'gap_ratio' is 'gap' in other units"):
+    with pytest.raises(vi.InputError, match=r"^y: 'gap_ratio' is the same quantity as 'gap'"):
         check_pair(gap, ratio)
-    with pytest.raises(vi.InputError, match=r"^y: 'gap' is that of x"):
+    with pytest.raises(vi.InputError, match=r"^y: 'gap' is also the parameter of x"):
         check_pair(gap, gap)
 
 

@@ -123,7 +123,11 @@ def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
 @pytest.mark.parametrize(
     ("oscillator", "amplitude", "message"),
     [
-        (CASE.oscillator, vi.Periodic(1.0, [0.3, 0.1]), "shaking: a Periodic, whose harmonics"),
+        (
+            CASE.oscillator,
+            vi.Periodic(1.0, [0.3, 0.1]),
+            "shaking: the harmonics of a Periodic cause",
+        ),
         (CASE.oscillator, [0.3, 0.4], "shaking: 2 amplitudes; a scenario is defined for one"),
         (CASE.oscillator, 0.0, "shaking: 0"),
         (

@@ -158,9 +158,9 @@ def test_refused(wrong, told):
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
-        ({"span": (1.0, 2.0)}, r"basins\[0\]: they are of frequency 0.3; a value from 1 to 2"),
-        ({"rig": vi.Rig(ONE_STOP, 1.5)}, r"basins\[0\]: they are of another rig"),
-        ({"phase": 1.0}, r"basins\[0\]: they are of another rig, shaking or phase"),
+        ({"span": (1.0, 2.0)}, r"basins\[0\]: these basins belong to frequency 0.3; a value"),
+        ({"rig": vi.Rig(ONE_STOP, 1.5)}, r"basins\[0\]: these basins belong to another rig"),
+        ({"phase": 1.0}, r"basins\[0\]: these basins belong to another rig, shaking or"),
         ({"basins": [xr.Dataset()]}, r"basins\[0\]: it has no basins"),
     ],
 )

@@ -215,7 +215,7 @@ def test_a_task_that_kills_its_workers_is_told():
     with (
         dask.config.set({"distributed.scheduler.allowed-failures": 0}),
         _local(1, processes=True) as (_, client),
-        pytest.raises(LostError, match="kills the workers of the cluster"),
+        pytest.raises(LostError, match="a task made the workers of the cluster fail"),
     ):
         each(_dies, range(1), threads=Cluster(client))
 
@@ -243,7 +243,7 @@ def test_a_cluster_without_workers_is_told_and_not_waited_for_for_ever(monkeypat
     ):
         each(lambda item, _: item, range(3), threads=Cluster(client))
     assert capsys.readouterr().err == (
-        "vibroimpact: the cluster has no worker; waiting for one, 1 s at most ...\n"
+        "vibroimpact: the cluster has no worker; waiting for one, at most 1 s ...\n"
     )
 
 
@@ -276,5 +276,5 @@ def test_workers_that_join_later_take_part():
 
 
 def test_threads_and_a_cluster_exclude_one_another(cluster):
-    with pytest.raises(vi.InputError, match="threads: 2; a cluster sets this number"):
+    with pytest.raises(vi.InputError, match="threads: 2; on a cluster, its workers set"):
         vi.sweeps(["B2-G1-A3"], GRID, threads=2, where=cluster)

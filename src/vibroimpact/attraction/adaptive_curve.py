@@ -88,7 +88,7 @@ def refined(
         parameters, points = parameters[order], points[order]
     lost = np.flatnonzero(np.isnan(points).any(axis=1))
     if len(lost):
-        return points[: lost[0]], "a state on it was given up"
+        return points[: lost[0]], "the computation of a state on the curve was given up"
     if len(points) > _MOST:
-        return points, "it has too many points"
+        return points, "the curve has too many points"
     return points, ""

@@ -126,8 +126,8 @@ def manifolds(
     if not forgets(stage):
         raise InputError(
             "oscillator: a bumper or the isolator keeps its memory for more than a cycle, so the "
-            "curves of saddles do not lie in a plane; bumpers that relax within a cycle are "
-            "accepted"
+            "stable and unstable curves of saddles do not lie in a plane; bumpers that relax "
+            "within a cycle, and an isolator without memory, are accepted"
         )
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")

@@ -98,9 +98,10 @@ def check_flies(stage: Stage, orbit: Orbit) -> None:
     for _ in range(orbit.section.period):
         if met(stage, point).any():
             raise InputError(
-                f"excitation.phase: {stage.excitation.phase:.6g} rad, at which the saddle at "
+                f"excitation.phase: at {stage.excitation.phase:.6g} rad, the saddle at "
                 f"{point[0]:.6g} m presses a stop whose force depends on the impact speed, so "
-                "its curves do not lie in a plane; a phase without contact is accepted"
+                "its stable and unstable curves do not lie in a plane; a phase without contact "
+                "is accepted"
             )
         _, _, point = evaluated(one, point, orbit.facts[0])
 
@@ -119,14 +120,14 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
     if isinstance(orbit, xr.Dataset):
         if "monodromy" not in orbit or "final_state" not in orbit:
             raise InputError(
-                f"{where}: it is not an orbit; a dataset of orbit, or a State is accepted"
+                f"{where}: this is not an orbit; a dataset of orbit, or a State, is accepted"
             )
         period = int(orbit["period"])
         phase = float(orbit["final_state"].sel(component="phase"))
         if abs(np.sin(0.5 * (phase - stage.excitation.phase))) > 1e-9:
             raise InputError(
-                f"{where}: its phase is {phase:.6g}, that of the excitation "
-                f"{stage.excitation.phase:.6g}; the same is accepted"
+                f"{where}: its phase is {phase:.6g} rad, but the phase of the excitation is "
+                f"{stage.excitation.phase:.6g} rad; equal phases are accepted"
             )
     found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
     check_flies(stage, found)

@@ -87,16 +87,19 @@ class _Chains:
             if found is None or gap > self.measure.spacing:
                 if not self._insert(i, level):
                     self._cut(i)
-                    return "no neighbour has an image on it: the map has a corner or an edge there"
+                    return (
+                        "the curve cannot be continued, because the stroboscopic map has a corner "
+                        "or an edge there"
+                    )
                 continue
             here.append(found)
             total += gap
             if not self.measure.within(found[None], _ROOM)[0]:
                 self._cut(i + 1)
-                return "the curve leaves the surroundings of the window"
+                return "the curve runs too far out of the window"
             if total > longest:
                 self._cut(i + 1)
-                return "it reaches the largest length"
+                return "the curve reaches the maximum length"
             i += 1
         return ""
 

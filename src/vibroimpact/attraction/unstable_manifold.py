@@ -53,8 +53,8 @@ def unstable_curve(
         if ended:
             return Curve(broken(np.vstack(parts), measure), ended)
         if length < min(last, _ARRIVED * measure.spacing):
-            return Curve(broken(np.vstack(parts), measure), "it ends on a motion")
+            return Curve(broken(np.vstack(parts), measure), "the curve ends at a steady motion")
         last = length
         if total > measure.longest:
-            return Curve(broken(np.vstack(parts), measure), "it reaches the largest length")
-    return Curve(broken(np.vstack(parts), measure), "as many images were made as were asked for")
+            return Curve(broken(np.vstack(parts), measure), "the curve reaches the maximum length")
+    return Curve(broken(np.vstack(parts), measure), "the requested number of images was computed")

@@ -43,9 +43,12 @@ def branch(
 ) -> int:
     """Follow the branches of periodic orbits along a parameter, through folds and grazings.
 
-    The branches start from motions that are continued up and down the range of the parameter, from
-    random states, from the motion without contact, and from each symmetry breaking and each period
-    doubling on the branches.
+    The branches start from:
+
+    - the steady motions of sweeps up and down the range of the parameter
+    - the steady motions that random initial states lead to
+    - the motion without contact
+    - each symmetry breaking and each period doubling on the branches
 
     With --start or --period, only one branch is followed. It starts from the orbit near --start, or
     from the steady motion that is reached from rest.
@@ -63,8 +66,8 @@ def branch(
     Parameters
     ----------
     frequency
-        Forcing frequency, such as 2Hz. It is required if another parameter is varied, and with
-        --start or --period. Default: the frequency in the study ([simulate]).
+        Forcing frequency, such as 2Hz. If another parameter is varied, or with --start or --period,
+        it must be stated here or in the study. Default: the frequency in the study ([simulate]).
     quantity
         Quantity on the vertical axis of the figure.
     physical

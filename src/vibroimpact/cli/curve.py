@@ -82,7 +82,10 @@ def curve(
     what = subject(rig, changes, output.name)
     names = [name.strip().replace("-", "_") for name in over.split(",")]
     if len(names) != 2:
-        raise InputError(f"--over: {over!r}; two, as frequency,gap, are accepted")
+        raise InputError(
+            f"--over: {over!r}; two parameters with a comma between them are accepted, such as "
+            "frequency,gap"
+        )
     kind, pair = _KINDS[bifurcation], (names[0], names[1])
     shaken = rig_at(what, frequency, along=names[0])
     spans = _range(what, "--first", pair[0], first), _range(what, "--second", pair[1], second)

@@ -31,7 +31,7 @@ Span: TypeAlias = tuple[float | None, float | None]
 """From and to in Hz; None if the rig has no natural frequency."""
 
 NO_DEFAULT = (
-    "missing; the isolator has no stiffness, so that there is no natural frequency and no default; "
+    "missing; the isolator has no stiffness, so there is no natural frequency and no default; "
     "a frequency greater than 0 is accepted"
 )
 

@@ -112,7 +112,10 @@ def identify(
         name: pair(text, "--bounds") for name, text in opt.by_name("--bounds", bounds).items()
     }
     if strange := set(limits) - set(names):
-        raise InputError(f"--bounds: {sorted(strange)[0]!r} is not free; {free} is accepted")
+        raise InputError(
+            f"--bounds: {sorted(strange)[0]!r} is not free; a parameter of --free, {free}, is "
+            "accepted"
+        )
     with results(what, output) as written:
         fits = fit_models(
             what.oscillator if what.shaking is stated else what.rig,

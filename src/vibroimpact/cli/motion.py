@@ -96,9 +96,11 @@ def _rigs(what: Subject, frequency: str | None) -> dict[float, Rig]:
     rigs = {one.harmonic.frequency: one for one in (rig_at(what, text) for text in texts)}
     if len({f"{hertz:.6g}" for hertz in rigs}) < len(texts):
         raise InputError(
-            f"--frequency: {frequency!r} names one twice; frequencies that differ in their first "
-            "six digits are accepted"
+            f"--frequency: {frequency!r} names a frequency twice; frequencies that differ in "
+            "their first six digits are accepted"
         )
     if len(rigs) > MOST_COLUMNS:
-        raise InputError(f"--frequency: {len(rigs)} given; at most {MOST_COLUMNS} are accepted")
+        raise InputError(
+            f"--frequency: {len(rigs)} frequencies; at most {MOST_COLUMNS} are accepted"
+        )
     return rigs

@@ -207,7 +207,7 @@ class OutputOptions:
     output: OutputFolder = "out"
     """Folder for the files, which is created if it does not exist (default: out)."""
     name: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """Beginning NAME of the file names (default: the name of the rig)."""
+    """First part of the file names, NAME (default: the name of the rig)."""
     figure: Annotated[Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, show_default=False)] = (
         "png"
     )

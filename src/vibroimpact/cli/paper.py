@@ -34,8 +34,9 @@ def paper(
 
     For each statement the report states what was computed, the deciding numbers and a verdict:
     reproduced, not reproduced, or not testable without the data of the experiment. A statement that
-    is not reproduced is not an error. The statements are counted by kind: for some the outcome was
-    open, while others follow from the rules of classification or from the inputs.
+    is not reproduced is not an error. The report counts the statements separately by kind, because
+    they are not equally strong tests. For some, the outcome was open. Others follow from the rules
+    of classification or from the inputs.
 
     For example:
 
@@ -46,9 +47,9 @@ def paper(
     Parameters
     ----------
     only
-        Parts that are computed, separated by commas: keys of figures and tables, such as fig15 or
-        table1, and claims for the statements. They are written to files with these names, such as
-        fig15.md and fig15.html. Default: all parts.
+        Parts to compute, separated by commas. A part is the key of a figure or table, such as fig15
+        or table1, or the word "claims" for the statements. The report is then named after these
+        parts, such as fig15.md and fig15.html. Default: all parts.
     output
         Folder for the files, which is created if it does not exist (default: out/paper).
     figure

@@ -79,8 +79,8 @@ class RecordOptions:
             name = record_name(file, component)
             if name in found:
                 raise InputError(
-                    f"RECORD: {file!r} has the name of another one; files of different names are "
-                    "accepted"
+                    f"RECORD: {file!r} has the same name as another record; files with different "
+                    "names are accepted"
                 )
             found[name] = Record.read(file, component, unit=unit, step=step, decimal=self.decimal)
         return found
@@ -99,8 +99,8 @@ def one_or_each(option: str, text: str | None, count: int) -> list[str | None]:
         parts = [part.strip() for part in text.split(",")]
     if len(parts) not in (1, count):
         raise InputError(
-            f"{option}: {text!r} are {len(parts)} for {count} records; one for all, or one for "
-            "each, is accepted"
+            f"{option}: {text!r} has {len(parts)} values for {count} records; one value for all "
+            "records, or one value per record, is accepted"
         )
     return parts if len(parts) == count else parts * count
 

@@ -66,8 +66,8 @@ class Subject(NamedTuple):
         if isinstance(self.shaking, Record):
             raise InputError(
                 "excitation.record: a record has no period, and this command needs a periodic "
-                "shaking; an amplitude is accepted; vibroimpact simulate and earthquake accept "
-                "records"
+                "excitation; excitation.amplitude is accepted instead (for records, use "
+                "vibroimpact simulate or vibroimpact earthquake)"
             )
         return self.shaking
 
@@ -176,7 +176,7 @@ def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated:
     """Return the shaking with the amplitude of the option. Several harmonics keep their shape."""
     if isinstance(shaking, Record):
         raise InputError(
-            f"--amplitude: {amplitude!r}, but a record shakes this rig; --peak scales records"
+            f"--amplitude: {amplitude!r}, but a record shakes this rig; use --peak to scale it"
         )
     if isinstance(shaking, Periodic):
         size, _ = sized(amplitude, shaking.of, "--amplitude", positive=True)
@@ -217,7 +217,7 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
     if parameters is not None and study.case is None:
         raise InputError(
             f"--parameters: {parameters!r}, but {path!r} describes its own oscillator; "
-            "a case has parameter sets"
+            "only a laboratory case has parameter sets"
         )
     described = study.rig(Path(path), parameters)
     title, oscillator, shaking = described.name or "", described.oscillator, described.shaking
@@ -249,13 +249,14 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
     if shared and not targets:
         option = _SHARED[shared[0]]
         raise InputError(
-            f"{_flag(option)}: given with --no-right and --no-left; it needs a bumper on some side"
+            f"{_flag(option)}: given with --no-right and --no-left; it needs a bumper on at least "
+            "one side"
         )
     for field in shared:
         if not any(_has(getattr(oscillator, side), field) for side in targets):
             raise InputError(
-                f"{_flag(_SHARED[field])}: given, but no stop has a {field}; it needs a bumper "
-                "with one on some side"
+                f"{_flag(_SHARED[field])}: given, but no stop has a {field}; it needs a stop "
+                f"with a {field} on at least one side"
             )
     for side in removed:
         own = [field for field in _SHARED if getattr(options, f"{side}_{field}") is not None]

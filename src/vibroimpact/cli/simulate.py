@@ -81,7 +81,10 @@ def simulate(
     last = to_si(shown, DIMENSIONLESS, "--shown", above=0.0)
     of_record = isinstance(what.shaking, Record)
     if of_record and frequency is not None:
-        raise InputError(f"--frequency: {frequency}, but a record shakes this rig; it has none")
+        raise InputError(
+            f"--frequency: {frequency}, but a record shakes this rig, and a record has no "
+            "frequency; leave the option out"
+        )
     shaken = what.rig if of_record else rig_at(what, frequency)
     if cycles is None and not of_record:
         cycles = table.cycles or _CYCLES

@@ -59,7 +59,7 @@ class _SweepTable(Model):
     def _one_way(self) -> Self:
         if self.frequencies is not None and not (self.start is self.to is self.step is None):
             raise InputError(
-                "frequencies are listed and given by from, to or step as well; "
+                "frequencies are listed and also given by from, to or step; "
                 "one of the two is accepted"
             )
         return self

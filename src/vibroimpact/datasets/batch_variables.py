@@ -13,7 +13,9 @@ MANY_MOTIONS: dict[str, Variable] = {
         "its number; -1: the state was given up, -2: the state lies beyond a rigid stop",
     ),
     "capture_cycles": Variable(
-        "1", "forcing cycles until the final motion was certain", "-1: not simulated"
+        "1",
+        "forcing cycles until it was certain to which motion the state leads",
+        "-1: not simulated",
     ),
     "mirror_image": Variable("1", "number of the mirror image", "-1: not among the motions"),
     "section_attractor": Variable("1", "number of the motion that the point belongs to"),

@@ -96,8 +96,8 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
     names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
     if len(set(names.values())) < len(names):
         raise InputError(
-            f"dataset: the names {', '.join(map(repr, names))} are the same as groups of a file; "
-            "names that differ by more than blanks and slashes are accepted"
+            f"dataset: the names {', '.join(map(repr, names))} are not distinct as groups of a "
+            "file; names that differ by more than blanks and slashes are accepted"
         )
     tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
     tree.attrs["vibroimpact_version"] = __version__
@@ -156,7 +156,7 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     if file_path.is_dir():
         raise InputError(
             f"file: {str(path)!r} is a folder; a NetCDF file, or the store of a map or of demands "
-            "as `store` of the call that wrote it, is accepted"
+            "as the argument `store` of the function that wrote it, is accepted"
         )
     if not file_path.is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")

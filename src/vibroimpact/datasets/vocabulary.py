@@ -12,8 +12,8 @@ _OVER = (
 )
 _RIGID = "infinite if the mass hit a rigid stop"
 _CHATTER = (
-    "a chatter that ends at rest on a rigid stop has infinitely many impacts; only those before "
-    "the chatter counts as complete are counted"
+    "a chatter that ends at rest on a rigid stop has infinitely many impacts; only the impacts "
+    "before the chatter is regarded as complete are counted"
 )
 
 _OWN = "in the SI unit of the parameter"
@@ -27,18 +27,17 @@ VARIABLES: dict[str, Variable] = {
     "time": Variable("s", "time"),
     "cycle": Variable("1", "time in forcing cycles"),
     "start": Variable(
-        "1", "initial state of the motions", "up and down: the final state at the previous value"
+        "1", "initial state of the motions", "up, down: the final state at the value before"
     ),
     "component": Variable("1", "component of the state"),
     # sweep
     "displacement_excursion": Variable(
-        "m", "excursion of relative displacement", "maximum minus minimum of the exact extremes"
+        "m", "excursion of relative displacement", "exact maximum minus exact minimum"
     ),
     "acceleration_excursion": Variable(
         "m s-2",
         "excursion of absolute acceleration",
-        "maximum minus minimum of the exact extremes, including one-sided values at contact and "
-        "detachment",
+        "exact maximum minus exact minimum, including one-sided values at contact and detachment",
     ),
     "eta_d": Variable(
         "1",
@@ -97,7 +96,7 @@ VARIABLES: dict[str, Variable] = {
     "displacement": Variable("m", "relative displacement"),
     "velocity": Variable("m s-1", "relative velocity"),
     "acceleration": Variable(
-        "m s-2", "absolute acceleration", "value after the event where it jumps"
+        "m s-2", "absolute acceleration", "at a jump: the value just after the event"
     ),
     "base_acceleration": Variable("m s-2", "base acceleration"),
     "applied_force": Variable("N", "force on the mass"),
@@ -108,7 +107,7 @@ VARIABLES: dict[str, Variable] = {
     "contact": Variable("1", "stop touched: -1 left, 0 none, 1 right, 2 both"),
     "initial_state": Variable("1", "state at the beginning", "components as in final_state"),
     "isolator_memory": Variable(
-        "m", "memory of the isolator", "the z of its law, see State.isolator"
+        "m", "memory of the isolator", "the internal state z of its law; see State.isolator"
     ),
     "event_isolator_memory": Variable("m", "memory of the isolator at the event"),
     "final_state": Variable("1", "state at the end", "components in m, m/s, m, m, rad and 1"),
@@ -140,7 +139,7 @@ VARIABLES: dict[str, Variable] = {
     "parameter": Variable("1", "fitted parameter"),
     "other_parameter": Variable("1", "fitted parameter"),
     "test": Variable("1", "name of the test"),
-    "test_kind": Variable("1", "curves or history"),
+    "test_kind": Variable("1", "kind of the test: curves or history"),
     "amplitude_source": Variable("1", "source of the amplitude of the test"),
     "fitted_value": Variable("1", "fitted value", _OWN),
     "start_value": Variable("1", "starting value of the fit", _OWN),
@@ -230,7 +229,7 @@ VARIABLES: dict[str, Variable] = {
     "section_left_bumper": Variable("m", "deformation of the left bumper at the section"),
     # spectrum
     "order": Variable("1", "frequency divided by the excitation frequency"),
-    "line_frequency": Variable("Hz", "frequency of the line"),
+    "line_frequency": Variable("Hz", "frequency of the spectral line"),
     "displacement_amplitude": Variable("m", "amplitude of relative displacement"),
     "velocity_amplitude": Variable("m s-1", "amplitude of relative velocity"),
     "acceleration_amplitude": Variable("m s-2", "amplitude of absolute acceleration"),
@@ -310,9 +309,9 @@ VARIABLES: dict[str, Variable] = {
     "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),
     "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
     "energy_bumpers": Variable("J", "energy lost in the stops per forcing cycle"),
-    "total_supplied": Variable("J", "work of the excitation on the mass over the motion"),
-    "total_isolator": Variable("J", "energy lost in the isolator over the motion"),
-    "total_bumpers": Variable("J", "energy lost in the stops over the motion"),
+    "total_supplied": Variable("J", "work of the excitation on the mass during the whole motion"),
+    "total_isolator": Variable("J", "energy lost in the isolator during the whole motion"),
+    "total_bumpers": Variable("J", "energy lost in the stops during the whole motion"),
     # sweeps, branches and earthquakes
     "peak_displacement": Variable("m", "largest relative displacement to either side"),
     "peak_displacement_right": Variable("m", "largest relative displacement to the right"),
@@ -338,9 +337,9 @@ VARIABLES: dict[str, Variable] = {
     "scale": Variable("1", "level of shaking"),
     "factor": Variable("1", "number that the record is multiplied by"),
     "intensity": Variable("1", "intensity measure of the unscaled record"),
-    "fractile": Variable("1", "share of the records below the value"),
-    "exceeding": Variable("1", "number of records above the limit"),
-    "probability": Variable("1", "share of the records above the limit"),
+    "fractile": Variable("1", "share of the records whose peak is below the value"),
+    "exceeding": Variable("1", "number of records whose peak is above the limit"),
+    "probability": Variable("1", "share of the records whose peak is above the limit"),
     "median_capacity": Variable("1", "level at which half of the records reach the limit"),
     "dispersion": Variable(
         "1", "standard deviation of the logarithm of the level at which records reach the limit"
@@ -352,11 +351,13 @@ VARIABLES: dict[str, Variable] = {
     "fitted_probability_bound": Variable("1", "confidence band of the fitted probability"),
     # sizing
     "penetration": Variable("m", "largest displacement beyond a gap"),
-    "hitting": Variable("1", "share of the records with impact, or whether a sine causes impact"),
+    "hitting": Variable(
+        "1", "share of the records under which the mass hits a stop; for a sine: whether it does"
+    ),
     "pareto": Variable(
         "1", "whether no other design is better in both displacement and acceleration"
     ),
-    "within_limits": Variable("1", "whether the design keeps all limits"),
+    "within_limits": Variable("1", "whether the design satisfies all limits"),
     "displacement_frequency": Variable("Hz", "frequency of the largest displacement"),
     "acceleration_frequency": Variable("Hz", "frequency of the largest acceleration"),
     "unsettled_count": Variable("1", "number of frequency steps without a periodic motion"),

@@ -158,7 +158,7 @@ def _designs(oscillator: Oscillator, vary: Any) -> Runs:
     """
     if not isinstance(vary, Mapping) or not vary:
         raise InputError(
-            f"vary: {vary!r}; values of one parameter or more are accepted, such as "
+            f"vary: {vary!r}; values of at least one parameter are accepted, such as "
             '{"gap": ["200 mm", "300 mm"]}'
         )
     return runs(oscillator, None, vary)
@@ -197,7 +197,8 @@ def warn(status: NDArray[Any], who: str) -> None:
     for code in np.unique(status[status != Status.DONE]):
         count = int((status == code).sum())
         warnings.warn(
-            f"{who}: {count} of {status.size} designs were given up: {Status(int(code)).advice}",
+            f"{who}: the computation was given up for {count} of {status.size} designs: "
+            f"{Status(int(code)).advice}",
             RuntimeWarning,
             stacklevel=3,
         )

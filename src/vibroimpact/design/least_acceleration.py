@@ -232,13 +232,14 @@ def _space(rig: Oscillator, ranges: Any) -> _Space:
     given = _bumper_ranges(rig) if ranges is None else ranges
     if not isinstance(given, Mapping) or not given:
         raise InputError(
-            f"ranges: {given!r}; the lowest and the highest value of one parameter or more are "
+            f"ranges: {given!r}; the lowest and the highest value of at least one parameter are "
             'accepted, such as {"bumper_stiffness": ("1 MN/m", "1 GN/m")}'
         )
     for name, ends in given.items():
         if isinstance(ends, str) or not isinstance(ends, Sequence) or len(ends) != 2:
             raise InputError(
-                f"ranges[{name!r}]: {ends!r}; a pair of the lowest and the highest is accepted"
+                f"ranges[{name!r}]: {ends!r}; a pair of the lowest and the highest "
+                "value is accepted"
             )
     plan: Runs = runs(rig, None, given)
     low, high = (np.array([one.values[i] for one in plan.varied]) for i in (0, 1))
@@ -256,12 +257,14 @@ def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
     """Return the default ranges of a bumper for this isolator."""
     if not rig.stops or not all(isinstance(stop, Bumper) for stop in rig.stops):
         raise InputError(
-            "ranges: missing; the default is to search the stiffness and damping of bumpers, but "
-            "this rig has " + ("no stop" if not rig.stops else "another stop")
+            "ranges: missing; by default the search varies the stiffness and damping of linear "
+            "bumpers, but this rig has "
+            + ("no stop" if not rig.stops else "a stop of another kind")
+            + "; give the ranges of parameters of this rig"
         )
     spring = rig.isolator.initial_stiffness
     if spring == 0.0:
-        raise InputError("ranges: missing; they are required for an isolator without a spring")
+        raise InputError("ranges: missing; an isolator without a spring has no default ranges")
     critical = 2.0 * math.sqrt(spring * rig.mass)
     return {
         "bumper_stiffness": (_STIFFNESSES[0] * spring, _STIFFNESSES[1] * spring),
@@ -307,5 +310,7 @@ def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:
         if best[name] > limit:
             raise InputError(
                 f"limits[{name!r}]: no design that was tried keeps {limit:g} "
-                f"{VARIABLES[name].units} with the others; the best has {best[name]:g}"
+                f"{VARIABLES[name].units} together with any other limits; the best design has "
+                f"{best[name]:g} {VARIABLES[name].units}; a wider limit, or wider ranges, are "
+                "accepted"
             )

@@ -139,4 +139,6 @@ def _sides(right: float, left: float, **others: Any) -> xr.Dataset:
 
 def _refuse(status: int) -> None:
     if status not in (Status.DONE, Status.NOT_FINITE, Status.REVERSED):
-        raise InputError(f"shaking: the free motion was given up ({Status(status).advice})")
+        raise InputError(
+            f"shaking: the motion without stops could not be computed ({Status(status).advice})"
+        )

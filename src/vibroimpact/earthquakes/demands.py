@@ -278,7 +278,8 @@ def _warn(status: NDArray[Any]) -> None:
     for code in np.unique(status[status != Status.DONE]):
         count = int((status == code).sum())
         warnings.warn(
-            f"demands: {count} of {status.size} runs were given up: {Status(int(code)).advice}",
+            f"demands: the computation was given up for {count} of {status.size} runs: "
+            f"{Status(int(code)).advice}",
             RuntimeWarning,
             stacklevel=3,
         )

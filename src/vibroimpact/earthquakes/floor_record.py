@@ -42,8 +42,8 @@ def floor_record(motion: xr.Dataset) -> Record:
     origin = any_recorded(motion)
     if not isinstance(origin.excitation, Record):
         raise InputError(
-            "motion: it is periodically forced; a motion through a Record is accepted, and "
-            "fourier_spectrum shows the harmonics of this one"
+            "motion: it is periodically forced; a motion that was simulated with a Record is "
+            "accepted (fourier_spectrum computes the harmonics of a periodically forced motion)"
         )
     time = motion["time"].values
     if len(time) < 4:

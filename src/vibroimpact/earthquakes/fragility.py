@@ -176,7 +176,7 @@ def _why(above: NDArray[np.bool_], scale: xr.DataArray, what: str) -> str:
             return f"all records are {what} at every level; lower levels are needed"
         case "finer levels":
             return (
-                f"fewer than two levels have some records {what} and others not; "
+                f"at fewer than two levels, some records are {what} and others are not; "
                 f"{_finer(above, scale)} are needed"
             )
     return (
@@ -207,7 +207,7 @@ def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
     if low == high:
         return f"{beyond} levels"
     finer = f"finer levels between {pretty(low, quantity)} and {pretty(high, quantity)}"
-    return f"{finer}, and {beyond} ones" if beyond else finer
+    return f"{finer}, and {beyond} levels" if beyond else finer
 
 
 def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -> str:
@@ -221,13 +221,14 @@ def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -
     if not told:
         return ""
     return (
-        "no interval is given if fewer than two records begin to exceed within the levels; "
-        f"needed for one: {_listed(told)}"
+        "there is no interval, because fewer than two records begin to exceed the limit within "
+        f"the levels; needed for an interval: {_listed(told)}"
     )
 
 
 def _listed(told: list[str]) -> str:
-    more = [f"and {len(told) - _TOLD} more curves"] if len(told) > _TOLD else []
+    left = len(told) - _TOLD
+    more = [f"and {left} more curve{'s' if left > 1 else ''}"] if left > 0 else []
     return "; ".join([*told[:_TOLD], *more])
 
 

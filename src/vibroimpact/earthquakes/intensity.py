@@ -50,8 +50,8 @@ class Measure(NamedTuple):
         found = self.of(records)
         for i in np.flatnonzero(found == 0.0):
             raise InputError(
-                f"records[{i}]: it is 0 throughout, so that no factor gives it a {self.name}; one "
-                "that moves is accepted"
+                f"records[{i}]: it is 0 throughout, so no factor can give it a {self.name}; a "
+                "record with samples other than 0 is accepted"
             )
         return found, levels / found[:, np.newaxis]
 

@@ -75,7 +75,7 @@ def runs(rig: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None)
     given = dict(check_mapping({} if vary is None else vary, "vary", VALUES))
     if gaps is not None:
         if "gap" in given:
-            raise InputError("gaps: given beside vary['gap']; one of the two is accepted")
+            raise InputError("gaps: given together with vary['gap']; one of the two is accepted")
         given = {"gap": gaps, **given}
     one = next(iter(rigs.values()))
     every = tuple(

@@ -103,8 +103,7 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
     unknown = int(values.isnull().sum())
     if unknown:
         warnings.warn(
-            f"fractiles: {unknown} of {values.size} values of {quantity} are unknown and are "
-            "left out",
+            f"fractiles: unknown values of {quantity} are left out: {unknown} of {values.size}",
             RuntimeWarning,
             stacklevel=3,
         )
@@ -186,8 +185,8 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
     status = demands["status"].values
     for code in np.unique(status[(status != Status.DONE) & ~np.isin(status, UNSTABLE)]):
         raise InputError(
-            f"demands: {int((status == code).sum())} runs were given up, and their values are "
-            f"unknown: {Status(int(code)).advice}"
+            f"demands: the values of {int((status == code).sum())} of {status.size} runs are "
+            f"unknown, because their computation was given up: {Status(int(code)).advice}"
         )
     found: xr.DataArray = demands[quantity].where(~np.isin(status, UNSTABLE), math.inf)
     return found

@@ -113,8 +113,8 @@ def say() -> None:
     if not _announced.is_set():
         _announced.set()
         announce(
-            "compiling the engine: each part once, when it is first used, which takes 10 to 30 s "
-            "each ..."
+            "compiling the engine: each part is compiled once, when it is first used, and takes "
+            "10 to 30 s ..."
         )
 
 
@@ -134,6 +134,6 @@ def say_unsafe(path: Path) -> None:
         _distrusted.set()
         announce(
             f"other users may write to {str(path)!r}, and whoever can write compiled "
-            "code can run it as you; the cache is not used. Take the right to write from group "
-            "and others (chmod go-w), or name a folder of your own in VIBROIMPACT_CACHE_DIR."
+            "code can run it as you; the cache is not used. Remove the write permission of group "
+            "and others (chmod go-w), or set VIBROIMPACT_CACHE_DIR to a folder of your own."
         )

@@ -45,7 +45,7 @@ _MOMENT = 0.1
 """Seconds that a picture which is overtaken is waited for."""
 _SELDOM = 0.3
 """Seconds between two tellings of progress."""
-_ONE_FILE = "file: another file is being written; wait until it is offered"
+_ONE_FILE = "file: another file is being written; wait until its download starts"
 _ANY = ("0.0.0.0", "::")
 _LIVE = "/live"
 _PAGES = {"/": "index.html"}

@@ -222,8 +222,8 @@ class Session:
                 raise Stopped
             if taken > MOST_SECONDS:
                 raise InputError(
-                    f"{stage.kind}: given up after {MOST_SECONDS:g} s; more damping, or fewer "
-                    "pictures, reduce the time"
+                    f"{stage.kind}: the computation was given up after {MOST_SECONDS:g} s; add "
+                    "damping, or show fewer pictures, to reduce the time"
                 )
             if progress:
                 progress(done, total)

@@ -75,5 +75,6 @@ def text(data: xr.Dataset) -> RenderableType:
         )
     lines = [f"states given up: {found['given_up']}"]
     if len(motions) > _MOST:
-        lines.insert(0, f"and {len(motions) - _MOST} motions with smaller shares")
+        more = len(motions) - _MOST
+        lines.insert(0, f"and {more} motion{'s' if more > 1 else ''} with smaller shares")
     return Group(Text(), table, Text(), Text("\n".join(lines)))

@@ -33,8 +33,8 @@ def text(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> Ren
     for name, data in found.items():
         lines.append(
             Text(
-                f"  {name}: {data.sizes['point']} points; beginning: {data.attrs['ended_low']}; "
-                f"end: {data.attrs['ended_high']}"
+                f"  {name}: {data.sizes['point']} point{'' if data.sizes['point'] == 1 else 's'}; "
+                f"beginning: {data.attrs['ended_low']}; end: {data.attrs['ended_high']}"
             )
         )
         lines += [

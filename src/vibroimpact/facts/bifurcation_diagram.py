@@ -57,7 +57,8 @@ def text(data: xr.Dataset) -> RenderableType:
         chosen = sorted(ranges, key=lambda one: -one["values"])[:_MOST]
         parts.append(_table([one for one in ranges if one in chosen], told["parameter"], unit))
         if len(ranges) > _MOST:
-            parts.append(Text(f"and {len(ranges) - _MOST} narrower ranges"))
+            more = len(ranges) - _MOST
+            parts.append(Text(f"and {more} narrower range{'s' if more > 1 else ''}"))
     return Group(*parts)
 
 

@@ -61,7 +61,8 @@ def text(data: xr.Dataset) -> RenderableType:
     parts: list[RenderableType] = []
     for one in told["branches"]:
         number = one["branch"]
-        title = f"Branch {number}: period {one['period']}, {one['points']} orbits"
+        plural = "" if one["points"] == 1 else "s"
+        title = f"Branch {number}: period {one['period']}, {one['points']} orbit{plural}"
         parts += [Text(), Text(title, style="bold")]
         if one["closed"]:
             parts.append(Text("closed"))

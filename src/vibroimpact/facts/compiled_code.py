@@ -28,9 +28,11 @@ def text(facts: dict[str, Any], cleaned: bool) -> RenderableType:
             "of this version" if one["own"] else "",
         )
     count = len(facts["kept"])
-    lines = [f"{facts['folder']}: {count} folders, {_bytes(facts['size'])}"]
+    plural = "" if count == 1 else "s"
+    lines = [f"{facts['folder']}: {count} folder{plural}, {_bytes(facts['size'])}"]
     if count > _MOST:
-        lines.insert(0, f"and {count - _MOST} older ones")
+        more = count - _MOST
+        lines.insert(0, f"and {more} older folder{'s' if more > 1 else ''}")
     if cleaned:
         lines.append(f"removed: {_bytes(facts['removed'])}")
     lines += [f"kept, because another process uses it: {name}" for name in facts["in_use"]]

@@ -213,7 +213,7 @@ def _enough_for_share(rig: Oscillator, gap: xr.Dataset, share: float) -> str:
     hits = int((beyond > 0.0).sum())
     return (
         f"{_gaps(rig).capitalize()} is {told} for the {_percent(share)} fractile; the mass hits a "
-        f"stop under {hits or 'none'} of the {len(beyond)} records."
+        f"stop under {hits or 'none'} of the {len(beyond)} record{'' if len(beyond) == 1 else 's'}."
     )
 
 

@@ -97,7 +97,8 @@ def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
         return f"still swinging by ±{pretty(swing, LENGTH)}"
     if rig.isolator.damping == 0.0 and not settles(rig):
         return (
-            "not settled: the isolator has no damping, and the mass may swing about it indefinitely"
+            "not settled: the isolator has no damping, so the mass may swing about this position "
+            "indefinitely"
         )
     return ""
 

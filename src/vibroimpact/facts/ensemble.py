@@ -64,7 +64,7 @@ def text(data: xr.Dataset, given: dict[str, str], indices: dict[str, xr.Dataset]
     spread = ", ".join(f"{name.replace('_', ' ')} {text}" for name, text in given.items())
     parts: list[RenderableType] = [
         Text(),
-        Text(f"{told['samples']} rigs: {spread}"),
+        Text(f"{told['samples']} rig{'' if told['samples'] == 1 else 's'}: {spread}"),
         Text(f"{100.0 * told['touching']:.3g} % of them touch a stop at some frequency."),
         Text(),
         _fractiles(told["peaks"]),

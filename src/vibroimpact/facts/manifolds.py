@@ -72,7 +72,8 @@ def text(data: xr.Dataset) -> RenderableType:
         lines += [f"  {count} of {len(mine)}: {why}" for why, count in ends.most_common()]
     crossed = found["crossings"]
     lines.append(
-        f"the curves cross {crossed} times: motions look chaotic before they settle"
+        f"the curves cross {'once' if crossed == 1 else f'{crossed} times'}: motions look chaotic "
+        "before they settle"
         if crossed
         else "the curves do not cross"
     )

@@ -83,7 +83,9 @@ def branch_diagram(
     """
     if "parameter" not in data.attrs or "branch" not in data:
         another = (
-            "sections, which figures.section_diagram draws" if "start" in data.dims else "no branch"
+            "a bifurcation diagram, which figures.section_diagram draws"
+            if "start" in data.dims
+            else "not a branch"
         )
         raise InputError(
             f"data: this is {another}; a dataset of branch or resonance_diagram is accepted"
@@ -93,7 +95,8 @@ def branch_diagram(
     name = data.attrs["parameter"]
     if sweep is not None and name != "frequency":
         raise InputError(
-            f"sweep: the branches are along {name!r}; those along 'frequency' are accepted"
+            f"sweep: the branches are along {name!r}; with a sweep, branches along 'frequency' are "
+            "accepted"
         )
     if sweep is not None and "direction" not in sweep.coords:
         raise InputError("sweep: this is not a sweep; a dataset of sweep is accepted")

@@ -41,7 +41,9 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
     known = {case.code for case in laboratory.campaign()}
     for code, scenario in found.items():
         if code not in known:
-            raise InputError(f"found: {code!r} is not a laboratory test; B1-G1-A1 to B4-G4-A3 are")
+            raise InputError(
+                f"found: {code!r} is not a laboratory test; B1-G1-A1 to B4-G4-A3 are accepted"
+            )
         if scenario not in SCENARIOS:
             raise InputError(
                 f"found[{code}]: {scenario!r}; one of {', '.join(SCENARIOS)} is accepted"

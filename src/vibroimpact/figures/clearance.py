@@ -58,7 +58,9 @@ def clearances(
     given_motions = named(motions)
     curves = shown(given_motions, cycles_shown(given_motions, cycles, 2))
     if not any(curve.gaps for curve in curves):
-        raise InputError("motions: they have no bumper; a motion of a rig with one is accepted")
+        raise InputError(
+            "motions: their rigs have no bumper; a motion of a rig with a bumper is accepted"
+        )
     if zoom is not None and not 0.0 < zoom < math.inf:
         raise InputError(f"zoom: {zoom!r}; a number of cycles greater than 0 is accepted")
     what = "the whole and the magnified part"

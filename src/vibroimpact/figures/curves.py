@@ -55,7 +55,10 @@ def bifurcation_curves(
         raise InputError("curves: empty; at least one dataset of bifurcation_curve is accepted")
     pairs = {(data.attrs["parameter"], data.attrs["other_parameter"]) for data in given}
     if len(pairs) > 1:
-        raise InputError(f"curves: they are in {sorted(pairs)}; one pair of parameters is accepted")
+        raise InputError(
+            f"curves: they have different pairs of parameters, {sorted(pairs)}; curves of one pair "
+            "of parameters are accepted"
+        )
     ((first, second),) = pairs
     ax = axes_or_new(ax, (6.4, 4.8), title)
     scales, units = zip(*(axis_unit(given[0][name]) for name in (first, second)), strict=True)

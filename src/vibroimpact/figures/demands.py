@@ -61,7 +61,9 @@ def incremental_curves(
         If ``demands`` is not such a dataset, has fewer than two scales, or holds several rigs.
     """
     if isinstance(ax, str):
-        raise InputError(f"ax: {ax!r}; axes are accepted, and a peak as quantity={ax!r}")
+        raise InputError(
+            f"ax: {ax!r}; axes of matplotlib are accepted; to name a peak, use quantity={ax!r}"
+        )
     values = known(demands, quantity)
     _one_rig(values, "demands")
     ax = axes_or_new(ax, (5.6, 4.0), title)
@@ -204,11 +206,11 @@ def _one_rig(values: xr.DataArray, what: str) -> None:
     others = [str(dim) for dim in values.dims if dim not in ("record", "scale")]
     if others:
         raise InputError(
-            f"{what}: over {', '.join(others)} as well; curves of one rig are accepted, such as "
-            f"demands.isel({others[0]}=0)"
+            f"{what}: the dataset also extends over {', '.join(others)}; curves of one rig are "
+            f"accepted, such as demands.isel({others[0]}=0)"
         )
     if values.sizes["scale"] < 2:
-        raise InputError(f"{what}: one scale; several are accepted")
+        raise InputError(f"{what}: it has one scale; at least two are accepted")
 
 
 def _value(data: xr.Dataset, dim: str, value: object) -> str:

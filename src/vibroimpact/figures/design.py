@@ -82,11 +82,11 @@ def design_chart(
             )
     if len(dims) > 2 or min(data.sizes[dim] for dim in dims) < 2:
         raise InputError(
-            f"data: over {dict(data.sizes)}; one or two parameters with at least two values each "
-            "are accepted, as those of data.isel"
+            f"data: the dims are {dict(data.sizes)}; one or two parameters with at least two "
+            "values each are accepted; select them with data.isel"
         )
     count = len(quantities)
-    drawn = panels(axes, count, "one a quantity", (4.9 * count, 4.6), title, beside=True)
+    drawn = panels(axes, count, "one per quantity", (4.9 * count, 4.6), title, beside=True)
     for ax, name in zip(drawn, quantities, strict=True):
         (_curve if len(dims) == 1 else _contours)(ax, data, name)
     return drawn
@@ -221,12 +221,12 @@ def _beyond(data: xr.Dataset) -> NDArray[np.bool_]:
 
 def _best(data: xr.Dataset) -> str:
     """Return the label of the front. Designs that exceed a limit may lie beyond it."""
-    return f"beaten by {'none within the limits' if _beyond(data).any() else 'no other'}"
+    return f"not dominated {'within the limits' if _beyond(data).any() else 'by another'}"
 
 
 def _dims(data: Any) -> list[str]:
     if not isinstance(data, xr.Dataset) or "pareto" not in data:
-        raise InputError("data: this is not a design; a dataset of design is accepted")
+        raise InputError("data: this is not a dataset of designs; a dataset of design is accepted")
     return [str(dim) for dim in data["pareto"].dims]
 
 

@@ -56,15 +56,14 @@ def resonance_bands(
     """
     if not {"sample", "direction", "frequency"} <= set(data.dims):
         raise InputError(
-            f"data: a dataset with the dims {dict(data.sizes)} is not an ensemble of sweeps; one "
-            "of "
-            "ensemble is acceptedof sweeps"
+            f"data: a dataset with the dims {dict(data.sizes)} is not an ensemble of sweeps; a "
+            "dataset of ensemble is accepted"
         )
     low, high = shares
     if not 0.0 <= low < 0.5 < high <= 1.0:
-        raise InputError(f"shares: {shares}; one below and one above 0.5 are accepted")
+        raise InputError(f"shares: {shares}; one share below and one above 0.5 are accepted")
     count = len(quantities)
-    drawn = panels(axes, count, "a panel a quantity", (7.2, 1.4 + 2.5 * count), title)
+    drawn = panels(axes, count, "one panel per quantity", (7.2, 1.4 + 2.5 * count), title)
     frequency = data["frequency"].values
     handles: list[Any] = []
     for ax, quantity in zip(drawn, quantities, strict=True):
@@ -146,8 +145,8 @@ def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | N
     others = [dim for dim in data["total_order"].dims if dim != "uncertain_parameter"]
     if len(others) > 1:
         raise InputError(
-            f"data: it is over {', '.join(map(str, others))}; one number or one curve is accepted, "
-            "such as data.isel(direction=0)"
+            f"data: it extends over {', '.join(map(str, others))}; one number or one curve is "
+            "accepted, such as data.isel(direction=0)"
         )
     ax = axes_or_new(ax, (6.4, 3.8), title)
     if others:

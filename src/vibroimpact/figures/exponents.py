@@ -44,9 +44,10 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
     over = [str(dim) for dim in found["exponents"].dims if dim not in ("rig", "exponent")]
     wide = [dim for dim in over if found.sizes[dim] > 1]
     if len(wide) != 1:
+        what = f"extend over {', '.join(wide)}" if wide else "belong to a single value"
         raise InputError(
-            f"data: exponents over {', '.join(wide) or 'a single value'}; those over one parameter "
-            "are accepted, such as data.isel(frequency=0)"
+            f"data: the exponents {what}; exponents over exactly one parameter are accepted, such "
+            "as those of data.isel(frequency=0)"
         )
     (name,) = wide
     found = found.squeeze([dim for dim in over if dim != name], drop=True)

@@ -43,7 +43,7 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
     """
     _check(result)
     tests = [str(t) for t in result["test"].values]
-    given = panels(axes, len(tests), "a panel a test", (7.2, 0.4 + 2.6 * len(tests)), title)
+    given = panels(axes, len(tests), "one panel per test", (7.2, 0.4 + 2.6 * len(tests)), title)
     for ax, test in zip(given, tests, strict=True):
         mine = result.isel(point=np.flatnonzero(result["point_test"].values == test))
         size = float(result["noise"].sel(test=test)) or 1.0
@@ -163,8 +163,8 @@ def fit_history(
         raise InputError(f"test: {test!r} is not a history of this fit; {histories} are accepted")
     mine = result.isel(point=np.flatnonzero(result["point_test"].values == name))
     variables = list(dict.fromkeys(str(v) for v in mine["point_variable"].values))
-    given = panels(axes, len(variables), "a panel a channel", (7.2, 0.4 + 2.4 * len(variables)),
-                   title)  # fmt: skip
+    given = panels(axes, len(variables), "one panel per channel",
+                   (7.2, 0.4 + 2.4 * len(variables)), title)  # fmt: skip
     for ax, variable in zip(given, variables, strict=True):
         here = mine["point_variable"].values == variable
         factor, unit = _UNITS[VARIABLES[variable].units]

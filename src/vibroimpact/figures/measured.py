@@ -88,7 +88,10 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
     """
     shown = [panel for kind in _KINDS if (panel := _panel(data, kind)) is not None]
     if not shown:
-        raise InputError("data: it has neither excursions, maxima, minima nor η; one is accepted")
+        raise InputError(
+            "data: it has neither excursions, maxima, minima nor η; at least one of these is "
+            "required"
+        )
     found = measured_features(data)
     what = " and ".join(panel.name for panel in shown)
     given = panels(axes, len(shown), what, (7.2, 0.4 + 3.2 * len(shown)), title)

@@ -85,7 +85,9 @@ def motion_page(
         five axes per column.
     """
     if isinstance(columns, xr.Dataset) or not columns:
-        raise InputError("columns: at least one motion by its heading is accepted")
+        raise InputError(
+            "columns: missing; a mapping of headings to motions, with at least one, is accepted"
+        )
     count = len(columns)
     if axes is not None:
         made = np.asarray(axes, dtype=object)

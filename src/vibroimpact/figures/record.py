@@ -97,8 +97,7 @@ def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:
     if "record" not in parameters or "displacement" not in motion:
         raise InputError(
             "motion: this is not a motion through a record; a dataset of simulate with a Record "
-            "and "
-            "samples is accepted, and time_history draws other motions"
+            "and samples is accepted (time_history draws other motions)"
         )
     oscillator = parameters["oscillator"]
     return {side: oscillator[side] for side in _SIDES if oscillator.get(side)}

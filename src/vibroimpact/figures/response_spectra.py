@@ -60,9 +60,8 @@ def response_spectra(
     dims = getattr(spectrum, "sizes", {})
     if not isinstance(spectrum, xr.Dataset) or dims.get("natural_period", 0) < 2:
         raise InputError(
-            "spectrum: this is not a response spectrum over periods; a dataset of "
-            "response_spectrum "
-            "with several is accepted"
+            "spectrum: this is not a response spectrum over natural periods; a dataset of "
+            "response_spectrum with at least two periods is accepted"
         )
     factor, label = _LABELS[quantity]
     others = [dim for dim in ("orientation", "damping_ratio") if dim in dims]

@@ -71,7 +71,8 @@ def scenario_map(
     second, first = (str(name) for name in data["scenario"].dims)
     if border is not None and not {first, second} <= set(border.variables):
         raise InputError(
-            f"border: it is not in {first} and {second}; the border of the same map is accepted"
+            f"border: its parameters are not {first} and {second}; the border of the same map is "
+            "accepted"
         )
     ax = axes_or_new(ax, (7.2, 6.4), title)
     fx, fy = axis_unit(data[first])[0], axis_unit(data[second])[0]

@@ -72,11 +72,11 @@ def section_diagram(
     held = [name for name in _LABELS if name in data]
     if "start" not in data.dims or not held:
         another = (
-            "branches, which figures.branch_diagram draws"
+            "a dataset of branches, which figures.branch_diagram draws"
             if "branch" in data
-            else "no such diagram"
+            else "not a bifurcation diagram"
         )
-        raise InputError(f"data: this is {another}; one of bifurcation_diagram is accepted")
+        raise InputError(f"data: this is {another}; a dataset of bifurcation_diagram is accepted")
     if quantity is None:
         quantity = "contact_start_velocity" if "contact_side" in data else held[0]
     if quantity not in held:
@@ -85,7 +85,7 @@ def section_diagram(
     if branches is not None and branches.attrs.get("parameter") != name:
         raise InputError(
             f"branches: they are along {branches.attrs.get('parameter')!r}; "
-            f"those along {name!r} are accepted"
+            f"branches along {name!r} are accepted"
         )
     drawn = panels(axes, 3, "section, periods and exponents", (7.2, 6.4), title, _HEIGHTS)
     top, middle, bottom = drawn

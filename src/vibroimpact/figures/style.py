@@ -150,7 +150,8 @@ def panels(
         return Panels(made.ravel())
     given = Panels(np.ravel(axes))
     if len(given) != count:
-        raise InputError(f"axes: {len(given)} given; {count} are accepted, for {what}")
+        wanted = "1 is" if count == 1 else f"{count} are"
+        raise InputError(f"axes: {len(given)} given; {wanted} accepted, for {what}")
     return given
 
 

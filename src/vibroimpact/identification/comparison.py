@@ -77,16 +77,18 @@ def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
         how = (
             "has no support beside it"
             if less > _CLEAR
-            else "cannot be told from it by these data"
+            else "cannot be distinguished from it by these data"
             if less < 2.0
             else "is less likely"
         )
         lines.append(f"{name}: Akaike's criterion is {less:.1f} above that of {best}: it {how}")
     for name, one in zip(order, chance, strict=True):
         if one < CERTAIN:
-            lines.append(f"{name}: its residuals are not noise; it lacks something")
+            lines.append(f"{name}: its residuals are not noise, so this model is incomplete")
     if chance[0] < CERTAIN:
-        lines.append("none of these models is right: the best one leaves a shape, too")
+        lines.append(
+            "none of these models is complete: the residuals of the best one are not noise, either"
+        )
     data.attrs["findings"] = "\n".join(lines)
     return describe(data, "vibroimpact.compare_fits")
 
@@ -168,7 +170,7 @@ def hertzian(oscillator: Oscillator, depth: float) -> Oscillator:
             lost = stop.damping / (stop.stiffness * depth)
             sides[side] = PowerBumper(made, stop.gap, 1.5, dissipation=lost)
     if not sides:
-        raise InputError("oscillator: it has no linear bumper; one is accepted")
+        raise InputError("oscillator: it has no linear bumper; an oscillator with one is accepted")
     return oscillator.replace(**sides)
 
 
@@ -182,7 +184,7 @@ def softening(oscillator: Oscillator) -> Oscillator:
     """
     isolator = oscillator.isolator
     if not isinstance(isolator, Isolator):
-        raise InputError(f"oscillator: its isolator is {isolator}; a linear one is accepted")
+        raise InputError(f"oscillator: its isolator is {isolator}; a linear isolator is accepted")
     return oscillator.replace(
         isolator=PolynomialIsolator(isolator.stiffness, isolator.damping, cubic=0.0, quintic=0.0)
     )

@@ -119,9 +119,10 @@ class CurveTest:
             other = "metres" if name.startswith("displacement") else "g"
             if size > 100.0 * reference or (size < 1e-4 * reference):
                 raise InputError(
-                    f"data: {name} of {self.name!r} is up to {size:.3g}, and free flight of the "
-                    f"rig {reference:.3g} (SI units); are units wrong ({unit} taken as {other})? "
-                    f"units={{{name!r}: {unit!r}}} of read_measurement is accepted"
+                    f"data: {name} of {self.name!r} is up to {size:.3g}, but up to "
+                    f"{reference:.3g} in free flight of the rig (SI units); are the units wrong "
+                    f"({unit} read as {other})? If so, use units={{{name!r}: {unit!r}}} of "
+                    "read_measurement"
                 )
 
     @property

@@ -26,7 +26,7 @@ _BOUND = 0.95
 """Correlation above which two parameters are reported as interchangeable."""
 _SAME = 1e-3
 """Difference, as a share, up to which a value of another rig is the same."""
-_BLIND = "excursions do not tell right from left; maxima and minima, or time histories, do"
+_BLIND = "excursions do not distinguish right from left; maxima and minima, or time histories, do"
 _FEW = 2
 _ABSURD = 100.0
 """Gap over the largest displacement that was measured, from which on it is reported as absurd."""
@@ -45,7 +45,7 @@ def findings(
     """Lines about how well a fit is known, what is not determined, and what the model lacks."""
     first: list[str] = []  # what makes the rest meaningless
     lines = [
-        f"{found.alike} of {found.starts} starts came to this fit"
+        f"{found.alike} of {found.starts} start{'' if found.starts == 1 else 's'} reached this fit"
         + ("" if found.alike >= _FEW else "; more starts may find a better one")
     ]
     lines += _alternatives(data, problem, x)
@@ -59,14 +59,14 @@ def findings(
                 one, other = problem.free[j].key, problem.free[i].key
                 both = "ratio" if correlation[i, j] > 0 else "product"
                 lines.append(
-                    f"{one} and {other} can hardly be told apart (correlation "
-                    f"{correlation[i, j]:.3f}): their {both} is known better than either"
+                    f"{one} and {other} can hardly be distinguished (correlation "
+                    f"{correlation[i, j]:.3f}): their {both} is known better than each of them"
                 )
     for number, (test, what) in enumerate(zip(problem.tests, judged, strict=True)):
         if left := str(test.data.attrs.get("left_out", "")).splitlines():
             lines.append(
-                f"{test.name}: {', '.join(map(repr, left))} of the file not understood, and not "
-                "used; columns= of read_measurement says what a column holds"
+                f"{test.name}: {', '.join(map(repr, left))} of the file not understood and not "
+                "used; state with columns= of read_measurement what a column contains"
             )
         unused = str(test.data.attrs["unused_shaking"]).splitlines()
         lines += [f"{test.name}: {line}" for line in unused]
@@ -89,8 +89,9 @@ def _absurd_gaps(data: xr.Dataset, problem: Problem) -> list[str]:
         swing = max(swings, default=0.0)
         if one.name.endswith("gap") and swing > 0.0 and abs(value) > _ABSURD * swing:
             lines.append(
-                f"{one.key} {pretty(value, one.quantity, 3)} is absurd: {abs(value) / swing:.3g} "
-                f"times the largest displacement that was measured, {pretty(swing, LENGTH, 3)}"
+                f"{one.key} {pretty(value, one.quantity, 3)} is implausible: "
+                f"{abs(value) / swing:.3g} times the largest displacement that was measured, "
+                f"{pretty(swing, LENGTH, 3)}"
             )
     return lines
 
@@ -119,7 +120,7 @@ def _alternatives(data: xr.Dataset, problem: Problem, x: Array) -> list[str]:
     asked = any(one.name.partition("_")[0] in ("right", "left") for one in problem.free)
     uneven = any(not problem.rig_of(x, test)[0].oscillator.symmetric for test in problem.tests)
     if asked and uneven and not exchanged and all(test.blind for test in problem.tests):
-        lines.append(f"which side is the right one rests on the values given: {_BLIND}")
+        lines.append(f"only the given values decide which side is the right one: {_BLIND}")
     return lines
 
 
@@ -136,24 +137,24 @@ def _of(data: xr.Dataset, problem: Problem, number: int, idle: Untouched) -> str
     if number in idle.gaps:
         return (
             f"{named} is known from below only: in these tests the mass does not touch the stop, "
-            f"and {pretty(low, one.quantity, 3)} and more fits as well (with the other values of "
-            "the stop held)"
+            f"and all values from {pretty(low, one.quantity, 3)} upward fit as well (with the "
+            "other values of the stop unchanged)"
         )
     if not (open_low or open_high or weak):
         return ""
     ends = f"{pretty(low, one.quantity, 3)} to {pretty(high, one.quantity, 3)}"
     if open_low and open_high:
-        return f"{named} is not determined: all of {ends} fits as well"
+        return f"{named} is not determined: all values from {ends} fit as well"
     if open_low:
-        return f"{named} is known from above only: {ends} fits as well"
+        return f"{named} is known from above only: values from {ends} fit as well"
     if open_high and high < one.high:
         return (
-            f"{named} is known from below only: {pretty(low, one.quantity, 3)} and more fits as "
-            f"well (tried up to {pretty(high, one.quantity, 3)})"
+            f"{named} is known from below only: values from {pretty(low, one.quantity, 3)} upward "
+            f"fit as well (tried up to {pretty(high, one.quantity, 3)})"
         )
     if open_high:
-        return f"{named} is known from below only: {ends} fits as well"
-    return f"{named} is poorly determined: {ends} fits as well"
+        return f"{named} is known from below only: values from {ends} fit as well"
+    return f"{named} is poorly determined: values from {ends} fit as well"
 
 
 def amplitude_words(shaken: Any, source: str) -> str:
@@ -169,20 +170,20 @@ def _shape(name: str, kind: str, what: Structure, amplitude: str) -> list[str]:
     lines = []
     if what.chance < CERTAIN:
         lines.append(
-            f"{name}: the residuals are not noise: neighbours agree (correlation "
-            f"{what.correlation:.2f}), most between {what.worst[0]:.4g} and {what.worst[1]:.4g} "
-            f"{unit}; the model lacks something there"
+            f"{name}: the residuals are not noise: neighbouring residuals are alike (correlation "
+            f"{what.correlation:.2f}), mostly between {what.worst[0]:.4g} and "
+            f"{what.worst[1]:.4g} {unit}; the model is incomplete there"
         )
     elif what.chance < HINT:
         lines.append(
-            f"{name}: neighbouring residuals agree more than noise would in all but "
+            f"{name}: neighbouring residuals are more alike than pure noise would be in all but "
             f"{100.0 * what.chance:.1g} % of tests: compare other laws of the stops or the isolator"
         )
     if what.excess_chance < CERTAIN and np.isfinite(what.excess):
         lines.append(
             f"{name}: the residuals are {what.excess:.3g} times the noise of the measurement"
             + (
-                f"; the amplitude was taken as {amplitude}"
+                f"; the fit used the amplitude {amplitude}"
                 if amplitude and what.excess > _FAR
                 else ""
             )

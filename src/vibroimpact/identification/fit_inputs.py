@@ -83,12 +83,14 @@ def _of(given: Any, name: str, names: list[str], field: str) -> Any:
     """What belongs to one test: the same for all, one by name, or one by position."""
     if isinstance(given, Mapping):
         if name not in given:
-            raise InputError(f"{field}: none for {name!r}; one per test ({names}) is accepted")
+            raise InputError(
+                f"{field}: missing for {name!r}; one per test ({', '.join(names)}) is accepted"
+            )
         return given[name]
     if isinstance(given, list):
         if len(given) != len(names):
             raise InputError(
-                f"{field}: {len(given)} for {len(names)} tests; the same number is accepted"
+                f"{field}: {len(given)} given for {len(names)} tests; one per test is accepted"
             )
         return given[names.index(name)]
     return given

@@ -183,7 +183,10 @@ def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: 
     middle = math.sqrt(low * high) if low > 0.0 else 0.5 * (low + high)
     start = read.get("start", now if inside else middle)
     if not low <= start <= high:
-        raise InputError(f"{field}: the start {start:g} lies outside {low:g} to {high:g}")
+        raise InputError(
+            f"{field}: the start {start:g} lies outside {low:g} to {high:g}; a start within this "
+            "range is accepted"
+        )
     size = size_of(quantity, rig, swing)
     small = abs(start) < NEAR_ZERO * size
     scale = size if small else abs(start)

@@ -94,7 +94,7 @@ class HistoryTest:
         if not self.names:
             raise InputError(
                 f"data: {name!r} has neither displacement nor velocity nor acceleration of the "
-                "mass at 8 times; at least one of them is required"
+                "mass at 8 times or more; at least one of them is required"
             )
         self.measured = {c: data[c].values for c in self.names}
         spread = {c: float(np.nanstd(v)) or 1.0 for c, v in self.measured.items()}

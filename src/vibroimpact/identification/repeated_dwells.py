@@ -25,9 +25,10 @@ def stray_values(name: str, data: xr.Dataset) -> list[str]:
         told = f"{name}: {way}, {f:.4g} Hz: "
         if count >= _FEW and 2 * stray < count:
             told += f"{stray} of {count} values {'lies' if stray == 1 else 'lie'} far from the "
-            told += f"others, as on another motion; leave {'it' if stray == 1 else 'them'} out"
+            told += f"others, as if from another motion; leave {'it' if stray == 1 else 'them'} out"
         else:
-            told += f"its {count} values lie far apart, as on two motions; keep those of one motion"
+            told += f"its {count} values lie far apart, as if from two motions; keep the values of "
+            told += "one motion"
         lines.append(told)
     return lines
 

@@ -53,8 +53,7 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
             notes.append(f"{name} has no unit: taken as {told}")
     if left:
         notes.append(
-            "entries next to the columns that were not understood and were left out: "
-            f"{', '.join(left)}"
+            f"entries next to the columns were not understood and were left out: {', '.join(left)}"
         )
     return found
 

@@ -51,7 +51,7 @@ def curves(
     usable = np.isfinite(at) & (at > 0.0)
     if not usable.all():
         rows = ", ".join(table.row(int(i)) for i in np.flatnonzero(~usable)[:5])
-        notes.append(f"{int((~usable).sum())} rows without a frequency are left out ({rows})")
+        notes.append(f"rows without a frequency are left out: {int((~usable).sum())} ({rows})")
     points: dict[tuple[str, str, float], list[float]] = {}
     empty = 0
     for found, values in known.values():
@@ -68,13 +68,14 @@ def curves(
             f"measurement: {table.path!r} has no value at any frequency; at least one is accepted"
         )
     if empty:
-        facts.append(f"{empty} values are missing")
+        facts.append(f"missing values: {empty}")
     frequency = np.array(sorted({key[2] for key in points}))
     present: list[str] = [way for way in DIRECTIONS if any(key[1] == way for key in points)]
     most = max(len(values) for values in points.values())
     if most > 1:
         held = len({key[1:] for key, values in points.items() if len(values) > 1})
-        facts.append(f"{held} frequencies were held up to {most} times; all values are kept")
+        what = "1 frequency was" if held == 1 else f"{held} frequencies were"
+        facts.append(f"{what} held up to {most} times; all values are kept")
     data = xr.Dataset(coords={"direction": present, "frequency": frequency})
     for name in dict.fromkeys(key[0] for key in points):
         grid = np.full((len(present), len(frequency), most), np.nan)

@@ -53,7 +53,7 @@ def history(table: Columns, known: Known, notes: list[str], facts: list[str]) ->
             f"one of {', '.join(repr(column.name) for column in table.columns)}"
         )
     if (lost := int((~usable).sum())) > 0:
-        notes.append(f"{lost} rows without a time are left out")
+        notes.append(f"rows without a time are left out: {lost}")
     order = np.flatnonzero(usable)[np.argsort(time[usable], kind="stable")]
     if (np.diff(order) < 0).any():
         notes.append("the times were not in order, and were sorted")
@@ -70,10 +70,15 @@ def history(table: Columns, known: Known, notes: list[str], facts: list[str]) ->
             facts.append(f"{name} is missing at {gaps} of {len(order)} times")
     if "displacement" not in data and {"mass_displacement", "base_displacement"} <= set(data):
         data["displacement"] = data["mass_displacement"] - data["base_displacement"]
-        facts.append("displacement is that of the mass less that of the base")
+        facts.append("displacement is the displacement of the mass minus that of the base")
     elif "mass_displacement" in data and "displacement" not in data:
-        notes.append("the mass's displacement is absolute, and without that of the base no use")
+        notes.append(
+            "the displacement of the mass is absolute, so it cannot be used without the "
+            "displacement of the base"
+        )
     step = np.diff(data["time"].values)
     if len(step) > 1 and np.ptp(step) > _EVEN * np.median(step):
-        notes.append(f"times are unevenly spaced, by {step.min():.4g} to {step.max():.4g} s")
+        notes.append(
+            f"times are unevenly spaced, in steps of {step.min():.4g} to {step.max():.4g} s"
+        )
     return data

@@ -157,9 +157,9 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
     values = np.asarray(column.values, dtype=float) * found.factor
     notes = []
     if found.factor != 1.0:
-        notes.append(f"{column.name!r} is taken as an amplitude, half an excursion")
+        notes.append(f"{column.name!r} is read as an amplitude, which is half an excursion")
     if unit == column.unit and unit and found.unit and not alike(unit, found.unit):
-        notes.append(f"{column.name!r} is taken in {unit}, not in the {found.unit} of its name")
+        notes.append(f"{column.name!r} is read in {unit}, although its name states {found.unit}")
     if unit is not None and unit.strip() not in ("-", "–", "1", ""):
         where = f"measurement: {path!r}, column {column.name!r}"
         if quantity is DIMENSIONLESS and unit.strip() == "%":

@@ -126,7 +126,7 @@ def read_measurement(
     else:
         raise InputError(f"measurement: {str(path)!r}{_untold(table, known, left)}")
     if left:
-        notes.append(f"columns that were not understood and were left out: {', '.join(left)}")
+        notes.append(f"columns were not understood and were left out: {', '.join(left)}")
     data.attrs |= shaking(table, {"amplitude": amplitude, "frequency": frequency}, notes)
     if "amplitude" in data.attrs:
         data.attrs["amplitude_source"] = file.name if amplitude is None else CALL
@@ -176,9 +176,7 @@ def _filled(table: Columns, wanted: set[str]) -> Columns:
     kept = tuple(one for one in table.columns if not any(one is other for other in empty))
     if not empty or not any(map(is_channel, kept)):
         return table
-    told = (
-        f"columns without values, which were left out: {', '.join(column.name for column in empty)}"
-    )
+    told = f"columns without values were left out: {', '.join(column.name for column in empty)}"
     return table._replace(columns=kept, notes=(*table.notes, told))
 
 
@@ -258,9 +256,7 @@ def _chosen(
     usable = [i for i, table in enumerate(tables) if _has_axis(table, wanted)]
     if group is None and len(usable) == 1:
         others = [name for i, name in enumerate(names) if i != usable[0]]
-        notes.append(
-            f"tables without a time or a frequency, which were left out: {', '.join(others)}"
-        )
+        notes.append(f"tables without a time or a frequency were left out: {', '.join(others)}")
         return tables[usable[0]]
     if isinstance(group, str) and group in names:
         return tables[names.index(group)]

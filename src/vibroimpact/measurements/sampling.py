@@ -50,9 +50,9 @@ def timed(table: Columns) -> list[Columns]:
             part = part._replace(columns=(time, *part.columns))
             own = any(column.step is not None for column in columns)
             if given and not own:
-                told = f"the time is made of {given[0]} = {table.said[given[0]]}, from 0 s on"
+                told = f"the time is computed from {given[0]} = {table.said[given[0]]}, from 0 s on"
             else:
-                told = f"the time is made of the step of {step:g} s, from {start:g} s on"
+                told = f"the time is computed from the step of {step:g} s, from {start:g} s on"
             part = part._replace(notes=(*part.notes, told))
         if len(groups) > 1:
             name = table.said.get("group", "")
@@ -96,8 +96,8 @@ def one_step(said: Mapping[str, str], unit: str | None = None) -> float:
     for name, other in others:
         if abs(other - step) > _SAME * step:
             raise InputError(
-                f"{name}: {said[name]!r:.40} beside {first} = {said[first]!r:.40}: these are two "
-                "different steps; one is accepted"
+                f"{name}: {said[name]!r:.40} and {first} = {said[first]!r:.40} are two different "
+                "time steps; one is accepted"
             )
     return step
 

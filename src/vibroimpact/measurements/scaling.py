@@ -67,7 +67,7 @@ def completed(table: Columns) -> Columns:
     ]
     notes = tuple(
         f"values of {c.name!r} times {1.0 if c.scale is None else c.scale:g}"
-        f"{f' plus {c.offset:g}' if c.offset else ''}, the scale beside them"
+        f"{f' plus {c.offset:g}' if c.offset else ''}, the scale that the file states"
         for c in scaled
     )
     return table._replace(
@@ -89,7 +89,7 @@ def _listed(columns: list[Column]) -> list[Column]:
         if kind is None or units != words or (not words and len(column.values) == longest):
             continue
         some = ", ".join(str(value) for value in column.values[:4])
-        doubt = f"{column.name} = {shown(some)}, which does not say what is of which channel"
+        doubt = f"{column.name} = {shown(some)}, which does not state the channel of each value"
         found = [
             doubtful(other, doubt)
             if other.name != column.name and (other.unit is None if units else is_channel(other))
@@ -116,9 +116,9 @@ def _given(columns: list[Column], kind: Kind, name: str, about: str, text: str) 
     if not doubted(kind, text):
         return columns
     which = (
-        "which is of one channel, and several are there"
+        "which belongs to one channel, but there are several"
         if not about
-        else (f"and there is no channel {about!r}")
+        else (f"but there is no channel {about!r}")
     )
     return [doubtful(c, f"{name} = {shown(text)}, {which}") if _in(c, free) else c for c in columns]
 
@@ -141,7 +141,7 @@ def _with(column: Column, kind: Kind, name: str, text: str) -> Column:
         return doubtful(column._replace(unit=unit), doubt)
     already = column.scale if kind == "scale" else column.offset
     if already is not None:
-        return doubtful(column, f"{name} = {shown(text)} beside the {kind} {already:g}")
+        return doubtful(column, f"{name} = {shown(text)} in addition to the {kind} {already:g}")
     return column._replace(scale=read) if kind == "scale" else column._replace(offset=read)
 
 

@@ -147,7 +147,7 @@ def stated(attributes: Mapping[str, Any]) -> Stated:
             if doubt:
                 doubts.append(f"{name} = {seen}, which {doubt}")
             elif read is not None and not _agree(found.setdefault(field, read), read):
-                doubts.append(f"{name} = {seen} beside the {field} {found[field]!r}")
+                doubts.append(f"{name} = {seen} in addition to the {field} {found[field]!r}")
         elif key in _ABSENT:
             numbers = [number(one) for one in np.ravel(np.asarray(given))]
             found["absent"] = (*found.get("absent", ()), *(n for n in numbers if n is not None))

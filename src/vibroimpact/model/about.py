@@ -17,7 +17,7 @@ from vibroimpact.records.commas import Decimal
 from vibroimpact.records.doubts import of_end, of_times
 from vibroimpact.records.read import read_channel
 
-NO_UNIT = "unit m/s², for the file says none"
+NO_UNIT = "unit m/s², because the file states none"
 """What is noted where neither file nor user says a unit."""
 
 
@@ -104,7 +104,7 @@ def _unit(
                 "with the unit of the values, is accepted"
             )
     if unit is None and found.of_name and not _same(found.of_name, factor, quantity):
-        notes.append(f"taken in {taken}, not in the {found.of_name} of its name")
+        notes.append(f"read in {taken}, although its name states {found.of_name}")
     if unit is not None and found.unit is not None and not _same(found.unit, factor, quantity):
         notes.append(f"unit {unit}, not the file's {found.unit}")
     return taken, factor, quantity

@@ -28,7 +28,7 @@ def number(part: Model, name: str, whose: str = "stops have") -> float:
         numbers = [key for key, held in dict(part).items() if isinstance(held, float)]
         raise InputError(
             f"parameter: {part} has no {name} that can be varied; "
-            f"its {' or '.join(numbers)} is accepted, or a rig whose {whose} one"
+            f"its {' or '.join(numbers)} is accepted, or a rig whose {whose} a {name}"
         )
     return float(value)
 
@@ -226,7 +226,11 @@ def relaxation_time() -> tuple[Read, Vary]:
         oscillator.check_linear("'relaxation_time'")
         times = [number(stop, "damping") / number(stop, "stiffness") for stop in oscillator.stops]
         if not times or not math.isclose(min(times), max(times), rel_tol=1e-12):
-            told = "there is no bumper" if not times else f"their C/K are {sorted(times)} s"
+            told = (
+                "there is no bumper"
+                if not times
+                else f"their ratios of damping to stiffness are {sorted(times)} s"
+            )
             raise InputError(
                 f"parameter: 'relaxation_time' applies to both bumpers, but {told}; "
                 "use 'right_damping' or 'left_damping', or a rig with equal values"

@@ -123,10 +123,10 @@ def _by_root(oscillator: Oscillator) -> float:
         if way >= most:
             if most < abs(end - begin):
                 raise InputError(
-                    f"isolator: it softens; {pretty(isolator.strongest, FORCE)} at "
-                    f"{pretty(isolator.reach, LENGTH)} is its largest force, which does not "
-                    f"balance {pretty(abs(push), FORCE)}; a smaller force or preload "
-                    "is accepted"
+                    "isolator: it softens, and its largest force, "
+                    f"{pretty(isolator.strongest, FORCE)} at {pretty(isolator.reach, LENGTH)}, "
+                    f"does not balance {pretty(abs(push), FORCE)}; a smaller force or preload is "
+                    "accepted"
                 )
             return end
         way = min(2.0 * way, most)

@@ -191,7 +191,7 @@ class Periodic(_Repeated):
             return data
         given, of = check_list(data["amplitudes"], "amplitudes"), data.get("of")
         if not 1 <= len(given) <= MOST:
-            raise InputError(f"amplitudes: {len(given)} of them; 1 to {MOST} are accepted")
+            raise InputError(f"amplitudes: {len(given)} given; 1 to {MOST} are accepted")
         values = []
         for i, one in enumerate(given):
             value, of = sized(one, of, f"amplitudes[{i}]")
@@ -202,11 +202,14 @@ class Periodic(_Repeated):
             turned = (0.0,) * len(values)
         if len(turned) != len(values):
             raise InputError(
-                f"phases: {len(turned)} of them, but {len(values)} amplitudes; one phase per "
-                "amplitude, or no phases, are accepted"
+                f"phases: {len(turned)} given for {len(values)} "
+                f"amplitude{'' if len(values) == 1 else 's'}; one phase per amplitude, or no "
+                "phases, are accepted"
             )
         if not any(values):
-            raise InputError(f"amplitudes: {values} are all 0; one greater than 0 is accepted")
+            raise InputError(
+                f"amplitudes: {values} are all 0; at least one greater than 0 is required"
+            )
         return {**data, "amplitudes": tuple(values), "phases": tuple(turned), "of": of}
 
     @property

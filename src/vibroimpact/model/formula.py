@@ -44,10 +44,10 @@ FUNCTIONS = {
 """By name, and what each is of an odd argument."""
 
 _REFUSED = {
-    "sign": "a force that jumps holds the mass where it stands, which FrictionIsolator describes",
-    "max": "no series passes its corner; abs(u) and abs(v) are accepted",
-    "min": "no series passes its corner; abs(u) and abs(v) are accepted",
-    "log": "it has no value at rest; powers and exp are accepted",
+    "sign": "a force that jumps can hold the mass at rest; use FrictionIsolator for dry friction",
+    "max": "no Taylor series passes its corner; abs(u) and abs(v) are accepted",
+    "min": "no Taylor series passes its corner; abs(u) and abs(v) are accepted",
+    "log": "it is not finite at rest; powers and exp are accepted",
 }
 
 _WRITTEN = {
@@ -131,8 +131,8 @@ def read_formula(
     unused = [name for name in numbers if name not in reader.used]
     if unused:
         raise InputError(
-            f"{unused[0]}: the formula {text.strip()!r} has no such number; "
-            f"{', '.join((*variables, *reader.used))} are in it"
+            f"{unused[0]}: the formula {text.strip()!r} does not contain this number; it contains "
+            f"{', '.join((*variables, *reader.used))}"
         )
     unit = reader.dimension(made)
     if unit is not None and not _same(unit, FORCE):
@@ -257,8 +257,8 @@ class _Reader:
         if name == "abs" and inner.kind not in ("number", "variable"):
             refuse_at(
                 at,
-                f"the absolute value of {inner.text!r} is not accepted, for its zero may lie "
-                f"anywhere; abs({self.variables[0]}) and abs({self.variables[1]}) are",
+                f"the absolute value of {inner.text!r} is not accepted, because its zero may lie "
+                f"anywhere; abs({self.variables[0]}) and abs({self.variables[1]}) are accepted",
             )
         return self.made(name, (inner,), at, text)
 

@@ -133,7 +133,7 @@ def _check_nonzero(formula: Formula, node: Node, part: Node, above: bool, both_w
     if not rest > 0.0 if above else rest == 0.0:
         refuse_at(
             part.column,
-            f"the {what} {part.text!r} is {rest:g} at rest; one that "
+            f"the {what} {part.text!r} is {rest:g} at rest; a {what} that "
             f"{'stays above' if above else 'is never'} 0 is accepted",
         )
     way = math.copysign(1.0, rest)
@@ -159,7 +159,7 @@ def _check_nonzero(formula: Formula, node: Node, part: Node, above: bool, both_w
                 ]
                 refuse_at(
                     part.column,
-                    f"the {what} {part.text!r} is 0 at {' and '.join(place)}; one that "
+                    f"the {what} {part.text!r} is 0 at {' and '.join(place)}; a {what} that "
                     f"{'stays above' if above else 'is never'} 0 is accepted",
                 )
             before = size

@@ -89,18 +89,20 @@ def peak_of(mass: float, stiffness: float, damping_ratio: float, amplitude: floa
     """
     if not 0.0 < damping_ratio < math.sqrt(0.5):
         raise InputError(
-            f"damping_ratio: {damping_ratio:.6g} leaves the motion without stops no finite "
-            "resonance peak to scale a nonzero gap by; a value between 0 and 0.707107 is accepted"
+            f"damping_ratio: with {damping_ratio:.6g}, the motion without stops has no finite "
+            "resonance peak, by which a nonzero gap is scaled; a value between 0 and 0.707107 is "
+            "accepted"
         )
     if amplitude == 0.0:
         raise InputError(
-            "amplitude: 0 causes no motion, so a nonzero gap has no scale; an acceleration "
+            "amplitude: 0 causes no motion, so a nonzero gap cannot be scaled; an acceleration "
             "greater than 0 is accepted"
         )
     peak, _ = largest_free_flight(math.sqrt(stiffness / mass), damping_ratio, amplitude)
     if not 0.0 < peak < math.inf:
         raise InputError(
             f"amplitude: {amplitude:g} m/s² moves a mass of {mass:g} kg on {stiffness:g} N/m by "
-            "a distance outside the range of floating-point numbers; a moderate one is accepted"
+            "a distance outside the range of floating-point numbers; a moderate amplitude is "
+            "accepted"
         )
     return peak

@@ -44,7 +44,9 @@ class Named(Model):
         if not isinstance(data, Mapping) or "kind" not in data:
             return data
         if data["kind"] != cls.kind:
-            raise InputError(f"kind: {shown(data['kind'])} is another; {cls.kind!r} is accepted")
+            raise InputError(
+                f"kind: {shown(data['kind'])} is another kind; {cls.kind!r} is accepted here"
+            )
         return {name: value for name, value in data.items() if name != "kind"}
 
     @model_serializer(mode="wrap")

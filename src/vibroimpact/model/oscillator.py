@@ -137,8 +137,8 @@ class Oscillator(Model):
             if not least <= size <= _MOST:
                 raise InputError(
                     f"mass {m:g} kg, stiffness {k:g} N/m and damping {self.isolator.damping:g} "
-                    f"N s/m: the {what} of the order {size:.0e} is outside the range that can be "
-                    f"computed with; one between {least:g} and {_MOST:g} is accepted"
+                    f"N s/m: the {what}, about {size:.0e}, is outside the range that can be "
+                    f"computed with; a value between {least:g} and {_MOST:g} is accepted"
                 )
         return self
 
@@ -261,7 +261,7 @@ class Oscillator(Model):
                 continue
             law = part.kind if part.kind != "linear" else "a dashpot with an exponent"
             accepted = "a linear Isolator" if name == "isolator" else "a Bumper or a RigidStop"
-            raise InputError(f"{name}: its law, {law}, has no {what}; {accepted} is accepted there")
+            raise InputError(f"{name}: its law, {law}, has no {what}; {accepted} is accepted")
 
     @property
     def symmetric(self) -> bool:

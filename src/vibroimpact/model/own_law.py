@@ -307,8 +307,8 @@ def _check_whole(read: Formula) -> None:
     for node in everywhere(read.tree):
         if node.kind == "**" and node.parts[1].number % 1.0:
             raise InputError(
-                f"formula: column {node.column}: {node.text!r} has no series where contact begins; "
-                "whole exponents are accepted, or k*d**n*(1 + chi*v) alone"
+                f"formula: column {node.column}: {node.text!r} has no Taylor series where "
+                "contact begins; whole exponents are accepted, or k*d**n*(1 + chi*v) alone"
             )
 
 

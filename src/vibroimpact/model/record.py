@@ -114,7 +114,7 @@ class Record:
         mean = float(record.acceleration.mean())
         if abs(mean) > _OFF * record.peak:
             share = 100.0 * abs(mean) / record.peak
-            told = f"mean {pretty(mean, ACCELERATION)} left in, {share:.3g} % of the peak"
+            told = f"mean {pretty(mean, ACCELERATION)} not subtracted, {share:.3g} % of the peak"
             notes.append(told)
         notes += of_size(record.peak, about.unit if quantity is ACCELERATION else "")
         record._about = about._replace(
@@ -224,7 +224,8 @@ class Record:
         if peak is not None:
             if factor != 1.0:
                 raise InputError(
-                    f"peak: {shown(peak)} beside scale = {scale}; one of them is accepted"
+                    f"peak: {shown(peak)} is given together with scale = {scale}; one of the two "
+                    "is accepted"
                 )
             wanted = to_si(peak, ACCELERATION, "peak", above=0.0)
             if self.peak == 0.0:
@@ -275,7 +276,7 @@ class Record:
         time = np.linspace(-1.0, 1.0, len(self._acceleration))
         fitted = np.polynomial.polynomial.polyfit(time, self._acceleration, degree)
         line = np.polynomial.polynomial.polyval(time, fitted)
-        told = f"less its {baseline}, {line[0]:.6g} m/s²"
+        told = f"{baseline} subtracted: {line[0]:.6g} m/s²"
         if degree:
             told += f" at the beginning and {line[-1]:.6g} m/s² at the end"
         return self._changed(self._acceleration - line, told)
@@ -351,7 +352,7 @@ def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDA
     if found.ndim != 1 or len(found) < least:
         raise InputError(
             f"{field}: {len(found) if found.ndim == 1 else f'shape {found.shape}'}; at least "
-            f"{least} samples in {quantity.symbol}in one sequence are accepted"
+            f"{least} samples in {quantity.symbol} in one sequence are accepted"
         )
     for i in np.flatnonzero(~np.isfinite(found))[:1]:
         raise InputError(f"{field}[{i}]: {found[i]} is not finite; finite samples are accepted")

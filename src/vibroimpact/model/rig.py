@@ -107,7 +107,7 @@ class Rig:
             if isinstance(shaking, Record):
                 raise InputError(
                     f"frequency: {own:g} Hz, but the shaking is a Record, which has no frequency; "
-                    "a Harmonic or a Periodic is accepted with one"
+                    "a frequency is accepted with a Harmonic or a Periodic only"
                 )
             if shaking is not None:
                 shaking = shaking.replace(frequency=own)
@@ -286,7 +286,7 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
     if isinstance(value, Record):
         raise InputError(
             f"{where}: a Record has no period, and a periodic excitation is required; a "
-            "Harmonic or a Periodic is accepted; use simulate for records"
+            "Harmonic or a Periodic is accepted (for records, use simulate)"
         )
     if value is None:
         raise InputError(
@@ -312,5 +312,5 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
 def _misplaced(value: object) -> str:
     """Describe the value that was passed instead of an oscillator."""
     if isinstance(value, Harmonic | Periodic | Record):
-        return f"a {type(value).__name__} shakes a rig and comes second"
+        return f"a {type(value).__name__} is the shaking, which is the second argument"
     return f"{shown(value)} is not an Oscillator"

@@ -56,7 +56,9 @@ class ExcitationTable(Model):
         beside = dict.fromkeys(("component", "step", "unit", "decimal"), "record")
         for name, needs in (("phases", "amplitudes"), *beside.items()):
             if getattr(self, name) is not None and ways[needs] is None:
-                raise InputError(f"{name} is given without {needs}; it is accepted only with it")
+                raise InputError(
+                    f"{name} is given without {needs}; it is accepted only together with {needs}"
+                )
         return self
 
     def shaking(self, folder: Path) -> Repeated | Record | None:

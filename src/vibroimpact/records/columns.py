@@ -114,8 +114,8 @@ def _numbers(file: File, decimal: Decimal) -> tuple[list[list[float]], list[int]
             row = [float(part) for part in parts]
         except ValueError:
             if rows:
-                told = f"{whole.strip()[:40]!r} is not a row of numbers; numbers are accepted from "
-                raise file.refused(at, f"{told}the first row of them on") from None
+                told = f"{whole.strip()[:40]!r} is not a row of numbers; after the first row of "
+                raise file.refused(at, f"{told}numbers, only numbers are accepted") from None
             words.append(line)
             continue
         if ended:
@@ -170,7 +170,8 @@ def _table(file: File, rows: list[list[float]], lines: list[int]) -> _Array:
     widths = [len(row) for row in rows]
     for at, width in zip(lines, widths, strict=True):
         if width != widths[0]:
-            raise file.refused(at, f"a row of {width} numbers, where those above have {widths[0]}")
+            told = f"the row has {width} number{'' if width == 1 else 's'}, but the rows above "
+            raise file.refused(at, f"{told}have {widths[0]}; rows of one length are accepted")
     table = np.array(rows)
     return table.T if len(rows) == 2 and widths[0] > 2 else table
 
@@ -206,7 +207,7 @@ def _spacing(
     # A sample that is missing shifts those behind it by a whole step, wherever it is.
     if step > 0.0 and 0.5 * np.ptp(off) <= within:
         told = f"its times are uneven by up to {abs(off[worst]) / each:.3g} s"
-        return step / each, f"{told}: taken as {step / each:.6g} s apart", ""
+        return step / each, f"{told}: a step of {step / each:.6g} s is used", ""
     row = file.lines[lines[0]]
     may_be = "," in row and "." not in row and file.decimal is None
     hint = "; decimal=',' (--decimal ,) reads decimal commas" if may_be else ""

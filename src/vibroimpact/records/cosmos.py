@@ -59,7 +59,7 @@ def read(file: File) -> list[Channel]:
 def _expected(file: File, at: int, pattern: re.Pattern[str], what: str) -> re.Match[str]:
     match = pattern.match(file.line(at)) or pattern.search(file.line(at))
     if match is None:
-        raise file.refused(at, f"{file.lines[at].strip()[:40]!r} is no {what}")
+        raise file.refused(at, f"{file.lines[at].strip()[:40]!r} is not the {what}")
     return match
 
 

@@ -51,7 +51,7 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
     number = towards = station = ""
     while not (data := _DATA.match(file.line(at))):
         if at > first + 2 and _BEGINS.match(file.lines[at]):
-            raise file.refused(at, "a second header, and no line above values since the first")
+            raise file.refused(at, "a second header, but no line above values after the first one")
         if named := _TOWARDS.match(file.lines[at]):
             number, towards = named.groups()
         if known := _STATION.match(file.lines[at]):

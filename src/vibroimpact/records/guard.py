@@ -23,7 +23,7 @@ def regular(path: Path | str, field: str) -> None:
     """
     file = check_path(path, field)
     if file.exists() and not file.is_file():
-        kind = "a folder" if file.is_dir() else "no regular file"
+        kind = "a folder" if file.is_dir() else "not a regular file"
         raise InputError(f"{field}: {str(path)!r} is {kind}; a file is accepted")
     if file.is_file():
         within(file.stat().st_size, path, field)

@@ -38,7 +38,7 @@ def _entry(file: File, name: str, pattern: str) -> tuple[int, re.Match[str]]:
         raise file.refused(min(_HEADER, len(file.lines)) - 1, told)
     match = re.match(pattern, found[1])
     if match is None:
-        raise file.refused(found[0], f"{found[1]!r} is no {name}")
+        raise file.refused(found[0], f"{found[1]!r} is not a {name}; a header of K-NET is accepted")
     return found[0], match
 
 

@@ -64,7 +64,7 @@ def read(file: File) -> list[Channel]:
     if unit is None:
         # In brackets only where a description of the values stands: stations have brackets, too.
         unit = next((unit for line in above[-2:-1] if (unit := stated_acceleration(line))), None)
-    notes = () if unit else ("unit g, that of PEER, for the file states none",)
+    notes = () if unit else ("unit g, the usual unit of PEER files, because the file states none",)
     names = [part.strip() for part in file.lines[at - 2].split(",")] if at >= 2 else []
     component = names[-1] if len(names) > 2 else ""
     return [

@@ -73,13 +73,15 @@ def read_channel(
     listed = ", ".join(f"{name!r}" for name in names)
     numbered = f"{listed}, or a number from 1 to {len(names)}, is accepted"
     if component is None:
-        raise InputError(f"component: missing, and {file.path!r} has {len(channels)}; {numbered}")
+        raise InputError(
+            f"component: missing, and {file.path!r} has {len(channels)} components; {numbered}"
+        )
     wanted = in_one_line(str(component))
     chosen = [channel for channel in channels if channel.called(wanted)]
     if not chosen and wanted.isdecimal() and 1 <= int(wanted) <= len(channels):
         chosen = [channels[int(wanted) - 1]]
     if len(chosen) != 1:
-        how = "is none" if not chosen else f"are {len(chosen)}"
+        how = "is not a component" if not chosen else f"matches {len(chosen)} components"
         raise InputError(f"component: {component!r} {how} of {file.path!r}; {numbered}")
     return Found(form.name, chosen[0], names)
 

@@ -145,7 +145,7 @@ def _scale(file: File, trace: Any) -> tuple[float, tuple[str, ...]]:
             f"record: {file.path!r}: its header states the scale {scale:g}; a number other than 0 "
             "is accepted"
         )
-    return scale, (f"values times {scale:g}, the scale of the header",)
+    return scale, (f"values multiplied by {scale:g}, the scale of the header",)
 
 
 def _channel(file: File, trace: Any) -> Channel:

@@ -34,7 +34,8 @@ def read(file: File) -> list[Channel]:
         raise file.refused(_TEXT + 2, f"{count} values; a number of at least 2 is accepted")
     for _ in range(max(comments, 0)):
         if not file.line(at).startswith("|"):
-            told = f"no comment, and the header announces {comments} that begin with '|'"
+            told = "this is not a comment; by the header, lines that begin with '|' are expected: "
+            told += str(comments)
             raise file.refused(at, told)
         at += 1
     first = _FIRST.match(file.line(at))

@@ -126,8 +126,7 @@ def fit_report(
             "profiles",
             fit_profiles(result),
             "Profile of each parameter: the dotted line is the increase of the deviance at the "
-            "ends "
-            "of the interval",
+            "ends of the interval",
         )
     for key, text, label in _studies(result, name):
         path = where / f"{key}.toml"
@@ -270,7 +269,7 @@ def _tests(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
         curves = str(one["test_kind"].values) == "curves"
         noise = float(one["noise"])
         told = f"{100.0 * noise:.2g} % of a value" if curves else f"{noise:.3g} times its own noise"
-        shape = "a shape" if float(one["residual_chance"]) < 1e-3 else "noise"
+        shape = "correlated, not noise" if float(one["residual_chance"]) < 1e-3 else "noise"
         rows.append((str(test), amplitude_of(result, str(test)), str(points), told, shape))
     return rows
 

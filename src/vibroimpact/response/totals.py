@@ -71,7 +71,7 @@ def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
         return []
     return [
         f"the motion starts with an impact, from {before:.6g} to {behind:.6g} m/s: the energies "
-        "include it, and the first sample is after it"
+        "include this impact, and the first sample is the state after it"
     ]
 
 

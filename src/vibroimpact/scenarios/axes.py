@@ -134,10 +134,10 @@ def check_pair(x: Axis, y: Axis) -> None:
         If they do not go together.
     """
     if x.name == y.name:
-        raise InputError(f"y: {y.name!r} is that of x; another parameter is accepted")
+        raise InputError(f"y: {y.name!r} is also the parameter of x; another one is accepted")
     if {x.name, y.name} in ONE_QUANTITY:
         raise InputError(
-            f"y: {y.name!r} is {x.name!r} in other units; another parameter is accepted"
+            f"y: {y.name!r} is the same quantity as {x.name!r}; another parameter is accepted"
         )
 
 
@@ -158,8 +158,8 @@ def one_sine(rig: Rig, where: str = "shaking") -> Rig:
         )
     if not isinstance(shaken, Harmonic):
         raise InputError(
-            f"{where}: a Periodic, whose harmonics cause resonances below the primary one even "
-            "without stops, so scenarios are not defined; one sine is accepted"
+            f"{where}: the harmonics of a Periodic cause resonances below the primary one even "
+            "without stops, so scenarios are not defined; a Harmonic is accepted"
         )
     if oscillator.isolator.initial_stiffness == 0.0:
         raise InputError(

@@ -15,7 +15,7 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
         room = (
             "there is no bumper"
             if math.isinf(found.gap_ratio)
-            else f"the gap is {found.gap_ratio:.3g} times free flight's amplitude"
+            else f"the gap is {found.gap_ratio:.3g} times the amplitude of free flight"
         )
         return f"no contact from {_span(*found.swept)}; {room}"
     parts = []
@@ -23,8 +23,8 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
         parts.append("bumpers attached to the mass at rest")
     elif found.gap_ratio >= 1.0 - thresholds.touch:
         parts.append(
-            f"the gap is {found.gap_ratio:.3g} times free flight's amplitude, and the mass "
-            f"presses in by {found.penetration:.2g} of it"
+            f"the gap is {found.gap_ratio:.3g} times the amplitude of free flight, and the mass "
+            f"penetrates by {found.penetration:.2g} of the gap"
         )
     sides = [("right", item) for item in found.right] + [("left", item) for item in found.left]
     narrow = found.extent(thresholds.prominence) < thresholds.extent
@@ -37,7 +37,7 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
         parts.append(f"right hysteresis {hidden}, between two frequencies")
     parts += _irregular(found, thresholds)
     parts += [
-        f"secondary resonance at {frequency:.3g} Hz ({share:.0%} prominent)"
+        f"secondary resonance at {frequency:.3g} Hz (prominence {share:.0%})"
         for frequency, share in found.secondary_resonances(thresholds.prominence)
     ]
     parts += [f"not regular where contact begins, {_span(*span)}" for span in found.onset]
@@ -46,11 +46,11 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
     if math.isfinite(found.resonance):
         parts.append(f"resonance at {found.resonance:.3g} times that of free flight")
     if found.primary_beyond:
-        parts.append("the primary resonance lies beyond the frequencies swept")
+        parts.append("the primary resonance lies outside the frequency range of the sweep")
     elif not found.within:
-        parts.append("free flight's resonance lies beyond the frequencies swept")
+        parts.append("the resonance of free flight lies outside the frequency range of the sweep")
     if not found.known:
-        parts.append("most holds have not settled, or have no value")
+        parts.append("at most frequencies, the motion has not settled or has no value")
     parts.append(f"contact {_span(*found.contact)}")
     return "; ".join(parts)
 

@@ -150,7 +150,7 @@ def bifurcation_curve(
     if first is None:
         raise InputError(
             f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; a "
-            "bifurcation that was computed for it is accepted"
+            "bifurcation that was computed for this rig is accepted"
         )
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):

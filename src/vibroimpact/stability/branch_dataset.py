@@ -85,8 +85,9 @@ def as_dataset(
         if unexplained:
             data.attrs[f"{prefix}unexplained_changes"] = [v for pair in unexplained for v in pair]
             low, high = unexplained[0]
+            often = "once" if len(unexplained) == 1 else f"{len(unexplained)} times"
             warnings.warn(
-                f"stability changes {len(unexplained)} times along this branch without a "
+                f"stability changes {often} along this branch without a "
                 f"detected bifurcation, first between {name} {low:.9g} and {high:.9g}: the list "
                 "of bifurcations is incomplete there",
                 RuntimeWarning,

@@ -79,7 +79,7 @@ def coexisting_motions(
         Further initial states, by name.
     random
         Number of random initial states. Their displacements and velocities are at most 1.5 times
-        the largest values of the motions that the other initial states lead to.
+        the largest values in the motions from all other initial states.
     seed
         Seed of the random initial states. The same seed gives the same initial states.
     window, max_cycles, exponent_cycles, max_events

@@ -294,7 +294,11 @@ def beyond(found: Orbit, what: str, where: str) -> str:
     """Why nothing may be found beyond the last orbit of a curve, in words."""
     margin = abs(margin_of(found))
     grazes = what != "grazing" and margin < _GRAZES
-    told = f"it all but grazes, by {margin:.1g} of its size" if grazes else "least step"
+    told = (
+        f"the orbit nearly grazes a stop, by {margin:.1g} of its size"
+        if grazes
+        else "at the smallest step"
+    )
     return f"no {what} could be found beyond {where} ({told})"
 
 

@@ -132,7 +132,7 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
     apart = abs(mean[0]) > max(SIGNIFICANT * uncertainty[0], 1e-6 / cycles)
     grown = (
         f"the logarithm of a disturbance changes by {whole:+.4g} over {cycles} cycles, "
-        f"{mean[0]:+.3g} ± {uncertainty[0]:.1g} a cycle"
+        f"{mean[0]:+.3g} ± {uncertainty[0]:.1g} per cycle"
     )
     if n := recurrence(section):
         return Judgement("periodic", n, mean, uncertainty, repeats(n))
@@ -143,10 +143,13 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
         return Judgement("undecided", 0, mean, uncertainty, f"{grown}: the motion grows, {rise}")
     bounded = max(abs(whole), abs(half)) <= margin
     if bounded and apart and whole < 0.0:
-        told = f"{grown}: it still decays, slowly"
+        told = f"{grown}: disturbances still decay slowly"
         return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
     if bounded and damping is not None and forgets(logarithms, damping):
-        told = f"{grown}: as on a torus, but where bumpers forget there is none; it settles slowly"
+        told = (
+            f"{grown}: as on a torus, but no torus exists when bumpers have no memory of the "
+            "previous cycle; the motion settles slowly"
+        )
         return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
     if bounded and cycles >= ENOUGH:
         return Judgement(

@@ -40,8 +40,8 @@ _Array = NDArray[np.float64]
 CLOSED = "it is closed"
 """Why a branch is not followed further that has come back to its first orbit."""
 CONTINUUM = (
-    "a multiplier is 1 all along, and motions beside an orbit, such as those of another offset, "
-    "are orbits too"
+    "a multiplier stays 1, and motions next to an orbit, such as motions with another offset, are "
+    "orbits too"
 )
 """Why a branch is not followed further where orbits fill a surface."""
 _APART, _NEUTRAL = 1e-4, 1e-9
@@ -183,7 +183,9 @@ class Branch:
         name = there.orbit.section.family.parameter.name
         damped = there.orbit.rig.oscillator.isolator.damping > 0.0
         beyond = f"beyond {times:.1g} times the first" if damped else "without bound"
-        limit = "the isolator's dashpot may limit it" if damped else f"{times:.1g} times the first"
+        limit = (
+            "the dashpot of the isolator may limit it" if damped else f"{times:.1g} times the first"
+        )
         return f"the motion grows {beyond} near {name} = {value + left:.6g} ({limit})"
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:

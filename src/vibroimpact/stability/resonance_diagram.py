@@ -74,10 +74,11 @@ def resonance_diagram(
     most_branches, most_points
         Largest number of branches, and largest number of orbits in each direction along a branch.
     starts
-        Number of values of the parameter at which motions are started.
+        Number of starting values of the parameter: values at which motions are simulated to find
+        branches.
     random
-        Number of random initial states at each value of the parameter at which motions are started
-        (40 values by default). They find isolated branches with stable orbits.
+        Number of random initial states at each starting value of the parameter (by default, there
+        are 40 such values). They are used to find isolated branches with stable orbits.
     seed
         Seed of the random initial states. The same seed gives the same initial states.
     basins

@@ -205,12 +205,12 @@ def _value_of(fam: Family, span: tuple[float, float], one: xr.Dataset, field: st
     alike = np.allclose(system_vector(rig), system_vector(there), 1e-9, 0.0, True)
     if not alike or abs(np.sin(0.5 * (rig.periodic.phase - fam.phase))) > 1e-9:
         raise InputError(
-            f"{field}: they are of another rig, shaking or phase; those of this one at a value of "
-            f"{fam.parameter.name} are accepted"
+            f"{field}: these basins belong to another rig, shaking or phase; basins of this rig at "
+            f"a value of {fam.parameter.name} are accepted"
         )
     if not span[0] <= value <= span[1]:
         raise InputError(
-            f"{field}: they are of {fam.parameter.name} {value:g}; a value from {span[0]:g} to "
-            f"{span[1]:g} is accepted"
+            f"{field}: these basins belong to {fam.parameter.name} {value:g}; a value "
+            f"from {span[0]:g} to {span[1]:g} is accepted"
         )
     return value

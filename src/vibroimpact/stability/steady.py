@@ -51,8 +51,8 @@ NEUTRAL = 1e-6
 """Logarithm of the largest multiplier below which an orbit counts as neither stable nor unstable:
 the rest of a transient hides smaller values."""
 _UNDECIDED = (
-    "its largest multiplier is 1 within the accuracy: the orbit is not isolated, or it is "
-    "approached more slowly than exponentially, so the motion may not have settled"
+    "its largest multiplier is 1 within the accuracy: the orbit is not isolated, or the motion "
+    "approaches it more slowly than exponentially, so the motion may not have settled"
 )
 MOST_CYCLES = 5_000_000
 """Largest number of cycles over which exponents are averaged: about 0.3 GB."""

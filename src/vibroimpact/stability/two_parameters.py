@@ -49,14 +49,17 @@ def plane(rig: Rig, names: tuple[str, str]) -> Plane:
     first = family(rig, names[0])
     other = parameter(names[1], "parameters", rig.periodic.of).of(rig.oscillator)
     if other.name == first.parameter.name:
-        raise InputError(f"parameters: {names[0]!r} twice; two different ones are accepted")
+        raise InputError(
+            f"parameters: {names[0]!r} is given twice; two different parameters are accepted"
+        )
     second = family(rig, names[1])
     for one in (first, second):
         if not one.straight:
             raise InputError(
-                f"parameters: {one.parameter.name!r} does not count in proportion under this law, "
-                "and no curve follows it; the frequency, the amplitude, a gap, a force or another "
-                "stiffness or damping is accepted (a branch follows any)"
+                "parameters: with this law, the equations do not depend linearly on "
+                f"{one.parameter.name!r}, so no curve can be followed along it; the frequency, "
+                "the amplitude, a gap, a force or another stiffness or damping is accepted (a "
+                "branch can be followed along any parameter)"
             )
     both = first.symmetric and second.symmetric
     made = Plane(first, other, second.value, second.direction, both)

@@ -184,7 +184,7 @@ def folder(
         raise InputError(f"store: {path!r}; the path of a folder is accepted") from None
     try:
         if not there.parent.is_dir():
-            raise FileNotFoundError(2, "the folder that it lies in does not exist")
+            raise FileNotFoundError(2, "the folder that contains it does not exist")
         template = Template(kind, parameters, make, list(blocks))
         if there.is_dir() and (done := _whole(there, template)) is not None:
             yield done
@@ -199,13 +199,13 @@ def folder(
                     lock.unlink(missing_ok=True)
     except Timeout:
         raise InputError(
-            f"store: {str(there)!r} is being written by another process; when that has ended, or "
-            "another folder, is accepted"
+            f"store: {str(there)!r} is being written by another process; wait until that process "
+            "has ended, or use another folder"
         ) from None
     except OSError as error:
         raise InputError(
-            f"store: {str(there)!r} cannot be written ({error.strerror or error}); a folder "
-            "beside others that you may write to, on a disk with room, is accepted"
+            f"store: {str(there)!r} cannot be written ({error.strerror or error}); a new "
+            "folder, in a place that you may write to and on a disk with room, is accepted"
         ) from None
 
 

@@ -101,7 +101,7 @@ class _Hands:
             elif now - begin > _SOON and not printed:
                 printed = True
                 print_line(
-                    f"the cluster has no worker; waiting for one, {_LONGEST:g} s at most ..."
+                    f"the cluster has no worker; waiting for one, at most {_LONGEST:g} s ..."
                 )
 
     def result(self, taken: Any) -> Any:
@@ -111,5 +111,6 @@ class _Hands:
             return taken.result()
         except self.distributed.KilledWorker as killed:
             raise LostError(
-                f"where: a task kills the workers of the cluster ({killed})"
+                f"where: a task made the workers of the cluster fail ({killed}); workers with "
+                "more memory are accepted"
             ) from killed

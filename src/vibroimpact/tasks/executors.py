@@ -44,12 +44,12 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
         if not may_start():
             raise InputError(
                 "where: 'processes' is not possible within a process that may not start others "
-                "(a daemon, such as a worker of a cluster); 'threads' is accepted there"
+                "(a daemon, such as a worker of a cluster); 'threads' is accepted"
             )
         return Processes(number)
     if threads is not None:
         raise InputError(
-            f"threads: {threads}; a cluster sets this number by its workers; None is accepted"
+            f"threads: {threads}; on a cluster, its workers set this number; None is accepted"
         )
     if importlib.util.find_spec("distributed") is None:
         raise InputError(
@@ -59,7 +59,7 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
     client = importlib.import_module("distributed").Client
     if isinstance(where, client):
         if where.status in ("closing", "closed"):
-            raise InputError("where: the client is closed; one that is connected is accepted")
+            raise InputError("where: the client is closed; a client that is connected is accepted")
         return Cluster(where)
     if not (isinstance(where, str) and where.startswith(_MARKS)):
         raise InputError(

@@ -113,7 +113,8 @@ def _made(
             middle = value(mode)
             if not first <= middle <= last:
                 raise InputError(
-                    f"{field}: the mode {mode!r} lies outside; a mode between the ends is accepted"
+                    f"{field}: the mode {mode!r} lies outside {low!r} to {high!r}; a mode between "
+                    "these ends is accepted"
                 )
             made = stats.triang((middle - first) / (last - first), first, last - first)
         case _:
@@ -123,7 +124,7 @@ def _made(
 
 def _positive(value: float, field: str) -> float:
     if not value > 0.0:
-        raise InputError(f"{field}: a median of {value:g}; one above 0 is accepted")
+        raise InputError(f"{field}: a median of {value:g}; a median above 0 is accepted")
     return value
 
 
@@ -158,8 +159,8 @@ def check_values(values: _Array, varied: Parameter, field: str) -> None:
     if most is not None:
         accepted += f" and at most {most:g}"
     raise InputError(
-        f"{field}: a draw is {values[wrong][0]:g} {varied.units}; one with {accepted} is accepted, "
-        "such as a lognormal, or a normal between bounds"
+        f"{field}: a draw is {values[wrong][0]:g} {varied.units}; a distribution with {accepted} "
+        "is accepted, such as a lognormal, or a normal between bounds"
     )
 
 

@@ -45,7 +45,8 @@ def plane(state: State) -> Plane:
     times = {float(f"{stop.relaxation_time:.6g}") for stop in stops}  # type: ignore[union-attr]
     if len(times) > 1 or rig.force:
         raise InputError(
-            "map: the sides differ; the same τ on both sides and no constant force are required"
+            "map: the sides differ; the same relaxation time τ on both sides, and no constant "
+            "force, are required"
         )
     return Plane(
         float(f"{scaled.damping_ratio:.6g}"),

@@ -101,7 +101,7 @@ class BoucWenIsolator(YieldingLaw):
         if not self.beta + self.gamma > 0.0:
             raise InputError(
                 f"gamma: {self.gamma:g} and beta, {self.beta:g}, have a sum that is not greater "
-                "than 0, and it would never yield; a sum greater than 0 is accepted"
+                "than 0, so the isolator would never yield; a sum greater than 0 is accepted"
             )
         if not self.hysteretic_limit < math.inf:
             raise InputError(

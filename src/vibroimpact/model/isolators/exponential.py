@@ -94,11 +94,11 @@ class ExponentialIsolator(IsolatorLaw):
             raise InputError(
                 f"final_stiffness: {pretty(self.final_stiffness, STIFFNESS)} is greater than "
                 f"reversal_stiffness, {pretty(self.reversal_stiffness, STIFFNESS)}; "
-                "at most that is accepted"
+                "at most this value is accepted"
             )
         if not self.hysteretic_force < math.inf:
             raise InputError(
-                f"decay: {pretty(self.decay, DECAY)} makes the half height of the loop infinite; "
+                f"decay: {pretty(self.decay, DECAY)} makes the hysteresis loop infinitely high; "
                 "a larger value is accepted"
             )
         return self

@@ -104,7 +104,7 @@ class IsolatorLaw(Named):
         """Make an isolator from the numbers of a design and other fields."""
         for name in ("damping_exponent", *made):
             if name in others:
-                raise InputError(f"{name}: given beside {by}; one of the two is accepted")
+                raise InputError(f"{name}: given together with {by}; one of the two is accepted")
         return cls(**made, **others)
 
 
@@ -258,7 +258,7 @@ class YieldingLaw(IsolatorLaw):
             raise InputError(
                 f"post_yield_stiffness: {pretty(self.post_yield_stiffness, STIFFNESS)} is greater "
                 f"than elastic_stiffness, {pretty(self.elastic_stiffness, STIFFNESS)}; "
-                "at most that is accepted"
+                "at most this value is accepted"
             )
         if not 0.0 < self.yield_displacement < math.inf:
             raise InputError(

@@ -104,14 +104,14 @@ class PowerBumper(Named):
     def _takes_energy_one_way(self) -> Self:
         if self.dissipation is not None and self.restitution is not None:
             raise InputError(
-                f"dissipation: {self.dissipation:g} s/m, and a restitution of "
-                f"{self.restitution:g} as well; one of the two is accepted"
+                f"dissipation: {self.dissipation:g} s/m is given together with a restitution of "
+                f"{self.restitution:g}; one of the two is accepted"
             )
         dissipation_number(1.0 if self.restitution is None else self.restitution, self.relation)
         if self.restitution is None and self.relation != "exact":
             raise InputError(
                 f"relation: {self.relation!r} is given without a restitution; it is accepted "
-                "only with one"
+                "only together with a restitution"
             )
         return self
 

@@ -48,7 +48,7 @@ _SETS: dict[laboratory.Parameters, str] = {
 def s3(study: PublishedStudy) -> Finding:
     """Use the branch of orbits, because the sweeps miss a hysteresis narrower than 0.01 Hz."""
     found, left = study.classification(_S3), left_folds(study, _S3)
-    resonances = ", ".join(f"{f:.2f} Hz ({p:.0%} prominent)" for f, p in secondary(study, _S3))
+    resonances = ", ".join(f"{f:.2f} Hz (prominence {p:.0%})" for f, p in secondary(study, _S3))
     right = [f"{item.ends[0]:.3f} to {item.ends[1]:.3f} Hz" for item in found.features.right]
     return Finding(
         found.scenario == "S3" and bool(right) and not left,
