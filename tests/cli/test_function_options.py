@@ -14,12 +14,16 @@ from docstring_parser import parse_from_object
 
 import vibroimpact as vi
 from vibroimpact.cli import _COMMANDS
-from vibroimpact.cli.function_options import describe, read_arguments, with_default
+from vibroimpact.cli.function_options import (
+    describe,
+    is_group,
+    read_arguments,
+    with_default,
+)
 from vibroimpact.cli.options import OutputOptions, RigOptions, ThresholdOptions
 from vibroimpact.cli.records import RecordOptions
 from vibroimpact.cli.states import StateOptions
 
-GROUPS = {"changes", "output", "reading", "states", "thresholds"}
 OWN_DEFAULTS = {
     ("bifurcation", "parameter"): "the usual diagram; the function requires it",
     ("bifurcation", "steps"): "a figure has about so many columns",
@@ -50,7 +54,8 @@ CALLING = [name for name, command in COMMANDS.items() if command.called_function
 
 def _options(command) -> dict[str, inspect.Parameter]:
     parameters = inspect.signature(command).parameters
-    return {name: one for name, one in parameters.items() if name not in GROUPS}
+    hints = get_type_hints(command, include_extras=True)
+    return {name: one for name, one in parameters.items() if not is_group(hints[name])}
 
 
 def _help(command, name: str) -> str:

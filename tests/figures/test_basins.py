@@ -57,7 +57,7 @@ def test_motions_are_told_without_colour():
     ax = basin_portrait(made())
     assert {text.get_text() for text in ax.texts} == {"1", "2"}
     legend = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert legend[0].startswith("1: period 1, 13.8 mm wide, ")
+    assert legend[0].startswith("1: period 1, excursion 13.8 mm, ")
     assert len(legend) == 2
     bright = [brightness(colour) for colour in COLOURS]
     assert min(abs(a - b) for a, b in pairwise(bright)) > 0.12
@@ -68,7 +68,10 @@ def test_what_is_no_basin_is_told():
     data["basin"][:5] = -1
     data["basin"][5:10] = -2
     legend = basin_portrait(data).get_legend()
-    assert [text.get_text() for text in legend.get_texts()][2:] == ["given up", "beyond a stop"]
+    assert [text.get_text() for text in legend.get_texts()][2:] == [
+        "computation stopped",
+        "beyond a stop",
+    ]
     with pytest.raises(vi.InputError, match="no basins"):
         basin_portrait(data.drop_vars("basin"))
 

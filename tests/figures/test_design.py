@@ -93,7 +93,7 @@ def test_of_a_long_front_some_are_numbered() -> None:
     assert count > 5
     told = " ".join(pareto_front(long).texts[-1].get_text().split("\n"))
     assert told.startswith(
-        f"5 of the {count} that are not dominated by another: gap of each side 1 "
+        f"5 of the {count} designs that are not dominated by another: gap of each side 1 "
     )
 
 
@@ -222,7 +222,7 @@ def test_limits_that_all_or_none_exceed(data) -> None:
         inside = hatched(panel)
         assert all(inside(g, k) for g in (0.02, 0.29) for k in (110.0, 1900.0))
         words = [text.get_text() for text in panel.get_legend().get_texts()]
-        assert words == ["first of these designs to hit nothing", "exceeds a limit"]
+        assert words == ["first of these designs to hit no stop", "exceeds a limit"]
         panel.figure.draw_without_rendering()
         assert panel.bbox.width > 300.0  # pixels; a mark of no design must not push it aside
     for panel in design_chart(none):

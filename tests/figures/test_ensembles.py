@@ -45,7 +45,7 @@ def test_bands_hold_the_fractiles():
                     away = np.abs(outline - [frequency, value]).max(axis=1)
                     assert away.min() < 1e-12
     labels = [text.get_text() for text in axes[0].get_legend().get_texts()]
-    assert {"10 to 90 %", "the rig itself"} <= {*labels}
+    assert {"10 to 90 %", "nominal rig"} <= {*labels}
     assert "(mm)" in axes[1].get_ylabel()
 
 

@@ -86,7 +86,7 @@ def test_border_marks_and_lines():
         made(), border=border, marks=marks, lines={"section": ([5.0, 5.0], [0.0, 1.0])}
     )
     shown = legend(ax)
-    cusps = shown["cusps of the folds: jumps begin (exact)"]
+    cusps = shown["cusps of the folds, where jumps begin (exact)"]
     assert cusps.get_marker() == "."
     (line,) = [one for one in ax.lines if one.get_label().startswith("cusps")]
     np.testing.assert_array_equal(line.get_ydata(), [0.3, 0.7])  # in order, or it would zigzag

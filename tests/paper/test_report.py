@@ -122,7 +122,7 @@ def test_markdown(made, tmp_path):
     assert "| name | a \\< b \\| c |" in lines
     assert "| second | x \\| y |" in lines
     head = lines.index(
-        "| no. | section | statement | what was computed | kind | verdict | number |"
+        "| no. | section | statement | quantity and criterion | kind | verdict | result |"
     )
     rows = lines[head + 2 : head + 2 + len(CLAIMS)]
     for one, row in zip(report.judged, rows, strict=True):

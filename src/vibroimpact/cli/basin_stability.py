@@ -29,8 +29,9 @@ def basin_stability(
 ) -> int:
     """Compute the share of random states that lead to each steady motion, along a parameter.
 
-    This share is the basin stability of the motion. The motions are numbered. A motion keeps its
-    number at the next value of the parameter if, at that value, its states lead to a nearby motion.
+    This share is the basin stability of the motion. The motions are numbered. From one value of the
+    parameter to the next, a motion keeps its number if, at the new value, simulations from its
+    states lead to a nearby motion.
 
     The command prints the range of the parameter in which each motion exists, with its shares. It
     writes NAME-PARAMETER-basin-stability.nc and NAME-PARAMETER-basin-stability.png.

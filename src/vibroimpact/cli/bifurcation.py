@@ -48,9 +48,10 @@ def bifurcation(
 ) -> int:
     """Compute a bifurcation diagram: the steady motions at a series of values of a parameter.
 
-    Each motion is simulated until it is steady. The next motion starts from its final state, up or
-    down the values. Motions may also start from random states (--random). For each motion the
-    diagram shows the points of a Poincaré section, the period and the largest Lyapunov exponent.
+    At each value, the motion is simulated until it is steady. The motion at the next value starts
+    from its final state. The values are passed in rising and in falling order (--direction).
+    Motions may also start from random states (--random). For each motion, the diagram shows the
+    points of a Poincaré section, the period and the largest Lyapunov exponent.
 
     The command prints the ranges in which the motions have the same type. It writes
     NAME-PARAMETER-diagram.nc and NAME-PARAMETER-diagram.png.
@@ -64,16 +65,17 @@ def bifurcation(
     Parameters
     ----------
     log
-        Space the values evenly on a logarithmic axis.
+        Space the values of the parameter evenly on a logarithmic axis.
     frequency
         Forcing frequency, such as 2Hz, if another parameter is varied. Default: the frequency in
         the study ([simulate]).
     direction
-        Direction in which the motions are continued from value to value. If it is none, motions
-        start only from random states.
+        Order of the values: rising (up), falling (down) or both. With none, motions start only from
+        random states.
     quantity
-        Quantity of the section in the figure. displacement and velocity are taken once per forcing
-        cycle. impact-velocity and impact-phase are taken at the start of each contact.
+        Quantity of the section in the figure. The quantities displacement and velocity are taken
+        once per forcing cycle. The quantities impact-velocity and impact-phase are taken at the
+        start of each contact.
     phase
         Forcing phase of the section, such as 90deg. Default: the phase in the study, or 0.
     branches

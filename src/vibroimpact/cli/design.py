@@ -39,16 +39,16 @@ def design(
     where: opt.Where = "threads",
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Compute the gap at which a rig hits nothing, and compare designs of its gaps and stops.
+    """Compute the gap at which a rig hits no stop, and compare designs of its gaps and stops.
 
     The rig is shaken by records, or by sines of all frequencies, which are swept up and down. For
-    each design the command computes the largest displacement, acceleration and contact force. It
+    each design, the command computes the largest displacement, acceleration and contact force. It
     writes:
 
     - NAME-design.nc and NAME-design.csv: the results of all designs, with a row for each design
     - NAME-design.png: the results over the one or two parameters that are varied
-    - NAME-pareto.png: the Pareto front of displacement and acceleration, which contains the designs
-      for which no other design is better
+    - NAME-pareto.png: the Pareto front of displacement and acceleration. It contains each design
+      for which no other design is better in both quantities.
 
     Limits apply to the designs of the Pareto front and to the search (--best).
 
@@ -72,7 +72,7 @@ def design(
     best
         Also search for the bumper with the least acceleration, at the gap of the rig.
     limit
-        Quantity and the value that it must not exceed, such as peak-force 5MN. Quantities are
+        Quantity and the value that it must not exceed, such as peak-force 5MN. The quantities are
         peak-force, penetration and peak-displacement. The option may be repeated. These limits are
         added to the limits in the study ([design]).
     fractile

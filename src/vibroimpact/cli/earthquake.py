@@ -34,7 +34,7 @@ def earthquake(
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Shake a rig by earthquake records, and report whether and how hard it hits its stops.
+    """Shake a rig with earthquake records, and report whether and how hard it hits its stops.
 
     The command writes:
 
@@ -57,8 +57,8 @@ def earthquake(
         Duration of free vibration after each record, such as 10s. Default: two natural periods of
         the mass on the softest spring of the isolator.
     samples
-        Number of samples per step of a record, in the figures and the files. It affects the floor
-        spectrum, but not the peaks.
+        Number of samples per step of a record, in the figures and the files. This number affects
+        the floor spectrum, but not the peaks.
     """
     from rich.text import Text as Line
 

@@ -24,8 +24,8 @@ def explore(
     """Change parameters in a browser, and see resonance curves, motion and scenario change.
 
     The command starts a server, prints the address of its page, and opens the page in a browser. By
-    default only this machine can open the page. To stop the server, press Ctrl-C. On first use the
-    engine is compiled, which takes a minute.
+    default, only this machine can open the page. To stop the server, press Ctrl-C. On first use,
+    the engine is compiled, which takes a minute.
 
     For example:
 
@@ -35,6 +35,9 @@ def explore(
 
     Parameters
     ----------
+    rig
+        The rig: the code of a laboratory case, or the path of a study file. For the parts of a
+        code, see vibroimpact sweep. Default: B2-G1-A3.
     port
         Port of the server. If it is 0, any free port is used.
     browser

@@ -7,6 +7,7 @@ computes.
 from __future__ import annotations
 
 import ast
+import dataclasses
 import inspect
 import re
 from collections.abc import Callable, Mapping
@@ -25,8 +26,6 @@ RENAMED: dict[str, dict[str, str]] = {}
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 _PACKAGE = Path(__file__).parents[1]
-_SHARED = {"changes", "output", "reading", "states", "thresholds"}
-"""Parameters of commands that are groups of options. These groups have their own documentation."""
 
 
 class Argument(NamedTuple):
@@ -66,7 +65,7 @@ def calls(
         options = inspect.signature(command).parameters
         defaults = dict(command.__kwdefaults__ or {})
         for name, option in options.items():
-            if name in _SHARED:
+            if is_group(hints[name]):
                 continue
             key = arguments.get(name, name)
             text = own.get(name) or _help_of(hints[name])
@@ -141,7 +140,7 @@ def with_default(text: str, default: Any) -> str:
     if "efault:" in text:
         return text
     value = f"{default:g}" if isinstance(default, float) else str(default)
-    sentences = re.split(r"(?<=\.)\s+(?=[A-Z])", text)
+    sentences = re.split(r"(?<=\.)\s+", text)
     if len(sentences) == 1:
         return f"{text.removesuffix('.')} (default: {value})."
     return f"{text} Default: {value}."
@@ -169,6 +168,11 @@ def _literal(expression: ast.expr | None) -> Any:
         return REQUIRED if expression is None else ast.literal_eval(expression)
     except ValueError:  # a named constant
         return REQUIRED
+
+
+def is_group(hint: Any) -> bool:
+    """Return whether an annotation is a group of options, which has its own documentation."""
+    return dataclasses.is_dataclass(hint)
 
 
 def _settings(hint: Any) -> list[Parameter]:

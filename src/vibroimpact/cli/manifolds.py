@@ -30,11 +30,11 @@ def manifolds(
 ) -> int:
     """Compute the stable and unstable manifolds of saddle orbits, and draw them over the basins.
 
-    The manifolds are curves in the plane of displacement and velocity. A motion that starts on a
-    stable curve leads to the saddle orbit. The borders of basins are stable curves. A motion that
-    starts next to the saddle moves away along its unstable curve.
+    The manifolds are curves in the plane of displacement and velocity. A motion that starts on the
+    stable manifold of a saddle orbit leads to this orbit. Stable manifolds are the borders of
+    basins. A motion that starts next to a saddle orbit moves away along its unstable manifold.
 
-    The command prints the saddles, and the points where the curves cross. It writes
+    The command prints the saddle orbits, and the points where the manifolds cross. It writes
     NAME-FREQUENCY-manifolds.nc and NAME-FREQUENCY-manifolds.png.
 
     For example:

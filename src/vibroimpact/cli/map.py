@@ -35,7 +35,7 @@ def scenario_map(
 ) -> int:
     """Compute a map of the scenarios of a rig over two of its parameters.
 
-    A scenario describes the resonance curves; see vibroimpact classify. All other parameters are
+    A scenario is a class of resonance curves; see vibroimpact classify. All other parameters are
     those of the rig (default: the published rig B3-A3).
 
     The map is written to NAME-X-Y-map.zarr block by block. If the command is stopped, run the same
@@ -51,9 +51,9 @@ def scenario_map(
     Parameters
     ----------
     rig
-        The rig: the code of a laboratory case, or the path of a study file. One sine must shake the
-        rig. Default: a rig with ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on both sides, as in the
-        published tests.
+        The rig: the code of a laboratory case, or the path of a study file. A single sine must
+        shake the rig. Default: a rig with ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on both sides,
+        as in the published tests.
     x
         Parameter of the horizontal axis and its range, NAME LOW:HIGH[:log][:NODES]. Without NODES
         there are 21 nodes. Physical parameters: gap, amplitude, bumper-stiffness,

@@ -51,9 +51,9 @@ def motion(
         Forcing frequency, such as 0.58Hz, or several frequencies, such as 0.58Hz,0.8Hz,2.6Hz.
         Default: the frequency in the study ([simulate]).
     branch
-        Motions that are shown. forward: the motion that a forward sweep reaches. backward: the
-        motion that a backward sweep reaches. all: all motions that are reached from sweeps, from
-        rest and from random states.
+        Motions that are shown: the motion that a forward sweep reaches (forward), the motion that
+        a backward sweep reaches (backward), or all motions that are reached from sweeps, from rest
+        and from random states (all). Default: all.
     samples
         Number of samples per forcing cycle. It affects only the recorded time history.
     """

@@ -1,4 +1,4 @@
-"""``vibroimpact paper``: the published study, computed again, with a verdict per statement."""
+"""``vibroimpact paper``: compute the published study again, with a verdict per statement."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ def paper(
     can compute, and the testable statements of the paper. The images are in the folder "figures"
     next to the reports.
 
-    For each statement the report states what was computed, the deciding numbers and a verdict:
+    For each statement, the report gives the computed quantity, the deciding numbers and a verdict:
     reproduced, not reproduced, or not testable without the data of the experiment. A statement that
     is not reproduced is not an error. The report counts the statements separately by kind, because
-    they are not equally strong tests. For some, the outcome was open. Others follow from the rules
-    of classification or from the inputs.
+    they are not equally strong tests. The outcome of some statements was open. The outcome of
+    others follows from the classification rules, from the inputs or from the equations.
 
     For example:
 

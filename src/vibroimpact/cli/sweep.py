@@ -32,7 +32,7 @@ def sweep(
     """Sweep the forcing frequency up and down, and draw the resonance curves.
 
     Each frequency is held until the motion is steady. The motion at the next frequency starts from
-    the state and the phase that were reached, as in a stepped-sine test. The command prints
+    the final state and phase of this motion, as in a stepped-sine test. The command prints
     resonances, jumps and hysteresis. It writes:
 
     - NAME-sweep.nc: all data
@@ -55,9 +55,9 @@ def sweep(
         Highest frequency, such as 4Hz. Default: the value in the study ([sweep]), or 4.5 × the
         natural frequency; 5 Hz for laboratory cases.
     step
-        Step between frequencies, such as 0.01Hz. Default: the value in the study ([sweep]), or
-        about a hundredth of the natural frequency; 0.01 Hz for laboratory cases. The published
-        tests had steps of 0.1 Hz.
+        Step between frequencies, such as 0.01Hz. The published tests had steps of 0.1 Hz. Default:
+        the value in the study ([sweep]), or about a hundredth of the natural frequency; 0.01 Hz for
+        laboratory cases.
     frequencies
         List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step.
     direction
@@ -65,7 +65,7 @@ def sweep(
         in the study ([sweep]), or both.
     physical
         Draw the largest acceleration (g), displacement (mm) and contact force instead of η_a and
-        η_d. They are always drawn if the motion without stops is unbounded.
+        η_d. These quantities are always drawn if the motion without stops is unbounded.
     """
     from rich.console import Group
 

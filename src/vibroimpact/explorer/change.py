@@ -96,7 +96,9 @@ def with_law(state: State, part: str, kind: str) -> State:
         return state._replace(oscillator=rig.replace(isolator=isolator_of(kind, state)))
     sides = SIDES if part == "stops" else (part,)
     if not set(sides) <= set(SIDES):
-        raise InputError(f"part: {shown(part)} is unknown; isolator, stops, right or left is")
+        raise InputError(
+            f"part: {shown(part)} is unknown; isolator, stops, right and left are accepted"
+        )
     changed = {side: stop_of(kind, state, side) for side in sides}
     return state._replace(oscillator=rig.replace(**changed))
 
@@ -119,7 +121,9 @@ def chosen(state: State, direction: str, frequency: float | str) -> State:
         If the direction is unknown, or the frequency lies outside the sweeps.
     """
     if direction not in ("forward", "backward"):
-        raise InputError(f"direction: {shown(direction)}; 'forward' and 'backward' are accepted")
+        raise InputError(
+            f"direction: {shown(direction)} is unknown; 'forward' and 'backward' are accepted"
+        )
     low, high = state.span
     hertz = to_si(frequency, FREQUENCY, "frequency", minimum=low, maximum=high)
     return state._replace(
@@ -158,6 +162,6 @@ def placed(state: State, stiffness_ratio: float, gap_ratio: float) -> State:
         If the rig has no such ratios.
     """
     if not (math.isfinite(stiffness_ratio) and math.isfinite(gap_ratio)):
-        raise InputError("point: not finite; a point of the map is accepted")
+        raise InputError("point: the ratios are not finite numbers; a point of the map is accepted")
     there = moved(state, "stops.stiffness_ratio", stiffness_ratio)
     return moved(there, "stops.gap_ratio", gap_ratio)

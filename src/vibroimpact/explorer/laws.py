@@ -82,7 +82,9 @@ def isolator_of(kind: str, state: State) -> AnyIsolator:
         "exponential": lambda: ExponentialIsolator(2.4 * k, 0.83 * k, 3.5 / u, 0.3 * c),
     }
     if kind not in made:
-        raise InputError(f"isolator.kind: {shown(kind)}; one of {', '.join(made)} is accepted")
+        raise InputError(
+            f"isolator.kind: {shown(kind)} is unknown; one of {', '.join(made)} is accepted"
+        )
     return made[kind]()
 
 
@@ -115,5 +117,7 @@ def stop_of(kind: str, state: State, side: str) -> Stop | None:
         "jankowski": lambda: JankowskiBumper(force / depth**1.5, gap, restitution, rig.mass),
     }
     if kind not in made:
-        raise InputError(f"{side}.kind: {shown(kind)}; one of {', '.join(made)} is accepted")
+        raise InputError(
+            f"{side}.kind: {shown(kind)} is unknown; one of {', '.join(made)} is accepted"
+        )
     return made[kind]()

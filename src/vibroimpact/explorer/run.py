@@ -59,7 +59,7 @@ async def serving(
     except OSError as error:
         raise InputError(
             f"host, port: {host} {port} cannot be used ({error.strerror or error}); a free port "
-            "of this machine is accepted, and 0 chooses one"
+            "of this machine is accepted, and port 0 selects a free port"
         ) from None
     async with server:
         ready(where)
@@ -112,7 +112,7 @@ def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
         If the rig is not shaken by one sine, or if the websocket library is not installed.
     """
     if isinstance(height, bool) or not isinstance(height, int) or height < 1:
-        raise InputError(f"height: {height!r}; a whole number of pixels is accepted")
+        raise InputError(f"height: {height!r} is not valid; a whole number of pixels is accepted")
     try:
         state = preset(rig) if isinstance(rig, str) else begin(rig)
     except InputError:

@@ -45,7 +45,7 @@ _MOMENT = 0.1
 """Seconds that a picture which is overtaken is waited for."""
 _SELDOM = 0.3
 """Seconds between two tellings of progress."""
-_ONE_FILE = "file: another file is being written; wait until its download starts"
+_ONE_FILE = "file: another file is being written; try again when its download has started"
 _ANY = ("0.0.0.0", "::")
 _LIVE = "/live"
 _PAGES = {"/": "index.html"}
@@ -219,7 +219,9 @@ class Explorer:
             raise
         except Exception as error:  # a fault of ours must not leave the page waiting for ever
             traceback.print_exc()
-            return _text({"picture": stage.kind, "none": f"{stage.kind}: failed ({error!r})"})
+            return _text(
+                {"picture": stage.kind, "none": f"{stage.kind}: the computation failed ({error!r})"}
+            )
 
     def _tell(self, send: Callable[[str], Awaitable[None]], share: str) -> None:
         """Send how far a picture is, beside all else."""
@@ -244,7 +246,7 @@ class Explorer:
             return
         except Exception as error:
             traceback.print_exc()
-            found = {"refused": f"file: failed ({error!r})"}
+            found = {"refused": f"file: the file could not be written ({error!r})"}
         await _sent(send, _text(found))
 
 
@@ -276,7 +278,7 @@ def _read(raw: str | bytes) -> Any:
 
 
 def _no_number(word: str) -> None:
-    raise ValueError(f"{word} is no JSON")
+    raise ValueError(f"{word} is not valid JSON")
 
 
 def _text(message: Message) -> str:

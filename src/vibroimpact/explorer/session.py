@@ -28,7 +28,9 @@ from vibroimpact.tasks.threads import Progress, Stopped
 Message = dict[str, Any]
 MOST_SECONDS = 60.0
 """For one picture; the work that a page can ask for is bounded."""
-_NO_NUMBER = "value: it leads to a rig with unbounded numbers; a moderate value is accepted"
+_NO_NUMBER = (
+    "value: it leads to a rig with numbers that are not finite; a moderate value is accepted"
+)
 _PATIENCE = 0.25
 """Seconds that a coarse picture is waited for though another is asked for."""
 
@@ -91,7 +93,7 @@ class Session:
             ``state`` with the knobs; or ``refused`` with the reason, and nothing has changed.
         """
         if not isinstance(message, dict) or not isinstance(message.get("do"), str):
-            return {"refused": "message: not understood; a message of the page is accepted"}
+            return {"refused": "message: it is not valid; a message of the page is accepted"}
         number = message.get("n") if isinstance(message.get("n"), int) else None
         try:
             history = self._next(message)
@@ -222,8 +224,8 @@ class Session:
                 raise Stopped
             if taken > MOST_SECONDS:
                 raise InputError(
-                    f"{stage.kind}: the computation was given up after {MOST_SECONDS:g} s; add "
-                    "damping, or show fewer pictures, to reduce the time"
+                    f"{stage.kind}: the computation was stopped after {MOST_SECONDS:g} s; to "
+                    "reduce the time, add damping or show fewer pictures"
                 )
             if progress:
                 progress(done, total)
@@ -352,7 +354,7 @@ def _without_frequency(state: State) -> Hashable:
 def _text(message: Message, key: str) -> str:
     value = message.get(key)
     if not isinstance(value, str) or len(value) > 200:
-        raise InputError(f"{key}: {shown(value)}; a text is accepted")
+        raise InputError(f"{key}: {shown(value)} is not valid; a text is accepted")
     return value
 
 
@@ -366,5 +368,5 @@ def _value(message: Message, key: str) -> float | str:
 def _number(message: Message, key: str) -> float:
     value = _value(message, key)
     if isinstance(value, str):
-        raise InputError(f"{key}: {shown(value)}; a number is accepted")
+        raise InputError(f"{key}: {shown(value)} is not valid; a number is accepted")
     return value

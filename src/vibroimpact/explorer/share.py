@@ -55,13 +55,15 @@ def from_address(text: object) -> State:
         If it is none, or a value in it cannot be used.
     """
     if not isinstance(text, str) or not 0 < len(text) <= MOST:
-        raise InputError(f"address: {shown(text)}; an address written by this page is accepted")
+        raise InputError(
+            f"address: {shown(text)} is not valid; an address that this page wrote is accepted"
+        )
     try:
         padded = text + "=" * (-len(text) % 4)
         table = json.loads(base64.b64decode(padded, altchars=b"-_", validate=True))
     except (binascii.Error, UnicodeDecodeError, ValueError, RecursionError):
         raise InputError(
-            "address: not readable; an address written by this page is accepted"
+            "address: it cannot be read; an address that this page wrote is accepted"
         ) from None
     return _from_table(table)
 
@@ -72,30 +74,33 @@ def _from_table(table: Any) -> State:
         "together", "physical", "shown",
     }  # fmt: skip
     if not isinstance(table, dict) or set(table) != fields:
-        raise InputError("address: not complete; an address written by this page is accepted")
+        raise InputError("address: it is not complete; an address that this page wrote is accepted")
     name, of, direction, span = (table[key] for key in ("name", "of", "direction", "span"))
     if not isinstance(name, str) or len(name) > _LONGEST_NAME or not name.isprintable():
         raise InputError(
-            f"address: name: {shown(name)}; up to {_LONGEST_NAME} letters are accepted"
+            f"address: the name {shown(name)} is not valid; a text of at most {_LONGEST_NAME} "
+            "printable characters is accepted"
         )
     if direction not in get_args(Direction) or of not in list(QUANTITIES):
         raise InputError(
-            "address: it contains an unknown choice; the choices of the page are accepted"
+            "address: it contains an unknown choice; the choices that the page offers are accepted"
         )
     if not (isinstance(span, list) and len(span) == 2):
-        raise InputError(f"address: span: {shown(span)}; two frequencies are accepted")
+        raise InputError(
+            f"address: the span {shown(span)} is not valid; two frequencies are accepted"
+        )
     oscillator = Oscillator.model_validate(table["oscillator"], where="oscillator")
     size, _ = sized(table["amplitude"], of, "amplitude", positive=True)
     low, high = (to_si(end, FREQUENCY, "span", above=0.0) for end in span)
     hertz = to_si(table["frequency"], FREQUENCY, "frequency", minimum=low, maximum=high)
     if not low < high:
-        raise InputError("address: span: empty; a rising range is accepted")
+        raise InputError("address: the span is empty; a rising range of frequencies is accepted")
     shaken = Harmonic(size, hertz, table["phase"], of)
     one_sine(Rig(oscillator, shaken), "amplitude")
     state = State(name, oscillator, shaken, (low, high), direction)
     listed = table["shown"]
     if not isinstance(listed, list) or not all(isinstance(item, str) for item in listed):
-        raise InputError("address: shown: a list of pictures is accepted")
+        raise InputError("address: the entry 'shown' is not valid; a list of pictures is accepted")
     state = looked(state, {**dict.fromkeys(listed, True), "physical": table["physical"] is True})
     if table["together"] is True and oscillator.right == oscillator.left:
         return joined(state, True)

@@ -72,7 +72,9 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     natural = oscillator.natural_frequency
     low, high = span or (_short(LOWEST * natural), _short(HIGHEST * natural))
     if not 0.0 < low < high:
-        raise InputError(f"span: {low:g} to {high:g} Hz; a rising range above 0 is accepted")
+        raise InputError(
+            f"span: {low:g} to {high:g} Hz is not valid; a rising range above 0 is accepted"
+        )
     chosen = min(max(_short(_CHOSEN * natural), low), high)
     return State(
         name or given.name or "rig",

@@ -89,7 +89,10 @@ def basin_portrait(
     if more > 0:
         handles.append(Patch(facecolor="none", label=f"and {more} more"))
     labels = data["basin"].values
-    for code, colour, text in ((-1, _GIVEN_UP, "given up"), (-2, _BEHIND, "beyond a stop")):
+    for code, colour, text in (
+        (-1, _GIVEN_UP, "computation stopped"),
+        (-2, _BEHIND, "beyond a stop"),
+    ):
         if (labels == code).any():
             handles.append(Patch(facecolor=colour, edgecolor="0.4", linewidth=0.5, label=text))
     for number, one in enumerate(_motions(data)):
@@ -157,7 +160,7 @@ def _label(one: xr.Dataset) -> str:
     wide = f"{size:.3g}" if size < 1000.0 else f"{size:.0f}"
     low, high = 100.0 * float(one["share_low"]), 100.0 * float(one["share_high"])
     return (
-        f"{int(one['attractor']) + 1}: {what}, {wide} mm wide, "
+        f"{int(one['attractor']) + 1}: {what}, excursion {wide} mm, "
         f"{100.0 * float(one['share']):.1f} % ({low:.1f}–{high:.1f})"
     )
 

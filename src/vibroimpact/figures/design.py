@@ -127,7 +127,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     looks = (
         (beyond, "x", "0.75", 4.0, 2, "exceeds a limit"),
         (hits & ~beyond, "o", "0.75", 4.0, 2, "hits a stop"),
-        (~hits & ~beyond, "o", "none", 9.0, 5, "hits nothing"),
+        (~hits & ~beyond, "o", "none", 9.0, 5, "hits no stop"),
     )
     for mine, mark, face, size, above, label in looks:
         if (finite & mine).any():
@@ -193,7 +193,7 @@ def _name_points(
         )
     names = ", ".join(str(data[dim].attrs["long_name"]) for dim in dims)
     if len(chosen) < len(order):
-        names = f"{len(chosen)} of the {len(order)} that are {_best(data)}: {names}"
+        names = f"{len(chosen)} of the {len(order)} designs that are {_best(data)}: {names}"
     told_of = "\n".join([*textwrap.wrap(names, 26), *lines])
     ax.text(
         1.02,
@@ -293,7 +293,7 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
         markersize=7.0,
         markerfacecolor="none",
         markeredgecolor="0.5",
-        label="hits nothing",
+        label="hits no stop",
     )
     ax.set_ylabel(label)
     ax.set_ylim(bottom=0.0)
@@ -337,7 +337,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
                 color="#c8102e",
                 linewidth=2.0,
                 linestyle="--",
-                label="first of these designs to hit nothing",
+                label="first of these designs to hit no stop",
             )
         )
     if _beyond(data).any():

@@ -129,7 +129,7 @@ def _histories(
                     marker=mark,
                     markersize=4.5,
                     color=colour,
-                    label=f"meets the {SIDES[side]} stop",
+                    label=f"hits the {SIDES[side]} stop",
                 )
             )
     if handles:

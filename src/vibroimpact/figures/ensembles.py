@@ -103,7 +103,7 @@ def resonance_bands(
                     color="black",
                     linestyle=":",
                     linewidth=0.9,
-                    label="the rig itself",
+                    label="nominal rig",
                     zorder=4,
                 )
         if nominal is not None:
@@ -163,7 +163,7 @@ def _bars(ax: Axes, data: xr.Dataset) -> None:
     names = [str(name) for name in data["uncertain_parameter"].values]
     at = np.arange(len(names))
     for shift, name, label, colour, hatch in (
-        (-0.18, "first_order", "by itself", "#1f4fbf", ""),
+        (-0.18, "first_order", "alone", "#1f4fbf", ""),
         (0.18, "total_order", "with interactions", "white", "////"),
     ):
         values = data[name].values

@@ -71,7 +71,7 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
             )
         curves = str(result["test_kind"].sel(test=test).values) == "curves"
         ax.set_xlabel("excitation frequency $f$ (Hz)" if curves else "time $t$ (s)")
-        ax.set_ylabel(f"{literal(test)}\nresidual over noise (–)")
+        ax.set_ylabel(f"{literal(test)}\nresidual / noise (–)")
     given[0].legend(ncols=2, **LEGEND)
     return given
 
@@ -128,7 +128,7 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
         ax.set_xlabel(f"{key.replace('_', ' ')} ({unit.symbol if unit and unit.symbol else '–'})")
         ax.set_ylim(-0.1, 2.2 * limit)
     for row in made:
-        row[0].set_ylabel("increase of the deviance\n(deviance, –)")
+        row[0].set_ylabel("increase of\nthe deviance (–)")
     if title:
         made[0, 0].figure.suptitle(title)
     return Panels(made.ravel()[: len(keys)])

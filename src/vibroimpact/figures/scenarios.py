@@ -95,7 +95,7 @@ def scenario_map(
             linewidth=1.6,
             linestyle=(0, (5, 1.5)),
             marker=".",
-            label="cusps of the folds: jumps begin (exact)",
+            label="cusps of the folds, where jumps begin (exact)",
             zorder=5,
         )
         handles.append(line)

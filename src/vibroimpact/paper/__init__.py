@@ -1,1 +1,1 @@
-"""The published study, computed again: its figures, and its statements with verdicts."""
+"""Recompute the published study: its figures, and its statements with verdicts."""

@@ -43,15 +43,17 @@ ITEMS = (
         key="fig05",
         title="Fig. 5: normalised acceleration of the 48 tests",
         caption=(
-            "Excursion of absolute acceleration over the largest one of free flight: a panel for "
-            "each bumper (downwards stiffer) and table acceleration (rightwards stronger), a curve "
-            "for each total gap from 15 mm (G1) to 30 mm (G4). The paper shows measurements; these "
-            "are the same 48 cases computed with the Simplified Nonlinear Model. Smaller gaps, "
-            "stiffer bumpers and stronger shaking move the forward sweep's jumps (solid arrows) to "
-            "higher frequencies, the backward sweep's (dashed arrows) less, and let secondary "
-            "resonances appear near 0.6 Hz, some with a left hysteresis too narrow to be seen "
-            "here. Soft bumpers and weak shaking stay closest to free flight; B4 makes irregular "
-            "peaks where contact begins. The scales differ by row."
+            "The figure shows the excursion of absolute acceleration divided by the largest one of "
+            "free flight. Each panel is for one bumper and one table acceleration. The bumpers "
+            "become stiffer from top to bottom, and the acceleration increases from left to right. "
+            "Each panel has a curve for each total gap from 15 mm (G1) to 30 mm (G4). The paper "
+            "shows measurements. Here, the same 48 cases are computed with the Simplified "
+            "Nonlinear Model. Smaller gaps, stiffer bumpers and larger accelerations move the "
+            "jumps of the forward sweep (solid arrows) to higher frequencies. They move the jumps "
+            "of the backward sweep (dashed arrows) less. They also cause secondary resonances near "
+            "0.6 Hz, some with a left hysteresis that is too narrow to be seen here. The curves "
+            "for soft bumpers and small accelerations are closest to free flight. With B4, there "
+            "are irregular peaks where contact begins. The vertical scales differ by row."
         ),
         draw=lambda study: panels_of(study, "eta_a"),
     ),
@@ -59,13 +61,13 @@ ITEMS = (
         key="fig06",
         title="Fig. 6: normalised displacement of the 48 tests",
         caption=(
-            "As Fig. 5, for the excursion of relative displacement: computed with the Simplified "
-            "Nonlinear Model where the paper shows measurements. Bumpers hold the displacement "
-            "below free flight's largest one; the stiffer they are, the flatter is the branch in "
-            "contact, because the mass hardly enters the bumper. Above free flight's resonance the "
-            "contact branch lies higher than free flight at the same frequency. Solid arrows are "
-            "jumps of the forward sweep, dashed ones of the backward sweep; the scales differ by "
-            "row."
+            "As Fig. 5, for the excursion of relative displacement. The paper shows measurements. "
+            "Here, the cases are computed with the Simplified Nonlinear Model. Bumpers keep the "
+            "displacement below the largest displacement of free flight. The stiffer the bumper "
+            "is, the flatter is the branch in contact, because the mass hardly presses into a "
+            "stiff bumper. Above the resonance of free flight, the branch in contact lies above "
+            "the curve of free flight. Solid arrows are jumps of the forward sweep, and dashed "
+            "arrows are jumps of the backward sweep. The vertical scales differ by row."
         ),
         draw=lambda study: panels_of(study, "eta_d"),
     ),

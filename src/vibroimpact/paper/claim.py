@@ -18,7 +18,7 @@ class Verdict(StrEnum):
 
 
 class Kind(StrEnum):
-    """Verdict on a statement."""
+    """Kind of a statement, which shows how strongly its verdict tests the model."""
 
     COMPUTED = "computed"
     """No part of the program was chosen with regard to the statement. The result was open."""
@@ -27,7 +27,7 @@ class Kind(StrEnum):
     INPUTS = "inputs"
     """The statement is about the agreement of the parameters in the paper with each other."""
     REFINED = "with the refined isolator"
-    """The statement is judged again with an isolator that softens with the displacement."""
+    """The statement is judged again with an isolator that softens as the displacement grows."""
     CONSTRUCTION = "by construction"
     """The equations of the model allow no other result. The statement tests the program."""
 
@@ -39,7 +39,7 @@ class Finding(NamedTuple):
     """Whether the statement is true for the computed result. None if only measurements can decide
     it."""
     number: str
-    """The numbers that decide the statement, with units."""
+    """The computed numbers that decide about the statement, with units."""
 
     @property
     def verdict(self) -> Verdict:
@@ -59,6 +59,6 @@ class Claim(NamedTuple):
     statement: str
     """The statement in our own words."""
     quantity: str
-    """The quantity that is computed, and the criterion that decides."""
+    """The quantity that is computed, and the criterion for the verdict ``reproduced``."""
     find: Callable[[PublishedStudy], Finding]
     kind: Kind = Kind.COMPUTED

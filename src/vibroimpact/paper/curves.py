@@ -35,13 +35,14 @@ ITEMS = (
         title="Fig. 7: scenario S3, B2-G1-A3",
         caption=(
             "Resonance curves of bumper B2 with a total gap of 15 mm at 0.05 g, computed with the "
-            "Simplified Nonlinear Model; the paper shows measurements. The primary resonance ends "
-            "in a jump and leaves a right hysteresis; well below it lies a secondary resonance. At "
-            "all frequencies swept both directions agree on it, but its branch of orbits turns "
-            "back between two of them: a left hysteresis of less than 0.01 Hz, which no test would "
-            "show. The marked frequencies are read off the computed curve: I the secondary "
-            "resonance, II the valley after it, III just before the downward jump. Contact begins "
-            "below 0.5 Hz."
+            "Simplified Nonlinear Model. The paper shows measurements. The primary resonance ends "
+            "in a jump and has a right hysteresis. A secondary resonance lies well below the "
+            "primary resonance. On the secondary resonance, the two sweeps agree at all computed "
+            "frequencies. However, the branch of periodic motions turns back between two of these "
+            "frequencies. The result is a left hysteresis of less than 0.01 Hz, which no test "
+            "would show. The marked frequencies are read from the computed curve: I is the "
+            "secondary resonance, II is the valley after it, and III lies just before the downward "
+            "jump. Contact begins below 0.5 Hz."
         ),
         draw=lambda study: curves_of(study, S3),
     ),
@@ -50,10 +51,10 @@ ITEMS = (
         title="Fig. 9: scenario S2, B2-G2-A2",
         caption=(
             "Resonance curves of bumper B2 with a total gap of 20 mm at 0.04 g, computed with the "
-            "Simplified Nonlinear Model; the paper shows measurements. There is the primary "
-            "resonance with its right hysteresis and nothing else. Unlike in Fig. 7 the gap is so "
-            "wide that the mass reaches the bumpers in a middle range of frequencies only; outside "
-            "it the curves are those of free flight."
+            "Simplified Nonlinear Model. The paper shows measurements. The curves show only the "
+            "primary resonance with its right hysteresis. The gap is wider than in Fig. 7. "
+            "Therefore the mass reaches the bumpers only in a middle range of frequencies. Outside "
+            "this range, the curves are those of free flight."
         ),
         draw=lambda study: curves_of(study, S2),
     ),
@@ -61,12 +62,13 @@ ITEMS = (
         key="fig10",
         title="Fig. 10: scenario S1, B2-G4-A1",
         caption=(
-            "Bumper B2 with the widest gap, 30 mm, at the weakest shaking, 0.03 g, computed with "
-            "the Simplified Nonlinear Model; the paper shows measurements. The gap is 0.93 of free "
-            "flight's amplitude, so that the mass touches the bumpers near resonance only, and the "
-            "displacement stays close to free flight's. The model's contact is not quite without "
-            "consequence: the acceleration rises visibly where the mass touches, and the peak ends "
-            "in a hysteresis narrower than a step of the tests (0.1 Hz)."
+            "Resonance curves of bumper B2 with the widest gap, 30 mm, at the smallest table "
+            "acceleration, 0.03 g, computed with the Simplified Nonlinear Model. The paper shows "
+            "measurements. The gap of one side is 0.93 times the amplitude of free flight. "
+            "Therefore the mass touches the bumpers only near resonance, and the displacement "
+            "stays close to that of free flight. Contact still has an effect in the model. The "
+            "acceleration rises visibly where the mass touches a bumper, and the peak ends in a "
+            "hysteresis that is narrower than a step of the tests (0.1 Hz)."
         ),
         draw=lambda study: curves_of(study, S1),
     ),
@@ -75,10 +77,10 @@ ITEMS = (
         title="Fig. 11: fitted model of scenario S3, B2-G1-A3",
         caption=(
             "Resonance curves of the Simplified Nonlinear Model with the parameters that the paper "
-            "fitted to this very test (its Section 5), rather than those of the whole campaign as "
-            "in Fig. 7. The paper lays its measured points over them; they are not published as "
-            "numbers, so the model stands alone here. I, II and III mark the frequencies of Fig. "
-            "12."
+            "fitted to this test (Section 5 of the paper). Fig. 7 uses the parameters of the whole "
+            "campaign instead. The paper compares its curves with measured points. These points "
+            "are not published as numbers. Therefore the figure shows only the model. I, II and "
+            "III mark the frequencies of Fig. 12."
         ),
         draw=lambda study: curves_of(study, S3, "identified"),
     ),
@@ -87,11 +89,11 @@ ITEMS = (
         title="Fig. 13: fitted model of scenario S2, B2-G2-A2",
         caption=(
             "Resonance curves of the Simplified Nonlinear Model with the parameters that the paper "
-            "fitted to this test, rather than those of the whole campaign as in Fig. 9. The paper "
-            "compares them with measured points, which are not published as numbers: how close "
-            "model and experiment are cannot be judged here. The fitted isolator is stiffer than "
-            "the one that the campaign's table implies, so that both jumps lie higher than in Fig. "
-            "9."
+            "fitted to this test. Fig. 9 uses the parameters of the whole campaign instead. The "
+            "paper compares its curves with measured points. These points are not published as "
+            "numbers. Therefore this report cannot judge how close model and experiment are. The "
+            "fitted isolator is stiffer than the isolator that follows from Table 1, so that both "
+            "jumps lie at higher frequencies than in Fig. 9."
         ),
         draw=lambda study: curves_of(study, S2, "identified"),
     ),
@@ -99,11 +101,11 @@ ITEMS = (
         key="fig17",
         title="Fig. 17: scenario S5, B3 without a gap at A3",
         caption=(
-            "Resonance curves with the bumpers touching the mass at rest. All is smooth again: "
-            "both sweeps coincide, without jumps and without secondary resonances. One bumper "
-            "after the other adds its stiffness to the isolator's, so that the resonance lies at "
-            "about five times the frequency of free flight. The computed peak is near 5.7 Hz, "
-            "where the paper gives about 5.4 Hz."
+            "Resonance curves for bumpers that touch the mass at rest. The curves are smooth "
+            "again. Both sweeps coincide, and there are no jumps and no secondary resonances. One "
+            "bumper after the other adds its stiffness to that of the isolator, so that the "
+            "resonance lies at about five times the resonance frequency of free flight. The "
+            "computed peak is near 5.7 Hz. The paper gives about 5.4 Hz."
         ),
         draw=lambda study: curves_of(study, S5, reach=S5_RANGE),
     ),

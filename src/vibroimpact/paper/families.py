@@ -104,13 +104,15 @@ ITEMS = (
         key="fig19",
         title="Fig. 19: B3-A3 with different total gaps",
         caption=(
-            "From the widest gap to none: free flight, then a primary resonance that bends further "
-            "and further to the right (S2), secondary resonances below it (S3), left hysteresis "
-            "and motions that are not regular (S4), and at last, without a gap, one smooth "
-            "resonance (S5). Solid lines are forward sweeps, dashed ones backward sweeps, arrows "
-            "their jumps; colours and the legend tell the scenario that the program names. Where "
-            "the curves of the smallest gaps are ragged, below about 2 Hz, many motions do not "
-            "settle; the magnified panels leave out the two smallest gaps above zero for that."
+            "The figure shows curves from the widest gap to none. The first curve is free flight. "
+            "As the gap becomes smaller, the primary resonance bends further and further to the "
+            "right (S2). Then secondary resonances appear below it (S3), followed by left "
+            "hysteresis and non-regular motions (S4). Without a gap, there is one smooth resonance "
+            "(S5). Solid lines are forward sweeps, dashed lines are backward sweeps, and arrows "
+            "are their jumps. The colours and the legend show the scenario that the program "
+            "determines. Below about 2 Hz, the curves of the smallest gaps are ragged, because "
+            "many motions there do not become periodic. Therefore the magnified panels leave out "
+            "the two smallest gaps above zero."
         ),
         draw=_by_gap,
     ),
@@ -118,12 +120,14 @@ ITEMS = (
         key="fig20",
         title="Fig. 20: G3-A1 with different bumper stiffnesses",
         caption=(
-            "Total gap 25 mm at 0.03 g, with bumpers from a third of the isolator's stiffness to "
-            "three hundred times as stiff. With the softest ones the peak only leans to the right, "
-            "without jump or hysteresis (S6); from B1 on it ends in a jump (S2). No secondary "
-            "resonance develops at low frequencies, however stiff the bumper; the stiffest one "
-            "makes the motion irregular just where contact begins. Solid lines are forward sweeps, "
-            "dashed ones backward sweeps; outside the range shown all is free flight."
+            "The total gap is 25 mm and the table acceleration is 0.03 g. The stiffness of the "
+            "bumpers ranges from a third of the stiffness of the isolator to three hundred times "
+            "this stiffness. With the softest bumpers, the peak only bends to the right, without "
+            "jump or hysteresis (S6). From B1 on, the peak ends in a jump (S2). No secondary "
+            "resonance develops at low frequencies, however stiff the bumper is. With the stiffest "
+            "bumper, the motion is irregular just where contact begins. Solid lines are forward "
+            "sweeps, and dashed lines are backward sweeps. Outside the range shown, all curves are "
+            "those of free flight."
         ),
         draw=_by_stiffness,
     ),

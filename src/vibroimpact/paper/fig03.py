@@ -36,12 +36,13 @@ ITEM = Item(
     key="fig03",
     title="Fig. 3: free flight, excursions of absolute acceleration and relative displacement",
     caption=(
-        "Steady response without bumpers at the three table accelerations; the paper shows "
-        "measurements here, this is their counterpart from the Simplified Nonlinear Model. The "
-        "model's isolator is linear: no single curve bends to the left or shows hysteresis, as "
-        "the measured ones do, and both sweeps coincide. The softening appears only from one "
-        "curve to the next, for each acceleration has its own equivalent stiffness: the peak "
-        "grows and moves to lower frequencies."
+        "The figure shows the steady response without bumpers at the three table accelerations, "
+        "computed with the Simplified Nonlinear Model. The paper shows measurements here. The "
+        "isolator of the model is linear. Therefore no single curve bends to the left or shows "
+        "hysteresis, unlike the measured curves, and both sweeps coincide. The softening appears "
+        "only in the comparison of the three curves, because each acceleration has its own "
+        "equivalent stiffness. At a larger acceleration, the peak is higher and lies at a lower "
+        "frequency."
     ),
     draw=draw,
 )

@@ -51,13 +51,14 @@ ITEM = Item(
     title="Fig. 4: free flight and contact, B4-G4-A3",
     caption=(
         "Left: absolute acceleration against relative displacement at resonance, with the stiff "
-        "bumper B4 and without bumpers; at the gaps (dashed) the acceleration jumps, and beyond "
-        "them the cycle is as steep as the bumper is stiff. Right: normalised excursions over the "
-        "frequency; contact bends the resonance to the right, and between the two jumps (shaded) "
-        "the forward sweep stays on the large motion while the backward sweep stays in free "
-        "flight. The paper measured this case; here it is computed with the Simplified Nonlinear "
-        "Model, in which free flight itself neither bends nor jumps. Near 0.9 Hz the model has a "
-        "second, very narrow hysteresis that the paper does not mention."
+        "bumper B4 and without bumpers. The acceleration jumps where the displacement reaches a "
+        "gap (dashed lines). Beyond the gaps, the stiffness of the bumper determines the slope of "
+        "the cycle. Right: normalised excursions against frequency. Contact bends the resonance to "
+        "the right. Between the two jumps (shaded), the forward sweep stays on the large motion, "
+        "and the backward sweep stays in free flight. The paper measured this case. Here it is "
+        "computed with the Simplified Nonlinear Model, in which the curves of free flight neither "
+        "bend nor jump. Near 0.9 Hz, the model has a second, very narrow hysteresis that the paper "
+        "does not mention."
     ),
     draw=draw,
 )

@@ -20,13 +20,15 @@ ITEM = Item(
     key="fig14",
     title="Fig. 14: the 48 tests and their scenarios",
     caption=(
-        "Each square is one test of the campaign, named by the program from computed curves: its "
-        "bumper upwards, its gap to the right, a panel for each table acceleration. The widest "
-        "gap with the smallest acceleration only grazes (S1); secondary resonances (S3) come with "
-        "small gaps, stiff bumpers and larger accelerations. The curves begin at 0.5 Hz, as the "
-        "tests do; from 0.44 Hz, where vibroimpact classify begins, B1-G1-A3 is S3, for it has a "
-        "peak at 0.51 Hz, at the very edge. The paper names them from measured curves; what its "
-        "text says of them is among the statements below."
+        "Each square is one test of the campaign. The program determines its scenario from "
+        "computed curves. There is one panel for each table acceleration, with the bumpers on the "
+        "vertical axis and the gaps on the horizontal axis. The tests with the widest gap and the "
+        "smallest acceleration only graze the bumpers (S1). Secondary resonances (S3) occur with "
+        "small gaps, stiff bumpers and larger accelerations. The computed curves begin at 0.5 Hz, "
+        "as the tests do. If they begin at 0.44 Hz, as in vibroimpact classify, B1-G1-A3 is S3, "
+        "because it has a peak at 0.51 Hz, at the very edge of the range. The paper determines the "
+        "scenarios from measured curves. The full report tests the statements of the paper about "
+        "these scenarios."
     ),
     draw=draw,
 )

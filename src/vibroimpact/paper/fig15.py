@@ -26,7 +26,7 @@ _GREEN: dict[str, Any] = {
     "linewidth": 2.0,
     "label": "antisymmetric motion, unstable",
 }
-_WILD: dict[str, Any] = {"facecolor": "#fbe3bd", "lw": 0.0, "label": "does not settle"}
+_WILD: dict[str, Any] = {"facecolor": "#fbe3bd", "lw": 0.0, "label": "no periodic motion"}
 
 
 def draw(study: PublishedStudy) -> Figure:
@@ -88,7 +88,7 @@ def _unstable(ax: Axes, data: xr.Dataset, branch: xr.Dataset, excursion: str) ->
 
 
 def _unsettled(ax: Axes, found: Features) -> None:
-    """Shade the ranges without periodic motions: crosses are hard to see between many marks."""
+    """Shade the ranges without periodic motions, because crosses are hard to see between marks."""
     for line in list(ax.lines):
         if "not settled" in str(line.get_label()):
             line.remove()
@@ -101,11 +101,13 @@ ITEM = Item(
     key="fig15",
     title="Fig. 15: scenario S4, B3 with a total gap of 10 mm at A3",
     caption=(
-        "Resonance curves with a gap smaller than any that was tested. Below 0.9 Hz secondary "
-        "resonances with left hysteresis follow each other: there the backward sweep is the upper "
-        "one. Around 1 Hz (right) both sweeps leave the motion that is its own mirror image, "
-        "which goes on unstably below them (dashed green), for a larger one that at some "
-        "frequencies (shaded) never repeats itself. I and II mark the frequencies of Fig. 16."
+        "The figure shows resonance curves for a gap that is smaller than any tested gap. Below "
+        "0.9 Hz there is a series of secondary resonances with left hysteresis. In a left "
+        "hysteresis, the curve of the backward sweep is the upper one. Around 1 Hz (right), both "
+        "sweeps leave the antisymmetric motion, which is its own mirror image. This motion "
+        "continues below them as an unstable motion (dashed green). Both sweeps reach a larger "
+        "motion, which never repeats itself at some frequencies (shaded). I and II mark the "
+        "frequencies of Fig. 16."
     ),
     draw=draw,
 )

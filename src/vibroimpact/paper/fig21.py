@@ -24,7 +24,7 @@ def draw(study: PublishedStudy) -> Figure:
             for name, gap in gaps.items():
                 place = (table.stiffness_ratio[a][bumper], gap)
                 mine.setdefault(scenarios[f"{bumper}-{name}-{a}"], []).append(place)
-        marks.append(Mark(f"tests with {bumper}, filled by their own scenario", marker, (), ()))
+        marks.append(Mark(f"tests with {bumper}, coloured by scenario", marker, (), ()))
         for scenario in sorted(mine):
             ratios, deltas = zip(*mine[scenario], strict=True)
             marks.append(Mark("", marker, ratios, deltas, SCENARIOS[scenario].line))
@@ -42,13 +42,15 @@ ITEM = Item(
     key="fig21",
     title="Fig. 21: scenarios by dimensionless parameters",
     caption=(
-        "The scenario depends on ratios alone: bumper to isolator stiffness (λ) and gap to "
-        "free-flight amplitude (δ0, of one side), here at a damping ratio of 0.15 and a "
-        "relaxation time of 0.01. Symbols are the 48 tests, each filled with a darker shade of "
-        "the colour of its own scenario. The borders are the stairs of a coarse grid; only the "
-        "dashed curve is exact: on it the two folds of the resonance meet in a cusp, and jumps "
-        "begin. Unclassified are secondary resonances without a jump at the primary resonance, at "
-        "small gaps and λ below about 4: they fit none of the paper's scenarios."
+        "The scenario depends only on dimensionless ratios. The map shows it over the stiffness "
+        "ratio of bumper and isolator (λ), and the ratio of the gap of one side to the amplitude "
+        "of free flight (δ0). The damping ratio is 0.15 and the relaxation time is 0.01. Each "
+        "symbol is one of the 48 tests, filled with a darker shade of the colour of its scenario. "
+        "The borders between the scenarios have steps because the grid is coarse. Only the dashed "
+        "curve is exact. On this curve, the two folds of the resonance meet in a cusp, and jumps "
+        "begin. An unclassified point has secondary resonances, but no jump at the primary "
+        "resonance. Such points occur at small gaps and at λ below about 4. They fit none of the "
+        "scenarios in the paper."
     ),
     draw=draw,
 )

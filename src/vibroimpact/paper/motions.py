@@ -101,14 +101,16 @@ ITEMS = (
         key="fig08",
         title="Fig. 8: motions of scenario S3, B2-G1-A3",
         caption=(
-            "From above: phase portrait, spectrum of absolute acceleration, and two forcing cycles "
-            "of displacement, acceleration and velocity at the three frequencies marked in Fig. 7, "
-            "computed with the Simplified Nonlinear Model where the paper shows measurements. At "
-            "the secondary resonance and in the valley both sweeps reach the same motion, with one "
-            "impact on each bumper per cycle and many harmonics. Just before the downward jump a "
-            "large motion with impacts coexists with a small one in free flight (bands are "
-            "contacts, the forward sweep's in the upper half). The computed motions are their own "
-            "mirror images; the measured ones are lopsided, as the rig's gaps were not quite equal."
+            "The three columns are the three frequencies marked in Fig. 7. From top to bottom, "
+            "each column shows the phase portrait, the spectrum of absolute acceleration, and two "
+            "forcing cycles of displacement, acceleration and velocity. The motions are computed "
+            "with the Simplified Nonlinear Model. The paper shows measurements. At the secondary "
+            "resonance and in the valley, both sweeps reach the same motion, with one impact on "
+            "each bumper per cycle and many harmonics. Just before the downward jump, a large "
+            "motion with impacts coexists with a small motion in free flight. Bands mark contacts, "
+            "and those of the forward sweep are in the upper half. The computed motions are their "
+            "own mirror images. The measured motions are not symmetric, because the two gaps of "
+            "the rig were not quite equal."
         ),
         draw=_regular,
     ),
@@ -117,10 +119,11 @@ ITEMS = (
         title="Fig. 12: phase portraits of the fitted model, B2-G1-A3",
         caption=(
             "Relative velocity against relative displacement at the three frequencies marked in "
-            "Fig. 11, with the parameters fitted to this test; diamonds mark one phase of the "
-            "forcing, dashed lines the gaps. At the secondary resonance the orbit has small inner "
-            "loops, which the paper sees in its computed cycle, too. The paper compares with "
-            "measured orbits; they are not published as numbers and are missing here."
+            "Fig. 11, computed with the parameters fitted to this test. Diamonds mark one phase of "
+            "the forcing, and dashed lines mark the gaps. At the secondary resonance, the orbit "
+            "has small inner loops. The computed orbit in the paper has them, too. The paper "
+            "compares its orbits with measured orbits. These are not published as numbers and are "
+            "missing here."
         ),
         draw=_fitted,
     ),
@@ -128,16 +131,18 @@ ITEMS = (
         key="fig16",
         title="Fig. 16: motions of scenario S4, B3 with a total gap of 10 mm at A3",
         caption=(
-            "Portraits, spectra and two forcing cycles at the frequencies marked in Fig. 15. Left: "
-            "inside a left hysteresis two periodic motions coexist; that of the forward sweep is "
-            "smaller and hits each bumper twice a cycle, that of the backward sweep once. Right: a "
-            "pair of motions, mirror images of each other and displaced to one side each, and "
-            "between them a smaller antisymmetric orbit, which is unstable. The paper calls the "
-            "pair quasi-periodic; computed, it is chaotic: disturbances grow exponentially, and "
-            "its spectrum is continuous between the lines. Contacts are bands, in two tiers on the "
-            "left (forward above) and in three on the right (one of the pair, its mirror image, "
-            "the antisymmetric orbit). The pair shares one spectrum: what is seen is the mirror "
-            "image's, drawn over the other."
+            "Phase portraits, spectra and two forcing cycles at the frequencies marked in Fig. 15. "
+            "Left: in a left hysteresis, two periodic motions coexist. The motion of the forward "
+            "sweep is smaller and hits each bumper twice per cycle. The motion of the backward "
+            "sweep hits each bumper once per cycle. Right: there are two motions that are mirror "
+            "images of each other, each displaced to one side. Between these two lies a smaller "
+            "antisymmetric orbit, which is unstable. The paper calls the pair quasi-periodic. The "
+            "computed pair is chaotic: disturbances grow exponentially, and the spectrum is "
+            "continuous between the lines. Bands mark contacts. The left column has two rows of "
+            "bands, with the forward sweep above the backward sweep. The right column has three: "
+            "one motion of the pair, its mirror image and the antisymmetric orbit. The two motions "
+            "of the pair have the same spectrum, so that only the spectrum of the mirror image, "
+            "which is drawn last, is visible."
         ),
         draw=_irregular,
     ),
@@ -145,12 +150,12 @@ ITEMS = (
         key="fig18",
         title="Fig. 18: motion of scenario S5 at resonance, B3 without a gap at A3",
         caption=(
-            "Portrait, spectrum, time histories and clearances (the distances from the mass to "
-            "each bumper) at the resonance of Fig. 17. The motion is nearly a sine, and the mass "
-            "seems to be pressed by one bumper or the other all the time. Magnified (lower right), "
-            "there are two very short flights a cycle, in which both clearances are open: the "
-            "bumper that the mass leaves has still a little to recover, the one that it meets has "
-            "long done so."
+            "Phase portrait, spectrum, time histories and clearances (the distances from the mass "
+            "to each bumper) at the resonance of Fig. 17. The motion is nearly a sine. The mass "
+            "seems to be in contact with one bumper or the other all the time. The magnified panel "
+            "(lower right) shows two very short flights per cycle, in which both clearances are "
+            "open. In a flight, the bumper that the mass has just left still has a small "
+            "deformation. The bumper that the mass meets next has recovered its shape long before."
         ),
         draw=_attached,
     ),

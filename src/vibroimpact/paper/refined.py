@@ -1,9 +1,9 @@
 """The published rig with an isolator that softens with the displacement.
 
-With a linear isolator the upward jump occurs at a frequency that is too low. Therefore the paper
-ends with the wish for a model "that includes all the nonlinearities". In this module one law with
-one parameter set (`laboratory.REFINED`) replaces the equivalent stiffness of each acceleration.
-Figures and statements are computed again.
+With a linear isolator, the upward jump occurs at a frequency that is too low. Therefore the paper
+concludes that a model is needed "that includes all the nonlinearities". In this module, one law
+with one parameter set (`laboratory.REFINED`) replaces the equivalent stiffness of each
+acceleration, and the figures and statements are computed again.
 """
 
 from __future__ import annotations
@@ -42,27 +42,32 @@ def equivalent(isolator: str, acceleration: str) -> tuple[float, float]:
 def isolators(study: PublishedStudy) -> Table:
     """Return a table of the laws, and of their equivalent parameters at each acceleration."""
     wanted = [f"{1e-3 * k:.2f} kN/m, 0.15" for k in laboratory.ISOLATOR_STIFFNESS.values()]
-    rows = [("wanted", "", *wanted)]
+    rows = [("target", "", *wanted)]
     for name, law in laboratory.REFINED.items():
         told = str(law).split("(", 1)[1].removesuffix(")")
         each = (equivalent(name, a) for a in laboratory.ACCELERATIONS)
         rows.append((name, told, *(f"{1e-3 * k:.2f} kN/m, {ratio:.3f}" for k, ratio in each)))
-    heads = (f"at {a / GRAVITY:.2f} g" for a in laboratory.ACCELERATIONS.values())
+    heads = (
+        f"stiffness and damping ratio at {a / GRAVITY:.2f} g"
+        for a in laboratory.ACCELERATIONS.values()
+    )
     return Table(("isolator", "parameters", *heads), tuple(rows))
 
 
 _FIGURES: tuple[tuple[str, str, Callable[[PublishedStudy], Figure]], ...] = (
     (
         "Fig. 3, free flight",
-        "Steady response without bumpers at the three table accelerations, with one isolator. The "
-        "curves bend to the left, as the measured ones do: above the resonance they fall more "
-        "slowly than below it. Both sweeps coincide, for the isolator loses much energy.",
+        "The figure shows the steady response without bumpers at the three table accelerations, "
+        "computed with the same isolator for all accelerations. The curves bend to the left, as "
+        "the measured curves do: above the resonance they fall more slowly than below it. Both "
+        "sweeps coincide, because the isolator dissipates much energy.",
         fig03.draw,
     ),
     (
         "Fig. 5, normalised acceleration of the 48 tests",
-        "As Fig. 5, with the refined isolator. Both jumps lie at higher frequencies: at the "
-        "smaller amplitudes of contact the isolator is stiffer than in free flight's resonance.",
+        "As Fig. 5, with the refined isolator. Both jumps lie at higher frequencies. In contact, "
+        "the amplitudes are smaller than at the resonance of free flight, and the isolator is "
+        "stiffer at smaller amplitudes.",
         lambda study: panels_of(study, "eta_a"),
     ),
     (
@@ -72,13 +77,14 @@ _FIGURES: tuple[tuple[str, str, Callable[[PublishedStudy], Figure]], ...] = (
     ),
     (
         "Fig. 11, scenario S3, B2-G1-A3",
-        "As Fig. 11, with the refined isolator in the place of parameters fitted to this test. The "
-        "upward jump has moved up, by a multiple of what any bumper changes.",
+        "As Fig. 11, with the refined isolator instead of the parameters fitted to this test. The "
+        "upward jump lies at a higher frequency. This shift is several times as large as the shift "
+        "that any bumper causes.",
         lambda study: curves_of(study, S3),
     ),
     (
         "Fig. 13, scenario S2, B2-G2-A2",
-        "As Fig. 13, with the refined isolator in the place of fitted parameters.",
+        "As Fig. 13, with the refined isolator instead of the fitted parameters.",
         lambda study: curves_of(study, S2),
     ),
     (
@@ -102,12 +108,14 @@ def _item(title: str, caption: str, draw: Callable[[PublishedStudy], Figure]) ->
 ITEMS: tuple[Item, ...] = (
     Item(
         key="refined-isolators",
-        title="Refined model: isolators that soften by themselves",
+        title="Refined model: isolators that soften with the displacement",
         caption=(
-            "Three hysteretic laws, each with one parameter set for all table accelerations, and "
-            "the stiffness and damping ratio of the linear isolator whose free flight has its "
-            "largest acceleration at the same frequency and of the same height. The figures below "
-            "are computed with the first law, which fits best; the others hardly differ."
+            "The table lists three hysteretic laws, each with one parameter set for all table "
+            "accelerations. For each acceleration, it gives the stiffness and damping ratio of an "
+            "equivalent linear isolator. With this linear isolator, the largest acceleration of "
+            "free flight has the same height and occurs at the same frequency. The figures below "
+            "are computed with the first law, which fits best. The other two laws hardly differ "
+            "from it."
         ),
         table=isolators,
     ),

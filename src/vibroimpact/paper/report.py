@@ -216,11 +216,15 @@ def _facts() -> dict[str, Any]:
                 tuple((b, f"{1e-3 * k:g} kN/m") for b, k in laboratory.BUMPERS.items()),
             ),
             Table(
-                ("gap", "both sides together"),
+                ("gap", "total gap of both sides"),
                 (*((g, f"{1e3 * w:g} mm") for g, w in laboratory.GAPS.items()), _GRAZING),
             ),
             Table(
-                ("acceleration", "peak of the table's", "isolator's equivalent stiffness"),
+                (
+                    "acceleration",
+                    "peak acceleration of the table",
+                    "equivalent stiffness of the isolator",
+                ),
                 tuple(
                     (
                         a,
@@ -232,7 +236,7 @@ def _facts() -> dict[str, Any]:
             ),
         ),
         "scenarios": Table(
-            ("scenario", "what the curves show"),
+            ("scenario", "shape of the resonance curves"),
             tuple((s.label, s.meaning) for s in Scenario if s is not Scenario.UNCLASSIFIED),
         ),
     }

@@ -1,4 +1,4 @@
-"""Computations that figures and claims share. Each is made once, when it is first required."""
+"""Computations that figures and claims share. Each runs only once, when it is first needed."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class PublishedStudy:
         return laboratory.case(code, parameters or self._parameters)
 
     def refined(self) -> PublishedStudy:
-        """The same study, for the rig with the refined isolator."""
+        """Return the same study for the rig with the refined isolator."""
         return self._once("refined", lambda: PublishedStudy(self._threads, "refined"))
 
     def _once(self, key: Any, make: Callable[[], _T]) -> _T:

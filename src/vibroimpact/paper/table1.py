@@ -42,14 +42,15 @@ ITEM = Item(
     key="table1",
     title="Table 1: dimensionless gaps and stiffness ratios",
     caption=(
-        "Dimensionless gap δ = G/(2 u_max), with u_max the largest displacement of free flight at "
-        "any frequency, and stiffness ratio λ of bumper to isolator, for the three table "
-        "accelerations. Of what goes in, the text prints the mass, the gaps and B2; B1, B3, B4 "
-        "and the isolator's stiffness are chosen so that the printed table comes out. Each "
-        "computed row, rounded to the digits that the paper gives, stands above the printed one. "
-        "The text defines δ as the sum of both sides, but the printed numbers are those of one "
-        "side. Both parameters change with the acceleration although gaps and bumpers do not, for "
-        "the isolator softens."
+        "The table lists the dimensionless gap δ = G/(2 u_max) and the stiffness ratio λ of bumper "
+        "to isolator, for the three table accelerations. u_max is the largest displacement of free "
+        "flight at any frequency. The text of the paper prints the mass, the gaps and the "
+        "stiffness of B2. It does not print the stiffness of B1, B3, B4 and the isolator. These "
+        "were chosen so that the printed table results. Each row of computed values is rounded to "
+        "the digits that the paper gives, and stands above the row of printed values. The text "
+        "defines δ as the sum of both sides, but the printed numbers are those of one side. Both "
+        "parameters change with the acceleration although the gaps and bumpers do not, because the "
+        "isolator softens."
     ),
     table=table,
 )

@@ -119,14 +119,14 @@ def fit_report(
     drawn(
         "residuals",
         fit_residuals(result),
-        "Residuals of the fit; the band is 2 standard deviations",
+        "Residuals of the fit. The band shows 2 standard deviations.",
     )
     if "profile_rise" in result:
         drawn(
             "profiles",
             fit_profiles(result),
-            "Profile of each parameter: the dotted line is the increase of the deviance at the "
-            "ends of the interval",
+            "Profile of each parameter. The dotted line is the increase of the deviance at the "
+            "ends of the confidence interval.",
         )
     for key, text, label in _studies(result, name):
         path = where / f"{key}.toml"
@@ -268,8 +268,12 @@ def _tests(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
         points = int((result["point_test"].values == test).sum())
         curves = str(one["test_kind"].values) == "curves"
         noise = float(one["noise"])
-        told = f"{100.0 * noise:.2g} % of a value" if curves else f"{noise:.3g} times its own noise"
-        shape = "correlated, not noise" if float(one["residual_chance"]) < 1e-3 else "noise"
+        told = (
+            f"{100.0 * noise:.2g} % of a value"
+            if curves
+            else f"{noise:.3g} times the noise of each channel"
+        )
+        shape = "correlated, more than noise" if float(one["residual_chance"]) < 1e-3 else "noise"
         rows.append((str(test), amplitude_of(result, str(test)), str(points), told, shape))
     return rows
 

@@ -98,8 +98,8 @@ def bifurcation_diagram(
     random
         Number of additional random initial states. The same states are used at every value. Their
         displacements are at most 1.5 times the largest displacement of the other motions, or 1.5
-        times the widest gap if that is larger. Their velocities are at most this limit times the
-        angular forcing frequency (its median, if the frequency is varied).
+        times the widest gap if that is larger. The limit of their velocities is this displacement
+        times the angular forcing frequency. If the frequency is varied, its median is used.
     seed
         Seed of the random initial states. The same seed gives the same initial states.
     section

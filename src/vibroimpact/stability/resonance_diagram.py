@@ -77,8 +77,9 @@ def resonance_diagram(
         Number of starting values of the parameter: values at which motions are simulated to find
         branches.
     random
-        Number of random initial states at each starting value of the parameter (by default, there
-        are 40 such values). They are used to find isolated branches with stable orbits.
+        Number of random initial states at each starting value of the parameter. By default, there
+        are 40 starting values. The random states are used to find isolated branches with stable
+        orbits.
     seed
         Seed of the random initial states. The same seed gives the same initial states.
     basins

@@ -95,7 +95,7 @@ export class Basins {
 
   show(picture) {
     this.picture = picture;
-    const about = picture.motions.map((words, k) => `${words}, ${picture.excursions[k]} mm wide: ${(100 * picture.shares[k]).toPrecision(3)} % of the initial states`);
+    const about = picture.motions.map((words, k) => `${words}, excursion ${picture.excursions[k]} mm: ${(100 * picture.shares[k]).toPrecision(3)} % of the initial states`);
     this.legend.replaceChildren(
       ...about.map((words, k) => {
         const item = document.createElement("li");

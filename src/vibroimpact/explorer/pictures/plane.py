@@ -45,8 +45,8 @@ def plane(state: State) -> Plane:
     times = {float(f"{stop.relaxation_time:.6g}") for stop in stops}  # type: ignore[union-attr]
     if len(times) > 1 or rig.force:
         raise InputError(
-            "map: the sides differ; the same relaxation time τ on both sides, and no constant "
-            "force, are required"
+            "map: the relaxation times τ of the two sides differ, or a constant force acts on the "
+            "mass; rigs with one τ and without constant force are accepted"
         )
     return Plane(
         float(f"{scaled.damping_ratio:.6g}"),

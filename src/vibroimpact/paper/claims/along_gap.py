@@ -26,16 +26,17 @@ def jumps_of(data: xr.Dataset) -> dict[str, tuple[float, float]]:
         if down and up:
             found[str(code)] = max(down), max(up)
     if len(found) < 2:
-        raise AbsentError("fewer than two of the curves jump")
+        raise AbsentError("fewer than two of the curves have both jumps")
     return found
 
 
 @claim(
     "scenarios-along-gap",
     "6, Fig. 19",
-    "As the gap of B3-A3 falls from free flight to zero the scenarios follow in the order S0 or "
+    "As the gap of B3-A3 falls from free flight to zero, the scenarios follow in the order S0 or "
     "S1, S2, S3, S4, S5.",
-    "Scenarios for the total gaps from none to 0 mm, from 0.3 to 8 Hz.",
+    "The scenarios are determined for the total gaps from no bumpers to 0 mm, from 0.3 to 8 Hz. "
+    "The order must never reverse, and none of S2 to S5 may be missing.",
     Kind.RULES,
 )
 def along_gap(study: PublishedStudy) -> Finding:
@@ -54,9 +55,10 @@ def along_gap(study: PublishedStudy) -> Finding:
 @claim(
     "jumps-along-gap",
     "6, Fig. 19",
-    "In the computed family of gaps, too, the jumps move up as the gap falls, the upward one less.",
-    "Frequencies of both jumps of B3-A3 along falling gaps, where there are any: rising, and the "
-    "upward jump by less over the family.",
+    "In the computed family of gaps, the jumps also move to higher frequencies as the gap falls. "
+    "The upward jump moves less.",
+    "As the gap falls, the frequencies of both jumps of B3-A3 must rise, where both jumps exist. "
+    "Over the whole family, the upward jump must rise by less than the downward jump.",
 )
 def jumps_along_gap(study: PublishedStudy) -> Finding:
     """Compare the jumps from the widest gap with a jump to the smallest one."""
@@ -64,7 +66,7 @@ def jumps_along_gap(study: PublishedStudy) -> Finding:
     down, up = np.array(list(found.values())).T
     told = ", ".join(f"{code.split('-')[1]} {d:.2f} and {u:.2f}" for code, (d, u) in found.items())
     rising = (np.diff(down) > 0).all() and (np.diff(up) > 0).all()
-    return Finding(rising and np.ptp(up) < np.ptp(down), f"down and up: {told} Hz")
+    return Finding(rising and np.ptp(up) < np.ptp(down), f"downward and upward jump: {told} Hz")
 
 
 def _maxima(study: PublishedStudy, curve: Curve, direction: Direction) -> tuple[Array, float]:
@@ -80,10 +82,10 @@ def _gap(k: int) -> str:
 @claim(
     "bell-along-gap",
     "6, Fig. 19",
-    "Over the wider range of gaps the maxima of η_a form a bell, the backward ones to a lesser "
-    "extent.",
-    "Largest η_a of B3-A3 in each direction along gaps that fall to 2 mm: rises to one maximum, "
-    "then falls; and the range of the backward maxima is the smaller one.",
+    "Over the wider range of gaps, the maxima of η_a form a bell. The backward maxima do so to a "
+    "lesser extent.",
+    "For gaps that fall to 2 mm, the largest η_a of B3-A3 must rise to one maximum and then fall, "
+    "in each direction. The backward maxima must have the smaller range.",
 )
 def bell_along_gap(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
@@ -107,9 +109,9 @@ def bell_along_gap(study: PublishedStudy) -> Finding:
 @claim(
     "displacement-along-gap",
     "6, Fig. 19",
-    "Over the wider range of gaps, too, the maxima of η_d fall with the gap.",
-    "Largest η_d of B3-A3 in each direction along gaps that fall to 2 mm: never rises, and falls "
-    "where bumpers are hit.",
+    "Over the wider range of gaps, the maxima of η_d also fall with the gap.",
+    "For gaps that fall to 2 mm, the largest η_d of B3-A3 must never rise, in each direction. It "
+    "must fall where the bumpers are hit.",
 )
 def displacement_along_gap(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""

@@ -25,9 +25,10 @@ _CODES = tuple(f"{stiffness}-G3-A1" for stiffness in STIFFNESSES)
 @claim(
     "soft-bumpers-bend-only",
     "6, Fig. 20",
-    "With very soft bumpers the curves of G3-A1 bend to the right a little, without jumps or "
-    "hysteresis (S6); with stiffer ones they are S2.",
-    "Scenarios for the bumper stiffnesses from 10 kN/m to 10 MN/m: S6 first, then S2, no other.",
+    "With very soft bumpers, the curves of G3-A1 bend slightly to the right, without jumps or "
+    "hysteresis (S6). With stiffer bumpers, they are S2.",
+    "The scenarios for the bumper stiffnesses from 10 kN/m to 10 MN/m must be S6 first, then S2, "
+    "and no other.",
 )
 def soft(study: PublishedStudy) -> Finding:
     """Check the scenarios in the order of rising stiffness."""
@@ -39,10 +40,11 @@ def soft(study: PublishedStudy) -> Finding:
 @claim(
     "soft-bumpers-one-motion",
     "6, Fig. 20",
-    "Where the soft bumpers of scenario S6 are hit there is one periodic motion of a single "
+    "Where the soft bumpers of scenario S6 are hit, there is one periodic motion with a single "
     "frequency.",
-    "For the stiffnesses that give S6: settled on one cycle, the directions alike; at resonance "
-    "all higher harmonics of the displacement together are below 10 % of the first.",
+    "For the stiffnesses that give S6, both sweeps must reach the same motion, with a period of "
+    "one forcing cycle. At resonance, all higher harmonics of the displacement together must be "
+    "below 10 % of the first.",
 )
 def soft_motion(study: PublishedStudy) -> Finding:
     """Check the spectrum at the resonance of each stiffness."""
@@ -63,9 +65,10 @@ def soft_motion(study: PublishedStudy) -> Finding:
 @claim(
     "no-secondary-for-g3-a1",
     "6, Fig. 20",
-    "For G3-A1 no secondary resonance develops, however stiff the bumper.",
-    "Secondary resonances of the curves up to 10 MN/m, 2 % prominent. A peak where contact begins, "
-    "with free flight at its foot, is the onset of the primary resonance and left out.",
+    "For G3-A1, no secondary resonance develops, however stiff the bumper is.",
+    "The curves up to 10 MN/m must have no secondary resonance with a prominence of at least 2 %. "
+    "A peak where contact begins, with free flight at its foot, is the onset of the primary "
+    "resonance. Such a peak is left out.",
     Kind.RULES,
 )
 def no_secondary(study: PublishedStudy) -> Finding:
@@ -85,13 +88,14 @@ def no_secondary(study: PublishedStudy) -> Finding:
 @claim(
     "jumps-along-stiffness",
     "6, Fig. 20",
-    "In the computed family of stiffnesses, too, stiffer bumpers raise both jumps, the upward one "
-    "less.",
-    "Frequencies of both jumps of G3-A1 along rising stiffness: neither ever falls, each rises by "
-    "more than the step of 0.01 Hz over the family, and the upward one by less.",
+    "In the computed family of stiffnesses, stiffer bumpers also move both jumps to higher "
+    "frequencies. The upward jump moves less.",
+    "As the stiffness rises, the frequencies of both jumps of G3-A1 must never fall. Over the "
+    "whole family, each must rise by more than the step of 0.01 Hz, and the upward jump must rise "
+    "by less than the downward jump.",
 )
 def jumps_along_stiffness(study: PublishedStudy) -> Finding:
-    """Follow both jumps; the upward one is where the motion without stops reaches the gap."""
+    """Follow both jumps. The upward jump occurs where free flight reaches the gap."""
     found = jumps_of(study.by_stiffness().sel(rig=list(_CODES)))
     down, up = np.array(list(found.values())).T
     rises = [bool((np.diff(v) >= 0).all()) and v[-1] - v[0] > 1.5 * STEP for v in (down, up)]
@@ -104,9 +108,10 @@ def jumps_along_stiffness(study: PublishedStudy) -> Finding:
 @claim(
     "maxima-along-stiffness",
     "6, Fig. 20",
-    "In the computed family of stiffnesses, too, stiffer bumpers raise the maxima of η_a and lower "
-    "those of η_d.",
-    "Maxima of both directions of G3-A1 along rising stiffness: rising in η_a, falling in η_d.",
+    "In the computed family of stiffnesses, stiffer bumpers also increase the maxima of η_a and "
+    "reduce those of η_d.",
+    "As the stiffness rises, the maxima of both directions of G3-A1 must rise in η_a and fall in "
+    "η_d.",
 )
 def maxima_along_stiffness(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""

@@ -29,7 +29,7 @@ def _curves(study: PublishedStudy) -> xr.Dataset:
 
 
 def _share(value: float) -> str:
-    return "0 to rounding" if value < ROUNDING else f"{value:.1%}"
+    return "0 (within rounding)" if value < ROUNDING else f"{value:.1%}"
 
 
 def _resonance(study: PublishedStudy) -> float:
@@ -39,9 +39,9 @@ def _resonance(study: PublishedStudy) -> float:
 @claim(
     "s5-smooth",
     "6, Fig. 17",
-    "With the bumpers attached to the mass, B3-A3 shows smooth curves again: no jump, no "
-    "hysteresis, no secondary resonance.",
-    "What the sweeps from 0.3 to 10 Hz show, and the largest difference of the directions.",
+    "With the bumpers attached to the mass, the curves of B3-A3 are smooth again. They have no "
+    "jump, no hysteresis and no secondary resonance.",
+    "The sweeps from 0.3 to 10 Hz must show none of these, and the two directions must not differ.",
 )
 def smooth(study: PublishedStudy) -> Finding:
     """Check that each curve has only one peak."""
@@ -60,8 +60,8 @@ def smooth(study: PublishedStudy) -> Finding:
 @claim(
     "s5-resonance",
     "6, Fig. 17",
-    "With the bumpers attached to the mass, the resonance of B3-A3 has moved up to about 5.4 Hz.",
-    "Frequency of the largest η_d: 5.4 Hz to the digit printed (5.35 to 5.45 Hz).",
+    "With the bumpers attached to the mass, the resonance of B3-A3 moves up to about 5.4 Hz.",
+    "The frequency of the largest η_d must be 5.4 Hz to the printed digit (5.35 to 5.45 Hz).",
 )
 def resonance(study: PublishedStudy) -> Finding:
     """Use the parameters of Table 1."""
@@ -76,10 +76,11 @@ def resonance(study: PublishedStudy) -> Finding:
 @claim(
     "s5-one-motion",
     "6, Fig. 18",
-    "With the bumpers attached, B3-A3 has at every frequency one periodic motion of a single "
-    "frequency.",
-    "Settled on one forcing cycle at all frequencies, both directions alike; at 1, 3 and 8 Hz and "
-    "at resonance all higher harmonics of the displacement together are below 10 % of the first.",
+    "With the bumpers attached, B3-A3 has one periodic motion with a single frequency at every "
+    "forcing frequency.",
+    "At all frequencies, both sweeps must reach the same motion, with a period of one forcing "
+    "cycle. At 1, 3 and 8 Hz and at resonance, all higher harmonics of the displacement together "
+    "must be below 10 % of the first.",
 )
 def one_motion(study: PublishedStudy) -> Finding:
     """Check all frequencies; spectra are computed at some of them."""
@@ -90,7 +91,7 @@ def one_motion(study: PublishedStudy) -> Finding:
     holds = settled and float(apart(data).max()) < 1e-6 and max(shares) < ALMOST_ONE_LINE
     return Finding(
         holds,
-        f"{'all' if settled else 'not all'} settle on one cycle; higher harmonics "
+        f"{'all' if settled else 'not all'} motions have a period of one cycle; higher harmonics "
         f"{listed([100 * s for s in shares], '.2g')} % at {listed(places)} Hz",
     )
 
@@ -98,10 +99,10 @@ def one_motion(study: PublishedStudy) -> Finding:
 @claim(
     "s5-short-flights",
     "6, Fig. 18",
-    "With the bumpers attached, the mass is nearly always in contact with one or the other; the "
-    "flights between are very short.",
-    "At resonance: one contact a side and cycle, and the time between contacts over T: above 0, "
-    "below 5 %.",
+    "With the bumpers attached, the mass is nearly always in contact with one bumper or the other. "
+    "The flights between contacts are very short.",
+    "At resonance, there must be one contact per side and cycle. The time between contacts, "
+    "divided by the forcing period, must be above 0 and below 5 %.",
 )
 def flights(study: PublishedStudy) -> Finding:
     """Measure the time between contacts: the bumper that was just left has nearly recovered."""
@@ -118,10 +119,11 @@ def flights(study: PublishedStudy) -> Finding:
 @claim(
     "s5-recovered-before-met",
     "6, Fig. 18",
-    "With the bumpers attached, each is left when it has recovered almost all its deformation, and "
-    "the one that is met next has recovered long before.",
-    "Deformation at the end of a contact over the largest one, and that of the other bumper as it "
-    "is met over the same: below 10 % and below 1 %.",
+    "With the bumpers attached, the mass leaves a bumper when this bumper has recovered almost all "
+    "its deformation. The bumper that the mass meets next has recovered long before.",
+    "Two deformations are divided by the largest one. The deformation of a bumper at the end of "
+    "its contact must be below 10 %. The deformation of the other bumper when the mass meets it "
+    "must be below 1 %.",
 )
 def recovered(study: PublishedStudy) -> Finding:
     """Use the deformations in the log of events."""
@@ -134,7 +136,8 @@ def recovered(study: PublishedStudy) -> Finding:
     left, met = (np.abs(own[where]).max() / largest for where in (~begins, begins))
     return Finding(
         bool(0.0 < left < 0.1 and met < 0.01),
-        f"left at {left:.1%}, met at {_share(met)} of the largest",
+        f"deformation {left:.1%} of the largest when the mass leaves the bumper, {_share(met)} "
+        "when the mass meets it",
     )
 
 

@@ -14,17 +14,18 @@ _CODES = tuple(f"B1-Ginf-{a}" for a in ACCELERATIONS)
 @claim(
     "free-softening",
     "4.1",
-    "Measured free-flight curves bend to the left, more so at larger table accelerations, with a "
-    "narrow hysteresis at A3.",
-    "Nothing: the model's isolator is linear, so that its free flight can show neither.",
+    "The measured curves of free flight bend to the left, more strongly at larger table "
+    "accelerations, with a narrow hysteresis at A3.",
+    "Nothing is compared. The isolator of the model is linear, so that its free flight shows "
+    "neither bending nor hysteresis.",
 )
 def softening(study: PublishedStudy) -> Finding:
     """Report that the model cannot decide this: its computed curves have no hysteresis."""
     worst = float(apart(study.family(_CODES)).max())
     return Finding(
         None,
-        f"the linear model's two sweeps differ by {at_most(worst)}; needed: the measured "
-        "free-flight sweeps, forward and backward, at the three accelerations",
+        f"the two sweeps of the linear model differ by {at_most(worst)}; needed: the measured "
+        "forward and backward sweeps of free flight at the three accelerations",
     )
 
 
@@ -32,8 +33,9 @@ def softening(study: PublishedStudy) -> Finding:
     "free-trend",
     "4.1",
     "Without bumpers, larger table accelerations give larger excursions of acceleration and of "
-    "displacement, at lower resonance frequencies.",
-    "Maxima of both excursions for A1, A2, A3, and the frequencies of the acceleration's.",
+    "displacement, and lower resonance frequencies.",
+    "The maxima of both excursions must rise from A1 to A3, and the frequency of the largest "
+    "acceleration must fall.",
     Kind.INPUTS,
 )
 def larger_and_lower(study: PublishedStudy) -> Finding:
@@ -45,7 +47,8 @@ def larger_and_lower(study: PublishedStudy) -> Finding:
     holds = bool((np.diff(a) > 0).all() and (np.diff(d) > 0).all() and (np.diff(f) < 0).all())
     return Finding(
         holds,
-        f"E_a {listed(a)} m/s²; E_d {listed(1e3 * d)} mm; at {listed(f)} Hz (A1, A2, A3)",
+        f"largest E_a {listed(a)} m/s²; largest E_d {listed(1e3 * d)} mm; largest E_a at "
+        f"{listed(f)} Hz (A1, A2, A3)",
     )
 
 

@@ -18,7 +18,7 @@ _CODE = "B2-G4-A1"
 _TESTS = tuple(f"{bumper}-G4-A1" for bumper in laboratory.BUMPERS)
 """The tests that the paper calls grazing."""
 _COMPUTED = "B3-65mm-A3"
-"""The computed case whose gap is the next smaller one to the amplitude of free flight (Fig. 19)."""
+"""The case in Fig. 19 with the largest gap that is smaller than the amplitude of free flight."""
 _LIKE_FREE = 0.1
 """Largest difference from the maximum of free flight for curves that are called similar to it."""
 _COINCIDE = 0.01
@@ -43,8 +43,9 @@ _FREE = tuple(
     claim(
         f"s1-{name}-like-free-flight",
         "4.3, Fig. 10",
-        f"In grazing contact, B2-G4-A1, the {name}'s curves are close to free flight's.",
-        f"Largest difference of {SYMBOLS[curve]} from free flight: at most 0.1.",
+        f"In grazing contact (B2-G4-A1), the curves of the {name} are close to those of free "
+        "flight.",
+        f"The largest difference of {SYMBOLS[curve]} from free flight must be at most 0.1.",
     )(partial(_like_free, curve=curve))
     for name, curve in _CURVES
 )
@@ -53,9 +54,10 @@ _FREE = tuple(
 @claim(
     "s1-hardly-deformed",
     "4.3",
-    "In grazing contact the mass touches the bumpers without deforming them significantly.",
-    "Largest penetration in the four tests with G4 and A1, either direction: at most a tenth of "
-    "the gap of one side, which is also the rules' threshold for grazing.",
+    "In grazing contact, the mass touches the bumpers without deforming them significantly.",
+    "The largest penetration in the four tests with G4 and A1, in either direction, must be at "
+    "most a tenth of the gap of one side. The rules for the scenarios use the same threshold for "
+    "grazing.",
     Kind.RULES,
 )
 def hardly_deformed(study: PublishedStudy) -> Finding:
@@ -73,10 +75,11 @@ def hardly_deformed(study: PublishedStudy) -> Finding:
 @claim(
     "grazing-is-free-flight",
     "6",
-    "In the Simplified Nonlinear Model the curves of grazing contact (S1) coincide with those of "
+    "In the Simplified Nonlinear Model, the curves of grazing contact (S1) coincide with those of "
     "free flight (S0), without jumps.",
-    "The four tests with G4 and A1, and B3-A3 with a gap of 65 mm: largest difference of η_a and "
-    "of η_d from free flight, at most 0.01, and no jump.",
+    "The largest differences of η_a and of η_d from free flight must be at most 0.01, and there "
+    "must be no jump. This applies to the four tests with G4 and A1, and to B3-A3 with a gap of 65 "
+    "mm.",
 )
 def free_flight(study: PublishedStudy) -> Finding:
     """Check the cases that graze in the paper and in Fig. 19, not a gap of exactly u_max."""
@@ -88,17 +91,17 @@ def free_flight(study: PublishedStudy) -> Finding:
         holds &= max(worst) <= _COINCIDE and not jumps
         ends = "no jump"
         if jumps:
-            ends = f"jumps {' and '.join(f'{j.frequency:.3f}' for j in jumps)} Hz"
-        told.append(f"{code} η_a {worst[0]:.2f}, η_d {worst[1]:.2f}, {ends}")
+            ends = f"jumps at {' and '.join(f'{j.frequency:.3f}' for j in jumps)} Hz"
+        told.append(f"{code}: η_a {worst[0]:.2f}, η_d {worst[1]:.2f}, {ends}")
     return Finding(holds, "; ".join(told))
 
 
 @claim(
     "grazing-at-one",
     "7",
-    "The gap at which the mass grazes depends on the acceleration, but is always δ = 1.",
-    "B2 with δ = 0.99 and 1.01 at the three accelerations: bumpers are hit, and are not; and the "
-    "total gap that is δ = 1.",
+    "The gap at which the mass grazes depends on the acceleration, but it is always δ = 1.",
+    "Bumper B2 at the three accelerations. With δ = 0.99 the bumpers must be hit, and with δ = "
+    "1.01 they must not. The total gap for δ = 1 is listed.",
     Kind.CONSTRUCTION,
 )
 def at_one(study: PublishedStudy) -> Finding:
@@ -115,7 +118,7 @@ def at_one(study: PublishedStudy) -> Finding:
         hits.append(hit.values.tolist())
     return Finding(
         hits == [[True] * 3, [False] * 3],
-        f"δ = 1 is {', '.join(f'{g:.1f}' for g in gaps)} mm at A1, A2, A3",
+        f"δ = 1 is a total gap of {', '.join(f'{g:.1f}' for g in gaps)} mm at A1, A2, A3",
     )
 
 

@@ -31,8 +31,8 @@ def _jumps(study: PublishedStudy, code: str) -> str:
 @claim(
     "fitted-scenarios",
     "5, Figs. 11 and 13",
-    "With the fitted parameters the model shows S3 for B2-G1-A3 and S2 for B2-G2-A2.",
-    "Scenarios of the two computed pairs of curves.",
+    "With the fitted parameters, the model shows S3 for B2-G1-A3 and S2 for B2-G2-A2.",
+    "The scenarios of the two computed pairs of curves (forward and backward).",
     Kind.RULES,
 )
 def scenarios(study: PublishedStudy) -> Finding:
@@ -46,22 +46,23 @@ def scenarios(study: PublishedStudy) -> Finding:
 @claim(
     "fitted-loops",
     "5, Fig. 12",
-    "At the secondary resonance the computed phase portrait of B2-G1-A3 has inner loops.",
-    "Changes of the velocity's sign in a forcing cycle at f_I: more than the two of a plain orbit.",
+    "At the secondary resonance, the computed phase portrait of B2-G1-A3 has inner loops.",
+    "The velocity must change its sign more than twice in a forcing cycle at f_I of Fig. 11. It "
+    "changes twice in an orbit without loops.",
 )
 def loops(study: PublishedStudy) -> Finding:
     """Count the sign changes of the velocity: an inner loop adds two."""
     place = regular_places(study, _S3, "identified")[0]
     count = turns(study.motion(_S3, place, "forward", "identified", samples=1024))
-    return Finding(count > 2.5, f"{count:.0f} changes of sign a cycle at {place:.2f} Hz")
+    return Finding(count > 2.5, f"{count:.0f} sign changes per cycle at {place:.2f} Hz")
 
 
 @claim(
     "fitted-agreement",
     "5, Figs. 11 and 13",
-    "The fitted model agrees with the measured curves: height and place of the primary resonance, "
-    "downward jump, secondary resonance.",
-    "The computed places; the measured markers are published as pictures only.",
+    "The fitted model agrees with the measured curves in the height and frequency of the primary "
+    "resonance, in the downward jump and in the secondary resonance.",
+    "The computed frequencies of the jumps. The measured points are published only as pictures.",
 )
 def agreement(study: PublishedStudy) -> Finding:
     """Report the computed values that have to be compared with the measurement."""
@@ -75,24 +76,24 @@ def agreement(study: PublishedStudy) -> Finding:
 @claim(
     "fitted-upward-jump",
     "5, Figs. 11 and 13",
-    "The model's upward jump comes at a lower frequency than the measured one, for its free flight "
-    "does not soften.",
-    "The computed upward jump; the measured one is not given as a number.",
+    "The upward jump of the model lies at a lower frequency than the measured one, because free "
+    "flight does not soften in the model.",
+    "The computed frequency of the upward jump. The measured one is not given as a number.",
 )
 def upward(study: PublishedStudy) -> Finding:
     """Report the computed value that has to be compared with the measurement."""
     return Finding(
         None,
         f"computed jumps of {_S3}: {_jumps(study, _S3)}; needed: the frequency of the measured "
-        "upward jump, and free flight's measured backward sweep",
+        "upward jump, and the measured backward sweep of free flight",
     )
 
 
 @claim(
     "fitted-portraits",
     "5, Fig. 12",
-    "The computed phase portraits agree with the measured ones at f_I, f_II and f_III.",
-    "The computed extremes; the measured orbits are published as pictures only.",
+    "The computed phase portraits agree with the measured ones at f_I, f_II and f_III of Fig. 11.",
+    "The computed excursions. The measured orbits are published only as pictures.",
 )
 def portraits(study: PublishedStudy) -> Finding:
     """Report the computed values that have to be compared with the measurement."""
@@ -104,7 +105,7 @@ def portraits(study: PublishedStudy) -> Finding:
             sizes.append(f"{size:.1f} mm at {frequency:.2f} Hz")
     return Finding(
         None,
-        f"computed excursions {', '.join(sizes) or 'none'}; needed: displacement and velocity "
+        f"computed excursions: {', '.join(sizes) or 'none'}; needed: displacement and velocity "
         f"records of {_S3} at its three frequencies",
     )
 
@@ -112,8 +113,10 @@ def portraits(study: PublishedStudy) -> Finding:
 @claim(
     "fitted-stiffness-as-table",
     "5, Table 1",
-    "The isolator's stiffness fitted to a test is the equivalent stiffness of its acceleration.",
-    "K fitted to B2-G1-A3 and B2-G2-A2 against the K from which Table 1 comes out: within 5 %.",
+    "The isolator stiffness that was fitted to a test is the equivalent stiffness at the "
+    "acceleration of this test.",
+    "K fitted to B2-G1-A3 and to B2-G2-A2 must agree within 5 % with the K from which Table 1 "
+    "follows.",
     Kind.INPUTS,
 )
 def stiffness(study: PublishedStudy) -> Finding:
@@ -123,15 +126,19 @@ def stiffness(study: PublishedStudy) -> Finding:
         fitted = laboratory.IDENTIFIED[code].stiffness
         table = laboratory.ISOLATOR_STIFFNESS[code[-2:]]
         off.append(fitted / table - 1.0)
-        told.append(f"{code} {1e-3 * fitted:.1f} against {1e-3 * table:.1f} kN/m ({off[-1]:+.0%})")
-    return Finding(max(map(abs, off)) <= _CLOSE, ", ".join(told))
+        told.append(
+            f"{code}: fitted {1e-3 * fitted:.1f} kN/m, for Table 1 {1e-3 * table:.1f} kN/m "
+            f"({off[-1]:+.0%})"
+        )
+    return Finding(max(map(abs, off)) <= _CLOSE, "; ".join(told))
 
 
 @claim(
     "fitted-damping-as-assumed",
     "5, Section 7",
     "The damping ratio of the isolator is 0.15 and the relaxation time of the bumpers 0.01.",
-    "ξ and τ of the parameters fitted to B2-G1-A3 and B2-G2-A2: within 5 % of both.",
+    "ξ and τ of the parameters fitted to B2-G1-A3 and to B2-G2-A2 must agree with both values "
+    "within 5 %.",
     Kind.INPUTS,
 )
 def damping(study: PublishedStudy) -> Finding:

@@ -19,12 +19,13 @@ from vibroimpact.paper.claims.reading import (
 from vibroimpact.paper.study import PublishedStudy
 
 _FORWARD = (
-    "Frequency of the forward sweep's jump along {}: it never falls, and rises by more than the "
-    "step of 0.01 Hz in every sequence."
+    "In every sequence of {}, the frequency of the jump of the forward sweep must never fall, and "
+    "must rise by more than the step of 0.01 Hz in total."
 )
 _BACKWARD = (
-    "As for the forward sweep; and the backward sweep's jump rises by less than the forward one's "
-    "in every sequence."
+    "In every sequence of {}, the frequency of the jump of the backward sweep must never fall, "
+    "and must rise by more than the step of 0.01 Hz in total. It must rise by less than the "
+    "frequency of the forward jump."
 )
 
 
@@ -49,11 +50,11 @@ _MOVES = tuple(
     for parameter, words, along, sequences in (
         ("gap", "The smaller the gap", "falling gaps", ALONG_GAP),
         ("acceleration", "The larger the acceleration", "rising accelerations", ALONG_ACCELERATION),
-        ("bumper", "The stiffer the bumper", "stiffer bumpers", ALONG_BUMPER),
+        ("bumper", "The stiffer the bumper", "rising bumper stiffness", ALONG_BUMPER),
     )
     for name, less, quantity, judged in (
         ("downward", "", _FORWARD, _forward),
-        ("upward", ", which moves less", _BACKWARD, _backward),
+        ("upward", ". This jump moves less than the downward jump", _BACKWARD, _backward),
     )
 )
 
@@ -76,8 +77,9 @@ def _rises(study: PublishedStudy) -> dict[str, tuple[float, float]]:
 @claim(
     "upward-jump-less-evident",
     "4.2, Fig. 6",
-    "The upward jump is less evident in the displacement than in the acceleration.",
-    "Rise of η_d and of η_a at the upward jump: smaller in all tests that have one.",
+    "The upward jump is less visible in the displacement than in the acceleration.",
+    "The rise of η_d at the upward jump must be smaller than the rise of η_a, in all tests that "
+    "have an upward jump.",
 )
 def less_evident(study: PublishedStudy) -> Finding:
     """Compare the two quantities test by test."""
@@ -86,16 +88,18 @@ def less_evident(study: PublishedStudy) -> Finding:
     most = max((abs(d) / abs(a) for a, d in rises.values()), default=float("nan"))
     return Finding(
         bool(rises) and len(less) == len(rises),
-        f"in {len(less)} of {len(rises)} tests with an upward jump; at most {most:.2f} of η_a's",
+        f"smaller in {len(less)} of {len(rises)} tests with an upward jump; the rise of η_d is at "
+        f"most {most:.2f} times that of η_a",
     )
 
 
 @claim(
     "upward-jump-fades",
     "4.2, Fig. 6",
-    "In the displacement the upward jump fades as the gap grows and as the acceleration falls.",
-    "Rise of η_d at the upward jump along falling gaps and along rising accelerations: grows in "
-    "every sequence.",
+    "In the displacement, the upward jump becomes smaller as the gap grows and as the acceleration "
+    "falls.",
+    "The rise of η_d at the upward jump must grow in every sequence of falling gaps and in every "
+    "sequence of rising accelerations.",
 )
 def fades(study: PublishedStudy) -> Finding:
     """Apply the same rule as to all other trends."""
@@ -105,7 +109,7 @@ def fades(study: PublishedStudy) -> Finding:
     )
     return Finding(
         gap.all_hold and acceleration.all_hold,
-        f"along the gap {gap.told('.3f')}; along the acceleration {acceleration.told('.3f')}",
+        f"gap: {gap.told('.3f')}; acceleration: {acceleration.told('.3f')}",
     )
 
 

@@ -50,7 +50,7 @@ def places(study: PublishedStudy) -> tuple[float, float]:
         return study.other_places(CODE, START)
     except ValueError:
         raise AbsentError(
-            f"{CODE} has no left hysteresis, or no range that does not settle"
+            f"{CODE} has no left hysteresis, or no range without periodic motion"
         ) from None
 
 
@@ -59,8 +59,9 @@ def places(study: PublishedStudy) -> tuple[float, float]:
     "6, Fig. 15",
     "With a total gap of 10 mm, B3-A3 has several secondary resonances with left hysteresis below "
     "0.9 Hz.",
-    "Left hystereses (backward above forward) of the sweeps from 0.3 Hz in steps of 0.01 Hz: two "
-    "or more. From 0.44 Hz, where `vibroimpact classify` begins, there are fewer.",
+    "The sweeps from 0.3 Hz in steps of 0.01 Hz must show two or more left hystereses (the "
+    "backward sweep above the forward sweep). Sweeps from 0.44 Hz, where `vibroimpact classify` "
+    "begins, show fewer.",
 )
 def left(study: PublishedStudy) -> Finding:
     """Count the left hystereses from 0.3 Hz, in steps of 0.01 Hz."""
@@ -69,17 +70,19 @@ def left(study: PublishedStudy) -> Finding:
     above = sum(item.low >= EDGE_LOW for item in found)
     return Finding(
         len(found) >= 2,
-        f"{len(found)} from {START:g} Hz ({above} of them from {EDGE_LOW:g} Hz): {ends or 'none'} "
-        "Hz",
+        f"{len(found)} in sweeps from {START:g} Hz ({above} of them above {EDGE_LOW:g} Hz): "
+        f"{ends or 'none'} Hz",
     )
 
 
 @claim(
     "s4-two-motions",
     "6, Fig. 16",
-    "In a left hysteresis two periodic motions with impacts coexist, each its own mirror image; "
-    "the larger one is that of the backward sweep.",
-    "The motions that the two sweeps reach in the middle of the widest left hysteresis.",
+    "In a left hysteresis, two periodic motions with impacts coexist. Each is its own mirror "
+    "image. The larger one is the motion of the backward sweep.",
+    "The motions that the two sweeps reach in the middle of the widest left hysteresis must be "
+    "periodic, be their own mirror images, and have impacts on both sides. The backward motion "
+    "must be the larger one.",
 )
 def two_motions(study: PublishedStudy) -> Finding:
     """Compare the motions at f_I."""
@@ -98,9 +101,10 @@ def two_motions(study: PublishedStudy) -> Finding:
 @claim(
     "s4-two-and-one-impact",
     "6, Fig. 16",
-    "In the widest left hysteresis the mass hits each bumper twice a cycle in the forward sweep, "
-    "once in the backward one.",
-    "Impacts per forcing cycle and side of both motions.",
+    "In the widest left hysteresis, the mass hits each bumper twice per cycle in the forward sweep "
+    "and once per cycle in the backward sweep.",
+    "The motions in the middle of the widest left hysteresis must have two and one impacts per "
+    "cycle and side.",
 )
 def two_and_one(study: PublishedStudy) -> Finding:
     """Count the impacts of both motions at f_I."""
@@ -115,10 +119,11 @@ def two_and_one(study: PublishedStudy) -> Finding:
 @claim(
     "s4-loops",
     "6, Fig. 16",
-    "In the widest left hysteresis both portraits have inner loops; those of the forward motion "
-    "cross the bumpers, those of the backward one do not reach them.",
-    "Changes of the velocity's sign a cycle (more than 2 is a loop), and impacts a side beyond the "
-    "first one.",
+    "In the widest left hysteresis, both phase portraits have inner loops. The loops of the "
+    "forward motion cross the bumpers. The loops of the backward motion do not reach them.",
+    "In both motions, the velocity must change its sign more than twice per cycle, which means a "
+    "loop. The forward motion must have more than one impact per side, and the backward motion "
+    "exactly one.",
 )
 def loops(study: PublishedStudy) -> Finding:
     """Count loops and impacts: a loop that crosses the bumper is a second impact."""
@@ -127,7 +132,7 @@ def loops(study: PublishedStudy) -> Finding:
     counts, more = [turns(m) for m in both], [impacts(m)[0] - 1.0 for m in both]
     return Finding(
         min(counts) > 2.5 and more[0] > 0.0 and more[1] == 0.0,
-        f"changes of sign: {listed(counts, '.0f')}; further impacts: {listed(more, '.0f')} "
+        f"sign changes: {listed(counts, '.0f')}; additional impacts: {listed(more, '.0f')} "
         "(forward, backward)",
     )
 
@@ -135,8 +140,9 @@ def loops(study: PublishedStudy) -> Finding:
 @claim(
     "s4-third-motion",
     "6",
-    "In a left hysteresis a third, unstable motion lies between the two stable ones.",
-    "Orbits of the followed branch in the middle of the widest left hysteresis, by stability.",
+    "In a left hysteresis, a third, unstable motion lies between the two stable ones.",
+    "The branch of periodic motions must have two stable motions and an unstable one in the middle "
+    "of the widest left hysteresis.",
 )
 def third(study: PublishedStudy) -> Finding:
     """Check that there are two stable orbits and an unstable one."""
@@ -152,9 +158,11 @@ def third(study: PublishedStudy) -> Finding:
 @claim(
     "s4-impacts-with-frequency",
     "6",
-    "In the left hystereses at lower frequencies there are more impacts a cycle, and always more "
-    "in the forward sweep.",
-    "Impacts a side in the middle of each left hysteresis, from the highest frequency down.",
+    "Left hystereses at lower frequencies have more impacts per cycle. The forward sweep always "
+    "has more impacts than the backward sweep.",
+    "The impacts per side are counted in the middle of each left hysteresis. They must increase "
+    "from each hysteresis to the next lower one, and the forward sweep must have more than the "
+    "backward sweep.",
 )
 def more_impacts(study: PublishedStudy) -> Finding:
     """Count the impacts in the sweeps."""
@@ -169,8 +177,8 @@ def more_impacts(study: PublishedStudy) -> Finding:
     holds = bool((np.diff(counts, axis=0) > 0).all() and (counts[:, 0] > counts[:, 1]).all())
     return Finding(
         holds,
-        f"forward {listed(counts[:, 0], 'g')}; backward {listed(counts[:, 1], 'g')} impacts a side "
-        "as the frequency falls",
+        f"forward {listed(counts[:, 0], 'g')}; backward {listed(counts[:, 1], 'g')} impacts per "
+        "side as the frequency falls",
     )
 
 

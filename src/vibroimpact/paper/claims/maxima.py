@@ -41,10 +41,10 @@ def _told(forward: list[float], backward: list[float]) -> str:
 @claim(
     "bell-in-the-middle",
     "4.2, Fig. 5",
-    "In B2-A3 the maxima of η_a first rise and then fall as the gap falls from G4 to G1: a bell, "
-    "of the backward sweep to a lesser extent.",
-    "Maxima of η_a for the four gaps; the largest one of each direction is at G2 or G3, and the "
-    "range of the backward ones is the smaller one.",
+    "In B2-A3, the maxima of η_a first rise and then fall as the gap falls from G4 to G1 (a bell). "
+    "The maxima of the backward sweep do so to a lesser extent.",
+    "In each direction, the largest of the four maxima of η_a must be at G2 or G3. The backward "
+    "maxima must have the smaller range.",
 )
 def bell(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
@@ -56,10 +56,10 @@ def bell(study: PublishedStudy) -> Finding:
 @claim(
     "bell-ascending",
     "4.2, Fig. 5",
-    "In B1-A1, the softest bumper and the smallest acceleration, only the bell's rising side is "
-    "seen as the gap falls, of the backward sweep to a lesser extent.",
-    "Maxima of η_a for the four gaps; each larger than the one before in both directions, and the "
-    "range of the backward ones is the smaller one.",
+    "In B1-A1 (the softest bumper and the smallest acceleration), only the rising side of the bell "
+    "appears as the gap falls. The maxima of the backward sweep show it to a lesser extent.",
+    "In both directions, the maximum of η_a must rise with each step to a smaller gap. The "
+    "backward maxima must have the smaller range.",
 )
 def ascending(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
@@ -71,10 +71,10 @@ def ascending(study: PublishedStudy) -> Finding:
 @claim(
     "bell-descending",
     "4.2, Fig. 5",
-    "In B4-A3, the stiffest bumper and the largest acceleration, only the bell's falling side is "
-    "seen as the gap falls, of the backward sweep to a lesser extent.",
-    "Maxima of η_a for the four gaps; each smaller than the one before in both directions, and the "
-    "range of the backward ones is the smaller one.",
+    "In B4-A3 (the stiffest bumper and the largest acceleration), only the falling side of the "
+    "bell appears as the gap falls. The maxima of the backward sweep show it to a lesser extent.",
+    "In both directions, the maximum of η_a must fall with each step to a smaller gap. The "
+    "backward maxima must have the smaller range.",
 )
 def descending(study: PublishedStudy) -> Finding:
     """Check the maxima of both sweep directions."""
@@ -91,8 +91,9 @@ def _rise(study: PublishedStudy, sequences: Sequences, direction: Direction) -> 
 @claim(
     "acceleration-with-acceleration-forward",
     "4.2, Fig. 5",
-    "The larger the table acceleration, the higher the forward resonance in η_a.",
-    "Height of the forward resonance from A1 to A3: rises in all 16 pairs of bumper and gap.",
+    "The larger the table acceleration, the higher the resonance peak of the forward sweep in η_a.",
+    "The forward resonance peak must become higher from A1 to A3, in all 16 pairs of bumper and "
+    "gap.",
 )
 def with_acceleration(study: PublishedStudy) -> Finding:
     """Check the forward sweep."""
@@ -102,9 +103,10 @@ def with_acceleration(study: PublishedStudy) -> Finding:
 @claim(
     "acceleration-with-acceleration-backward",
     "4.2, Fig. 5",
-    "The larger the table acceleration, the higher the backward resonance in η_a, to a lesser "
-    "extent.",
-    "Height of the backward resonance from A1 to A3: rises in all 16 pairs, less than forward.",
+    "The larger the table acceleration, the higher the resonance peak of the backward sweep in "
+    "η_a. The backward peak changes less than the forward peak.",
+    "The backward resonance peak must become higher from A1 to A3, in all 16 pairs of bumper and "
+    "gap, and by less than the forward peak.",
 )
 def with_acceleration_backward(study: PublishedStudy) -> Finding:
     """Check the backward sweep."""
@@ -118,8 +120,9 @@ def with_acceleration_backward(study: PublishedStudy) -> Finding:
 @claim(
     "acceleration-with-bumper-forward",
     "4.2, Fig. 5",
-    "The stiffer the bumper, the higher the forward resonance in η_a.",
-    "Height of the forward resonance from B1 to B4: rises in all 12 pairs of gap and acceleration.",
+    "The stiffer the bumper, the higher the resonance peak of the forward sweep in η_a.",
+    "The forward resonance peak must become higher from B1 to B4, in all 12 pairs of gap and "
+    "acceleration.",
 )
 def with_bumper(study: PublishedStudy) -> Finding:
     """Check the forward sweep."""
@@ -129,8 +132,9 @@ def with_bumper(study: PublishedStudy) -> Finding:
 @claim(
     "acceleration-with-bumper-backward",
     "4.2, Fig. 5",
-    "The stiffer the bumper, the higher the backward resonance in η_a.",
-    "Height of the backward resonance from B1 to B4: rises in all 12 pairs.",
+    "The stiffer the bumper, the higher the resonance peak of the backward sweep in η_a.",
+    "The backward resonance peak must become higher from B1 to B4, in all 12 pairs of gap and "
+    "acceleration.",
 )
 def with_bumper_backward(study: PublishedStudy) -> Finding:
     """Check the backward sweep."""
@@ -141,15 +145,16 @@ def _fall(study: PublishedStudy, sequences: Sequences) -> Finding:
     both = [peak_trend(study, sequences, "eta_d", way, -1) for way in BOTH]
     return Finding(
         all(found.all_hold for found in both),
-        f"forward {both[0].told('.2f')}; backward {both[1].told('.2f')}",
+        f"forward: {both[0].told('.2f')}; backward: {both[1].told('.2f')}",
     )
 
 
 @claim(
     "displacement-with-gap",
     "4.2, Fig. 6",
-    "The smaller the gap, the lower the resonances in η_d, in both directions.",
-    "Height of the resonance from G4 to G1: falls in all 12 pairs of bumper and acceleration.",
+    "The smaller the gap, the lower the resonance peaks in η_d, in both directions.",
+    "The resonance peak must become lower from G4 to G1, in all 12 pairs of bumper and "
+    "acceleration.",
 )
 def displacement_gap(study: PublishedStudy) -> Finding:
     """Check both sweep directions."""
@@ -159,8 +164,8 @@ def displacement_gap(study: PublishedStudy) -> Finding:
 @claim(
     "displacement-with-acceleration",
     "4.2, Fig. 6",
-    "The larger the table acceleration, the lower the resonances in η_d, in both directions.",
-    "Height of the resonance from A1 to A3: falls in all 16 pairs of bumper and gap.",
+    "The larger the table acceleration, the lower the resonance peaks in η_d, in both directions.",
+    "The resonance peak must become lower from A1 to A3, in all 16 pairs of bumper and gap.",
 )
 def displacement_acceleration(study: PublishedStudy) -> Finding:
     """Check both sweep directions."""
@@ -170,8 +175,8 @@ def displacement_acceleration(study: PublishedStudy) -> Finding:
 @claim(
     "displacement-with-bumper",
     "4.2, Fig. 6",
-    "The stiffer the bumper, the lower the resonances in η_d, in both directions.",
-    "Height of the resonance from B1 to B4: falls in all 12 pairs of gap and acceleration.",
+    "The stiffer the bumper, the lower the resonance peaks in η_d, in both directions.",
+    "The resonance peak must become lower from B1 to B4, in all 12 pairs of gap and acceleration.",
 )
 def displacement_bumper(study: PublishedStudy) -> Finding:
     """Check both sweep directions."""
@@ -181,8 +186,10 @@ def displacement_bumper(study: PublishedStudy) -> Finding:
 @claim(
     "directions-closer-with-bumper",
     "4.2, Fig. 6",
-    "The stiffer the bumper, the smaller the difference of forward and backward resonance in η_d.",
-    "Difference of the two heights from B1 to B4: falls in all 12 pairs of gap and acceleration.",
+    "The stiffer the bumper, the smaller the difference between the forward and backward resonance "
+    "peaks in η_d.",
+    "The difference of the two heights must fall from B1 to B4, in all 12 pairs of gap and "
+    "acceleration.",
 )
 def directions_closer(study: PublishedStudy) -> Finding:
     """Compare the directions. With B1 and a small acceleration the hysteresis is too short."""
@@ -196,7 +203,8 @@ def directions_closer(study: PublishedStudy) -> Finding:
     example = listed(found.values["G1-A3"], ".3f")
     return Finding(
         found.all_hold,
-        f"{found.told('.3f')}; G1-A3: {example} (B1 to B4); from B2 on it falls in {stiff.held}",
+        f"{found.told('.3f')}; G1-A3: {example} (B1 to B4); from B2 to B4 it falls in {stiff.held} "
+        "sequences",
     )
 
 

@@ -32,17 +32,18 @@ from vibroimpact.paper.study import PublishedStudy
 _S3, _S2 = "B2-G1-A3", "B2-G2-A2"
 _SETS: dict[laboratory.Parameters, str] = {
     "identified": "fitted parameters",
-    "table": "those of Table 1",
+    "table": "parameters of Table 1",
 }
 
 
 @claim(
     "s3-secondary-without-hysteresis",
     "4.3, Fig. 7",
-    "B2-G1-A3 shows a right hysteresis at its primary resonance and, at low frequencies, a "
-    "secondary resonance without hysteresis: scenario S3.",
-    "Scenario S3, a right hysteresis, and no left hysteresis anywhere below the primary resonance, "
-    "between exact folds of the branch either.",
+    "In B2-G1-A3, there is a right hysteresis at the primary resonance and, at low frequencies, a "
+    "secondary resonance without hysteresis. The scenario is S3.",
+    "The scenario must be S3, with a right hysteresis. There must be no left hysteresis below the "
+    "primary resonance, neither in the sweeps nor between exact folds of the branch of periodic "
+    "motions.",
     Kind.RULES,
 )
 def s3(study: PublishedStudy) -> Finding:
@@ -60,22 +61,23 @@ def s3(study: PublishedStudy) -> Finding:
 @claim(
     "s3-impacts-from-the-first",
     "4.3, Fig. 7",
-    "In B2-G1-A3 the bumpers are hit from the lowest frequency of 0.5 Hz on.",
-    "First frequency of the forward sweep with impacts.",
+    "In B2-G1-A3, the bumpers are hit from the lowest frequency of 0.5 Hz on.",
+    "The first frequency with impacts in the forward sweep must be 0.5 Hz.",
 )
 def s3_contact(study: PublishedStudy) -> Finding:
     """Check contact from 0.5 Hz on."""
     low, high = contact_span(study, _S3)
-    return Finding(low == 0.5, f"{low:g} to {high:g} Hz")
+    return Finding(low == 0.5, f"impacts from {low:g} to {high:g} Hz")
 
 
 @claim(
     "s3-coincident-below",
     "4.3, Fig. 8",
-    "At the secondary resonance and in the valley after it, forward and backward sweep reach the "
-    "same motion.",
-    "Difference of the two excursions at f_I and f_II, read off the curves; and no left hysteresis "
-    "on the secondary resonance, between exact folds of the branch either.",
+    "In B2-G1-A3, the forward and backward sweeps reach the same motion at the secondary resonance "
+    "(f_I) and in the valley after it (f_II).",
+    "The excursions of the two sweeps must be equal at f_I and f_II, which are read from the "
+    "curves. There must be no left hysteresis on the secondary resonance, neither in the sweeps "
+    "nor between exact folds of the branch of periodic motions.",
 )
 def s3_coincide(study: PublishedStudy) -> Finding:
     """Compare the directions to rounding, and also between two frequencies of the sweep."""
@@ -93,10 +95,11 @@ def s3_coincide(study: PublishedStudy) -> Finding:
 @claim(
     "s3-many-harmonics",
     "4.3, Fig. 8",
-    "At f_I and f_II the motion has several harmonics, each smaller than the one before.",
-    "Odd harmonics 1 to 9 over the first (even ones vanish, for the motion is its own mirror "
-    "image): falling, and the third above 1 %; of displacement and of acceleration, for the text "
-    "does not name the quantity.",
+    "In B2-G1-A3, the motion at f_I and f_II has several harmonics, each smaller than the one "
+    "before.",
+    "The odd harmonics 1 to 9, divided by the first, must fall, and the third must be above 1 %. "
+    "Even harmonics vanish, because the motion is its own mirror image. Displacement and "
+    "acceleration are both checked, because the text does not name the quantity.",
 )
 def s3_harmonics(study: PublishedStudy) -> Finding:
     """Use exact Fourier coefficients."""
@@ -106,16 +109,17 @@ def s3_harmonics(study: PublishedStudy) -> Finding:
         for of in LINES:
             odd = harmonics(motion, of)[:9:2]
             holds &= bool((np.diff(odd) < 0.0).all()) and odd[1] > 0.01
-            told.append(f"{name}, {of}: {listed(100.0 * odd)} %")
+            told.append(f"at {name}, {of}: {listed(100.0 * odd)} %")
     return Finding(holds, "; ".join(told))
 
 
 @claim(
     "s3-one-impact-a-side",
     "4.3, Fig. 8",
-    "At f_I, f_II and f_III (just before the downward jump) the mass hits each bumper once in a "
-    "forcing cycle.",
-    "Impacts per cycle, right and left, of the forward sweep's motion at the three frequencies.",
+    "In B2-G1-A3, the mass hits each bumper once per forcing cycle at f_I, at f_II and at f_III "
+    "(just before the downward jump).",
+    "The motion of the forward sweep must have one impact per cycle on each side, at the three "
+    "frequencies.",
 )
 def s3_impacts(study: PublishedStudy) -> Finding:
     """Count the impacts of periodic motions."""
@@ -123,7 +127,8 @@ def s3_impacts(study: PublishedStudy) -> Finding:
     found = [study.motion(_S3, f, "forward") for f in places]
     counts = [impacts(motion) for motion in found]
     told = "; ".join(
-        f"{f:.2f} Hz: {r:g} and {left:g}" for f, (r, left) in zip(places, counts, strict=True)
+        f"{f:.2f} Hz: {r:g} on the right and {left:g} on the left"
+        for f, (r, left) in zip(places, counts, strict=True)
     )
     return Finding(set(counts) == {(1.0, 1.0)}, told)
 
@@ -131,8 +136,10 @@ def s3_impacts(study: PublishedStudy) -> Finding:
 @claim(
     "s3-contact-lasts-longer",
     "4.3, Fig. 8",
-    "From f_I over f_II to f_III each contact takes a larger share of the forcing period.",
-    "Longest contact of the forward sweep's motion over T at the three frequencies: rising.",
+    "In B2-G1-A3, each contact takes a larger share of the forcing period at f_II than at f_I, and "
+    "at f_III than at f_II.",
+    "The longest contact divided by the forcing period T must rise over the three frequencies, for "
+    "the motion of the forward sweep.",
 )
 def s3_duration(study: PublishedStudy) -> Finding:
     """Compare the contact time divided by T."""
@@ -146,8 +153,10 @@ def s3_duration(study: PublishedStudy) -> Finding:
 @claim(
     "s3-two-motions",
     "4.3, Fig. 8",
-    "Just before the downward jump a large motion with impacts and a small one without coexist.",
-    "Excursion and impacts of the motions that the two sweeps reach at f_III.",
+    "In B2-G1-A3, a large motion with impacts and a small motion without impacts coexist just "
+    "before the downward jump.",
+    "The excursions and impacts of the motions that the two sweeps reach at f_III. The forward "
+    "motion must be the larger one and have impacts, and the backward motion must have none.",
 )
 def s3_two(study: PublishedStudy) -> Finding:
     """Compare the large motion of the forward sweep with the small one of the backward sweep."""
@@ -158,16 +167,16 @@ def s3_two(study: PublishedStudy) -> Finding:
     return Finding(
         holds,
         f"{place:.2f} Hz: excursions {listed(sizes)} mm, {impacts(large)[0]:g} and "
-        f"{impacts(small)[0]:g} impacts a side",
+        f"{impacts(small)[0]:g} impacts per side (forward, backward)",
     )
 
 
 @claim(
     "s3-one-predominant-harmonic",
     "4.3, Fig. 8",
-    "Both motions at f_III are periodic with one predominant harmonic.",
-    "All higher harmonics of the displacement together over the first one: below 10 %. The text "
-    "does not name the quantity; the acceleration's are listed as well.",
+    "In B2-G1-A3, both motions at f_III are periodic with one predominant harmonic.",
+    "All higher harmonics of the displacement together must be below 10 % of the first. The text "
+    "does not name the quantity, so the values of the acceleration are listed as well.",
 )
 def s3_one_line(study: PublishedStudy) -> Finding:
     """Use the harmonics of the displacement."""
@@ -177,18 +186,19 @@ def s3_one_line(study: PublishedStudy) -> Finding:
     holds = all(str(m["motion"].item()) == "periodic" and int(m["period"]) == 1 for m in both)
     return Finding(
         holds and max(shares) < ALMOST_ONE_LINE,
-        f"displacement {shares[0]:.1%} of the large motion, {shares[1]:.1%} of the small one; "
-        f"acceleration {others[0]:.1%} and {others[1]:.1%}",
+        f"displacement: {shares[0]:.1%} of the first harmonic in the large motion, {shares[1]:.1%} "
+        f"in the small motion; acceleration: {others[0]:.1%} and {others[1]:.1%}",
     )
 
 
 @claim(
     "s3-portraits-become-ellipses",
     "4.3, Fig. 8",
-    "From the valley to the primary resonance the phase portraits turn into ellipses.",
-    "Higher harmonics of the displacement, which a portrait shows, over the first at five "
-    "frequencies from f_II to f_III: falling throughout, to below 10 %. The acceleration's are "
-    "listed as well.",
+    "In B2-G1-A3, the phase portraits turn into ellipses from the valley to the primary resonance.",
+    "At five frequencies from f_II to f_III, the sum of all higher harmonics of the displacement "
+    "is divided by the first harmonic. This ratio must fall throughout, to below 10 %. A phase "
+    "portrait is an ellipse if the motion has a single harmonic. The values of the acceleration "
+    "are listed as well.",
 )
 def s3_ellipses(study: PublishedStudy) -> Finding:
     """Use the higher harmonics, because a motion with a single harmonic is an ellipse."""
@@ -199,16 +209,17 @@ def s3_ellipses(study: PublishedStudy) -> Finding:
     holds = bool((np.diff(shares) < 0).all()) and shares[-1] < ALMOST_ONE_LINE
     return Finding(
         holds,
-        f"displacement {listed([100 * s for s in shares])} %, acceleration "
-        f"{listed([100 * s for s in others])} % at {listed(places)} Hz",
+        f"displacement: {listed([100 * s for s in shares])} %, acceleration: "
+        f"{listed([100 * s for s in others])} %, at {listed(places)} Hz",
     )
 
 
 @claim(
     "s3-one-motion-above",
     "4.3, Fig. 8",
-    "Above the downward jump there is one motion only, without impacts, the same in both sweeps.",
-    "Contacts and differences of the two directions of B2-G1-A3 above f_III.",
+    "In B2-G1-A3, there is only one motion above the downward jump. It has no impacts and is the "
+    "same in both sweeps.",
+    "Above f_III, neither sweep may have impacts, and the two sweeps must not differ.",
 )
 def s3_above(study: PublishedStudy) -> Finding:
     """Check that the motion is that without contact."""
@@ -216,22 +227,25 @@ def s3_above(study: PublishedStudy) -> Finding:
     above = study.campaign().sel(rig=_S3, frequency=slice(last + 0.005, None))
     hits, differ = int(touching(above).sum()), float(apart(above).max())
     return Finding(
-        hits == 0 and differ < 1e-6, f"{hits} holds with impacts; difference {at_most(differ)}"
+        hits == 0 and differ < 1e-6,
+        f"{hits} motions with impacts; difference of the sweeps {at_most(differ)}",
     )
 
 
 @claim(
     "s3-dissymmetry",
     "4.3, Fig. 8",
-    "The measured portraits of B2-G1-A3 are not symmetric, for the two gaps differ by accident.",
-    "Nothing: the accidental gaps are not given, and the model's are equal.",
+    "The measured phase portraits of B2-G1-A3 are not symmetric, because the two gaps differ by "
+    "accident.",
+    "Nothing is compared. The paper does not give the two gaps, and the gaps of the model are "
+    "equal.",
 )
 def dissymmetry(study: PublishedStudy) -> Finding:
     """Report that the computed eccentricity is zero."""
     worst = 1e3 * float(np.abs(study.campaign()["eccentricity"].sel(rig=_S3)).max())
     return Finding(
         None,
-        f"with equal gaps the eccentricity is {at_most(worst, unit=' mm')}; needed: the measured "
+        f"with equal gaps, the eccentricity is {at_most(worst, unit=' mm')}; needed: the measured "
         "right and left gaps, or the displacement records of this test",
     )
 
@@ -239,8 +253,9 @@ def dissymmetry(study: PublishedStudy) -> Finding:
 @claim(
     "s2-primary-only",
     "4.3, Fig. 9",
-    "B2-G2-A2 shows its primary resonance with right hysteresis and nothing else: scenario S2.",
-    "Scenario S2, and no secondary resonance.",
+    "In B2-G2-A2, the curves show only the primary resonance with a right hysteresis. The scenario "
+    "is S2.",
+    "The scenario must be S2, and there must be no secondary resonance.",
     Kind.RULES,
 )
 def s2(study: PublishedStudy) -> Finding:
@@ -257,9 +272,10 @@ def s2(study: PublishedStudy) -> Finding:
 @claim(
     "s2-impact-range",
     "4.3, Fig. 9",
-    "In B2-G2-A2 the bumpers are hit between about 0.7 and 2 Hz only.",
-    "First and last frequency with impacts of the forward sweep by the tests' own steps of 0.1 Hz, "
-    "with the parameters fitted to this test: each within one step.",
+    "In B2-G2-A2, the bumpers are hit only between about 0.7 and 2 Hz.",
+    "The first and last frequency with impacts in the forward sweep must agree within one step of "
+    "the tests (0.1 Hz). The sweep has the steps of the tests and the parameters fitted to this "
+    "test.",
 )
 def s2_contact(study: PublishedStudy) -> Finding:
     """Also report the result with the parameters of all tests."""
@@ -271,7 +287,7 @@ def s2_contact(study: PublishedStudy) -> Finding:
             raise AbsentError(f"{_S2} never hits its bumpers with {name}")
         steps = [round(float(f) / TEST_STEP) for f in (hit[0], hit[-1])]
         holds.append(abs(steps[0] - 7) <= 1 and abs(steps[1] - 20) <= 1)
-        told.append(f"{name} {hit[0]:.1f} to {hit[-1]:.1f} Hz")
+        told.append(f"{name}: {hit[0]:.1f} to {hit[-1]:.1f} Hz")
     return Finding(holds[0], ", ".join(told))
 
 
@@ -280,7 +296,8 @@ def s2_contact(study: PublishedStudy) -> Finding:
     "4.3, Fig. 9",
     "Between the two jumps of B2-G2-A2, as in B4-G4-A3, three steady motions exist: a large and a "
     "small one that are stable, and an unstable one.",
-    "Orbits of the followed branch in the middle between the jumps, by stability.",
+    "The branch of periodic motions, halfway between the jumps, must have two stable motions and "
+    "an unstable one.",
 )
 def s2_three(study: PublishedStudy) -> Finding:
     """Count the orbits on the branch."""
@@ -290,13 +307,14 @@ def s2_three(study: PublishedStudy) -> Finding:
 @claim(
     "s2-impacts-later",
     "4.3, Fig. 9",
-    "In B2-G2-A2, unlike in B2-G1-A3, the bumpers are not hit at the lowest frequency yet.",
-    "First frequency of the forward sweep with impacts, in both tests.",
+    "In B2-G2-A2, unlike in B2-G1-A3, the bumpers are not yet hit at the lowest frequency.",
+    "The first frequency with impacts in the forward sweep must be 0.5 Hz in B2-G1-A3 and higher "
+    "in B2-G2-A2.",
 )
 def s2_later(study: PublishedStudy) -> Finding:
     """Compare both tests: here the gap is wider, and the acceleration smaller."""
     one, other = contact_span(study, _S2)[0], contact_span(study, _S3)[0]
-    return Finding(one > other == 0.5, f"{one:.2f} Hz, against {other:.2f} Hz in {_S3}")
+    return Finding(one > other == 0.5, f"{one:.2f} Hz, compared with {other:.2f} Hz in {_S3}")
 
 
 CLAIMS = (

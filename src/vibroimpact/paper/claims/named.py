@@ -18,7 +18,9 @@ def from_below(study: PublishedStudy) -> str:
     """Classify the test at the edge from 0.5 Hz, and from the start of `classify_scenario`."""
     there = study.classification(EDGE, EDGE_LOW, HIGH).scenario
     here = study.scenarios()[EDGE]
-    return f"swept from {LOW:g} Hz, where {EDGE} is {here}; from {EDGE_LOW:g} Hz it is {there}"
+    return (
+        f"{EDGE} is {here} in a sweep from {LOW:g} Hz and {there} in a sweep from {EDGE_LOW:g} Hz"
+    )
 
 
 def _with(found: dict[str, str], scenario: str, acceleration: str) -> list[str]:
@@ -28,9 +30,9 @@ def _with(found: dict[str, str], scenario: str, acceleration: str) -> list[str]:
 @claim(
     "tests-at-a1",
     "6, Fig. 14",
-    "At the smallest acceleration the four tests with the largest gap graze (S1), and all others "
+    "At the smallest acceleration, the four tests with the largest gap graze (S1), and all others "
     "are S2.",
-    "Scenarios of the 16 tests at A1.",
+    "The scenarios of the 16 tests at A1.",
     Kind.RULES,
 )
 def at_a1(study: PublishedStudy) -> Finding:
@@ -44,8 +46,8 @@ def at_a1(study: PublishedStudy) -> Finding:
 @claim(
     "tests-at-a2-a3",
     "6, Fig. 14",
-    "At the two larger accelerations only S2 and S3 occur, and no grazing.",
-    "Scenarios of the 32 tests at A2 and A3.",
+    "At the two larger accelerations, only S2 and S3 occur, and no grazing.",
+    "The scenarios of the 32 tests at A2 and A3.",
     Kind.RULES,
 )
 def at_a2_a3(study: PublishedStudy) -> Finding:
@@ -58,9 +60,9 @@ def at_a2_a3(study: PublishedStudy) -> Finding:
 @claim(
     "s3-with-small-gap-and-stiff-bumper",
     "6, Fig. 14",
-    "S2 turns into S3 as the gap falls and as the bumper gets stiffer.",
-    "At A2 and at A3: a test that is S3 stays so with the next smaller gap and the next stiffer "
-    "bumper; both scenarios occur.",
+    "The scenario changes from S2 to S3 as the gap falls and as the bumper becomes stiffer.",
+    "At A2 and at A3, if a test is S3, the tests with the next smaller gap and with the next "
+    "stiffer bumper must also be S3. Both scenarios must occur.",
     Kind.RULES,
 )
 def transition(study: PublishedStudy) -> Finding:
@@ -85,7 +87,7 @@ def transition(study: PublishedStudy) -> Finding:
     "s3-region-grows",
     "6, Fig. 14",
     "The larger the acceleration, the more tests are S3.",
-    "Tests that are S3 at A1, A2 and A3: rising.",
+    "The number of tests that are S3 must rise from A1 to A2 and from A2 to A3.",
     Kind.RULES,
 )
 def region(study: PublishedStudy) -> Finding:
@@ -94,7 +96,7 @@ def region(study: PublishedStudy) -> Finding:
     counts = [len(_with(found, "S3", a)) for a in laboratory.ACCELERATIONS]
     return Finding(
         bool((np.diff(counts) > 0).all()),
-        f"{listed(counts, 'd')} (A1, A2, A3); {from_below(study)}",
+        f"{listed(counts, 'd')} tests (A1, A2, A3); {from_below(study)}",
     )
 
 

@@ -20,10 +20,11 @@ _CONSTANT = 0.25
 @claim(
     "s4-no-hysteresis-near-1-hz",
     "6, Fig. 15",
-    "Around 1 Hz lies a further secondary resonance at which motions are not regular, and there "
-    "forward and backward curves coincide.",
-    "Frequencies from 0.9 to 1.4 Hz that do not settle; no hysteresis there; and the largest "
-    "difference of the directions: below 10⁻⁶ where they settle, and below 10 % elsewhere.",
+    "Around 1 Hz, there is another secondary resonance, at which motions are non-regular. There, "
+    "the forward and backward curves coincide.",
+    "From 0.9 to 1.4 Hz, there must be frequencies without periodic motion, and no hysteresis. The "
+    "largest relative difference of the directions must be below 10⁻⁶ where both are periodic, and "
+    "below 10 % elsewhere.",
 )
 def no_hysteresis(study: PublishedStudy) -> Finding:
     """Allow a small difference: two windows of one non-periodic motion differ a little."""
@@ -36,7 +37,7 @@ def no_hysteresis(study: PublishedStudy) -> Finding:
     ranges = ", ".join(f"{r.direction} {r.low:g} to {r.high:g} Hz" for r in wild)
     return Finding(
         bool(wild) and not inside and quiet < 1e-6 and loud < UNSETTLED_APART,
-        f"not settled: {ranges or 'nowhere'}; differences {at_most(quiet)} where settled, "
+        f"no periodic motion: {ranges or 'nowhere'}; differences {at_most(quiet)} where periodic, "
         f"{at_most(loud, '.1%')} elsewhere; {len(inside)} hystereses",
     )
 
@@ -44,11 +45,11 @@ def no_hysteresis(study: PublishedStudy) -> Finding:
 @claim(
     "s4-plateau",
     "6, Fig. 15",
-    "In the middle of the non-regular resonance near 1 Hz the excursions are more or less "
+    "In the middle of the non-regular resonance near 1 Hz, the excursions are more or less "
     "constant.",
-    "Range of η_a and of η_d over the frequencies at which the forward sweep does not become "
-    "periodic: at most a quarter of the resonance's height above the unstable antisymmetric "
-    "motion.",
+    "Over the frequencies at which the forward sweep does not become periodic, the range of η_a "
+    "and of η_d must be at most a quarter of the height of this resonance. The height is measured "
+    "from the unstable antisymmetric motion.",
 )
 def plateau(study: PublishedStudy) -> Finding:
     """Compare with the height of this resonance, because next to the primary one all look flat."""
@@ -70,7 +71,7 @@ def plateau(study: PublishedStudy) -> Finding:
         middle.append(float(np.ptp(eta[half])) / height)
     return Finding(
         max(shares) <= _CONSTANT,
-        f"η_a {shares[0]:.0%}, η_d {shares[1]:.0%} of that height; over the middle half of these "
+        f"η_a {shares[0]:.0%}, η_d {shares[1]:.0%} of this height; over the middle half of these "
         f"frequencies {middle[0]:.0%} and {middle[1]:.0%}",
     )
 
@@ -78,10 +79,12 @@ def plateau(study: PublishedStudy) -> Finding:
 @claim(
     "s4-pair",
     "6, Fig. 16",
-    "In the middle of the non-regular resonance two motions coexist with the same excursion and "
-    "opposite eccentricity.",
-    "Excursion and eccentricity of the forward sweep's motion at f_II and of what its mirror image "
-    "leads to: within 10 %, for neither repeats itself.",
+    "In the middle of the non-regular resonance, two motions with the same excursion and opposite "
+    "eccentricity coexist.",
+    "Two motions are compared at f_II, the middle of the range without periodic motion: the "
+    "motion of the forward sweep, and the motion that starts from its mirror image. Their "
+    "excursions, and the amounts of their eccentricities, must agree within 10 %, because neither "
+    "motion repeats itself.",
 )
 def pair(study: PublishedStudy) -> Finding:
     """Compare a motion with the motion from its mirror image."""
@@ -106,9 +109,9 @@ def pair(study: PublishedStudy) -> Finding:
 @claim(
     "s4-quasi-periodic",
     "6, Fig. 16",
-    "The two mirrored motions of the non-regular resonance are quasi-periodic.",
-    "The kind of the motion by the growth of disturbances: the largest Lyapunov exponent of a "
-    "quasi-periodic motion is zero, that of a chaotic one positive.",
+    "The two mirror-image motions of the non-regular resonance are quasi-periodic.",
+    "The type of the motion is determined from the growth of disturbances. The largest Lyapunov "
+    "exponent is zero for a quasi-periodic motion and positive for a chaotic motion.",
 )
 def quasi_periodic(study: PublishedStudy) -> Finding:
     """Use Lyapunov exponents: an area-contracting planar map has no attracting closed curve."""
@@ -138,11 +141,11 @@ def _by_cycle(motion: xr.Dataset) -> dict[str, list[int]]:
 @claim(
     "s4-changing-impacts",
     "6, Fig. 16",
-    "In the non-regular resonance the number of impacts changes from cycle to cycle: the inner "
-    "loop of each of the two mirrored motions crosses one bumper now and then, always the same "
+    "In the non-regular resonance, the number of impacts changes from cycle to cycle. The inner "
+    "loop of each of the two mirror-image motions sometimes crosses one bumper, always the same "
     "one.",
-    "Impacts in each cycle of the record at f_II: one per cycle on one side, a changing number on "
-    "the other.",
+    "In each recorded cycle at f_II of Fig. 15, there must be one impact on one side, and a "
+    "changing number of impacts on the other side.",
 )
 def changing(study: PublishedStudy) -> Finding:
     """Count the impacts within the recorded window."""
@@ -151,15 +154,16 @@ def changing(study: PublishedStudy) -> Finding:
     steady = [name for name, found in counts.items() if set(found) == {1}]
     loose = [name for name, found in counts.items() if len(set(found)) > 1]
     told = ", ".join(f"{name} {min(c)} to {max(c)}" for name, c in counts.items())
-    return Finding(len(steady) == len(loose) == 1, f"{told} a cycle at {place:.2f} Hz")
+    return Finding(len(steady) == len(loose) == 1, f"{told} per cycle at {place:.2f} Hz")
 
 
 @claim(
     "s4-small-motion",
     "6, Fig. 16",
-    "In the non-regular resonance there is, beside the two mirrored motions, a smaller periodic "
-    "motion that is its own mirror image.",
-    "The orbit of the antisymmetric branch at f_II: excursion, eccentricity and symmetry.",
+    "In the non-regular resonance, there is also a smaller periodic motion that is its own mirror "
+    "image.",
+    "The orbit on the branch of the antisymmetric motion at f_II of Fig. 15 must be its own "
+    "mirror image. Its excursion must be smaller than that of the motion of the forward sweep.",
 )
 def small(study: PublishedStudy) -> Finding:
     """Compute the orbit by Newton's method."""
@@ -171,17 +175,18 @@ def small(study: PublishedStudy) -> Finding:
     holds = bool(one["antisymmetric"]) and sizes[0] < sizes[1] and abs(offset) < UNEVEN * sizes[0]
     return Finding(
         holds,
-        f"excursion {sizes[0]:.2f} mm against {sizes[1]:.2f} mm, eccentricity "
-        f"{at_most(offset, unit=' mm')}",
+        f"excursion {sizes[0]:.2f} mm, compared with {sizes[1]:.2f} mm in the forward sweep; "
+        f"eccentricity {at_most(offset, unit=' mm')}",
     )
 
 
 @claim(
     "s4-small-motion-reached",
     "6",
-    "In the non-regular resonance, from suitable initial conditions, the mass settles on the "
-    "smaller antisymmetric motion.",
-    "Stability of the orbit: whatever starts beside an unstable one leaves it.",
+    "In the non-regular resonance, the mass settles on the smaller antisymmetric motion if the "
+    "initial conditions are suitable.",
+    "The stability of the orbit. If the orbit is unstable, every motion that starts near it leaves "
+    "it.",
 )
 def small_reached(study: PublishedStudy) -> Finding:
     """Use the Floquet multipliers of the orbit."""
@@ -190,8 +195,8 @@ def small_reached(study: PublishedStudy) -> Finding:
     largest = float(np.hypot(found["multiplier_real"], found["multiplier_imag"]).max())
     return Finding(
         int(found["stable"]) == 1,
-        f"largest multiplier {largest:.2f} at {place:.2f} Hz, so that a disturbance grows by that "
-        "factor in every cycle",
+        f"largest Floquet multiplier {largest:.2f} at {place:.2f} Hz: a disturbance is multiplied "
+        "by this factor in every cycle",
     )
 
 
@@ -205,11 +210,11 @@ def _uneven(study: PublishedStudy) -> xr.Dataset:
 @claim(
     "s4-pair-settles",
     "6",
-    "Above the range of constant excursion the two mirrored motions go on; they become periodic "
-    "and lose their inner loops as the frequency rises.",
-    "Frequencies above the range that does not settle at which the forward sweep settles on a "
-    "motion with eccentricity: without a gap; and changes of the velocity's sign a cycle at the "
-    "first and the last of them: more than 2, then 2.",
+    "Above the range of constant excursion, the two mirror-image motions continue. As the "
+    "frequency rises, they become periodic and lose their inner loops.",
+    "Above the range without periodic motion, the forward sweep must reach periodic motions with "
+    "eccentricity at successive frequencies without a gap. The velocity must change its sign more "
+    "than twice per cycle at the first of these frequencies, and twice at the last.",
 )
 def pair_settles(study: PublishedStudy) -> Finding:
     """Check the frequencies up to the one where the symmetry is restored."""
@@ -219,24 +224,24 @@ def pair_settles(study: PublishedStudy) -> Finding:
     last = float(f[data["motion"].values != "periodic"].max())
     pairs = f[data["uneven"].values & (f > last)]
     if len(pairs) < 2:
-        raise AbsentError(f"no pair settles above {last:.2f} Hz")
+        raise AbsentError(f"there is no periodic pair above {last:.2f} Hz")
     without_gap = float(pairs.max()) - last < 0.01 * len(pairs) + 0.005
     ends = [float(pairs.min()), float(pairs.max())]
     counts = [turns(study.motion(CODE, end, "forward", samples=1024)) for end in ends]
     return Finding(
         without_gap and counts[0] > 2.5 > counts[1],
-        f"{ends[0]:.2f} to {ends[1]:.2f} Hz, behind {last:.2f} Hz; changes of sign "
-        f"{counts[0]:.0f}, then {counts[1]:.0f}",
+        f"{ends[0]:.2f} to {ends[1]:.2f} Hz, above the range without periodic motion up to "
+        f"{last:.2f} Hz; sign changes per cycle: {counts[0]:.0f}, then {counts[1]:.0f}",
     )
 
 
 @claim(
     "s4-one-motion-before-the-hysteresis",
     "6",
-    "Between the non-regular resonance and the primary hysteresis there is again one periodic "
+    "Between the non-regular resonance and the primary hysteresis, there is again one periodic "
     "motion.",
-    "Settled, of one forcing cycle, its own mirror image and the same in both directions, at all "
-    "frequencies between the two.",
+    "At all frequencies between the two, both sweeps must reach the same motion. It must have a "
+    "period of one forcing cycle and be its own mirror image.",
 )
 def one_motion(study: PublishedStudy) -> Finding:
     """Check both sweep directions."""
@@ -246,7 +251,7 @@ def one_motion(study: PublishedStudy) -> Finding:
     f = pairs["frequency"].values
     not_one = f[pairs["uneven"].values | (pairs["motion"].values != "periodic")]
     if not right or not len(not_one):
-        raise AbsentError("no non-regular resonance below a right hysteresis")
+        raise AbsentError("there is no non-regular resonance below a right hysteresis")
     low, high = float(not_one.max()) + 0.005, right[-1].low - 0.005
     data = curves(study).sel(frequency=slice(low, high))
     offset = float((np.abs(data["eccentricity"]) / data["displacement_excursion"]).max())
@@ -255,8 +260,8 @@ def one_motion(study: PublishedStudy) -> Finding:
     )
     return Finding(
         holds,
-        f"{float(data['frequency'][0]):.2f} to {float(data['frequency'][-1]):.2f} Hz: eccentricity "
-        f"{at_most(offset)} of the excursion",
+        f"{float(data['frequency'][0]):.2f} to {float(data['frequency'][-1]):.2f} Hz: "
+        f"eccentricity divided by excursion {at_most(offset)}",
     )
 
 

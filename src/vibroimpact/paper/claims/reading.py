@@ -120,8 +120,8 @@ class Trend(NamedTuple):
         """Describe the trend in words."""
         low, high = min(self.moves.values()), max(self.moves.values())
         return (
-            f"{self.held} of {len(self.moves)} sequences; "
-            f"changes {low:+{digits}} to {high:+{digits}}{unit}"
+            f"holds in {self.held} of {len(self.moves)} sequences; total changes from "
+            f"{low:+{digits}} to {high:+{digits}}{unit}"
         )
 
 
@@ -141,7 +141,7 @@ def trend(
         moves[name], kept[name] = values[-1] - values[0], values
         held += bool((changes >= 0.0).all() and changes.sum() > least)
     if not moves:
-        raise AbsentError("nothing of the kind is found in any test")
+        raise AbsentError("no sequence has two tests with this feature")
     return Trend(held, moves, kept)
 
 
@@ -243,7 +243,7 @@ def told_onset(study: PublishedStudy, codes: Iterable[str]) -> str:
         for code in codes
         for frequency, share in at_onset(study, code)
     ]
-    return f"left out, for contact begins there: {', '.join(told) or 'none'}"
+    return f"left out because contact begins there: {', '.join(told) or 'none'}"
 
 
 def regular_places(
@@ -319,7 +319,7 @@ def span(low: float, high: float, unit: str = "Hz") -> str:
 
 def at_most(value: float, digits: str = ".1e", unit: str = "") -> str:
     """Return a largest difference in words. A difference within rounding counts as none."""
-    return "0 to rounding" if abs(value) < ROUNDING else f"at most {value:{digits}}{unit}"
+    return "0 (within rounding)" if abs(value) < ROUNDING else f"at most {value:{digits}}{unit}"
 
 
 def listed(values: Iterable[float], digits: str = ".3g") -> str:

@@ -5,104 +5,110 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 _EQUAL = (
-    "In no test is it lower. Where it is equal, both sweeps pass over the same peak: the "
-    "hysteresis begins beyond it, or does not exist. The tests marked S1 are grazing contact."
+    "In no test is the forward peak lower. Where both peaks are equal, both sweeps pass over the "
+    "same peak. In these tests, the hysteresis begins beyond the peak, or there is no hysteresis. "
+    "The tests marked S1 are in grazing contact."
 )
 _NARROW = (
-    "The hysteresis is narrower than the 0.1 Hz by which the tests step, and than the 0.01 Hz of "
-    "the computed sweeps: only the branch of orbits shows it. A test cannot detect it, so tests "
-    "of this model would agree with the paper's statement."
+    "The hysteresis is narrower than the frequency step of the tests (0.1 Hz) and than the step of "
+    "the computed sweeps (0.01 Hz). Only the branch of periodic motions shows it. A test cannot "
+    "detect it, so tests of this model would agree with the statement of the paper."
 )
 
 REASONS: Mapping[str, str] = {
     "forward-higher-acceleration": _EQUAL,
     "forward-higher-displacement": _EQUAL,
     "upward-jump-with-bumper": (
-        "In the model the backward sweep jumps up where the amplitude of free flight reaches the "
-        "gap, and until then no bumper is touched. For B2 to B4 that is the same to a step of the "
-        "sweep; only the softest one shifts it, by one step at most."
+        "In the model, the backward sweep jumps up where the amplitude of free flight reaches the "
+        "gap. Until then, the mass touches no bumper. For B2 to B4, this frequency is the same to "
+        "within a step of the sweep. Only the softest bumper shifts it, by at most one step."
     ),
     "s3-secondary-without-hysteresis": _NARROW,
     "s3-coincident-below": _NARROW,
     "upward-jump-fades": (
-        "With the softest bumper the jump fades as the gap grows, and at the smallest acceleration "
-        "with all but the stiffest; elsewhere the order breaks. Along the acceleration it holds "
-        "for few pairs: the rise is divided by free flight's largest displacement, which grows "
-        "with the acceleration."
+        "With the softest bumper, the jump becomes smaller as the gap grows. At the smallest "
+        "acceleration, this holds for all bumpers except the stiffest. Elsewhere, the trend is "
+        "broken. For rising accelerations, the trend holds for few pairs, because the rise is "
+        "divided by the largest displacement of free flight, which grows with the acceleration."
     ),
     "bell-in-the-middle": (
-        "The bell exists in the model, but elsewhere: over a wider range of gaps (Fig. 19) the "
-        "forward maxima rise and then fall, with a top at smaller gaps than measured, while the "
-        "backward maxima have theirs at larger ones."
+        "The model has a bell, but at other gaps. Over a wider range of gaps (Fig. 19), the "
+        "forward maxima rise and then fall, with the top at smaller gaps than measured. The "
+        "backward maxima have their top at larger gaps than measured."
     ),
     "bell-descending": (
-        "The backward maxima fall as stated, and by more than the forward ones. The forward maxima "
-        "miss it by their first step only, which rises; from G3 on they fall."
+        "The backward maxima fall as stated, and by more than the forward maxima. The forward "
+        "maxima rise in the first step, from G4 to G3. From G3 on, they fall as stated."
     ),
     "acceleration-with-acceleration-backward": (
-        "The excursions themselves grow with the table acceleration, but for most pairs less than "
-        "those of free flight, by which they are divided. The backward sweep joins the motion with "
-        "impacts at the upward jump, the further below its top the larger the acceleration."
+        "The excursions themselves grow with the table acceleration. For most pairs, they grow "
+        "less than the excursions of free flight, by which they are divided. The backward sweep "
+        "reaches the motion with impacts at the upward jump. The larger the acceleration, the "
+        "further this jump lies below the top of the resonance."
     ),
     "directions-closer-with-bumper": (
-        "From B2 on the difference falls nearly everywhere. The softest bumper breaks the order: "
-        "its hysteresis is short, so that both sweeps are already close at small accelerations."
+        "From B2 on, the difference falls nearly everywhere. The softest bumper breaks the trend. "
+        "Its hysteresis is short, so that both sweeps are already close at small accelerations."
     ),
     "s1-acceleration-like-free-flight": (
-        "The mass presses the bumper by a fraction of a millimetre only, but the bumper is many "
-        "times as stiff as the isolator, so that the force, and with it the acceleration, rises "
-        "well above that of free flight. The displacement stays close to it."
+        "The mass presses into the bumper by only a fraction of a millimetre. However, the bumper "
+        "is many times as stiff as the isolator. Therefore the force, and with it the "
+        "acceleration, rises well above that of free flight. The displacement stays close to that "
+        "of free flight."
     ),
     "s4-quasi-periodic": (
-        "Disturbances grow exponentially, unlike those of a quasi-periodic motion. Bumpers that "
-        "relax within a hundredth of a cycle reduce the motion from cycle to cycle to a map of "
-        "the plane that contracts areas, which cannot have an attracting closed curve. What the "
-        "paper describes of the "
-        "motion (the pair, its eccentricity, the changing number of impacts) is found."
+        "Disturbances grow exponentially, unlike those of a quasi-periodic motion. The bumpers "
+        "relax within a hundredth of a cycle. Therefore a map of the plane that contracts areas "
+        "describes the motion from cycle to cycle. Such a map cannot have an attracting closed "
+        "curve, which a quasi-periodic motion would need. The other properties that the paper "
+        "describes are found: the pair, its eccentricity and the changing number of impacts."
     ),
     "s4-small-motion-reached": (
         "The orbit exists, but it is unstable. A motion that begins close to it stays there for "
-        "some cycles and may seem to have settled."
+        "some cycles and may seem to be steady."
     ),
     "s4-plateau": (
-        "Over the first frequencies at which nothing settles the excursion still rises from the "
-        "antisymmetric motion's; in the middle of that range it is nearly constant, as stated. The "
-        "resonance is highest beyond the range, where the pair is periodic."
+        "At the first frequencies without periodic motion, the excursion still rises from that of "
+        "the antisymmetric motion. In the middle of that range, it is nearly constant, as stated. "
+        "The resonance is highest beyond the range, where the pair is periodic."
     ),
     "s5-resonance": (
         "With the bumper of Table 1 attached on one side or the other, the natural frequency is "
-        "that of both springs together, √((K + K_j)/M)/2π, and damping hardly shifts it. The "
-        "paper does not print the parameters of this computation."
+        "that of both springs together, √((K + K_j)/M)/2π. Damping hardly shifts it. The paper "
+        "does not print the parameters of this computation."
     ),
     "grazing-is-free-flight": (
-        "As soon as the mass presses a bumper at all, its force adds to the acceleration, and "
-        "all but the softest bend the peak over: the branch of orbits has two folds. The "
-        "hysteresis is narrower than the tests' step of 0.1 Hz. The curves coincide only if the "
-        "gap is at least the amplitude without stops, and then by construction."
+        "As soon as the mass presses into a bumper, the contact force adds to the acceleration. "
+        "All bumpers except the softest also bend the peak over, so that the branch of periodic "
+        "motions has two folds. The hysteresis is narrower than the step of the tests (0.1 Hz). "
+        "The curves coincide only if the gap is at least the amplitude of free flight, and then "
+        "they coincide by construction."
     ),
     "jumps-along-stiffness": (
-        "The downward jump rises. The backward sweep jumps up where free flight reaches the gap, "
-        "whatever the bumper: from B1 on that moves by less than the step of the sweep."
+        "The downward jump moves to higher frequencies as stated. The backward sweep jumps up "
+        "where free flight reaches the gap, whatever the bumper is. From B1 on, this frequency "
+        "changes by less than the step of the sweep."
     ),
     "fitted-stiffness-as-table": (
-        "The paper contradicts itself: at A2 the fitted isolator is markedly stiffer than the one "
-        "from which the printed dimensionless parameters follow."
+        "The paper contradicts itself. At A2, the fitted isolator is markedly stiffer than the "
+        "isolator from which the printed dimensionless parameters follow."
     ),
     "fitted-damping-as-assumed": (
-        "The paper contradicts itself, as far as it means the same: Section 7 calls both values "
-        "assumed and constant, Section 5 fits others."
+        "The paper contradicts itself, if both sections mean the same quantities. Section 7 calls "
+        "both values assumed and constant. Section 5 fits other values."
     ),
     "gap-is-of-both-sides": (
-        "The text defines δ as the sum of both sides' gaps, but Table 1 agrees with one side's to "
-        "the last digit, and so does its statement that δ = 1 is grazing."
+        "The text defines δ as the sum of the gaps of both sides. However, the numbers of Table 1 "
+        "agree to the last digit with the gap of one side. The statement that δ = 1 is grazing "
+        "also agrees with the gap of one side."
     ),
     "soft-region-is-s6": (
         "Jumps begin within the band, at a λ that depends on the gap (the dashed curve in Fig. "
-        "21). The paper computed one gap only (Fig. 20) and calls the region unexplored."
+        "21). The paper computed only one gap (Fig. 20) and calls the region unexplored."
     ),
     "small-gap-region-is-s4": (
-        "Towards the band's upper edge, and with soft bumpers throughout, the curves show "
-        "secondary resonances without left hysteresis, as in S3. The paper itself states that "
+        "Towards the upper edge of the band, and for soft bumpers in the whole band, the curves "
+        "show secondary resonances without left hysteresis, as in S3. The paper itself states that "
         "other behaviour is possible there."
     ),
 }

@@ -35,10 +35,11 @@ _AGAIN = (
 @claim(
     "refined-softening",
     "4.1",
-    f"{_WITH}free-flight curves bend to the left, more so at larger table accelerations, with a "
-    "narrow hysteresis at A3.",
-    "Half-power width above the resonance over that below it, more than for the linear isolator; "
-    "and the difference of the two sweeps at A3.",
+    f"{_WITH}the curves of free flight bend to the left, more strongly at larger table "
+    "accelerations, with a narrow hysteresis at A3.",
+    "The half-power width above the resonance is divided by the width below it. This ratio must "
+    "be larger than for the linear isolator, and larger at A3 than at A1. At A3, the two sweeps "
+    "must differ.",
     Kind.REFINED,
 )
 def softening(study: PublishedStudy) -> Finding:
@@ -49,7 +50,7 @@ def softening(study: PublishedStudy) -> Finding:
     bent = all(mine > other for mine, other in zip(leaning, others, strict=True))
     return Finding(
         bent and leaning[0] < leaning[-1] and differ > 1e-3,
-        f"right over left half {listed(leaning)} (A1 to A3), of the linear one {listed(others)}; "
+        f"ratio of widths {listed(leaning)} (A1 to A3), with the linear isolator {listed(others)}; "
         f"the sweeps at A3 differ by {at_most(differ)}",
     )
 
@@ -65,10 +66,10 @@ def _lean(study: PublishedStudy, code: str) -> float:
 @claim(
     "refined-upward-jump",
     "5, Figs. 11 and 13",
-    f"{_WITH}the upward jump lies at a higher frequency than with a linear one, whose free flight "
-    "does not soften and whose jump comes too low.",
-    "Frequency of the upward jump with both isolators, in all tests that have one with both: "
-    "higher with the refined one.",
+    f"{_WITH}the upward jump lies at a higher frequency than with the linear isolator. With the "
+    "linear isolator, free flight does not soften, and the frequency of the jump is too low.",
+    "The frequency of the upward jump must be higher with the refined isolator than with the "
+    "linear one, in all tests that have an upward jump with both.",
     Kind.REFINED,
 )
 def upward(study: PublishedStudy) -> Finding:
@@ -82,7 +83,7 @@ def upward(study: PublishedStudy) -> Finding:
     moves = {code: one - other for code, (one, other) in pairs.items()}
     higher = sum(move > 0.0 for move in moves.values())
     told = ", ".join(
-        f"{code} {pairs[code][1]:.3f} to {pairs[code][0]:.3f} Hz"
+        f"{code} from {pairs[code][1]:.3f} to {pairs[code][0]:.3f} Hz"
         for code in ("B2-G1-A3", "B2-G2-A2")
         if code in pairs
     )

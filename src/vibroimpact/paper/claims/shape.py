@@ -40,15 +40,16 @@ def _penetration(study: PublishedStudy, code: str, low: float, high: float) -> t
     "penetration-with-bumper",
     "4.2",
     "The stiffer the bumper, the less deeply the mass presses into it.",
-    "Largest penetration of the forward sweep from B1 to B4: falls in all 12 pairs of gap and "
-    "acceleration.",
+    "The largest penetration in the forward sweep must fall from B1 to B4, in all 12 pairs of gap "
+    "and acceleration.",
 )
 def penetration(study: PublishedStudy) -> Finding:
     """Use the largest penetration over the frequency."""
     found = trend(ALONG_BUMPER, lambda code: _penetration(study, code, 0.0, 10.0)[1], -1)
     example = listed([1e3 * value for value in found.values["G1-A3"]], ".2f")
     return Finding(
-        found.all_hold, f"{found.held} of {len(found.moves)}; G1-A3: {example} mm (B1 to B4)"
+        found.all_hold,
+        f"falls in {found.held} of {len(found.moves)} pairs; G1-A3: {example} mm (B1 to B4)",
     )
 
 
@@ -56,8 +57,8 @@ def penetration(study: PublishedStudy) -> Finding:
     "penetration-independent-of-frequency",
     "4.2",
     "The stiffer the bumper, the less the penetration depends on the frequency.",
-    "Range of the penetration over the frequencies at which all four bumpers are hit in the "
-    "forward sweep, from B1 to B4: falls in all 12 pairs of gap and acceleration.",
+    "The penetration is evaluated at the frequencies at which all four bumpers are hit in the "
+    "forward sweep. Its range must fall from B1 to B4, in all 12 pairs of gap and acceleration.",
 )
 def flat(study: PublishedStudy) -> Finding:
     """Use the range of frequencies in which all four bumpers are hit."""
@@ -72,7 +73,8 @@ def flat(study: PublishedStudy) -> Finding:
     found = trend(ALONG_BUMPER, change, -1)
     example = listed([1e3 * value for value in found.values["G1-A3"]], ".2f")
     return Finding(
-        found.all_hold, f"{found.held} of {len(found.moves)}; G1-A3: {example} mm (B1 to B4)"
+        found.all_hold,
+        f"falls in {found.held} of {len(found.moves)} pairs; G1-A3: {example} mm (B1 to B4)",
     )
 
 
@@ -86,9 +88,10 @@ def _distance(study: PublishedStudy, one: str, other: str) -> float:
 @claim(
     "middle-bumpers-alike",
     "4.2, Figs. 5 and 6",
-    "Bumpers B2 and B3 behave alike.",
-    "Root mean square difference of the curves for every two bumpers: that of B2 and B3 is the "
-    "smallest of the six in all 12 pairs of gap and acceleration.",
+    "Bumpers B2 and B3 have similar effects.",
+    "The root mean square difference of the curves is computed for every pair of bumpers. The "
+    "difference of B2 and B3 must be the smallest of the six, in all 12 pairs of gap and "
+    "acceleration.",
 )
 def alike(study: PublishedStudy) -> Finding:
     """Compare both quantities in both sweep directions."""
@@ -106,8 +109,8 @@ def alike(study: PublishedStudy) -> Finding:
         shares.append(middle / min(pairs.values()))
     return Finding(
         held == len(ALONG_BUMPER),
-        f"smallest in {held} of {len(ALONG_BUMPER)}; {min(shares):.0%} to {max(shares):.0%} of "
-        "the next smallest",
+        f"smallest in {held} of {len(ALONG_BUMPER)} pairs; {min(shares):.0%} to {max(shares):.0%} "
+        "of the next smallest difference",
     )
 
 
@@ -123,15 +126,16 @@ def _from_free(study: PublishedStudy, curve: Curve) -> dict[str, float]:
 
 
 def _told(found: dict[Curve, dict[str, float]], chosen: dict[Curve, str]) -> str:
-    return "; ".join(f"{SYMBOLS[c]}: {name}, {found[c][name]:.3f}" for c, name in chosen.items())
+    return "; ".join(f"{SYMBOLS[c]}: {name} ({found[c][name]:.3f})" for c, name in chosen.items())
 
 
 @claim(
     "closest-to-free-flight",
     "4.2, Figs. 5 and 6",
-    "The softest bumper with the smallest acceleration, B1-A1, stays closest to free flight.",
-    "Root mean square difference from free flight over the four gaps: the smallest of the 12 "
-    "pairs, in η_a and in η_d.",
+    "The curves of the softest bumper at the smallest acceleration, B1-A1, are closest to free "
+    "flight.",
+    "The root mean square difference from free flight is computed over the four gaps. Among the "
+    "12 pairs of bumper and acceleration, it must be smallest for B1-A1, in η_a and in η_d.",
 )
 def closest(study: PublishedStudy) -> Finding:
     """Compare both quantities."""
@@ -143,9 +147,10 @@ def closest(study: PublishedStudy) -> Finding:
 @claim(
     "furthest-from-free-flight",
     "4.2, Figs. 5 and 6",
-    "The stiffest bumper with the largest acceleration, B4-A3, departs furthest from free flight.",
-    "Root mean square difference from free flight over the four gaps: the largest of the 12 "
-    "pairs, in η_a and in η_d.",
+    "The curves of the stiffest bumper at the largest acceleration, B4-A3, differ most from free "
+    "flight.",
+    "The root mean square difference from free flight is computed over the four gaps. Among the "
+    "12 pairs of bumper and acceleration, it must be largest for B4-A3, in η_a and in η_d.",
 )
 def furthest(study: PublishedStudy) -> Finding:
     """Compare both quantities."""
@@ -157,10 +162,11 @@ def furthest(study: PublishedStudy) -> Finding:
 @claim(
     "secondary-only-small-gaps-large-accelerations",
     "4.2 and 8",
-    "Secondary resonances occur for the two larger accelerations with the two smaller gaps only.",
-    "Tests with a secondary resonance (2 % prominent in η_a): none has A1, G3 or G4; and A2, A3, "
-    "G1 and G2 all occur. A peak where contact begins, with free flight at its foot, is the onset "
-    "of the primary resonance and left out.",
+    "Secondary resonances occur only for the two larger accelerations with the two smaller gaps.",
+    "No test with A1, G3 or G4 may have a secondary resonance (a peak of η_a with a prominence of "
+    "at least 2 %). A2, A3, G1 and G2 must all occur among the tests that have one. A peak where "
+    "contact begins, with free flight at its foot, is the onset of the primary resonance. Such a "
+    "peak is left out.",
     Kind.RULES,
 )
 def secondary_where(study: PublishedStudy) -> Finding:
@@ -177,9 +183,9 @@ def secondary_where(study: PublishedStudy) -> Finding:
     "secondary-with-all-three",
     "4.2",
     "Secondary resonances appear as the gap falls, as the acceleration rises and as the bumper "
-    "gets stiffer.",
-    "A test with a secondary resonance keeps it with the next smaller gap, the next larger "
-    "acceleration and the next stiffer bumper.",
+    "becomes stiffer.",
+    "If a test has a secondary resonance, the tests with the next smaller gap, with the next "
+    "larger acceleration and with the next stiffer bumper must also have one.",
     Kind.RULES,
 )
 def secondary_grows(study: PublishedStudy) -> Finding:
@@ -201,9 +207,9 @@ def secondary_grows(study: PublishedStudy) -> Finding:
 @claim(
     "secondary-higher-with-bumper",
     "8",
-    "The secondary resonances grow as the bumper gets stiffer.",
-    "η_a of the forward sweep's highest secondary resonance from B2 to B4, where all three have "
-    "one: rising.",
+    "The secondary resonances become higher as the bumper becomes stiffer.",
+    "η_a at the highest secondary resonance of the forward sweep must rise from B2 to B4, for each "
+    "pair of gap and acceleration for which all three bumpers give one.",
 )
 def secondary_higher(study: PublishedStudy) -> Finding:
     """Compare the heights, not the prominences."""
@@ -227,7 +233,10 @@ def secondary_higher(study: PublishedStudy) -> Finding:
             holds &= bool((np.diff(heights) > 0).all())
             told.append(f"{pair}: {listed(heights, '.3f')}")
     if not told:
-        raise AbsentError("no pair of gap and acceleration has a secondary resonance with B2 to B4")
+        raise AbsentError(
+            "there is no pair of gap and acceleration with a secondary resonance for each of B2, "
+            "B3 and B4"
+        )
     return Finding(holds, "; ".join(told))
 
 
