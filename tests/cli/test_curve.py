@@ -169,7 +169,7 @@ GAPS = ("--first", "1mm:20mm")
         (["--over", "frequency,gap,damping", *SECOND], "--over"),
         (["--over", "frequency,mass", *SECOND], "--over: 'mass'"),
         (["--over", "mass,gap", "--first", "1:2", *SECOND, "--frequency", "2Hz"], "'mass'"),
-        (["--over", "frequency,frequency", "--second", "1Hz:2Hz"], "'frequency' twice"),
+        (["--over", "frequency,frequency", "--second", "1Hz:2Hz"], "'frequency' is given twice"),
         (["--over", "frequency,", *SECOND], "''"),
         ([], "--second"),
         (["--first", "1Hz", *SECOND], "--first: '1Hz'"),

@@ -53,7 +53,7 @@ def test_a_csv_of_a_noisy_history_with_uneven_gaps(tmp_path):
     bumper = vi.Bumper("500 kN/m", "1 kN s/m", "7 mm")
     guess = vi.Oscillator(MASS, vi.Isolator("27 kN/m", "1.1 kN s/m"), bumper, bumper)
     free = "stiffness,damping,right_stiffness,right_gap,left_stiffness,left_gap"
-    with pytest.warns(vi.InputWarning, match="the mass's displacement"):
+    with pytest.warns(vi.InputWarning, match="the displacement of the mass"):
         found = vi.identify(
             guess, path, f"{free},right_damping,left_damping", profiles=False, tried=0, starts=1
         )
