@@ -24,6 +24,8 @@ LONGEST = 400.0
 """s; a rig takes milliseconds. One that hangs ends the process, with its place."""
 EXACT = 1e-9
 """Of the energy that goes through a rig; what is left of it in the balance."""
+ROUNDING = 1e-13
+"""Of the largest kinetic energy: the rounding of a balance in which hardly any energy is left."""
 NOTHING = 1e-30
 """J; the rounding of positions of a mass that does not move, as friction holds it."""
 
@@ -73,10 +75,11 @@ def faults(rig: vi.Oscillator, data, status: str) -> list[str]:
     )
     change = stored(rig, data, -1) - stored(rig, data, 0)
     through = abs(supplied) + abs(isolator) + abs(bumpers) + abs(change)
+    kinetic = 0.5 * rig.mass * float((data["velocity"] ** 2).max())
     for name, lost in (("isolator", isolator), ("stops", bumpers)):
         if lost < -1e-12 * through:
             wrong.append(f"the {name} created {-lost:g} J")
-    if abs(supplied - isolator - bumpers - change) > EXACT * through + NOTHING:
+    if abs(supplied - isolator - bumpers - change) > EXACT * through + ROUNDING * kinetic + NOTHING:
         wrong.append(f"{supplied - isolator - bumpers - change:g} of {through:g} J are missing")
     return wrong
 
@@ -97,7 +100,11 @@ def test_random_rigs_of_all_laws_under_any_shaking() -> None:
 
 @pytest.mark.parametrize(
     ("seed", "which"),
-    [*((1, i) for i in (42, 44, 91, 156, 231, 240, 303, 309, 383, 396)), (11, 6)],
+    [
+        *((1, i) for i in (42, 44, 91, 156, 231, 240, 303, 309, 383, 396)),
+        *((1, i) for i in (97, 769, 1138, 1505, 3223)),
+        (11, 6),
+    ],
 )
 def test_rigs_on_which_it_once_failed(seed: int, which: int) -> None:
     rng = np.random.default_rng(seed)

@@ -8,6 +8,7 @@ import xarray as xr
 from scipy.integrate import simpson
 
 import vibroimpact as vi
+from vibroimpact.response.phase_measures import measured
 
 BUMPERS = vi.Oscillator(
     2.0, vi.Isolator(5.0, 0.3), vi.Bumper(60.0, 0.9, 0.1), vi.Bumper(40.0, 0.5, 0.15), force=0.3
@@ -184,3 +185,17 @@ def test_the_totals_of_a_chaotic_flight_are_those_of_the_motion_recorded():
     assert float(found["total_isolator"]) == pytest.approx(
         simpson(law.damping * v**2, x=time), abs=1e-6
     )
+
+
+def test_a_phase_that_cannot_be_measured_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+    motion = vi.simulate(vi.Rig(BUMPERS, vi.Harmonic(2.0, 0.4)), 3.0, samples=16)
+
+    def failing(*asked):
+        rows = measured(*asked)
+        rows[1] = np.nan
+        return rows
+
+    monkeypatch.setattr("vibroimpact.response.totals.measured", failing)
+    found = vi.totals(motion)
+    assert all(np.isnan(found[name]) for name in found)
+    assert found.attrs["notes"].startswith("the extremes and energies are unknown: 1 of ")

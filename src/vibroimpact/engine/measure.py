@@ -64,7 +64,7 @@ _HALTS = 16
 """Such steps in a row, after which a phase as short as rounding is taken as one piece."""
 _SHORT = 1e-9  # rad of the forcing
 _TURNS = 1000
-"""As `_HALTS`, for a longer one."""
+"""Such steps in a row, after which a longer phase is given up: all its measures are unknown."""
 
 
 @kernel
@@ -127,7 +127,10 @@ def measure_stretch(
 
 @kernel
 def measure_phase(plan: Vector, before: Motion, length: float, side: int, out: Vector) -> None:
-    """Measure one phase from its beginning, as the stop on a side sees it."""
+    """Measure one phase from its beginning, as the stop on a side sees it.
+
+    All measures are NaN where the phase cannot be followed.
+    """
     mode = before.mode
     x = coordinate(plan, before)
     a = acceleration(plan, before)
@@ -142,8 +145,11 @@ def measure_phase(plan: Vector, before: Motion, length: float, side: int, out: V
     while t < length:
         step, behind = smooth(plan, here, length - t)
         halts = halts + 1 if step <= _HALT * (length - t) else 0
-        left = (length - t) * change_rate(plan)
-        if halts > (_HALTS if left < _SHORT else _TURNS):
+        if halts > _TURNS:
+            for i in range(MEASURES):
+                out[i] = math.nan
+            return
+        if halts > _HALTS and (length - t) * change_rate(plan) < _SHORT:
             step, behind = length - t, here
         measure_stretch(plan, here, step, t, side, out)
         out[LOST_RIGHT] += unkept(plan, here, behind, RIGHT)

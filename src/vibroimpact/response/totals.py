@@ -57,8 +57,19 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
         "total_isolator": isolator,
         "total_bumpers": bumpers,
     }
-    notes = [*noted(motion), *_begins_with_an_impact(motion)]
+    notes = [*noted(motion), *_begins_with_an_impact(motion), *_unmeasured(rows)]
     return describe(xr.Dataset(values), "vibroimpact.totals", motion_parameters(motion), notes)
+
+
+def _unmeasured(rows: NDArray[np.float64]) -> list[str]:
+    """Describe in words that some phases could not be measured, if so."""
+    unknown = int(np.isnan(rows).any(axis=1).sum())
+    if not unknown:
+        return []
+    return [
+        f"the extremes and energies are unknown: {unknown} of {len(rows)} phases of the motion "
+        "turn more often than can be followed"
+    ]
 
 
 def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:

@@ -118,9 +118,22 @@ def _losses(plan: Vector, before: Motion, after: Motion, rows: Vector) -> float:
     return lost
 
 
+@kernel
+def _unknown(notes: Demand) -> Demand:
+    """What is noted of a motion that cannot be measured: the impacts alone."""
+    no = math.nan
+    right, left = notes.hits_right, notes.hits_left
+    return Demand(no, no, no, no, no, no, no, no, right, left, no, no, no, notes.everything)
+
+
 @observer(Demand)
 def demand(plan: Vector, notes: Demand, stretch: Stretch) -> Demand:
-    """Add one stretch. One-sided values at both its ends count."""
+    """Add one stretch. One-sided values at both its ends count.
+
+    All is NaN from a stretch on that cannot be measured.
+    """
+    if math.isnan(notes.u_least):
+        return notes
     before, _, event, step, arrival, after = stretch
     u_least, u_most, a_least, a_most = notes.u_least, notes.u_most, notes.a_least, notes.a_most
     force_right, force_left = notes.force_right, notes.force_left
@@ -141,6 +154,8 @@ def demand(plan: Vector, notes: Demand, stretch: Stretch) -> Demand:
         rows = _measures()
         side = RIGHT if mode & RIGHT else mode & LEFT
         measure_phase(plan, before, step, side, rows)
+        if math.isnan(rows[WORK]):
+            return _unknown(notes)
         low, top = displacement(plan, mode, rows[X_LEAST]), displacement(plan, mode, rows[X_MOST])
         u_least, u_most = min(u_least, low, top), max(u_most, low, top)
         a_least, a_most = min(a_least, rows[A_LEAST]), max(a_most, rows[A_MOST])

@@ -26,6 +26,7 @@ from vibroimpact.engine.taylor.watch import (
     Found,
     earlier,
     ends_of,
+    starts_still,
     turns,
 )
 
@@ -146,7 +147,8 @@ def pressed_for(
     x, z = coordinate(plan, motion), frame.sign * motion.z
     by = pressed_by(plan, motion, frame, x, root)
     v = frame.sign * motion.v * by.unit
-    if not follows(by.chi, x, v, begins and fresh == mode):
+    if not follows(by.chi, x, v, begins and fresh == mode) or starts_still(plan, motion):
+        # A rounding of the acceleration is one coefficient of a series in time, but not of this.
         return NEITHER, 0.0, motion
     hysteretic = plan[par.HYSTERETIC] != 0.0
     matters = branched(plan, motion)

@@ -177,15 +177,22 @@ def own_eases(
 
 
 @kernel
+def starts_still(plan: Vector, motion: Motion) -> bool:
+    """Whether a motion starts without velocity and, but for rounding, without acceleration."""
+    if motion.v != 0.0:
+        return False
+    slips = motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED)
+    return bool((slips and not steep(plan)) or balanced(plan, motion))
+
+
+@kernel
 def turns(
     plan: Vector, motion: Motion, ways: float, sign: float, ends: Ends, since: float, found: Found
 ) -> Found:
     """Take the end of a branch into account: u̇ or z changes sign, or z reaches its limit."""
     line = Line(0.0, 0.0, ways, 0.0)
     if motion.v == 0.0 and since == 0.0:
-        slips = motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED)
-        still = (slips and not steep(plan)) or balanced(plan, motion)
-        if still:
+        if starts_still(plan, motion):
             t = searched(plan, line, FIXED, 0.0, True, ends.h)
         else:
             t = first_zero(plan, line, ends, 0.0)
