@@ -9,10 +9,12 @@ from typing import Any
 import xarray as xr
 
 from vibroimpact._version import __version__
+from vibroimpact.datasets.variable import Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, Rig, State
-from vibroimpact.model.parameters import parameter
+from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.varied import Varied
 
 COMPONENTS = [*State.model_fields]
 """Components of a state in a dataset, in the order of `State`'s fields."""
@@ -23,27 +25,32 @@ def describe(
     created_by: str,
     parameters: dict[str, Any] | None = None,
     notes: Iterable[str] = (),
+    varied: Iterable[Parameter | Varied] = (),
 ) -> xr.Dataset:
     """Give every variable its units and meaning, and the dataset its parameters and origin.
 
     Attributes that the dataset already has are kept. Pass None for the parameters if they are among
     these attributes. Assumptions about the input, and doubts about it, become the attribute
-    ``notes``, one per line.
+    ``notes``, one per line. The variables of parameters that were varied have the units that these
+    have in the rig.
 
     Raises
     ------
     KeyError
         If a variable is not in the registry.
     """
+    known = {one.name: Variable(one.units, one.long_name) for one in varied}
     for name in dataset.variables:
-        variable = VARIABLES[str(name)]
+        variable = VARIABLES.get(str(name)) or known[str(name)]
         attributes = {"units": variable.units, "long_name": variable.long_name}
         if variable.comment:
             attributes["comment"] = variable.comment
         dataset.variables[name].attrs.update(attributes)  # as of dataset[name], sooner
     if "amplitude" in dataset.variables and parameters and "of" in parameters:
-        varied = parameter("amplitude", of=parameters["of"])
-        dataset["amplitude"].attrs.update(units=varied.units, long_name=varied.long_name)
+        size = parameter("amplitude", of=parameters["of"])
+        dataset["amplitude"].attrs.update(units=size.units, long_name=size.long_name)
+    for name, variable in known.items():
+        dataset[name].attrs.update(units=variable.units, long_name=variable.long_name)
     if "status" in dataset.variables:
         dataset["status"].attrs["flag_values"] = [int(status) for status in Status]
         dataset["status"].attrs["flag_meanings"] = " ".join(s.name.lower() for s in Status)

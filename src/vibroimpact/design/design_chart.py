@@ -142,10 +142,7 @@ def design_chart(
         "limits": most,
         **what.parameters(),
     }
-    data = describe(data, "vibroimpact.design_chart", parameters, what.notes())
-    for one in plan.varied:
-        data[one.name].attrs.update(units=one.units, long_name=one.long_name)
-    return data
+    return describe(data, "vibroimpact.design_chart", parameters, what.notes(), plan.varied)
 
 
 def _designs(oscillator: Oscillator, vary: Any) -> Runs:

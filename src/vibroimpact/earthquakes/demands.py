@@ -169,11 +169,9 @@ def demands(
     )
     data = with_both_sides(data)
     notes = [*record_notes(shaking), *_doubted(rigs.rigs, next(iter(shaking.values())), data)]
-    data = describe(data, CREATED_BY, settings, notes)
+    data = describe(data, CREATED_BY, settings, notes, rigs.varied)
     for name in ("scale", "intensity"):
         data[name].attrs.update(units=scaled.units, long_name=scaled.name)
-    for one in rigs.varied:
-        data[one.name].attrs.update(units=one.units, long_name=one.long_name)
     _warn(found["status"])
     return data
 

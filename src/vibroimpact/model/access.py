@@ -10,6 +10,7 @@ from vibroimpact.model.excitation import Harmonic
 from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.own_law import Law
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import Bumper, Stop
@@ -118,6 +119,46 @@ def isolator(name: str) -> tuple[Read, Vary]:
         return rig.with_parts(rig.oscillator.replace(isolator=law))
 
     return lambda rig: number(rig.oscillator.isolator, name, "isolator has"), vary
+
+
+def formula_number(whose: str, name: str) -> tuple[Read, Vary]:
+    """Read and vary a number of a formula: the isolator's, that of a stop, or of both bumpers."""
+
+    def read(rig: Rig) -> float:
+        values = {dict(law.numbers)[name] for law in formulas(rig.oscillator, whose, name).values()}
+        if len(values) > 1:
+            raise InputError(
+                f"parameter: 'bumper_{name}' applies to both bumpers, but their values are "
+                f"{sorted(values)}; use 'right_{name}' or 'left_{name}', or a rig with equal values"
+            )
+        return values.pop()
+
+    def vary(rig: Rig, value: float) -> Rig:
+        laws = formulas(rig.oscillator, whose, name)
+        changed = {field: law.replace(**{name: value}) for field, law in laws.items()}
+        return rig.with_parts(rig.oscillator.replace(**changed))
+
+    return read, vary
+
+
+def formulas(oscillator: Oscillator, whose: str, name: str) -> dict[str, Law]:
+    """The laws given as formulas that have a number of this name, by their field of the rig."""
+    fields = ("right", "left") if whose == "bumper" else (whose,)
+    laws = {field: getattr(oscillator, field) for field in fields}
+    given = {field: law for field, law in laws.items() if isinstance(law, Law)}
+    found = {field: law for field, law in given.items() if name in dict(law.numbers)}
+    if not found:
+        names = {one: None for law in given.values() for one, _ in law.numbers}
+        if names:
+            accepted = " or ".join(repr(f"{whose}_{one}") for one in names) + " is accepted"
+        else:
+            law = type(next(iter(laws.values()))).__name__.replace("NoneType", "None")
+            accepted = f"{'right' if whose == 'bumper' else whose} is a {law}, not a formula"
+        raise InputError(
+            f"parameter: '{whose}_{name}' is neither a parameter of this rig nor a number of a "
+            f"formula; {accepted}"
+        )
+    return found
 
 
 def forcing(name: str) -> tuple[Read, Vary]:

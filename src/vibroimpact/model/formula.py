@@ -126,7 +126,7 @@ def read_formula(
         raise InputError(
             f"formula: {shown(text)} cannot be read; a formula such as 'k*u + k3*u**3' is accepted"
         ) from None
-    reader = _Reader(text.strip(), numbers, variables)
+    reader = Reader(text.strip(), numbers, variables)
     made = reader.read(tree)
     unused = [name for name in numbers if name not in reader.used]
     if unused:
@@ -167,7 +167,7 @@ def _words(unit: tuple[float, float, float]) -> str:
     )
 
 
-class _Reader:
+class Reader:
     """Turns the parser's tree into nodes, refusing all but formulas."""
 
     _signs: ClassVar = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}

@@ -26,8 +26,9 @@ from vibroimpact.model.formula_terms import (
     parity,
     terms,
 )
+from vibroimpact.model.formula_units import units_of_numbers
 from vibroimpact.model.law_registry import Named
-from vibroimpact.model.quantities import LENGTH, STIFFNESS
+from vibroimpact.model.quantities import LENGTH, STIFFNESS, Quantity
 from vibroimpact.model.units import plain, pretty, to_si_of_any
 from vibroimpact.model.validation import Accepts, constructor
 
@@ -126,7 +127,7 @@ class Law(Named):
                 )
             found[name] = to_si_of_any(value, name)
         is_stop = kept.get("gap") is not None
-        read = read_formula(kept["formula"], found, ("d", "v") if is_stop else ("u", "v"))
+        read = read_formula(kept["formula"], found, _variables(is_stop))
         check_divisors(read, not is_stop)
         if not is_stop:
             _check_odd(read)
@@ -159,9 +160,16 @@ class Law(Named):
         yield from self.numbers
 
     def rows(self) -> list[tuple[str, str]]:
-        """Return kind, formula, numbers in SI units and gap, as pairs of name and text."""
+        """Return kind, formula, numbers and gap, as pairs of name and text.
+
+        A number whose unit does not follow from the formula is in SI units.
+        """
         gap = [] if self.gap is None else [("gap", pretty(self.gap, LENGTH))]
-        named = [(name, plain(value)) for name, value in self.numbers]
+        known = self.quantities
+        named = [
+            (name, pretty(value, known[name]) if name in known else plain(value))
+            for name, value in self.numbers
+        ]
         return [("kind", self.kind), ("formula", self.formula), *named, *gap]
 
     def __str__(self) -> str:
@@ -172,6 +180,11 @@ class Law(Named):
     def is_stop(self) -> bool:
         """Whether the law is a stop."""
         return self.gap is not None
+
+    @property
+    def quantities(self) -> dict[str, Quantity]:
+        """The quantities of the numbers, as far as the units of the formula determine them."""
+        return units_of_numbers(self.formula, self.numbers, _variables(self.is_stop))
 
     @property
     def read(self) -> Formula:
@@ -262,6 +275,10 @@ class Law(Named):
         return parts.stiffness, 0.0
 
 
+def _variables(is_stop: bool) -> tuple[str, str]:
+    return ("d", "v") if is_stop else ("u", "v")
+
+
 _FAR = 1e6
 """A displacement (m) that is larger than that of any rig."""
 
@@ -315,7 +332,7 @@ def _check_whole(read: Formula) -> None:
 @lru_cache(maxsize=512)
 def _parsed(text: str, numbers: tuple[tuple[str, float], ...], is_stop: bool) -> Formula:
     known: dict[str, tuple[float, Dimension]] = {name: (value, None) for name, value in numbers}
-    return read_formula(text, known, ("d", "v") if is_stop else ("u", "v"))
+    return read_formula(text, known, _variables(is_stop))
 
 
 @lru_cache(maxsize=512)

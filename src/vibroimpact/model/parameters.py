@@ -8,7 +8,7 @@ parameter, and for its value in a rig and the rig at another value. A new one is
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple, cast
+from typing import Any, NamedTuple, cast
 
 from vibroimpact.arguments import is_pair
 from vibroimpact.errors import InputError, shown, unknown
@@ -206,8 +206,55 @@ def _of_isolator(
     )
 
 
-PARAMETERS: dict[str, Parameter] = {
-    p.name: p
+def _of_formula(name: str) -> Parameter | None:
+    """The parameter of a number of a user's formula, such as ``isolator_k3``."""
+    whose, _, number = name.partition("_")
+    if whose not in _FORMULAS or not number.isidentifier():
+        return None
+
+    def measured(rig: Oscillator) -> Quantity:
+        law = next(iter(access.formulas(rig, whose, number).values()))
+        return law.quantities.get(number, DIMENSIONLESS)
+
+    return Parameter(
+        name,
+        DIMENSIONLESS,
+        f"number {number} in the formula of {_FORMULAS[whose]}",
+        *access.formula_number(whose, number),
+        comment="in SI units",
+        least=None,
+        measured=measured,
+        straight=False,
+    )
+
+
+_FORMULAS = {
+    "isolator": "the isolator",
+    "bumper": "both stops",
+    "right": "the right stop",
+    "left": "the left stop",
+}
+
+
+class Registry(dict[str, Parameter]):
+    """Parameters by name, also those of the numbers of any formula, which are not iterated over."""
+
+    def __contains__(self, name: object) -> bool:
+        return dict.__contains__(self, name) or (isinstance(name, str) and bool(_of_formula(name)))
+
+    def __missing__(self, name: str) -> Parameter:
+        found = _of_formula(name)
+        if found is None:
+            raise KeyError(name)
+        return found
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """Return the parameter, or a default where there is none."""
+        return dict.get(self, name) or _of_formula(name) or default
+
+
+PARAMETERS = Registry(
+    (p.name, p)
     for p in (
         Parameter(
             "frequency", FREQUENCY, "excitation frequency", *access.forcing("frequency"), False
@@ -312,7 +359,7 @@ PARAMETERS: dict[str, Parameter] = {
             "C / (2 √(K M))",
         ),
     )
-}
+)
 """By name. `bumper_stiffness` keeps the bumpers' damping C_j, `proportional_stiffness` and
 `stiffness_ratio` keep their C_j/K_j, `stiffness_at_restitution` their C_j/√K_j, `isolator_period`
 keeps the damping ratio, and the ratios keep the other quantities that they are made of."""

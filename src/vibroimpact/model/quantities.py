@@ -226,6 +226,23 @@ def power_damping(exponent: float) -> Quantity:
     )
 
 
+@cache
+def in_base_units(mass: float, length: float, time: float) -> Quantity:
+    """A quantity by its powers of mass, length and time, written in kg, m and s."""
+    named = zip(("kg", "m", "s"), (mass, length, time), strict=True)
+    symbol = " ".join(
+        f"{name}^{power:g}" if power != 1.0 else name for name, power in named if power
+    )
+    return Quantity(
+        f"number in {symbol}",
+        _base(mass, length, time),
+        symbol,
+        f"2 {symbol}",
+        2.0,
+        (Scale(0.0, 1.0, symbol),),
+    )
+
+
 _SUPERSCRIPTS = {2.0: "²", 3.0: "³"}
 """Exponents that a unit shows raised."""
 

@@ -236,4 +236,5 @@ def _dataset(
         "low": [span[0] for span in spans],
         "high": [span[1] for span in spans],
     }
-    return describe(data, "vibroimpact.bifurcation_curve", parameters)
+    varied = [over.family.parameter, over.other]
+    return describe(data, "vibroimpact.bifurcation_curve", parameters, varied=varied)

@@ -207,7 +207,7 @@ def bifurcation_diagram(
         found |= done(_parts(drawn, count), count * len(ways))
     data = _dataset(oscillator, varied.name, values, found, section, excitation.phase)
     data.attrs["parameter"] = varied.name
-    data = describe(
+    return describe(
         data,
         CREATED_BY,
         {
@@ -220,9 +220,8 @@ def bifurcation_diagram(
             **settling._asdict(),
             **look._asdict(),
         },
+        varied=[varied],
     )
-    data[varied.name].attrs.update(units=varied.units, long_name=varied.long_name)
-    return data
 
 
 class _Part(NamedTuple):

@@ -104,6 +104,7 @@ def as_dataset(
             "high": span[1],
         },
         note_unbounded(fam.rig),
+        [fam.parameter],
     )
 
 

@@ -211,7 +211,7 @@ def lyapunov_exponents(
         "transient": transient,
         "max_events": max_events,
     }
-    data = describe(data, "vibroimpact.lyapunov_exponents", parameters)
+    data = describe(data, "vibroimpact.lyapunov_exponents", parameters, varied=every)
     if count := sum(f.settling for f in found):
         warnings.warn(
             f"{count} of {len(found)} motions were still converging to a periodic one after "
@@ -220,8 +220,6 @@ def lyapunov_exponents(
             RuntimeWarning,
             stacklevel=2,
         )
-    for one in every:
-        data[one.name].attrs.update(units=one.units, long_name=one.long_name)
     return data
 
 

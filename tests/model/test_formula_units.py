@@ -1,0 +1,108 @@
+"""The numbers of a formula: their units follow from it, and they are parameters of a rig."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.model.parameters import PARAMETERS, parameter
+
+ISOLATOR = vi.Law("k*u + q*u**7 + c*v", k="26 kN/m", q=1e9, c="1.1 kN s/m")
+STOP = vi.Law("ks*d + k5*d**5 + cs*v", gap="7.5 mm", ks="400 kN/m", k5=1e12, cs="900 N s/m")
+RIG = vi.Rig(vi.Oscillator("550 kg", ISOLATOR, STOP, STOP), "0.05 g")
+
+
+@pytest.mark.parametrize(
+    ("law", "units"),
+    [
+        (ISOLATOR, {"k": "N m-1", "q": "N/m^7", "c": "N s m-1"}),
+        (STOP, {"ks": "N m-1", "k5": "N m-5", "cs": "N s m-1"}),
+        (vi.Law("k*u/(1 + abs(u)/a) + c*v", k=3.0, a=2.0, c=1.0), {"k": "N m-1", "a": "m"}),
+        (vi.Law("f*tanh(u/a) + c*v", f=3.0, a=2.0, c=1.0), {"f": "N", "a": "m"}),
+        # A literal factor has no unit; an exponent that is a number has none either.
+        (vi.Law("2*k*u + c*v*(1 + 3*(u/a)**2)", k=3.0, a=2.0, c=1.0), {"k": "N m-1", "a": "m"}),
+        # Only the product of two numbers is determined, so neither of them is.
+        (vi.Law("p*q*u**3 + k*u + c*v**3", p=3.0, q=2.0, k=1.0, c=1.0), {"k": "N m-1"}),
+    ],
+)
+def test_units_follow_from_the_formula(law: vi.Law, units: dict[str, str]) -> None:
+    found = {name: one.symbol for name, one in law.quantities.items()}
+    known = {name: parameter_units(law, name) for name in units}
+    assert known == units
+    assert set(units) <= set(found)
+    if "p" in dict(law.numbers):
+        assert not {"p", "q"} & set(found)
+
+
+def parameter_units(law: vi.Law, name: str) -> str:
+    whose = "bumper" if law.is_stop else "isolator"
+    stop = law if law.is_stop else None
+    isolator = vi.Isolator(1.0, 0.0) if law.is_stop else law
+    rig = vi.Oscillator(1.0, isolator, stop, stop)
+    return parameter(f"{whose}_{name}").of(rig).units
+
+
+def test_numbers_print_with_their_units() -> None:
+    assert "k=26 kN/m" in str(ISOLATOR)
+    assert "c=1.1 kN s/m" in str(ISOLATOR)
+
+
+@pytest.mark.parametrize(
+    ("name", "span"),
+    [
+        ("isolator_k", ("20 kN/m", "30 kN/m")),
+        ("isolator_q", (1e8, 1e10)),
+        ("bumper_ks", ("300 kN/m", "600 kN/m")),
+        ("right_k5", (1e11, 1e13)),
+    ],
+)
+def test_points_of_a_branch_are_motions_of_rigs_with_that_number(
+    name: str, span: tuple[float, float]
+) -> None:
+    found = vi.branch(RIG, parameter=name, span=span, frequency="1.2 Hz")
+    whose, _, number = name.partition("_")
+    fields = ("right", "left") if whose == "bumper" else (whose,)
+    for point in (0, found.sizes["point"] // 2, -1):
+        at = found.isel(point=point)
+        old = RIG.oscillator
+        new = {field: getattr(old, field).replace(**{number: float(at[name])}) for field in fields}
+        other = RIG.with_parts(old.replace(**new))
+        again = vi.orbit(other, start=at["section"], frequency="1.2 Hz")
+        for one in ("displacement_max", "displacement_min"):
+            np.testing.assert_allclose(again[one], at[one], rtol=1e-9)
+    assert found[name].attrs["units"] == parameter(name).of(RIG.oscillator).units
+    assert found[name].attrs["long_name"].startswith(f"number {number} in the formula of ")
+
+
+@pytest.mark.parametrize(
+    ("name", "span", "told"),
+    [
+        ("isolator_k9", (1.0, 2.0), "'isolator_k' or 'isolator_q' or 'isolator_c' is accepted"),
+        ("left_foo", (1.0, 2.0), "'left_ks' or 'left_k5' or 'left_cs' is accepted"),
+        ("isolator_q", ("1 kN/m", "2 kN/m"), "is a stiffness"),
+    ],
+)
+def test_refused(name: str, span: tuple[float, float], told: str) -> None:
+    with pytest.raises(vi.InputError, match=told):
+        vi.branch(RIG, parameter=name, span=span, frequency="1.2 Hz")
+
+
+def test_a_formula_of_a_built_in_law_has_the_parameters_of_that_law() -> None:
+    cubic = vi.Law("k*u + k3*u**3", k=1.0, k3=2.0)
+    rig = vi.Rig(vi.Oscillator(1.0, cubic), 1.0)
+    with pytest.raises(vi.InputError, match="isolator is a PolynomialIsolator, not a formula"):
+        vi.branch(rig, parameter="isolator_k3", span=(1.0, 2.0), frequency=0.1)
+
+
+def test_unequal_stops_have_no_common_number() -> None:
+    unequal = RIG.with_parts(RIG.oscillator.replace(left=STOP.replace(ks=1e5)))
+    with pytest.raises(vi.InputError, match="'right_ks' or 'left_ks'"):
+        vi.branch(unequal, parameter="bumper_ks", span=(1e5, 2e5), frequency="1.2 Hz")
+
+
+def test_other_names_are_no_parameters() -> None:
+    assert "isolator_k3" in PARAMETERS
+    assert "isolator_3" not in PARAMETERS
+    assert "stop_k3" not in PARAMETERS
+    assert PARAMETERS.get("stop_k3") is None
