@@ -173,7 +173,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ({"distributions": {"damping": "normal:1kN*s/m:1kN*s/m"}}, "a draw is -"),
         (
             {"distributions": {"isolator_period": "normal:5%", "stiffness": "normal:5%"}},
-            "distributions: 'isolator_period' and another one",
+            "distributions: 'isolator_period' and another parameter",
         ),
         (
             {"distributions": {"frequency": "normal:5%"}},

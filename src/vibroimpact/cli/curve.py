@@ -61,8 +61,8 @@ def curve(
     bifurcation
         Kind of bifurcation that is followed.
     over
-        Two parameters, with the names of vibroimpact branch. The bifurcations are first searched
-        along the first parameter.
+        Names of the two parameters, separated by a comma; for the names see vibroimpact branch.
+        The bifurcations are first searched along the first parameter.
     first
         Range of the first parameter, LOW:HIGH. Default for the frequency: as for vibroimpact
         branch. For another parameter the range is required.

@@ -41,8 +41,8 @@ def design(
 ) -> int:
     """Compute the gap at which a rig hits no stop, and compare designs of its gaps and stops.
 
-    The rig is shaken by records, or by sines of all frequencies, which are swept up and down. For
-    each design, the command computes the largest displacement, acceleration and contact force. It
+    The rig is shaken by records, or by a sine whose frequency is swept up and down. For each
+    design, the command computes the largest displacement, acceleration and contact force. It
     writes:
 
     - NAME-design.nc and NAME-design.csv: the results of all designs, with a row for each design
@@ -50,7 +50,7 @@ def design(
     - NAME-pareto.png: the Pareto front of displacement and acceleration. It contains each design
       for which no other design is better in both quantities.
 
-    Limits apply to the designs of the Pareto front and to the search (--best).
+    Limits (--limit) apply to the designs of the Pareto front and to the search (--best).
 
     For example:
 
@@ -62,22 +62,26 @@ def design(
     Parameters
     ----------
     records
-        Files of records. Default: the records in the study, or sines with its amplitude.
+        Files of records. Default: the records in the study, or sines with the amplitude of the
+        rig's shaking.
     vary
         Parameter that is varied and its range, NAME LOW:HIGH[:log][:VALUES]. The option may be
         used once or twice. Without VALUES there are 15 values. Examples of names: gap,
-        bumper-stiffness (at constant damping), stiffness-at-restitution, bumper-damping,
-        isolator-period, damping-ratio, yield-force. Default: the parameters in the study
-        ([design]), or gaps up to just above the required gap, and the stiffness of linear bumpers.
+        bumper-stiffness (at constant damping), stiffness-at-restitution (stiffness of the bumpers
+        at constant coefficient of restitution), bumper-damping, isolator-period, damping-ratio,
+        yield-force. Default: the parameters in the study ([design]). If the study has none, the
+        gap is varied up to slightly above the gap at which the rig hits no stop. If all stops are
+        linear bumpers, their stiffness is varied, too.
     best
-        Also search for the bumper with the least acceleration, at the gap of the rig.
+        Also search for the bumper that gives the smallest acceleration of the mass. The search
+        keeps the gap of the rig.
     limit
         Quantity and the value that it must not exceed, such as peak-force 5MN. The quantities are
         peak-force, penetration and peak-displacement. The option may be repeated. These limits are
         added to the limits in the study ([design]).
     fractile
-        Fractile over the records, from 0 to 1. Default: the value in the study ([design]), or 1,
-        which is the largest response of all records.
+        Fractile of the response to the records, from 0 to 1. Default: the value in the study
+        ([design]), or 1, which is the largest response to any of the records.
     start
         Lowest frequency of the sines. Default: the value in the study ([sweep]), or a frequency
         below the primary resonance of each design.

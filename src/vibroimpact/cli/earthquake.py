@@ -40,8 +40,9 @@ def earthquake(
 
     - NAME-earthquake.csv: a table with a row for each record
     - NAME-RECORD-earthquake.png: a page of figures for each record
-    - NAME-RECORD-earthquake.nc: for each record, the groups response, motion, ground and floor. The
-      last two are the response spectra of the ground and of the mass.
+    - NAME-RECORD-earthquake.nc: a file for each record, with four groups: response, motion, ground
+      and floor. The groups ground and floor contain the response spectra of the ground and of the
+      mass.
 
     For example:
 
@@ -55,7 +56,7 @@ def earthquake(
         Files of records; for the formats see vibroimpact record. Default: the record in the study.
     tail
         Duration of free vibration after each record, such as 10s. Default: two natural periods of
-        the mass on the softest spring of the isolator.
+        the mass, computed with the smallest stiffness of the isolator's force law.
     samples
         Number of samples per step of a record, in the figures and the files. This number affects
         the floor spectrum, but not the peaks.

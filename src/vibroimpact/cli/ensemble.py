@@ -86,8 +86,8 @@ def ensemble(
     given = opt.by_name("--uncertain", uncertain or tuple((table.uncertain or {}).items()))
     if not given:
         raise InputError(
-            "--uncertain: missing; a parameter and its distribution are accepted, such as gap "
-            "normal:5%, here or in the study as ensemble.uncertain"
+            "--uncertain: missing; a parameter and its distribution are accepted, such as "
+            "--uncertain gap normal:5%, or the key uncertain in the table [ensemble] of the study"
         )
     default = default_range(what, _COARSER)
     grid = list_frequencies(start, stop, step, frequencies, what.sweep_table, default)

@@ -21,7 +21,7 @@ def explore(
     host: str = "127.0.0.1",
     changes: opt.RigOptions = opt.AS_DESCRIBED,
 ) -> int:
-    """Change parameters in a browser, and see resonance curves, motion and scenario change.
+    """Change parameters in a browser, and see how the resonance curves, motion and scenario change.
 
     The command starts a server, prints the address of its page, and opens the page in a browser. By
     default, only this machine can open the page. To stop the server, press Ctrl-C. On first use,

@@ -127,9 +127,9 @@ class RigOptions:
     parameters: Annotated[
         Literal["table", "identified", "refined"] | None, Parameter(group=RIG)
     ] = None
-    """Parameter set of a laboratory case. table: the paper's table, for all cases. identified:
-    fitted values, only for B2-G1-A3 and B2-G2-A2. refined: the table with a softening isolator,
-    for all cases. Default: table."""
+    """Parameter set of a laboratory case. table: the table of the paper that published the tests,
+    for all cases. identified: fitted values, only for B2-G1-A3 and B2-G2-A2. refined: the table
+    with a softening isolator, for all cases. Default: table."""
     amplitude: _OfRig = None
     """Amplitude of the shaking: peak acceleration of the base, such as 0.05g or 0.49m/s^2, peak
     displacement of the base, such as 5mm, or peak force on the mass, such as 120N."""

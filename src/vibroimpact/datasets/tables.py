@@ -51,7 +51,10 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
     is_name = rows is None or isinstance(rows, str)
     if not is_name or not any(set(dims) <= set(given) for given in along):
         known = dict.fromkeys(str(dim) for given in main for dim in given)
-        raise InputError(f"rows: {shown(rows)} has no values here; {', '.join(known)} are accepted")
+        raise InputError(
+            f"rows: {shown(rows)} is not a dimension of this dataset; {', '.join(known)} are "
+            "accepted"
+        )
     parts: dict[str, xr.DataArray] = {}
     for name, variable in dataset.data_vars.items():
         others = [dim for dim in variable.dims if dim not in dims]

@@ -128,8 +128,8 @@ def fragility_curves(
     others = [str(dim) for dim in fragility["median_capacity"].dims]
     if len(others) > 1 or fragility["median_capacity"].size > len(_LOOKS):
         raise InputError(
-            f"fragility: {fragility['median_capacity'].size} curves; at most {len(_LOOKS)} "
-            "curves over one dim are accepted"
+            f"fragility: the dataset has {fragility['median_capacity'].size} curves over "
+            f"{', '.join(others)}; at most {len(_LOOKS)} curves over one dimension are accepted"
         )
     ax = axes_or_new(ax, (5.6, 4.0), title)
     unit, symbol = _level_unit(fragility)

@@ -145,8 +145,8 @@ def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | N
     others = [dim for dim in data["total_order"].dims if dim != "uncertain_parameter"]
     if len(others) > 1:
         raise InputError(
-            f"data: it extends over {', '.join(map(str, others))}; one number or one curve is "
-            "accepted, such as data.isel(direction=0)"
+            f"data: the indices have the dimensions {', '.join(map(str, others))}; at most one of "
+            "them is accepted, so select along the others, such as data.isel(direction=0)"
         )
     ax = axes_or_new(ax, (6.4, 3.8), title)
     if others:

@@ -168,7 +168,9 @@ def read_study(path: Path, kind: type[_Study]) -> _Study:
             "a study file or a case code is accepted"
         ) from None
     except UnicodeDecodeError:
-        raise InputError(f"study: {str(path)!r} is not UTF-8 text; TOML is accepted") from None
+        raise InputError(
+            f"study: {str(path)!r} is not UTF-8 text; a TOML file in UTF-8 is accepted"
+        ) from None
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"study: {str(path)!r} is not TOML ({error}); TOML is accepted") from None
     except ValueError:  # Python reads no whole number of more than some thousand digits
