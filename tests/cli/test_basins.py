@@ -17,7 +17,7 @@ NAME = "B3-10mm-A3-0.7Hz-basins"
 def test_text_and_files(run, tmp_path):
     code, out, errors = run(*WORDS)
     assert (code, errors) == (0, "")
-    assert "each of 60 × 60 states was computed; states given up: 0" in out
+    assert "each of 60 × 60 states was computed; states without a result: 0" in out
     assert "uncertainty exponent" in out
     first = next(line for line in out.splitlines() if line.startswith("1 "))
     assert first.split()[1:4] == ["periodic", "1", "13.79"]

@@ -75,7 +75,7 @@ def test_a_study_with_records(run, study):
     assert (
         f"Required gap: {gap:.4g} mm, the 50 % fractile over a.csv, b.csv (each side separately: "
         f"{right:.4g} mm to the right, {left:.4g} mm to the left); "
-        f"{1e3 * float(every['required_gap']):.4g} mm to hit nothing under all of them. "
+        f"{1e3 * float(every['required_gap']):.4g} mm for no contact under all of them. "
     ) in words
     assert (
         "All values are 50 % fractiles over the records, for each quantity separately; limits "
@@ -101,7 +101,7 @@ def test_of_all_records_no_fractile_is_told(run, study):
     for words in (("--fractile", "1"), ("a.csv", "--fractile", "0.5")):
         code, told, errors = run("building.toml", *words, *narrow)
         assert (code, errors) == (0, "")
-        assert "to hit nothing under a.csv" in told
+        assert "for no contact under a.csv" in told
         assert "fractile" not in told
 
 
@@ -220,7 +220,7 @@ def test_the_usual_chart_of_records_on_the_command_line(run, study):
     assert "Designs: 14 × 13, over gap and bumper stiffness" in " ".join(told.split())
     half = RECORDS["a.csv"].scaled(0.5)
     need = 1e3 * float(vi.required_gap(_rig(), records=half)["required_gap"])
-    assert f"Required gap: {need:.4g} mm to hit nothing under a.csv" in " ".join(told.split())
+    assert f"Required gap: {need:.4g} mm for no contact under a.csv" in " ".join(told.split())
 
 
 def test_three_measured_records(run, tmp_path):

@@ -163,7 +163,7 @@ def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_pa
         (["--free", "gap", "--bounds", "stiffness", "1:2"], "is not free"),
         (["--free", "gap", "--bounds", "gap", "2"], "two values with a colon"),
         (["--free", "nothing"], "free: 'nothing'"),
-        (["--free", "bumper-stifness,gap"], "did you mean bumper_stiffness? A parameter"),
+        (["--free", "bumper-stifness,gap"], "did you mean bumper_stiffness?"),
     ],
 )
 def test_wrong_words_are_told(file, tmp_path, capsys, words, told):

@@ -106,3 +106,57 @@ def test_other_names_are_no_parameters() -> None:
     assert "isolator_3" not in PARAMETERS
     assert "stop_k3" not in PARAMETERS
     assert PARAMETERS.get("stop_k3") is None
+
+
+@pytest.mark.parametrize(
+    ("formula", "numbers", "told"),
+    [
+        # The 1 has no unit, so that the unit of `a` is determined.
+        ("k*u/(1 + abs(u)/a)", {"k": "26 kN", "a": 0.05}, "column 1: k: '26 kN' is a force"),
+        ("k*u/(1 + abs(u)/a)", {"k": "26 kN/m", "a": "5 kg"}, "column 1[57]: a: '5 kg' is a mass"),
+        ("k*u*sqrt(1 + (u/a)**2)", {"k": 1.0, "a": "5 s"}, "column 1[57]: a: '5 s' is a time"),
+        ("k*u + k3*u**3", {"k": "1 N/m", "k3": "5 MN/m^2"}, "column 7: k3: .* N/m³ is accepted"),
+    ],
+)
+def test_a_number_in_another_unit_is_refused_at_its_place(formula, numbers, told) -> None:
+    with pytest.raises(vi.InputError, match=told):
+        vi.Law(formula, **numbers)
+
+
+SOFTENING = vi.Law("k*u/(1 + abs(u)/a) + c*v", k="26 kN/m", a="5 cm", c="1.1 kN s/m")
+SOFT = RIG.with_parts(RIG.oscillator.replace(isolator=SOFTENING))
+
+
+def test_a_branch_ends_at_the_bound_beyond_which_there_is_no_such_law() -> None:
+    found = vi.branch(SOFT, parameter="isolator_a", span=(1e-4, 0.1), frequency="1.2 Hz")
+    assert float(found["isolator_a"].min()) == 1e-4
+    with pytest.raises(vi.InputError, match="'isolator_a' at 0: formula: column 17"):
+        vi.branch(SOFT, parameter="isolator_a", span=(0.0, 0.1), frequency="1.2 Hz")
+
+
+def test_designs_and_basins_vary_numbers_of_formulas() -> None:
+    stability = vi.basin_stability(
+        SOFT,
+        ("-20 mm", "20 mm"),
+        ("-0.1 m/s", "0.1 m/s"),
+        parameter="isolator_a",
+        values=["4 cm", "6 cm"],
+        states=16,
+        frequency="1.2 Hz",
+    )
+    assert stability["isolator_a"].attrs["units"] == "m"
+    chart = vi.design_chart(SOFT, {"isolator_a": ["4 cm", "6 cm"]}, frequency_span=(1.0, 1.4))
+    assert chart["isolator_a"].attrs["units"] == "m"
+
+
+def test_a_number_called_as_that_of_a_bumper_is_not_varied_as_such() -> None:
+    """The parameter of a bumper keeps what belongs to it, which a formula does not have."""
+    stop = vi.Law("stiffness*d*(1 + d/a)", gap=0.01, stiffness=1e5, a=0.1)
+    rig = RIG.with_parts(RIG.oscillator.replace(right=stop, left=stop))
+    with pytest.raises(vi.InputError, match="has no stiffness that can be varied"):
+        vi.branch(rig, parameter="bumper_stiffness", span=(1e5, 2e5), frequency="1.2 Hz")
+
+
+def test_a_misspelt_parameter_gets_a_suggestion() -> None:
+    with pytest.raises(vi.InputError, match=r"did you mean bumper_stiffness\?"):
+        vi.branch("B2-G1-A3", parameter="bumper_stifness", span=(1.0, 2.0), frequency=1.0)

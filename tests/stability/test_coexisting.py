@@ -139,3 +139,17 @@ def test_random_starts_between_walls():
     names = {name for one in found for name in one.attrs["starts"].split(", ")}
     assert {f"random {i}" for i in range(1, 5)} <= names
     assert all(float(one["displacement_max"]) == pytest.approx(5e-3, rel=1e-12) for one in found)
+
+
+def test_a_mass_that_a_preload_presses_against_a_wall_starts_at_its_equilibrium() -> None:
+    """At u = 0 it would lie inside the wall. Chaotic motions surround a periodic one."""
+    wall = vi.Oscillator("550 kg", vi.Isolator("26 kN/m", "0.2 kN s/m"), None, WALL)
+    rig = vi.Rig(wall, "0.3 g")
+    found = vi.coexisting_motions(rig, frequency=0.6, random=12, exponent_cycles=2000)
+    assert "periodic" in found["motion"].values
+    assert (found["displacement_min"] >= 0.02 - 1e-12).all()
+    with pytest.raises(vi.InputError, match=r"0\.02 m or farther to the right is accepted"):
+        vi.simulate(rig, 1.0, start=vi.State(0.0), frequency=0.6)
+
+
+WALL = vi.RigidStop(0.95, "-20 mm")

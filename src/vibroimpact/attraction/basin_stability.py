@@ -173,6 +173,7 @@ def basin_stability(
             "seed": seed,
             "max_cycles": max_cycles,
         },
+        varied=[varied] if varied else [],
     )
 
 

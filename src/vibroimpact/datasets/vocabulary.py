@@ -362,7 +362,7 @@ VARIABLES: dict[str, Variable] = {
     "acceleration_frequency": Variable("Hz", "frequency of the largest acceleration"),
     "unsettled_count": Variable("1", "number of frequency steps without a periodic motion"),
     **{
-        f"required_gap{side}": Variable("m", f"gap of {which} side at which the mass hits nothing")
+        f"required_gap{side}": Variable("m", f"gap of {which} side with which there is no contact")
         for side, which in (("", "each"), ("_right", "the right"), ("_left", "the left"))
     },
     "evaluations": Variable("1", "number of designs that were tried"),

@@ -109,7 +109,7 @@ def design_chart(
           sines, whether the mass hits a stop at any frequency;
         - ``pareto``: whether no other design has less displacement without more acceleration, or
           less acceleration without more displacement. Among designs with equal responses, such as
-          designs that hit nothing, only the first one is marked;
+          designs without contact, only the first one is marked;
         - ``within_limits``, if there are limits: whether the design keeps all of them;
         - ``bumper_damping`` (N s/m), if a stiffness of both bumpers is varied;
         - ``status``: 0 for a completed design. If the computation of a design was given up, its

@@ -225,7 +225,9 @@ def least_acceleration(
         "seed": seed,
         **what.parameters(),
     }
-    return describe(data, "vibroimpact.least_acceleration", parameters, [*what.notes(), *notes])
+    varied = [PARAMETERS[name].of(oscillator) for name in space.names]
+    told = [*what.notes(), *notes]
+    return describe(data, "vibroimpact.least_acceleration", parameters, told, varied)
 
 
 def _space(rig: Oscillator, ranges: Any) -> _Space:
@@ -296,7 +298,9 @@ def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
         at, first, last = np.log([value, low, high]) if logs else (value, low, high)
         share = (at - first) / (last - first)
         if not _NEAR < share < 1.0 - _NEAR:
-            end = pretty(float(low if share <= _NEAR else high), PARAMETERS[name].quantity)
+            end = pretty(
+                float(low if share <= _NEAR else high), PARAMETERS[name].of(space.rig).quantity
+            )
             which = "lower" if share <= _NEAR else "upper"
             yield f"{name} ended at the {which} end of its range, {end}"
 

@@ -1,4 +1,4 @@
-"""The gap that a mass needs to hit nothing: its largest displacement without stops."""
+"""The gap with which a mass does not touch its stops: its largest displacement without stops."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def required_gap(
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Compute the gap at which a rig hits nothing: its largest displacement without stops.
+    """Compute the gap without contact: the largest displacement of a rig without stops.
 
     For records the gap is exact for a motion that starts at rest. For sines the gap holds for the
     steady motion; a transient may reach farther. If the isolator is linear, the frequency of the

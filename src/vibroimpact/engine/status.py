@@ -29,7 +29,8 @@ _ADVICE = {
     Status.DONE: "done",
     Status.NOT_SETTLED: (
         "the motion did not settle within the allowed number of cycles, and was measured after "
-        f"them; for a slow transient, raise {MORE_CYCLES}"
+        f"them; for a slow transient, raise {MORE_CYCLES}; `steady`, started from `section`, tells "
+        "a slow transient from chaos"
     ),
     Status.TOO_MANY_EVENTS: (
         "one forcing cycle has more contacts and detachments, or steps between them, than "

@@ -73,7 +73,7 @@ def text(data: xr.Dataset) -> RenderableType:
             f"{one['share'][most]:.1%}",
             f"{one['share_low'][most]:.1%} to {one['share_high'][most]:.1%}",
         )
-    lines = [f"states given up: {found['given_up']}"]
+    lines = [f"states without a result: {found['given_up']}"]
     if len(motions) > _MOST:
         more = len(motions) - _MOST
         lines.insert(0, f"and {more} motion{'s' if more > 1 else ''} with smaller shares")

@@ -77,7 +77,7 @@ def text(data: xr.Dataset) -> RenderableType:
             f"{one['share_low']:.1%} to {one['share_high']:.1%}",
             plain(far / unit.size, 3) if math.isfinite(far) else "",
         )
-    lines = [f"{found['lattice']}; states given up: {found['given_up']}"]
+    lines = [f"{found['lattice']}; states without a result: {found['given_up']}"]
     if math.isfinite(found["uncertainty_exponent"]):
         lines += [
             f"uncertainty exponent {found['uncertainty_exponent']:.3f} ± "

@@ -123,7 +123,7 @@ def _records_facts(gap: xr.Dataset) -> dict[str, Any]:
 
 
 def _every(gap: xr.Dataset) -> float:
-    """The gap that hits nothing under any record; infinite if one moves the mass beyond limits."""
+    """The gap with no contact under any record; infinite if one moves the mass beyond limits."""
     return max(float(gap[f"peak_displacement_{side}"].max()) for side in _SIDES)
 
 
@@ -133,7 +133,7 @@ def _needed(gap: xr.Dataset, records: list[str]) -> str:
     sides = " and ".join(
         f"{_length(float(gap[f'required_gap_{side}']))} to the {side}" for side in _SIDES
     )
-    return f"Required gap: {need} to hit nothing {under} ({sides})."
+    return f"Required gap: {need} for no contact {under} ({sides})."
 
 
 def _needed_by_share(gap: xr.Dataset, records: list[str], share: float) -> str:
@@ -143,7 +143,7 @@ def _needed_by_share(gap: xr.Dataset, records: list[str], share: float) -> str:
         f"{_length(float(gap[f'required_gap_{side}']))} to the {side}" for side in _SIDES
     )
     whole = (
-        f"{_length(every)} to hit nothing under all of them"
+        f"{_length(every)} for no contact under all of them"
         if math.isfinite(every)
         else "no gap is sufficient for all of them"
     )

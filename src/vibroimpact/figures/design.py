@@ -50,8 +50,8 @@ def design_chart(
     """Draw the responses of designs over one parameter, or as contours over two parameters.
 
     Contour lines have labels with their values where there is enough room. Dots mark Pareto-optimal
-    designs. A thick dashed line connects the designs that just hit nothing, next to designs that
-    hit a stop. The required gap is slightly smaller than along this line; see `required_gap`.
+    designs. A thick dashed line connects the designs that just have no contact, next to designs
+    with contact. The required gap is slightly smaller than along this line; see `required_gap`.
 
     In hatched areas a limit is exceeded. The edges of these areas are interpolated between the
     designs, on the scales of the axes, like the contour lines. Next to a design without finite
@@ -325,7 +325,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
     handles: list[Line2D | Patch] = []
     edges = []
     if 0.0 < hits.mean() < 1.0:
-        # Through the designs that just hit nothing: never on the side of those that hit.
+        # Through the designs that just have no contact: never on the side of those that hit.
         edge = ax.contour(
             x, y, hits, levels=[1e-3], colors="#c8102e", linewidths=2.0, linestyles="--", zorder=3
         )

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, meant
 from vibroimpact.model.excitation import Harmonic
 from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.largest_free_response import peak_displacement
@@ -27,9 +27,9 @@ def number(part: Model, name: str, whose: str = "stops have") -> float:
     value = getattr(part, name) if name in type(part).model_fields else None
     if value is None or isinstance(value, str | int):
         numbers = [key for key, held in dict(part).items() if isinstance(held, float)]
+        own = f"its {' or '.join(numbers)} is accepted, or " if numbers else "use "
         raise InputError(
-            f"parameter: {part} has no {name} that can be varied; "
-            f"its {' or '.join(numbers)} is accepted, or a rig whose {whose} a {name}"
+            f"parameter: {part} has no {name} that can be varied; {own}a rig whose {whose} a {name}"
         )
     return float(value)
 
@@ -121,11 +121,16 @@ def isolator(name: str) -> tuple[Read, Vary]:
     return lambda rig: number(rig.oscillator.isolator, name, "isolator has"), vary
 
 
-def formula_number(whose: str, name: str) -> tuple[Read, Vary]:
+def formula_number(
+    whose: str, name: str, registered: Callable[[], Iterable[str]]
+) -> tuple[Read, Vary]:
     """Read and vary a number of a formula: the isolator's, that of a stop, or of both bumpers."""
 
+    def laws_of(rig: Rig) -> dict[str, Law]:
+        return formulas(rig.oscillator, whose, name, registered)
+
     def read(rig: Rig) -> float:
-        values = {dict(law.numbers)[name] for law in formulas(rig.oscillator, whose, name).values()}
+        values = {dict(law.numbers)[name] for law in laws_of(rig).values()}
         if len(values) > 1:
             raise InputError(
                 f"parameter: 'bumper_{name}' applies to both bumpers, but their values are "
@@ -134,14 +139,18 @@ def formula_number(whose: str, name: str) -> tuple[Read, Vary]:
         return values.pop()
 
     def vary(rig: Rig, value: float) -> Rig:
-        laws = formulas(rig.oscillator, whose, name)
-        changed = {field: law.replace(**{name: value}) for field, law in laws.items()}
+        try:
+            changed = {field: law.replace(**{name: value}) for field, law in laws_of(rig).items()}
+        except InputError as error:
+            raise InputError(f"parameter: '{whose}_{name}' at {value:.6g}: {error}") from None
         return rig.with_parts(rig.oscillator.replace(**changed))
 
     return read, vary
 
 
-def formulas(oscillator: Oscillator, whose: str, name: str) -> dict[str, Law]:
+def formulas(
+    oscillator: Oscillator, whose: str, name: str, registered: Callable[[], Iterable[str]]
+) -> dict[str, Law]:
     """The laws given as formulas that have a number of this name, by their field of the rig."""
     fields = ("right", "left") if whose == "bumper" else (whose,)
     laws = {field: getattr(oscillator, field) for field in fields}
@@ -156,7 +165,7 @@ def formulas(oscillator: Oscillator, whose: str, name: str) -> dict[str, Law]:
             accepted = f"{'right' if whose == 'bumper' else whose} is a {law}, not a formula"
         raise InputError(
             f"parameter: '{whose}_{name}' is neither a parameter of this rig nor a number of a "
-            f"formula; {accepted}"
+            f"formula; {meant(f'{whose}_{name}', registered())}{accepted}"
         )
     return found
 

@@ -44,7 +44,8 @@ FUNCTIONS = {
 """By name, and what each is of an odd argument."""
 
 _REFUSED = {
-    "sign": "a force that jumps can hold the mass at rest; use FrictionIsolator for dry friction",
+    "sign": "a force that jumps can hold the mass at rest; abs(u) and abs(v) are accepted, and dry "
+    "friction is a FrictionIsolator",
     "max": "no Taylor series passes its corner; abs(u) and abs(v) are accepted",
     "min": "no Taylor series passes its corner; abs(u) and abs(v) are accepted",
     "log": "it is not finite at rest; powers and exp are accepted",

@@ -8,6 +8,7 @@ unit of each number.
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import NamedTuple
@@ -15,14 +16,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.errors import InputError
 from vibroimpact.model import quantities
-from vibroimpact.model.formula import FORCE, LENGTH, VELOCITY, Reader
+from vibroimpact.model.formula import (
+    FORCE,
+    LENGTH,
+    VELOCITY,
+    Dimension,
+    Reader,
+    read_formula,
+    refuse_at,
+)
 from vibroimpact.model.quantities import (
     Quantity,
     in_base_units,
     power_damping,
     power_stiffness,
 )
+from vibroimpact.model.units import to_si
 
 _Array = NDArray[np.float64]
 _NEAR = 1e-9
@@ -51,6 +62,41 @@ def units_of_numbers(
     if found is None:
         found = _solved(_Units(text, dict(numbers), variables, any_literal=True))
     return found or {}
+
+
+def check_numbers(
+    formula: object,
+    numbers: Mapping[str, tuple[float, Dimension]],
+    given: Mapping[str, object],
+    variables: tuple[str, str],
+) -> None:
+    """Raise an error if a number is given in another unit than the formula determines.
+
+    Parameters
+    ----------
+    formula
+        Text that may not have been checked.
+    numbers
+        Values in SI units and the dimensions that were stated, by name.
+    given
+        The same numbers as the user wrote them.
+    variables
+        Names of displacement and velocity.
+    """
+    stated = [name for name, (_, dimension) in numbers.items() if dimension is not None]
+    if not stated:
+        return
+    values = {name: value for name, (value, _) in numbers.items()}
+    text = read_formula(formula, {name: (x, None) for name, x in values.items()}, variables).text
+    known = units_of_numbers(text, tuple(values.items()), variables)
+    for name in stated:
+        if name not in known:
+            continue
+        try:
+            to_si(given[name], known[name], name)
+        except InputError as error:
+            found = re.search(rf"\b{name}\b", text)
+            refuse_at(found.start() + 1 if found else 1, str(error))
 
 
 def _solved(reader: _Units) -> dict[str, Quantity] | None:

@@ -26,7 +26,7 @@ from vibroimpact.model.formula_terms import (
     parity,
     terms,
 )
-from vibroimpact.model.formula_units import units_of_numbers
+from vibroimpact.model.formula_units import check_numbers, units_of_numbers
 from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import LENGTH, STIFFNESS, Quantity
 from vibroimpact.model.units import plain, pretty, to_si_of_any
@@ -127,6 +127,7 @@ class Law(Named):
                 )
             found[name] = to_si_of_any(value, name)
         is_stop = kept.get("gap") is not None
+        check_numbers(kept["formula"], found, data, _variables(is_stop))
         read = read_formula(kept["formula"], found, _variables(is_stop))
         check_divisors(read, not is_stop)
         if not is_stop:

@@ -212,15 +212,18 @@ def _of_formula(name: str) -> Parameter | None:
     if whose not in _FORMULAS or not number.isidentifier():
         return None
 
+    def registered() -> list[str]:
+        return list(PARAMETERS)
+
     def measured(rig: Oscillator) -> Quantity:
-        law = next(iter(access.formulas(rig, whose, number).values()))
+        law = next(iter(access.formulas(rig, whose, number, registered).values()))
         return law.quantities.get(number, DIMENSIONLESS)
 
     return Parameter(
         name,
         DIMENSIONLESS,
         f"number {number} in the formula of {_FORMULAS[whose]}",
-        *access.formula_number(whose, number),
+        *access.formula_number(whose, number, registered),
         comment="in SI units",
         least=None,
         measured=measured,

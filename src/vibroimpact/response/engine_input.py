@@ -216,9 +216,10 @@ def _on_wall(
             f"start.{name}: {given:g} m, but a rigid stop does not deform; 0 is accepted"
         )
     if reach > slack:
+        way = "left" if sign == 1 else "right"
         raise InputError(
             f"start.displacement: {state.displacement:g} m lies {reach:g} m inside the rigid stop; "
-            f"{sign * stop.gap:g} m or closer to the middle is accepted"
+            f"{sign * stop.gap:g} m or farther to the {way} is accepted"
         )
     rests = reach >= -slack and state.velocity == 0.0
     if said and not rests:

@@ -86,7 +86,7 @@ def simulate(
         ``event`` counts the contacts and detachments. The deformation ``left_bumper`` and the
         clearance on the left have the signs of the paper's equation 4. To resume the motion, pass
         ``final_state`` as ``start``. If the computation was given up, the dataset ends at that
-        time, and the attribute ``status`` gives the reason.
+        time. The variable ``status`` and the attribute ``message`` then give the reason.
 
     Raises
     ------

@@ -90,7 +90,9 @@ def sweep(
         - ``peak_impulse_right`` and ``peak_impulse_left``: the largest impulses of impacts on rigid
           stops;
         - ``section``: the state at the end of the hold;
-        - ``status`` and ``motion``: how the hold ended, and the type of the motion.
+        - ``status`` and ``motion``: how the hold ended, and the type of the motion. A motion that
+          does not settle is ``"undecided"``, and its status is 1. To find its type, start `steady`
+          from ``section``.
 
         Values are NaN only where ``status`` reports that there is no value.
 
@@ -153,7 +155,7 @@ def sweeps(
     max_cycles
         Largest number of forcing cycles to wait for a steady motion. If a motion is still
         approaching a periodic orbit, for example with light damping, the limit is increased up to
-        50-fold.
+        50-fold (docs/decisions/0004-sweep-convergence.md).
     window
         Number of forcing cycles over which a motion is measured if it did not become steady.
     max_events

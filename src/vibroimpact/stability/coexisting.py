@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import STARTS, check_mapping, check_progress
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Repeated, RigidStop, State, Stop
+from vibroimpact.model import Repeated, RigidStop, State, Stop, equilibrium
 from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
@@ -182,7 +182,7 @@ def find_motions(
             given_up.setdefault(found.status, (start, []))[1].append(name)
         followed(name)
 
-    go("rest", State(phase=excitation.phase))
+    go("rest", equilibrium(oscillator).replace(phase=excitation.phase))
     for name, start in arrivals(rig, frequencies, max_cycles, max_events).items():
         go(name, start)
     for name, state in named.items():

@@ -111,10 +111,8 @@ class Branch:
         aim, normal = predicted(self, here, length), here.tangent
         mode = here.orbit.facts[section_map.MODE]
         bound = min(max(aim[PARAMETER], self.low), self.high)
-        if section.family.parameter.most is not None and bound not in (
-            aim[PARAMETER],
-            here.orbit.value,
-        ):
+        limited = section.family.parameter.most is not None or not section.family.straight
+        if limited and bound not in (aim[PARAMETER], here.orbit.value):
             # Beyond the bound there may be no such rig.
             length = (bound - here.orbit.value) / (here.tangent[PARAMETER] * self.scale[PARAMETER])
             aim, normal = predicted(self, here, length), HELD
