@@ -130,7 +130,7 @@ def test_a_study_that_is_shaken_by_several_harmonics_or_not_at_all(study):
     xr.testing.assert_equal(vi.sweep(path, GRID), vi.sweep(rig, GRID))
     with pytest.raises(vi.InputError, match=r"^frequency: missing, and the rig leaves it open"):
         vi.steady(path)
-    with pytest.raises(vi.InputError, match=r"^shaking: missing, and the rig has none"):
+    with pytest.raises(vi.InputError, match=r"^shaking: missing, and the rig has no shaking"):
         vi.sweep(study(""), GRID)
 
 

@@ -332,7 +332,7 @@ def test_the_branch_of_another_motion(run, tmp_path):
     )
     shaken = ("--frequency", "0.81rad/s", "--json")
     span = ("--from", "0.8rad/s", "--to", "0.82rad/s")
-    told = "this orbit of period 1 is not the motion from rest, which has period 5"
+    told = "the orbit found has period 1 and is not the motion from rest, which has period 5"
     code, out, errors = run("soft.toml", *shaken, *span, "--period", "1")
     assert json.loads(out)["branches"][0]["period"] == 1
     assert (code, told in errors) == (0, True)

@@ -32,7 +32,7 @@ def study(tmp_path, text, name="study.toml"):
         ("x = " + "[" * 2000 + "]" * 2000 + RIG, "nests tables or lists too deeply"),
         ("x = " + "{a=" * 2000 + "1" + "}" * 2000 + RIG, "nests tables or lists too deeply"),
         ("x" + ".a" * 2000 + " = 1" + RIG, "nests tables or lists too deeply"),
-        (RIG.replace('"550 kg"', "1" + "0" * 5000), "a number of too many digits"),
+        (RIG.replace('"550 kg"', "1" + "0" * 5000), "a whole number with too many digits"),
         (RIG.replace('"550 kg"', "1" + "0" * 400), "is not finite"),
         (RIG + "[sweep]\nmax_cycles = 1" + "0" * 30, "sweep.max_cycles"),
         (RIG + "[simulate]\nsamples = 1" + "0" * 30, "simulate.samples"),

@@ -151,7 +151,7 @@ def test_a_study_needs_no_ending(write):
         ),
         (
             RIG.replace('stiffness = "26.8 kN/m"', 'period = "2 s"'),
-            r"oscillator.isolator.damping_ratio: missing beside period; a dimensionless",
+            r"oscillator.isolator.damping_ratio: missing, but period needs it; a dimensionless",
         ),
         (
             RIG.replace("damping =", 'period = "2 s", damping_ratio = 0.1, damping =', 1),
@@ -164,8 +164,8 @@ def test_a_study_needs_no_ending(write):
         (RIG, r"excitation.amplitude: missing; an acceleration"),
         (RIG + 'parameters = "table"', r"oscillator.parameters: unknown key"),
         ('parameters = "table"' + RIG, r"parameters are given without a case"),
-        ('case = "B2-G1-A3"' + RIG, r"both of case and oscillator given; one of them"),
-        ('name = "x"', r"neither of case and oscillator given; one of them"),
+        ('case = "B2-G1-A3"' + RIG, r"both case and oscillator are given; exactly one of them"),
+        ('name = "x"', r"neither case nor oscillator is given; exactly one of them"),
         ('case = "B9-G1-A3"', r"study .*bumper 'B9' is unknown"),
         ('case = "B2-G1-A3"\n[sweep]\ndirection = "up"', r"sweep.direction: 'up' is refused"),
         ('case = "B2-G1-A3"\n[sweep]\nfrequencies = 1', r"sweep.frequencies: 1 is refused"),
@@ -257,7 +257,7 @@ class TestWhatShakes:
         ("text", "csv", "message"),
         [
             ('step = "1 ms"', "0.1\nnan\n0.2", r"line 2: nan is not finite"),
-            ('step = "1 ms"', "0.1", r"acceleration: 1; at least 2 samples"),
+            ('step = "1 ms"', "0.1", r"acceleration: 1 given; at least 2 samples"),
             ("step = 0", "0.1\n0.2", r"excitation.step: 0 is not greater than 0"),
             ('step = "-1 ms"', "0.1\n0.2", r"excitation.step: '-1 ms' is not greater than 0"),
             ("", "0.1\n0.2", r"excitation.step: missing, and .* has no times"),

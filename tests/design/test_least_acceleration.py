@@ -109,7 +109,7 @@ def test_it_is_repeatable() -> None:
         ({"limits": {"peak_force": "3 m"}}, r"limits\['peak_force'\]: '3 m'"),
         (
             {"limits": {"peak_displacement": 1e-4}},
-            r"limits\['peak_displacement'\]: no design that was tried keeps 0.0001 m ",
+            r"limits\['peak_displacement'\]: no design that was tried meets this limit of 0.0001 m",
         ),
         ({"oscillator": RIG.without_bumpers()}, "ranges: missing; .* has no stop"),
     ],

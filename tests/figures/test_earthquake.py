@@ -56,7 +56,7 @@ def test_without_spectra_and_stops() -> None:
 
 def test_wrong_input() -> None:
     rig = RIGS["bumpers"]
-    with pytest.raises(vi.InputError, match=r"^motion: this is not a motion through a record; "):
+    with pytest.raises(vi.InputError, match=r"^motion: this is not the response to a record; "):
         earthquake_page(vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 1.0)), 3))
     several = vi.response_spectrum(RECORD, [0.1, 0.2], [0.02, 0.05])
     with pytest.raises(

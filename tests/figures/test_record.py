@@ -37,9 +37,7 @@ def test_other_motions_are_refused() -> None:
         vi.simulate(vi.Rig(RIG, vi.Harmonic(1.0, 0.5)), 2),
         vi.simulate(vi.Rig(RIG, RECORD), samples=0),
     ):
-        with pytest.raises(
-            vi.InputError, match=r"^motion: this is not a motion through a record; "
-        ):
+        with pytest.raises(vi.InputError, match=r"^motion: this is not the response to a record; "):
             record_history(data)
 
 
@@ -61,5 +59,5 @@ def test_portrait_and_force_loop_of_a_record() -> None:
             at = int(np.flatnonzero(v == arrival)[0])
             assert v[at + 1] == -0.4 * arrival
             assert u[at + 1] == u[at]
-    with pytest.raises(vi.InputError, match="goes through a Record, which has no cycles"):
+    with pytest.raises(vi.InputError, match="is the response to a Record, which has no cycles"):
         time_history(motion)

@@ -97,7 +97,7 @@ def test_a_formula_has_the_value_that_it_says(formula, numbers, u, v, force) -> 
         ("k*u", {"k": "nothing"}, "k: 'nothing' does not start with a number; a number"),
         ("k*u", {"k": "3 K"}, "k: '3 K' has a unit that is not used here"),
         ("k*u", {"k": math.nan}, "k: nan is not finite"),
-        ("k*u", {"exp": 1}, "'exp' cannot name a number of a formula"),
+        ("k*u", {"exp": 1}, "'exp' cannot be the name of a number in a formula"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_used_is_one_line_with_its_place(formula, numbers, message) -> None:
@@ -134,7 +134,7 @@ def test_a_law_is_a_value(law: Law) -> None:
 def test_places_of_laws_are_told_by_the_gap() -> None:
     isolator, stop = LAWS
     assert Oscillator(1.0, isolator, stop).right is stop
-    with pytest.raises(InputError, match=r"^isolator\.gap: an isolator has none"):
+    with pytest.raises(InputError, match=r"^isolator\.gap: an isolator has no gap"):
         Oscillator(1.0, stop)
     with pytest.raises(InputError, match=r"^right\.gap: missing"):
         Oscillator(1.0, isolator, isolator)

@@ -104,7 +104,7 @@ def test_a_friction_pendulum():
         ("bouc-wen", {"exponent": "two"}, "exponent: 'two'; a whole number"),
         ("bouc-wen", {"exponent": True}, "exponent: True; a whole number"),
         ("bouc-wen", {"beta": -0.1}, "beta: -0.1 is less than 0"),
-        ("bouc-wen", {"gamma": -0.6}, "gamma: -0.6 and beta, 0.6, have a sum that is not gre"),
+        ("bouc-wen", {"gamma": -0.6}, "gamma: -0.6 plus beta, 0.6, is not greater than 0"),
         ("exponential", {"decay": 0}, "decay: 0 is not greater than 0; an inverse length"),
         (
             "exponential",

@@ -92,7 +92,7 @@ def test_mistakes_are_named_by_their_path(table, message):
 
 def test_a_table_of_another_kind_is_refused():
     with pytest.raises(
-        InputError, match=r"kind: 'kelvin-voigt' is another kind; 'rigid' is accepted"
+        InputError, match=r"kind: 'kelvin-voigt' is not the kind of this law; 'rigid' is accepted"
     ):
         RigidStop.model_validate({**WALL, "kind": "kelvin-voigt"})
 

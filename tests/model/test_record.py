@@ -61,7 +61,7 @@ def test_it_tells_what_it_is_in_one_line():
     [
         ([1.0, math.nan, 2.0], 0.1, r"acceleration\[1\]: nan is not finite; finite samples"),
         ([1.0, 2.0, -math.inf], 0.1, r"acceleration\[2\]: -inf is not finite"),
-        ([1.0], 0.1, r"acceleration: 1; at least 2 samples in m/s²"),
+        ([1.0], 0.1, r"acceleration: 1 given; at least 2 samples in m/s²"),
         ([], 0.1, r"acceleration: 0; at least 2 samples"),
         ([[1.0, 2.0], [3.0, 4.0]], 0.1, r"acceleration: shape \(2, 2\); at least 2"),
         (5.0, 0.1, r"acceleration: .*at least 2 samples"),
@@ -158,7 +158,7 @@ def test_scaled_cut_and_levelled_say_so():
         (lambda r: r.scaled(0), "scale: 0; a number other than 0"),
         (lambda r: r.scaled(2, peak=1), "peak: 1 is given together with scale = 2;"),
         (lambda r: r.scaled(peak="-1 g"), "peak: '-1 g' is not greater than 0"),
-        (lambda r: vi.Record([0, 0], 1).scaled(peak=1), "peak: 1, but the record is 0 throughout"),
+        (lambda r: vi.Record([0, 0], 1).scaled(peak=1), "peak: 1 cannot be reached"),
         (lambda r: r.cut(2, 1), "end: 1, with start 2; at least 2 samples"),
         (lambda r: r.cut(0, 99), "end: 99 is greater than 2.25"),
         (lambda r: r.cut(-1), "start: -1 is less than 0"),

@@ -52,7 +52,7 @@ def test_units(tmp_path):
     ("text", "step", "unit", "line"),
     [
         ("1\nnan\n2\n", 0.1, "m/s^2", r"record: .*, line 2: nan is not finite"),
-        ("1\n", 0.1, "m/s^2", r".*acceleration: 1; at least 2"),
+        ("1\n", 0.1, "m/s^2", r".*acceleration: 1 given; at least 2"),
         ("", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("words only\n", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("1\n2\n", None, "m/s^2", r"step: missing, and .* has no times"),
@@ -136,7 +136,7 @@ def test_a_comma_that_may_mean_two_things(tmp_path):
     path = written(tmp_path, "0,001 1,500\n0,002 -2,500\n")
     assert vi.Record.read(path).peak == 2.5
     path = written(tmp_path, "1,000 1,500\n2,000 -2,500\n")
-    with pytest.raises(vi.InputError, match=r"'1,000' has a comma that may be .*; decimal=','"):
+    with pytest.raises(vi.InputError, match=r"the comma of '1,000' may be .*; decimal=','"):
         vi.Record.read(path)
     assert vi.Record.read(path, decimal=",").peak == 2.5
     with pytest.raises(vi.InputError, match=r"^decimal: ';'; '\.' or ',' is accepted"):

@@ -245,5 +245,5 @@ class TestThroughARecord:
     def test_sections_and_spectra_have_no_meaning(self):
         data = vi.simulate(vi.Rig(self.RIG, self.ROUGH))
         for look in (vi.fourier_spectrum, vi.stroboscopic_section, vi.impact_section):
-            with pytest.raises(vi.InputError, match=r"^motion: it goes through a Record"):
+            with pytest.raises(vi.InputError, match=r"^motion: it is the response to a Record"):
                 look(data)

@@ -46,6 +46,6 @@ def test_starts_on_absent_bumpers() -> None:
     rig = CASE.oscillator.replace(right=None)
     with pytest.raises(vi.InputError, match=r"^start.right_bumper: 0.001 m, but .* no such bumper"):
         vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(right_bumper=0.001))
-    with pytest.raises(vi.InputError, match=r"^start.contact: 1, but .* no bumper there"):
+    with pytest.raises(vi.InputError, match=r"^start.contact: 1, but .* no stop on that side"):
         vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(contact=1))
     vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(right_bumper=0.0))

@@ -162,7 +162,7 @@ def test_damage_after_opening_is_an_error_in_one_line(whole, tmp_path, damage):
     shutil.copytree(whole[0], store := tmp_path / "map")
     opened = vi.scenario_map(None, X, Y, **OPTIONS, store=store)
     damage(chunks(store / "extent")[0])
-    said = r"store: '.*map' was damaged after it was opened \(extent: .+\); .* computed again"
+    said = r"store: '.*map' was damaged after it was opened \(extent: .+\); .* damaged blocks again"
     for part in (opened.extent, opened.extent[1, :2], opened.isel(gap_ratio=[0, 2]).extent):
         with pytest.raises(vi.InputError, match=said) as error:
             part.load()

@@ -185,7 +185,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ({"seed": -1}, "seed"),
         ({"block": 0}, "block"),
         ({"response": 3}, "response: 3 is not a function"),
-        ({"response": lambda rigs: vi.sweep(rigs[0], [2.0])}, "response: it gives "),
+        ({"response": lambda rigs: vi.sweep(rigs[0], [2.0])}, "response: it returns "),
         ({"rig": CASE.oscillator, "distributions": {"amplitude": "normal:5%"}}, "needs a sine"),
         ({"rig": vi.Rig(FREE, [0.1, 0.2])}, "shaking: a list"),
     ],

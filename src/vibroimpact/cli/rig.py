@@ -156,8 +156,9 @@ def subject(
     shaking = otherwise if shaking is None else shaking
     if shaking is None:
         raise InputError(
-            f"study {text!r}: excitation.amplitude: missing; an acceleration greater than 0 is "
-            'accepted, such as "0.05 g", there or as --amplitude, or a displacement or a force'
+            f"study {text!r}: excitation.amplitude: missing; an acceleration greater than 0, "
+            'such as "0.05 g", a displacement or a force is accepted, in the study or as '
+            "--amplitude"
         )
     made = changes(options, rig_of, oscillator)
     what = Subject(

@@ -71,7 +71,9 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
     elif along == "frequency" or studied is not None:
         hertz = studied or 1.0
     else:
-        raise InputError("--frequency: missing; a frequency greater than 0 is accepted, as 2Hz")
+        raise InputError(
+            "--frequency: missing; a frequency greater than 0 is accepted, such as 2Hz"
+        )
     start = what.phase if phase is None else to_si(phase, ANGLE, "--phase")
     return Rig(what.oscillator, what.at(hertz, start))
 
@@ -90,7 +92,7 @@ def state(option: str, text: str, phase: float | None = None) -> State:
     parts = text.split(",")
     if len(parts) != 2:
         raise InputError(
-            f"{option}: {text!r}; a displacement and a velocity are accepted, as 5mm,100mm/s"
+            f"{option}: {text!r}; a displacement and a velocity are accepted, such as 5mm,100mm/s"
         )
     u, v = (
         to_si(part.strip(), quantity, option)

@@ -96,8 +96,9 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
     names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
     if len(set(names.values())) < len(names):
         raise InputError(
-            f"dataset: the names {', '.join(map(repr, names))} are not distinct as groups of a "
-            "file; names that differ by more than blanks and slashes are accepted"
+            f"dataset: the names {', '.join(map(repr, names))} are not distinct in the file, "
+            "where '_' replaces blanks and slashes; names that also differ in other characters are "
+            "accepted"
         )
     tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
     tree.attrs["vibroimpact_version"] = __version__
@@ -155,8 +156,8 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     file_path = check_path(path, "file")
     if file_path.is_dir():
         raise InputError(
-            f"file: {str(path)!r} is a folder; a NetCDF file, or the store of a map or of demands "
-            "as the argument `store` of the function that wrote it, is accepted"
+            f"file: {str(path)!r} is a folder; a NetCDF file is accepted (to read the store of a "
+            "map or of demands, call the function that wrote it with the same argument `store`)"
         )
     if not file_path.is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")

@@ -313,8 +313,8 @@ def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:
     for name, limit in limits.items():
         if best[name] > limit:
             raise InputError(
-                f"limits[{name!r}]: no design that was tried keeps {limit:g} "
-                f"{VARIABLES[name].units} together with any other limits; the best design has "
+                f"limits[{name!r}]: no design that was tried meets this limit of {limit:g} "
+                f"{VARIABLES[name].units} together with all other limits; the best design has "
                 f"{best[name]:g} {VARIABLES[name].units}; a wider limit, or wider ranges, are "
                 "accepted"
             )

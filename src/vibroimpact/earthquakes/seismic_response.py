@@ -52,7 +52,7 @@ def seismic_response(
         path of a study file.
     tail
         Duration of free vibration after the record, in seconds or as text such as ``"10s"``.
-        Default: two natural periods of the mass on the softest spring of the isolator.
+        Default: two natural periods of the mass with the smallest stiffness of the isolator.
     max_events
         Largest number of contacts and detachments in one step of the record. When the motion
         reaches this number, the computation is given up.

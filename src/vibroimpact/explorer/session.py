@@ -29,7 +29,7 @@ Message = dict[str, Any]
 MOST_SECONDS = 60.0
 """For one picture; the work that a page can ask for is bounded."""
 _NO_NUMBER = (
-    "value: it leads to a rig with numbers that are not finite; a moderate value is accepted"
+    "value: with this value the rig has numbers that are not finite; a moderate value is accepted"
 )
 _PATIENCE = 0.25
 """Seconds that a coarse picture is waited for though another is asked for."""

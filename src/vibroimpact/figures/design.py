@@ -82,7 +82,7 @@ def design_chart(
             )
     if len(dims) > 2 or min(data.sizes[dim] for dim in dims) < 2:
         raise InputError(
-            f"data: the dims are {dict(data.sizes)}; one or two parameters with at least two "
+            f"data: its dimensions are {dict(data.sizes)}; one or two parameters with at least two "
             "values each are accepted; select them with data.isel"
         )
     count = len(quantities)

@@ -56,8 +56,8 @@ def resonance_bands(
     """
     if not {"sample", "direction", "frequency"} <= set(data.dims):
         raise InputError(
-            f"data: a dataset with the dims {dict(data.sizes)} is not an ensemble of sweeps; a "
-            "dataset of ensemble is accepted"
+            f"data: a dataset with the dimensions {dict(data.sizes)} is not an ensemble of sweeps; "
+            "a dataset of ensemble is accepted"
         )
     low, high = shares
     if not 0.0 <= low < 0.5 < high <= 1.0:

@@ -151,7 +151,7 @@ def panels(
     given = Panels(np.ravel(axes))
     if len(given) != count:
         wanted = "1 is" if count == 1 else f"{count} are"
-        raise InputError(f"axes: {len(given)} given; {wanted} accepted, for {what}")
+        raise InputError(f"axes: {len(given)} given; {wanted} accepted ({what})")
     return given
 
 

@@ -58,7 +58,10 @@ def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
             fit["measured_value"].values, first["measured_value"].values, equal_nan=True
         )
         if not same:
-            raise InputError(f"fits[{name!r}]: fitted to other data; fits of the same are accepted")
+            raise InputError(
+                f"fits[{name!r}]: this model was fitted to other data than the first model; models "
+                "fitted to the same data are accepted"
+            )
     order = sorted(fits, key=lambda name: float(fits[name]["akaike"]))
     akaike = np.array([float(fits[n]["akaike"]) for n in order])
     weight = np.exp(-0.5 * np.minimum(akaike - akaike[0], 1400.0))
@@ -170,7 +173,7 @@ def hertzian(oscillator: Oscillator, depth: float) -> Oscillator:
             lost = stop.damping / (stop.stiffness * depth)
             sides[side] = PowerBumper(made, stop.gap, 1.5, dissipation=lost)
     if not sides:
-        raise InputError("oscillator: it has no linear bumper; an oscillator with one is accepted")
+        raise InputError("oscillator: it has no linear bumper; at least one is required")
     return oscillator.replace(**sides)
 
 

@@ -84,7 +84,8 @@ def _of(given: Any, name: str, names: list[str], field: str) -> Any:
     if isinstance(given, Mapping):
         if name not in given:
             raise InputError(
-                f"{field}: missing for {name!r}; one per test ({', '.join(names)}) is accepted"
+                f"{field}: missing for {name!r}; a value for each test ({', '.join(names)}) is "
+                "accepted"
             )
         return given[name]
     if isinstance(given, list):

@@ -213,7 +213,9 @@ def _bounded(value: Any, field: str) -> dict[str, Any]:
         bounded = dict(value)
         if strange := set(bounded) - {"start", "low", "high"}:
             name = shown(min(strange, key=str))
-            raise InputError(f"{field}: {name}; start, low and high are accepted")
+            raise InputError(
+                f"{field}: the key {name} is unknown; start, low and high are accepted"
+            )
         return bounded
     if isinstance(value, Sequence) and not isinstance(value, str | bytes):
         if len(value) != 2:

@@ -135,7 +135,9 @@ class HistoryTest:
         moved = self.measured[self.names[0]]
         sine = forcing_sine(self.time, base, moved, self.data.attrs.get("frequency"))
         if sine is None:
-            raise InputError(f"data: {self.name!r} contains no motion; a motion is accepted")
+            raise InputError(
+                f"data: the mass does not move in {self.name!r}; a history with motion is accepted"
+            )
         if base is None:
             found = shaken.replace(frequency=sine.frequency)
             return Rig(rig.oscillator, found), found

@@ -201,7 +201,7 @@ def _checked(data: xr.Dataset) -> xr.Dataset:
     else:
         raise InputError(
             "measurement: the dataset holds neither curves (direction, frequency) nor a history "
-            "(time); one of sweep, simulate or read_measurement is accepted"
+            "(time); a dataset of sweep, simulate or read_measurement is accepted"
         )
     return data.assign_attrs(kind=kind, notes="")
 
@@ -325,7 +325,7 @@ def _known(
         for row in np.flatnonzero(np.isinf(values))[:1]:
             raise InputError(
                 f"measurement: {table.path!r}, {table.row(int(row))}, column {column.name!r}: "
-                f"{values[row]} is not finite; numbers, or nothing where one is missing, are "
+                f"{values[row]} is not finite; a number, or nothing for a missing value, is "
                 "accepted"
             )
         if told:

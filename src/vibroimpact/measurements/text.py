@@ -54,7 +54,9 @@ def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
         elif bare:
             kept.append((number, line))
     if not kept:
-        raise InputError(f"measurement: {str(path)!r} is empty; a table with names is accepted")
+        raise InputError(
+            f"measurement: {str(path)!r} is empty; a table with column names is accepted"
+        )
     texts = [line for _, line in kept]
     found = decimal or decimal_mark(texts, f"measurement: {str(path)!r}")
     mark = _delimiter(texts, found)
@@ -64,7 +66,9 @@ def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
     said = {key: _pointed(value, decimal) for key, value in said.items()}
     first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, decimal)), None)
     if first is None:
-        raise InputError(f"measurement: {str(path)!r} has no numbers; a table of them is accepted")
+        raise InputError(
+            f"measurement: {str(path)!r} has no numbers; a table of numbers is accepted"
+        )
     head = [cells for _, cells in rows[:first]]
     for cells in head:
         if len(cells) <= 2 and (pair := _said("; ".join(c for c in cells if c))):
@@ -84,7 +88,7 @@ def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
         if len(cells) != width:
             raise InputError(
                 f"measurement: {str(path)!r}, line {number}: {len(cells)} values, but the first "
-                f"row has {width}; the same number is accepted"
+                f"row of numbers has {width}; the same number of values in every row is accepted"
             )
     columns = []
     for j, name in enumerate(named[-1]):

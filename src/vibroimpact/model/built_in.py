@@ -19,7 +19,7 @@ def as_isolator(law: AnyIsolator) -> AnyIsolator:
     if not isinstance(law, Law):
         return law
     if law.is_stop:
-        raise InputError("gap: an isolator has none; a law of u and v without a gap is accepted")
+        raise InputError("gap: an isolator has no gap; a law of u and v without a gap is accepted")
     parts = law.parts
     if parts.rest:
         return law

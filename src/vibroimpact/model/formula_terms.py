@@ -232,7 +232,7 @@ def operations(
     ):
         if count > most:
             raise InputError(
-                f"formula: it has {count} {what}; at most {most} are accepted beside terms of "
-                "u, u**3, u**5 and v"
+                f"formula: it has {count} {what}; at most {most} are accepted, not counting the "
+                "terms in u, u**3, u**5 and v"
             )
     return found, numbers

@@ -89,9 +89,9 @@ def peak_of(mass: float, stiffness: float, damping_ratio: float, amplitude: floa
     """
     if not 0.0 < damping_ratio < math.sqrt(0.5):
         raise InputError(
-            f"damping_ratio: with {damping_ratio:.6g}, the motion without stops has no finite "
-            "resonance peak, by which a nonzero gap is scaled; a value between 0 and 0.707107 is "
-            "accepted"
+            f"damping_ratio: at {damping_ratio:.6g}, the motion without stops has no finite "
+            "resonance peak, so a nonzero gap cannot be scaled by this peak; a value between 0 and "
+            "0.707107 is accepted"
         )
     if amplitude == 0.0:
         raise InputError(

@@ -122,8 +122,9 @@ class Law(Named):
                 continue
             if not str(name).isidentifier() or name in _RESERVED:
                 raise InputError(
-                    f"{shown(name)} cannot name a number of a formula; letters, digits and _ are "
-                    "accepted, beginning with a letter, and no name that formulas have"
+                    f"{shown(name)} cannot be the name of a number in a formula; a name of "
+                    "letters, digits and _ that begins with a letter and has no other meaning in "
+                    "formulas is accepted"
                 )
             found[name] = to_si_of_any(value, name)
         is_stop = kept.get("gap") is not None

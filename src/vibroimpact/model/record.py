@@ -161,11 +161,11 @@ class Record:
         if peaks[0] > _RESOLVED * peaks[1]:
             worst = int(np.abs(fine).argmax())
             raise InputError(
-                f"displacement[{worst}]: it jumps or is too rough here to be "
-                f"differentiated twice: the peak acceleration is {peaks[0]:.3g} m/s² with all "
+                f"displacement[{worst}]: the displacement jumps or is too rough at this sample to "
+                f"be differentiated twice: the peak acceleration is {peaks[0]:.3g} m/s² with all "
                 "samples and "
-                f"{peaks[1]:.3g} m/s² with every other one; a smooth displacement is accepted, or "
-                "the acceleration itself"
+                f"{peaks[1]:.3g} m/s² with every other sample; a smooth displacement is accepted, "
+                "or the acceleration itself"
             )
         return cls(fine, spacing)
 
@@ -229,7 +229,10 @@ class Record:
                 )
             wanted = to_si(peak, ACCELERATION, "peak", above=0.0)
             if self.peak == 0.0:
-                raise InputError(f"peak: {shown(peak)}, but the record is 0 throughout")
+                raise InputError(
+                    f"peak: {shown(peak)} cannot be reached because the record is 0 throughout; "
+                    "a record with samples other than 0 is accepted"
+                )
             factor = wanted / self.peak
         if factor == 0.0:
             raise InputError(f"scale: {scale}; a number other than 0 is accepted")
@@ -351,8 +354,8 @@ def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDA
         ) from None
     if found.ndim != 1 or len(found) < least:
         raise InputError(
-            f"{field}: {len(found) if found.ndim == 1 else f'shape {found.shape}'}; at least "
-            f"{least} samples in {quantity.symbol} in one sequence are accepted"
+            f"{field}: {f'{len(found)} given' if found.ndim == 1 else f'shape {found.shape}'}; at "
+            f"least {least} samples in {quantity.symbol} in one sequence are accepted"
         )
     for i in np.flatnonzero(~np.isfinite(found))[:1]:
         raise InputError(f"{field}[{i}]: {found[i]} is not finite; finite samples are accepted")

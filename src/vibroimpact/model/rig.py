@@ -196,7 +196,7 @@ class Rig:
         """
         found = self.periodic
         if not isinstance(found, Harmonic):
-            raise InputError("shaking: several harmonics; one sine is accepted")
+            raise InputError("shaking: it has several harmonics; one sine is accepted")
         return found
 
     @property
@@ -290,7 +290,7 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
         )
     if value is None:
         raise InputError(
-            f"{where}: missing, and the rig has none; an acceleration greater than 0 is "
+            f"{where}: missing, and the rig has no shaking; an acceleration greater than 0 is "
             'accepted, such as "0.05 g", or a displacement or a force'
         )
     if isinstance(value, Harmonic | Periodic):

@@ -103,13 +103,15 @@ class RigStudy(Model):
         if self.name is not None:
             check_name(self.name, "name")
         if (self.case is None) == (self.oscillator is None):
-            given = "neither" if self.case is None else "both"
+            none = self.case is None
+            given = "neither case nor oscillator is" if none else "both case and oscillator are"
             raise InputError(
-                f"{given} of case and oscillator given; one of them is accepted, "
-                'such as case = "B2-G1-A3"'
+                f'{given} given; exactly one of them is accepted, such as case = "B2-G1-A3"'
             )
         if self.parameters is not None and self.case is None:
-            raise InputError("parameters are given without a case; they are accepted only with one")
+            raise InputError(
+                "parameters are given without a case; they are accepted only together with a case"
+            )
         return self
 
     def rig(self, path: Path, parameters: Parameters | None = None) -> Rig:
@@ -174,7 +176,10 @@ def read_study(path: Path, kind: type[_Study]) -> _Study:
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"study: {str(path)!r} is not TOML ({error}); TOML is accepted") from None
     except ValueError:  # Python reads no whole number of more than some thousand digits
-        raise InputError(f"study: {str(path)!r} has a number of too many digits") from None
+        raise InputError(
+            f"study: {str(path)!r} has a whole number with too many digits; at most 4300 "
+            "digits are accepted"
+        ) from None
     except RecursionError:
         raise InputError(f"study: {str(path)!r} {_DEEP}") from None
     if _deeper(data, _DEEPEST):

@@ -229,7 +229,9 @@ def to_si_of_any(value: object, field: str) -> tuple[float, tuple[float, float, 
         if not math.isfinite(number):
             raise RefusalError("is not finite")
     except ArithmeticError:
-        raise InputError(f"{field}: {shown(value)} is not finite") from None
+        raise InputError(
+            f"{field}: {shown(value)} is not finite; a finite number is accepted"
+        ) from None
     except RefusalError as refusal:
         raise InputError(
             f"{field}: {shown(value)} {refusal}; a number with its unit is accepted, such as "

@@ -55,7 +55,7 @@ def read(file: File) -> list[Channel]:
     decimal = file.decimal or decimal_mark(file.lines, f"record: {file.path!r}")
     rows, lines, words = _numbers(file, decimal)
     if not rows:
-        raise InputError(f"record: {file.path!r} has no numbers; columns of them are accepted")
+        raise InputError(f"record: {file.path!r} has no numbers; columns of numbers are accepted")
     step = _stated(words)
     if len(rows) > 2 and len(rows[0]) == 2 and len(rows[1]) == 1:
         count, step = rows[0]

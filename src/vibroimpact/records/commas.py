@@ -59,8 +59,9 @@ def decimal_mark(lines: Iterable[str], where: str) -> Decimal:
         parted = parted or ";" in line or "\t" in line
     if numbers and not parted and all(map(_THOUSANDS.fullmatch, numbers)):
         raise InputError(
-            f"{where}: {numbers[0]!r} has a comma that may be a decimal one or part thousands; "
-            "decimal=',' (or --decimal ,) makes it a decimal one, and decimal points are accepted"
+            f"{where}: the comma of {numbers[0]!r} may be a decimal comma or a separator of "
+            "thousands; decimal=',' (--decimal ,), which makes it a decimal comma, or a file with "
+            "decimal points and without separators of thousands is accepted"
         )
     return "," if numbers else "."
 

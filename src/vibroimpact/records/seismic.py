@@ -64,7 +64,9 @@ def _read(file: File, kind: str) -> list[Channel]:
         raise
     except Exception as error:  # obspy raises whatever it meets in a damaged file
         why = " ".join(str(error).split())
-        raise InputError(f"record: {file.path!r} is a damaged {kind} file ({why})") from None
+        raise InputError(
+            f"record: {file.path!r} is a damaged {kind} file ({why}); a complete file is accepted"
+        ) from None
 
 
 def _whole(file: File) -> None:

@@ -131,12 +131,12 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
             if given:
                 raise InputError(
                     f"start.{name}: {given:g} m, but the oscillator has no such bumper; "
-                    "0 or nothing is accepted"
+                    "0 or None is accepted"
                 )
             if said:
                 raise InputError(
-                    f"start.contact: {state.contact}, but the oscillator has no bumper there; "
-                    "0 is accepted"
+                    f"start.contact: {state.contact}, but the oscillator has no stop on that "
+                    "side; 0 is accepted"
                 )
             continue
         slack = TOUCHING * max(
@@ -265,8 +265,9 @@ def _on_bumper(
         )
     if said is False and touches and stop.damping == 0.0 and deformation > slack:
         raise InputError(
-            f"start.contact: {state.contact}, but the mass presses the {name} by "
-            f"{deformation:g} m, which has no dashpot and so cannot lag; {sign} is accepted"
+            f"start.contact: {state.contact}, but the mass compresses the {name} by "
+            f"{deformation:g} m, and a bumper without a dashpot stays in contact; {sign} is "
+            "accepted"
         )
     presses = force > 0.0 or (deformation == 0.0 and stop.damping == 0.0 and closing > 0.0)
     return bool(said) or (said is None and touches and presses), deformation

@@ -140,9 +140,9 @@ def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
     shaken = origin.excitation
     if isinstance(shaken, Record):
         raise InputError(
-            "motion: it goes through a Record, which has no cycles; a motion under a Harmonic or a "
-            "Periodic is accepted (contacts, totals, record_history, phase_portrait and "
-            "hysteresis_cycle accept this one)"
+            "motion: it is the response to a Record, which has no cycles; a motion under a "
+            "Harmonic or a Periodic is accepted (contacts, totals, record_history, phase_portrait "
+            "and hysteresis_cycle accept this one)"
         )
     return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
 

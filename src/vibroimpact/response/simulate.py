@@ -119,7 +119,7 @@ def compute_history(
     if isinstance(excitation, Record):
         if cycles is not None:
             raise InputError(
-                f"cycles: {cycles!r}, but a record has none; use tail, a time, instead"
+                f"cycles: {cycles!r}, but a record has no cycles; use tail (a time) instead"
             )
         behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
         return through(Rig(oscillator, excitation), behind, start, samples, max_events, progress)

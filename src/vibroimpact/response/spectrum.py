@@ -101,8 +101,8 @@ def _windowed(
     count = cycles * samples
     if cycles < 1 or count < 4:
         raise InputError(
-            f"motion: a record of {origin.cycles:g} cycles and {count} samples is too short for "
-            "a spectrum; at least one cycle and four samples are accepted"
+            f"motion: its history of {origin.cycles:g} cycles and {count} samples is too short "
+            "for a spectrum; at least one cycle and four samples are accepted"
         )
     order = np.arange(count // 2 + 1) / cycles
     kept = order <= highest

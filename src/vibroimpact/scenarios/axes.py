@@ -134,7 +134,7 @@ def check_pair(x: Axis, y: Axis) -> None:
         If they do not go together.
     """
     if x.name == y.name:
-        raise InputError(f"y: {y.name!r} is also the parameter of x; another one is accepted")
+        raise InputError(f"y: {y.name!r} is also the parameter of x; another parameter is accepted")
     if {x.name, y.name} in ONE_QUANTITY:
         raise InputError(
             f"y: {y.name!r} is the same quantity as {x.name!r}; another parameter is accepted"
@@ -215,7 +215,7 @@ class Base(NamedTuple):
     def _check(self, values: Mapping[str, float]) -> None:
         stops = self.base.oscillator.stops
         if not stops:
-            raise InputError("rig: there is no bumper; a rig with one or two is accepted")
+            raise InputError("rig: there is no bumper; a rig with one or two bumpers is accepted")
         for name in values:
             if name in _OF_BUMPERS and not any(isinstance(stop, Bumper) for stop in stops):
                 raise InputError(
@@ -225,5 +225,5 @@ class Base(NamedTuple):
             if name == "restitution" and not any(isinstance(stop, RigidStop) for stop in stops):
                 raise InputError(
                     "rig: 'restitution' applies to rigid stops, but the rig has none; a rig with "
-                    "one or two is accepted"
+                    "at least one rigid stop is accepted"
                 )

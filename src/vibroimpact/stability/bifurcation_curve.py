@@ -116,8 +116,7 @@ def bifurcation_curve(
     if start.attrs.get("parameter") != parameters[0].replace("-", "_"):
         raise InputError(
             f"parameters: {parameters[0]!r} is not the parameter along which the start was "
-            "computed; "
-            f"{start.attrs.get('parameter')!r} is accepted first"
+            f"computed; {start.attrs.get('parameter')!r} is accepted as the first parameter"
         )
     most_points = whole(most_points, "most_points")
     kind = start["bifurcation_kind"].item()
@@ -149,7 +148,7 @@ def bifurcation_curve(
         first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
     if first is None:
         raise InputError(
-            f"start: no {kind} of this rig near {float(start['bifurcation_value']):.9g}; a "
+            f"start: this rig has no {kind} near {float(start['bifurcation_value']):.9g}; a "
             "bifurcation that was computed for this rig is accepted"
         )
     traces, told = [], counted(progress)

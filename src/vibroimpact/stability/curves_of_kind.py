@@ -83,8 +83,8 @@ def curves_of_kind(
         )
     if not found:
         raise InputError(
-            f"kind: no {kind} along {first} between {spans[0][0]} and {spans[0][1]}; another kind "
-            "or range is accepted"
+            f"kind: no {kind} was found along {first} between {spans[0][0]} and {spans[0][1]}; "
+            "another kind or range is accepted"
         )
     return found
 

@@ -214,9 +214,9 @@ def lyapunov_exponents(
     data = describe(data, "vibroimpact.lyapunov_exponents", parameters, varied=every)
     if count := sum(f.settling for f in found):
         warnings.warn(
-            f"{count} of {len(found)} motions were still converging to a periodic one after "
-            f"{transient} + {DISCARD} cycles, so their exponents are not those of its orbit; use "
-            "a larger transient; `settling` marks these motions",
+            f"{count} of {len(found)} motions were still converging to a periodic motion after "
+            f"{transient} + {DISCARD} cycles, so their exponents are not those of the periodic "
+            "motion; use a larger transient; `settling` marks these motions",
             RuntimeWarning,
             stacklevel=2,
         )

@@ -76,13 +76,13 @@ def first_orbit(
 def _no_orbit(period: int, status: Status, failed: Orbit | None) -> InputError:
     if failed is not None and status is Status.NOT_SETTLED and _neutral(failed):
         return InputError(
-            f"start: the orbits of period {period} near it are not isolated, or a fold is near "
-            "(a multiplier of 1), so Newton's method does not converge; use some isolator "
+            f"start: the orbits of period {period} near this state are not isolated, or a fold is "
+            "near (a multiplier of 1), so Newton's method does not converge; use some isolator "
             "damping, or another start"
         )
     return InputError(
-        f"start: Newton's method finds no orbit of period {period} near it ({told(status)}); a "
-        "state closer to an orbit is accepted"
+        f"start: Newton's method finds no orbit of period {period} near this state "
+        f"({told(status)}); a state closer to an orbit is accepted"
     )
 
 
@@ -177,7 +177,8 @@ def _tell_another(rest: Settled, found: Orbit) -> None:
         return
     it = f"has period {rest.period}" if rest.period else "does not settle"
     warnings.warn(
-        f"this orbit of period {found.section.period} is not the motion from rest, which {it}",
+        f"the orbit found has period {found.section.period} and is not the motion from rest, "
+        f"which {it}",
         RuntimeWarning,
         stacklevel=5,
     )

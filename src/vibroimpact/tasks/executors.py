@@ -49,7 +49,8 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
         return Processes(number)
     if threads is not None:
         raise InputError(
-            f"threads: {threads}; on a cluster, its workers set this number; None is accepted"
+            f"threads: {threads}; on a cluster, each worker sets its number of threads; "
+            "None is accepted"
         )
     if importlib.util.find_spec("distributed") is None:
         raise InputError(
@@ -69,4 +70,7 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
     try:
         return Cluster(client(where, timeout=_PATIENCE, set_as_default=False))
     except (OSError, ValueError) as error:
-        raise InputError(f"where: no scheduler answers at {where} ({error})") from error
+        raise InputError(
+            f"where: no scheduler answers at {where} ({error}); the address of a running "
+            "scheduler is accepted"
+        ) from error

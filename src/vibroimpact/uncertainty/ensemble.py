@@ -148,8 +148,8 @@ def _part(data: Any, count: int, names: list[str]) -> xr.Dataset:
     if not isinstance(data, xr.Dataset) or data.sizes.get("rig") != count:
         got = dict(data.sizes) if isinstance(data, xr.Dataset) else shown(data)
         raise InputError(
-            f"response: it gives {got} for {count} rigs; a dataset with the dim rig and one "
-            "entry per rig is accepted"
+            f"response: it returns {got} for {count} rigs; a dataset with a dimension 'rig' and "
+            "one entry per rig is accepted"
         )
     for name in names:
         if name in data.variables:

@@ -98,8 +98,8 @@ class Uncertain(NamedTuple):
         for varied, value in zip(self.parameters, values[0], strict=True):
             if not math.isclose(varied.read(first), value, rel_tol=_ROUNDING, abs_tol=1e-300):
                 raise InputError(
-                    f"distributions: {varied.name!r} and another parameter set the same number of "
-                    "the rig; only one of them is accepted"
+                    f"distributions: {varied.name!r} and another parameter set the same property "
+                    "of the rig; only one of the two is accepted"
                 )
         return found
 

@@ -106,7 +106,9 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
         raise InputError(f"{given[0]}: needs a mass; add a mass")
     for p in own:
         if p.default is p.empty and p.name not in table:
-            raise InputError(f"{p.name}: missing beside {given[0]}; {_ACCEPTS[p.name].words()}")
+            raise InputError(
+                f"{p.name}: missing, but {given[0]} needs it; {_ACCEPTS[p.name].words()}"
+            )
     values = {key: value for key, value in table.items() if key != "kind"}
     return getattr(law, name)(mass, **values)
 

@@ -262,9 +262,9 @@ class YieldingLaw(IsolatorLaw):
             )
         if not 0.0 < self.yield_displacement < math.inf:
             raise InputError(
-                f"yield_force: {pretty(self.yield_force, FORCE)} over elastic_stiffness, "
-                f"{pretty(self.elastic_stiffness, STIFFNESS)}, is a yield displacement outside the "
-                "range of floating-point numbers; moderate values are accepted"
+                f"yield_force: {pretty(self.yield_force, FORCE)} divided by elastic_stiffness, "
+                f"{pretty(self.elastic_stiffness, STIFFNESS)}, gives a yield displacement outside "
+                "the range of floating-point numbers; moderate values are accepted"
             )
         return self
 
