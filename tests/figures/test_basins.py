@@ -88,8 +88,8 @@ def test_curves_of_saddles_are_drawn_over_basins():
     )
     ax = basin_portrait(made(), manifolds=curves)
     legend = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert legend[2:] == ["stable curves of saddles", "unstable curves of saddles", "saddles"]
-    drawn = [line for line in ax.lines if line.get_label() == "stable curves of saddles"]
+    assert legend[2:] == ["stable manifolds of saddles", "unstable manifolds of saddles", "saddles"]
+    drawn = [line for line in ax.lines if line.get_label() == "stable manifolds of saddles"]
     assert [line.get_linestyle() for line in drawn] == ["-", "-"]
     mine = curves["curve_number"].values == 0
     np.testing.assert_allclose(drawn[0].get_ydata(), curves["curve_velocity"].values[mine])

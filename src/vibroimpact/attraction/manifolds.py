@@ -126,7 +126,7 @@ def manifolds(
     if not forgets(stage):
         raise InputError(
             "oscillator: a bumper or the isolator keeps its memory for more than a cycle, so the "
-            "stable and unstable curves of saddles do not lie in a plane; bumpers that relax "
+            "stable and unstable manifolds of saddles do not lie in a plane; bumpers that relax "
             "within a cycle, and an isolator without memory, are accepted"
         )
     wide = span_of(displacement, LENGTH, "displacement")

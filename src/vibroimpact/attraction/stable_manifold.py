@@ -1,4 +1,4 @@
-"""Stable curves of saddles: what the map takes to a short piece beside the saddle.
+"""Stable manifolds of saddles: what the map takes to a short piece beside the saddle.
 
 The map forgets, and so cannot be followed back in time; each point is that whose image is the point
 before it, by Newton's method with the map's derivative, begun at its neighbour on the curve. Where

@@ -1,4 +1,4 @@
-"""Unstable curves of saddles: the images of a short piece beside the saddle."""
+"""Unstable manifolds of saddles: the images of a short piece beside the saddle."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Output variables of computations with many motions: basins, curves of saddles and maps."""
+"""Output variables of computations with many motions: basins, manifolds of saddles and maps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Stable and unstable curves of saddles, as plain values and as text."""
+"""Stable and unstable manifolds of saddles, as plain values and as text."""
 
 from __future__ import annotations
 

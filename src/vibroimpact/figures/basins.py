@@ -201,7 +201,7 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
                 color=colour,
                 linestyle=dashes,
                 linewidth=width,
-                label=f"{kind} curves of saddles",
+                label=f"{kind} manifolds of saddles",
                 path_effects=[patheffects.withStroke(linewidth=width + 1.2, foreground="white")],
                 zorder=3,
             )

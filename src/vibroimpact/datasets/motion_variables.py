@@ -1,0 +1,174 @@
+"""Output variables of one motion, of its orbit and of branches of orbits."""
+
+from __future__ import annotations
+
+from vibroimpact.datasets.variable import Variable
+
+MOTIONS: dict[str, Variable] = {
+    # simulation
+    "displacement": Variable("m", "relative displacement"),
+    "velocity": Variable("m s-1", "relative velocity"),
+    "acceleration": Variable(
+        "m s-2", "absolute acceleration", "at a jump: the value just after the event"
+    ),
+    "base_acceleration": Variable("m s-2", "base acceleration"),
+    "applied_force": Variable("N", "force on the mass"),
+    "right_bumper": Variable("m", "deformation of the right bumper"),
+    "left_bumper": Variable("m", "deformation of the left bumper, negative when compressed"),
+    "right_clearance": Variable("m", "clearance between mass and right bumper"),
+    "left_clearance": Variable("m", "clearance between mass and left bumper"),
+    "contact": Variable("1", "stop touched: -1 left, 0 none, 1 right, 2 both"),
+    "initial_state": Variable("1", "state at the beginning", "components as in final_state"),
+    "isolator_memory": Variable(
+        "m", "memory of the isolator", "the internal state z of its law; see State.isolator"
+    ),
+    "event_isolator_memory": Variable("m", "memory of the isolator at the event"),
+    "final_state": Variable("1", "state at the end", "components in m, m/s, m, m, rad and 1"),
+    "event_time": Variable("s", "time of the event"),
+    "event_cycle": Variable("1", "forcing cycle of the event, counted from 0"),
+    "event_cycle_time": Variable("s", "time of the event since the start of its cycle"),
+    "event_contact": Variable(
+        "1",
+        "kind of event: 1 start of a contact, 0 end of a contact, 2 impact",
+        "contact with a rigid stop means rest on it",
+    ),
+    "event_side": Variable("1", "stop of the event: -1 left, 1 right"),
+    "event_displacement": Variable("m", "relative displacement at the event"),
+    "event_velocity": Variable(
+        "m s-1",
+        "relative velocity at the event",
+        "for an impact on a rigid stop: the value before the impact",
+    ),
+    "event_right_bumper": Variable("m", "deformation of the right bumper at the event"),
+    "event_left_bumper": Variable("m", "deformation of the left bumper at the event"),
+    "event_acceleration_before": Variable("m s-2", "absolute acceleration just before the event"),
+    "event_acceleration_after": Variable("m s-2", "absolute acceleration just after the event"),
+    # contacts
+    "contact_side": Variable("1", "stop of the contact: -1 left, 1 right"),
+    "contact_start": Variable("s", "time at which the contact begins"),
+    "contact_end": Variable("s", "time at which the contact ends"),
+    "contact_start_phase": Variable("rad", "phase of the excitation at the start of the contact"),
+    "contact_end_phase": Variable("rad", "phase of the excitation at the end of the contact"),
+    "contact_duration": Variable("s", "duration of the contact"),
+    "contact_duration_share": Variable(
+        "1", "duration of the contact divided by the forcing period"
+    ),
+    "contact_start_velocity": Variable("m s-1", "relative velocity at the start of the contact"),
+    "contact_end_velocity": Variable("m s-1", "relative velocity at the end of the contact"),
+    "contact_peak_force": Variable("N", "largest contact force", "NaN for an impact"),
+    "contact_impulse": Variable("N s", "impulse of the contact force"),
+    "contact_penetration": Variable("m", "largest deformation of the bumper during the contact"),
+    "contact_dissipated": Variable(
+        "J", "energy lost in the bumper's dashpot during the contact, or in an impact"
+    ),
+    "contact_dissipated_relaxing": Variable(
+        "J",
+        "energy lost in the bumper's dashpot after the contact",
+        "while it relaxes, until it is pressed again or the record ends",
+    ),
+    "contact_peak_acceleration": Variable(
+        "m s-2",
+        "largest absolute acceleration during the contact, without sign",
+        "one-sided values at contact and detachment included",
+    ),
+    "contact_peak_time": Variable("s", "time of the largest absolute acceleration"),
+    "contact_restitution": Variable(
+        "1",
+        "effective restitution coefficient",
+        "separation velocity divided by closing velocity of the mass",
+    ),
+    "contact_closing_speed": Variable(
+        "m s-1", "speed at which the clearance closes", "including the speed of a relaxing bumper"
+    ),
+    "contact_grazing": Variable("1", "whether the contact only grazes"),
+    # sections
+    "section_displacement": Variable("m", "relative displacement at the section"),
+    "section_velocity": Variable("m s-1", "relative velocity at the section"),
+    "section_right_bumper": Variable("m", "deformation of the right bumper at the section"),
+    "section_left_bumper": Variable("m", "deformation of the left bumper at the section"),
+    # spectrum
+    "order": Variable("1", "frequency divided by the excitation frequency"),
+    "line_frequency": Variable("Hz", "frequency of the spectral line"),
+    "displacement_amplitude": Variable("m", "amplitude of relative displacement"),
+    "velocity_amplitude": Variable("m s-1", "amplitude of relative velocity"),
+    "acceleration_amplitude": Variable("m s-2", "amplitude of absolute acceleration"),
+    "displacement_phase": Variable("rad", "phase of relative displacement (of a cosine)"),
+    "velocity_phase": Variable("rad", "phase of relative velocity (of a cosine)"),
+    "acceleration_phase": Variable("rad", "phase of absolute acceleration (of a cosine)"),
+    # steady motion
+    "antisymmetric": Variable("1", "whether u(t + T/2) = -u(t), T the period of the motion"),
+    "mirror_distance": Variable(
+        "1",
+        "distance of the motion from its mirror image half a period later",
+        "largest difference of states divided by the size of the motion; NaN if the rig is not "
+        "symmetric",
+    ),
+    "exponents": Variable("s-1", "largest two Lyapunov exponents"),
+    "exponents_uncertainty": Variable("s-1", "standard uncertainty of the Lyapunov exponents"),
+    "exponents_cycles": Variable(
+        "1", "number of forcing cycles over which the exponents were computed"
+    ),
+    "settling": Variable("1", "whether the motion was still converging to a periodic one"),
+    "effective_damping": Variable(
+        "s-1",
+        "mean damping per unit mass, including that of compressed bumpers",
+        "minus the sum of the two exponents, if the memory of the bumpers has decayed",
+    ),
+    "stable": Variable(
+        "1",
+        "whether the motion is stable: no small disturbance grows",
+        "1 yes, 0 no, -1 undecided: not an orbit, no dissipation, or exactly at a bifurcation",
+    ),
+    "fold_frequency": Variable(
+        "Hz", "frequency at which the branch of the primary resonance turns back"
+    ),
+    # branches
+    "arclength": Variable("1", "arclength along the branch, in scaled components"),
+    "branch": Variable("1", "number of the branch"),
+    "piece": Variable(
+        "1", "number of the smooth piece", "it changes where the sequence of contacts changes"
+    ),
+    "multiplier_real": Variable("1", "real part of the Floquet multipliers"),
+    "multiplier_imag": Variable("1", "imaginary part of the Floquet multipliers"),
+    "monodromy": Variable(
+        "1",
+        "derivative of the state after one period with respect to the initial state",
+        "of u, u', u_R, u_L, in SI units",
+    ),
+    "residual": Variable("1", "error of the periodicity divided by the size of the motion"),
+    "bifurcation_kind": Variable("1", "kind of bifurcation"),
+    "bifurcation_value": Variable("1", "parameter at the bifurcation", "in the parameter's units"),
+    "bifurcation_arclength": Variable("1", "arclength at the bifurcation"),
+    "bifurcation_turns": Variable("1", "whether the branch turns back at the bifurcation"),
+    "bifurcation_branch": Variable("1", "number of the branch of the bifurcation"),
+    "bifurcation_displacement_excursion": Variable("m", "excursion of relative displacement"),
+    "bifurcation_eta_d": Variable("1", "normalised excursion of relative displacement"),
+    "bifurcation_eta_a": Variable("1", "normalised excursion of absolute acceleration"),
+    "bifurcation_eccentricity": Variable("m", "eccentricity at the bifurcation"),
+    "bifurcation_peak_displacement": Variable("m", "largest relative displacement"),
+    "bifurcation_peak_acceleration": Variable("m s-2", "largest absolute acceleration"),
+    "bifurcation_peak_force_right": Variable("N", "largest contact force of the right stop"),
+    "bifurcation_peak_force_left": Variable("N", "largest contact force of the left stop"),
+    "bifurcation_period": Variable("1", "period of the orbit in forcing cycles"),
+    "bifurcation_contacts": Variable(
+        "1", "contacts per period", "for a grazing bifurcation: on both of its sides"
+    ),
+    "bifurcation_antisymmetric": Variable("1", "whether the orbit is its own mirror image"),
+    "cusp_first": Variable("1", "first parameter at the cusp", "in the parameter's units"),
+    "cusp_second": Variable("1", "second parameter at the cusp", "in the parameter's units"),
+    "bifurcation_multiplier_real": Variable("1", "real part of the Floquet multipliers"),
+    "bifurcation_multiplier_imag": Variable("1", "imaginary part of the Floquet multipliers"),
+    "bifurcation_section": Variable(
+        "1", "state at the stroboscopic section", "components in m, m/s, m, m, rad and 1"
+    ),
+    "evidence": Variable("1", "reason for the classification of the motion"),
+    "starts": Variable("1", "names of the initial states that led to the motion"),
+    "mirrored_starts": Variable("1", "names of the initial states that led to its mirror image"),
+    "mirror_pair": Variable("1", "whether the mirror image of the motion is a different motion"),
+    "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),
+    "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
+    "energy_bumpers": Variable("J", "energy lost in the stops per forcing cycle"),
+    "total_supplied": Variable("J", "work of the excitation on the mass during the whole motion"),
+    "total_isolator": Variable("J", "energy lost in the isolator during the whole motion"),
+    "total_bumpers": Variable("J", "energy lost in the stops during the whole motion"),
+}
