@@ -164,7 +164,7 @@ GAPS = ("--first", "1mm:20mm")
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (["--over", "frequency", *SECOND], "--over: 'frequency'; two"),
+        (["--over", "frequency", *SECOND], "--over: 'frequency' is not a pair"),
         (["--over", "", *SECOND], "--over"),
         (["--over", "frequency,gap,damping", *SECOND], "--over"),
         (["--over", "frequency,mass", *SECOND], "--over: 'mass'"),

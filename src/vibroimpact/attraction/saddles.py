@@ -120,7 +120,8 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
     if isinstance(orbit, xr.Dataset):
         if "monodromy" not in orbit or "final_state" not in orbit:
             raise InputError(
-                f"{where}: this is not an orbit; a dataset of orbit, or a State, is accepted"
+                f"{where}: this is not an orbit; a State, or a dataset that `orbit` returns, is "
+                "accepted"
             )
         period = int(orbit["period"])
         phase = float(orbit["final_state"].sel(component="phase"))

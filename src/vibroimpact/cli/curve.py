@@ -83,7 +83,7 @@ def curve(
     names = [name.strip().replace("-", "_") for name in over.split(",")]
     if len(names) != 2:
         raise InputError(
-            f"--over: {over!r}; two parameters with a comma between them are accepted, such as "
+            f"--over: {over!r} is not a pair; two names with a comma are accepted, such as "
             "frequency,gap"
         )
     kind, pair = _KINDS[bifurcation], (names[0], names[1])

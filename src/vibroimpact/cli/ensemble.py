@@ -86,8 +86,9 @@ def ensemble(
     given = opt.by_name("--uncertain", uncertain or tuple((table.uncertain or {}).items()))
     if not given:
         raise InputError(
-            "--uncertain: missing; a parameter and its distribution are accepted, such as "
-            "--uncertain gap normal:5%, or the key uncertain in the table [ensemble] of the study"
+            "--uncertain: missing; pass a parameter and its distribution, such as "
+            "--uncertain gap normal:5%, or set the key uncertain in the table [ensemble] of the "
+            "study"
         )
     default = default_range(what, _COARSER)
     grid = list_frequencies(start, stop, step, frequencies, what.sweep_table, default)

@@ -117,7 +117,9 @@ def suite(records: Any) -> dict[str, Record]:
             found[name if name not in found else f"{name} ({i})"] = one
     for name, one in found.items():
         if not isinstance(one, Record):
-            raise InputError(f"records[{name!r}]: {shown(one)}; a Record is accepted")
+            raise InputError(
+                f"records[{name!r}]: {shown(one)} is not a record; a Record is accepted"
+            )
     if not found:
         raise InputError("records: none given; one or several are accepted")
     return found

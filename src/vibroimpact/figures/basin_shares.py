@@ -39,8 +39,8 @@ def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     """
     if "share" not in data or data["share"].ndim != 2:
         raise InputError(
-            "data: it has no shares along a parameter; a dataset of basin_stability with a "
-            "parameter is accepted"
+            "data: the shares of the basins belong to a single rig; a dataset of "
+            "`basin_stability`, called with a parameter and its values, is accepted"
         )
     ax = axes_or_new(ax, (7.2, 4.4), title)
     along = data[str(data["share"].dims[0])]

@@ -60,8 +60,8 @@ def decimal_mark(lines: Iterable[str], where: str) -> Decimal:
     if numbers and not parted and all(map(_THOUSANDS.fullmatch, numbers)):
         raise InputError(
             f"{where}: the comma of {numbers[0]!r} may be a decimal comma or a separator of "
-            "thousands; decimal=',' (--decimal ,), which makes it a decimal comma, or a file with "
-            "decimal points and without separators of thousands is accepted"
+            "thousands; for a decimal comma, pass decimal=',' (--decimal ,); otherwise use a file "
+            "with decimal points and without separators of thousands"
         )
     return "," if numbers else "."
 

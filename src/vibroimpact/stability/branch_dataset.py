@@ -178,7 +178,8 @@ def _measured(one: Orbit) -> _Array:
     if outcome != Status.DONE:
         result[:] = np.nan
         warnings.warn(
-            f"the orbit at {one.value:.9g} has no extremes: {Status(outcome).advice}",
+            f"the largest values of the orbit at {one.section.family.parameter.name} "
+            f"{one.value:.9g} are unknown: {Status(outcome).advice}",
             RuntimeWarning,
             stacklevel=6,
         )

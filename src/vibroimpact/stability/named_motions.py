@@ -65,8 +65,8 @@ def named_motions(
     starts = arrivals(rig)
     if name not in starts:
         raise InputError(
-            f"branch: no {branch} sweep reaches {rig.frequency:g} Hz; 'all' is accepted, or a "
-            "frequency within 0.3 to 6 times the natural frequency"
+            f"branch: no {branch} sweep reaches {rig.frequency:g} Hz; use a frequency within "
+            "0.3 to 6 times the natural frequency, or branch='all'"
         )
     data = steady(rig, starts[name], samples, window=window, progress=progress)
     return {name: _complete(data)}
