@@ -72,7 +72,7 @@ def test_units(tmp_path):
         ("0,1\n0,2\n0,3\n", None, "m/s^2", r"record: .*not evenly spaced"),
         ("1\n2\n", 0.1, "N", r"unit: .*"),
         ("1\n2\n", 0.1, "nonsense", r"unit: .*"),
-        ("0\n0\n0\n0\n0\n1\n1\n1\n1\n1\n", 0.1, "mm", r".*displacement\[\d\]: it jumps"),
+        ("0\n0\n0\n0\n0\n1\n1\n1\n1\n1\n", 0.1, "mm", r".*displacement\[\d\]: the displacement jumps"),
     ],
 )
 def test_refused_in_one_line(tmp_path, text, step, unit, line):
@@ -136,7 +136,7 @@ def test_a_comma_that_may_mean_two_things(tmp_path):
     path = written(tmp_path, "0,001 1,500\n0,002 -2,500\n")
     assert vi.Record.read(path).peak == 2.5
     path = written(tmp_path, "1,000 1,500\n2,000 -2,500\n")
-    with pytest.raises(vi.InputError, match=r"the comma of '1,000' may be .*; decimal=','"):
+    with pytest.raises(vi.InputError, match=r"the comma of '1,000' may be .* pass decimal=','"):
         vi.Record.read(path)
     assert vi.Record.read(path, decimal=",").peak == 2.5
     with pytest.raises(vi.InputError, match=r"^decimal: ';'; '\.' or ',' is accepted"):

@@ -68,7 +68,7 @@ def bifurcation(
         Space the values of the parameter evenly on a logarithmic axis.
     frequency
         Forcing frequency, such as 2Hz, if another parameter is varied. Default: the frequency in
-        the study ([simulate]).
+        the study (table [simulate]).
     direction
         Order of the values: rising (up), falling (down) or both. With none, motions start only from
         random states.

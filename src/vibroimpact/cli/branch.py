@@ -67,7 +67,8 @@ def branch(
     ----------
     frequency
         Forcing frequency, such as 2Hz. If another parameter is varied, or with --start or --period,
-        it must be stated here or in the study. Default: the frequency in the study ([simulate]).
+        it must be stated here or in the study. Default: the frequency in the study (table
+        [simulate]).
     quantity
         Quantity on the vertical axis of the figure.
     physical

@@ -71,7 +71,7 @@ def curve(
         for vibroimpact branch. For another parameter the range is required.
     frequency
         Forcing frequency, such as 2Hz, if the frequency is not the first parameter. Default: the
-        frequency in the study ([simulate]).
+        frequency in the study (table [simulate]).
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results

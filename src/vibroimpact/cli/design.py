@@ -69,25 +69,25 @@ def design(
         used once or twice. Without VALUES there are 15 values. Examples of names: gap,
         bumper-stiffness (at constant damping), stiffness-at-restitution (stiffness of the bumpers
         at constant coefficient of restitution), bumper-damping, isolator-period, damping-ratio,
-        yield-force. Default: the parameters in the study ([design]). If the study has none, the
-        gap is varied up to slightly above the gap at which the rig hits no stop. If all stops are
-        linear bumpers, their stiffness is varied, too.
+        yield-force. Default: the parameters in the study (table [design]). If the study has none,
+        the gap is varied up to slightly above the gap at which the rig hits no stop. If all stops
+        are linear bumpers, their stiffness is varied, too.
     best
         Also search for the bumper that gives the smallest acceleration of the mass. The search
         keeps the gap of the rig.
     limit
         Quantity and the value that it must not exceed, such as peak-force 5MN. The quantities are
         peak-force, penetration and peak-displacement. The option may be repeated. These limits are
-        added to the limits in the study ([design]).
+        added to the limits in the study (table [design]).
     fractile
         Fractile of the response to the records, from 0 to 1. Default: the value in the study
-        ([design]), or 1, which is the largest response to any of the records.
+        (table [design]), or 1, which is the largest response to any of the records.
     start
-        Lowest frequency of the sines. Default: the value in the study ([sweep]), or a frequency
-        below the primary resonance of each design.
+        Lowest frequency of the sines. Default: the value in the study (table [sweep]), or a
+        frequency below the primary resonance of each design.
     to
-        Highest frequency of the sines. Default: the value in the study ([sweep]), or a frequency
-        above the primary resonance of each design.
+        Highest frequency of the sines. Default: the value in the study (table [sweep]), or a
+        frequency above the primary resonance of each design.
     """
     from vibroimpact.cli.frequency_grid import sine_span
     from vibroimpact.cli.output import progress_bar

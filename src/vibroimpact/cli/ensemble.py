@@ -58,7 +58,7 @@ def ensemble(
         normal:7.5mm:0.5mm, damping lognormal:0.2, stiffness uniform:5%. Other distributions are
         triangular:LOW:MODE:HIGH and normal:MEAN:DEVIATION:LOW:HIGH. A percentage refers to the
         value of the rig. The names of the parameters are those of vibroimpact branch. Default: the
-        distributions in the study ([ensemble]).
+        distributions in the study (table [ensemble]).
     sensitivity
         Also compute which parameter contributes most to the variance of the peaks (Sobol indices).
     start

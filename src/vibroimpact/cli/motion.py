@@ -49,7 +49,7 @@ def motion(
     ----------
     frequency
         Forcing frequency, such as 0.58Hz, or several frequencies, such as 0.58Hz,0.8Hz,2.6Hz.
-        Default: the frequency in the study ([simulate]).
+        Default: the frequency in the study (table [simulate]).
     branch
         Motions that are shown: the motion that a forward sweep reaches (forward), the motion that
         a backward sweep reaches (backward), or all motions that are reached from sweeps, from rest

@@ -65,7 +65,8 @@ Frequency: TypeAlias = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="Forcing frequency, such as 2Hz. Default: the frequency in the study ([simulate]).",
+        help="Forcing frequency, such as 2Hz. Default: "
+        "the frequency in the study (table [simulate]).",
     ),
 ]
 Threads: TypeAlias = Annotated[
@@ -128,8 +129,8 @@ class RigOptions:
         Literal["table", "identified", "refined"] | None, Parameter(group=RIG)
     ] = None
     """Parameter set of a laboratory case. table: the table of the paper that published the tests,
-    for all cases. identified: fitted values, only for B2-G1-A3 and B2-G2-A2. refined: the table
-    with a softening isolator, for all cases. Default: table."""
+    for all cases. identified: fitted values, only for B2-G1-A3 and B2-G2-A2. refined: those of
+    the table, but with a softening isolator, for all cases. Default: table."""
     amplitude: _OfRig = None
     """Amplitude of the shaking: peak acceleration of the base, such as 0.05g or 0.49m/s^2, peak
     displacement of the base, such as 5mm, or peak force on the mass, such as 120N."""

@@ -34,7 +34,7 @@ Least: TypeAlias = Annotated[
         allow_leading_hyphen=True,
         help=(
             "Lowest value of the parameter. Default for the frequency: the value in the study "
-            "([sweep]), or 0.27 × the natural frequency; 0.3 Hz for laboratory cases. Other "
+            "(table [sweep]), or 0.27 × the natural frequency; 0.3 Hz for laboratory cases. Other "
             "parameters have no default."
         ),
     ),
@@ -46,7 +46,7 @@ Largest: TypeAlias = Annotated[
         allow_leading_hyphen=True,
         help=(
             "Highest value of the parameter. Default for the frequency: the value in the study "
-            "([sweep]), or 4.5 × the natural frequency; 5 Hz for laboratory cases. Other "
+            "(table [sweep]), or 4.5 × the natural frequency; 5 Hz for laboratory cases. Other "
             "parameters have no default."
         ),
     ),

@@ -50,7 +50,7 @@ def simulate(
     Parameters
     ----------
     cycles
-        Number of forcing cycles. Default: the number in the study ([simulate]), or 100.
+        Number of forcing cycles. Default: the number in the study (table [simulate]), or 100.
     samples
         Number of samples per forcing cycle, or per step of a record. It does not affect the
         computed motion. Default: 256 per forcing cycle, or 1 per step of a record.
@@ -60,7 +60,7 @@ def simulate(
         Initial velocity, such as 100mm/s (default: 0).
     tail
         Duration of free vibration after a record, such as 10s. Default: the duration in the study
-        ([simulate]), or 0.
+        (table [simulate]), or 0.
     shown
         Number of forcing cycles in the figure. The last cycles are shown.
     """

@@ -27,7 +27,7 @@ class StateOptions:
     """Options for the initial states."""
 
     frequency: _OfStates = None
-    """Forcing frequency, such as 0.7Hz. Default: the frequency in the study ([simulate])."""
+    """Forcing frequency, such as 0.7Hz. Default: the frequency in the study (table [simulate])."""
     phase: _OfStates = None
     """Forcing phase at which motions start, such as 90deg. Default: the phase in the study, or
     0."""

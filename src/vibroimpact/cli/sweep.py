@@ -49,20 +49,20 @@ def sweep(
     Parameters
     ----------
     start
-        Lowest frequency, such as 0.3Hz. Default: the value in the study ([sweep]), or 0.45 × the
-        natural frequency; 0.5 Hz for laboratory cases.
+        Lowest frequency, such as 0.3Hz. Default: the value in the study (table [sweep]), or 0.45 ×
+        the natural frequency; 0.5 Hz for laboratory cases.
     stop
-        Highest frequency, such as 4Hz. Default: the value in the study ([sweep]), or 4.5 × the
-        natural frequency; 5 Hz for laboratory cases.
+        Highest frequency, such as 4Hz. Default: the value in the study (table [sweep]), or 4.5 ×
+        the natural frequency; 5 Hz for laboratory cases.
     step
         Step between frequencies, such as 0.01Hz. The published tests had steps of 0.1 Hz. Default:
-        the value in the study ([sweep]), or about a hundredth of the natural frequency; 0.01 Hz for
-        laboratory cases.
+        the value in the study (table [sweep]), or about a hundredth of the natural frequency; 0.01
+        Hz for laboratory cases.
     frequencies
         List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step.
     direction
         Order of the frequencies: forward (rising), backward (falling) or both. Default: the value
-        in the study ([sweep]), or both.
+        in the study (table [sweep]), or both.
     physical
         Draw the largest acceleration (g), displacement (mm) and contact force instead of η_a and
         η_d. These quantities are always drawn if the motion without stops is unbounded.
