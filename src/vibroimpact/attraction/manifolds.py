@@ -77,10 +77,11 @@ def manifolds(
     period
         Period of the saddle orbits that are passed as states, in forcing cycles.
     spacing
-        Largest distance between neighbouring points of a curve, in units in which each side of the
-        window has the length 1.
+        Largest distance between neighbouring points of a curve, with displacement and velocity each
+        divided by the width of its range.
     longest
-        Length at which a curve ends, in units in which each side of the window has the length 1.
+        Length at which a curve ends, with displacement and velocity each divided by the width of
+        its range.
     max_cycles, max_events, threads
         As in `basins`.
     progress

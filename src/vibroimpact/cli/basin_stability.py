@@ -29,9 +29,10 @@ def basin_stability(
 ) -> int:
     """Compute the share of random states that lead to each steady motion, along a parameter.
 
-    This share is the basin stability of the motion. The motions are numbered. From one value of the
-    parameter to the next, a motion keeps its number if, at the new value, simulations from its
-    states lead to a nearby motion.
+    This share is the basin stability of the motion. Each motion has a number. The command simulates
+    from the states of a motion at the next value of the parameter. If these simulations lead to a
+    nearby motion, this motion gets the same number. If the parameter is the frequency, --frequency
+    has no effect.
 
     The command prints the range of the parameter in which each motion exists, with its shares. It
     writes NAME-PARAMETER-basin-stability.nc and NAME-PARAMETER-basin-stability.png.

@@ -49,9 +49,9 @@ def bifurcation(
     """Compute a bifurcation diagram: the steady motions at a series of values of a parameter.
 
     At each value, the motion is simulated until it is steady. The motion at the next value starts
-    from its final state. The values are passed in rising and in falling order (--direction).
-    Motions may also start from random states (--random). For each motion, the diagram shows the
-    points of a Poincaré section, the period and the largest Lyapunov exponent.
+    from the final state of this motion. The order of the values is rising, falling or both
+    (--direction). Motions may also start from random states (--random). For each motion, the
+    diagram shows the points of a Poincaré section, the period and the largest Lyapunov exponent.
 
     The command prints the ranges in which the motions have the same type. It writes
     NAME-PARAMETER-diagram.nc and NAME-PARAMETER-diagram.png.
@@ -70,16 +70,17 @@ def bifurcation(
         Forcing frequency, such as 2Hz, if another parameter is varied. Default: the frequency in
         the study (table [simulate]).
     direction
-        Order of the values: rising (up), falling (down) or both. With none, motions start only from
-        random states.
+        Order of the values: rising (up), falling (down) or both. If it is none, motions start only
+        from random states (--random).
     quantity
-        Quantity of the section in the figure. The quantities displacement and velocity are taken
-        once per forcing cycle. The quantities impact-velocity and impact-phase are taken at the
-        start of each contact.
+        Quantity on the vertical axis of the figure. A displacement or velocity is recorded once per
+        forcing cycle, and an impact-velocity or impact-phase at the start of each contact.
     phase
-        Forcing phase of the section, such as 90deg. Default: the phase in the study, or 0.
+        Forcing phase at which displacement and velocity are recorded, such as 90deg. Default: the
+        phase in the study, or 0.
     branches
-        Also follow the branches of periodic orbits, and mark their bifurcations.
+        Also follow the branches of periodic orbits (see vibroimpact branch), and mark their
+        bifurcations in the figure.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results

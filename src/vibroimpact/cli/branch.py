@@ -66,17 +66,17 @@ def branch(
     Parameters
     ----------
     frequency
-        Forcing frequency, such as 2Hz. If another parameter is varied, or with --start or --period,
-        it must be stated here or in the study. Default: the frequency in the study (table
-        [simulate]).
+        Forcing frequency, such as 2Hz. It is required if another parameter is varied, or with
+        --start or --period. Default: the frequency in the study (table [simulate]).
     quantity
-        Quantity on the vertical axis of the figure.
+        Quantity on the vertical axis of the figure. eta_d and eta_a are the normalised excursions
+        (maximum minus minimum) of displacement and acceleration.
     physical
         Draw the largest displacement (mm) instead of eta_d, and the largest acceleration (g)
         instead of eta_a.
     basins
-        Number of values of the parameter at which basins of attraction are computed. They are used
-        to find isolated branches, even if their basins are small.
+        Number of values of the parameter at which basins of attraction are computed. The basins
+        help to find isolated branches, even if few initial states lead to these branches.
     begin
         Displacement and velocity near the first orbit of one branch, such as 5mm,100mm/s. Default:
         all branches are followed.

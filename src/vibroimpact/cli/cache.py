@@ -26,8 +26,8 @@ def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = Fal
     Parameters
     ----------
     clean
-        What is removed: the code of other versions and installations (others), or all code (all).
-        Removed code is compiled again when it is needed. Default: nothing is removed.
+        Remove the code of other versions and installations (others), or all code (all). Removed
+        code is compiled again when it is needed. Default: nothing is removed.
     """
     from json import dumps
 

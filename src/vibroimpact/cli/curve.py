@@ -49,7 +49,8 @@ def curve(
 
     The command first finds the bifurcations of one kind along the first parameter. It then follows
     each of them as a curve over both parameters. It prints the ends and the cusps of each curve. It
-    writes NAME-BIFURCATION-FIRST-SECOND.nc, with a group for each curve, and a figure of the plane.
+    writes NAME-BIFURCATION-FIRST-SECOND.nc, with one NetCDF group per curve, and a figure of the
+    plane.
 
     For example:
 
@@ -61,8 +62,8 @@ def curve(
     bifurcation
         Kind of bifurcation that is followed.
     over
-        Names of the two parameters, separated by a comma; for the names see vibroimpact branch.
-        The bifurcations are first searched along the first parameter.
+        Names of the two parameters, separated by a comma; for the names see vibroimpact branch. The
+        command first finds the bifurcations along the first parameter.
     first
         Range of the first parameter, LOW:HIGH. Default for the frequency: as for vibroimpact
         branch. For another parameter the range is required.

@@ -40,9 +40,9 @@ def earthquake(
 
     - NAME-earthquake.csv: a table with a row for each record
     - NAME-RECORD-earthquake.png: a page of figures for each record
-    - NAME-RECORD-earthquake.nc: a file for each record, with four groups: response, motion, ground
-      and floor. The groups ground and floor contain the response spectra of the ground and of the
-      mass.
+    - NAME-RECORD-earthquake.nc: a file for each record, with four NetCDF groups: response, motion,
+      ground and floor. The groups ground and floor contain the response spectra of the ground and
+      of the mass.
 
     For example:
 

@@ -56,9 +56,9 @@ def ensemble(
     uncertain
         Parameter and its distribution. The option may be repeated. Examples: gap
         normal:7.5mm:0.5mm, damping lognormal:0.2, stiffness uniform:5%. Other distributions are
-        triangular:LOW:MODE:HIGH and normal:MEAN:DEVIATION:LOW:HIGH. A percentage refers to the
-        value of the rig. The names of the parameters are those of vibroimpact branch. Default: the
-        distributions in the study (table [ensemble]).
+        triangular:LOW:MODE:HIGH and normal:MEAN:DEVIATION:LOW:HIGH. A single number or percentage
+        is relative to the value of the rig. The names of the parameters are those of vibroimpact
+        branch. Default: the distributions in the study (table [ensemble]).
     sensitivity
         Also compute which parameter contributes most to the variance of the peaks (Sobol indices).
     start
@@ -71,7 +71,8 @@ def ensemble(
     frequencies
         List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step.
     physical
-        Draw the largest acceleration (g) and displacement (mm) instead of η_a and η_d.
+        Draw the largest acceleration (g) and displacement (mm) instead of the normalised excursions
+        η_a and η_d.
     """
     from vibroimpact.cli.frequency_grid import default_range, list_frequencies
     from vibroimpact.cli.output import progress_bar

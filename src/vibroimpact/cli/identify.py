@@ -65,20 +65,23 @@ def identify(
         Free parameters that are fitted separately for each test, separated by commas. All other
         free parameters have the same value in all tests. Default: none.
     bounds
-        Bounds of a free parameter, NAME LOW:HIGH. The option may be repeated.
+        Bounds of a free parameter, NAME LOW:HIGH, such as gap 5mm:10mm. The option may be repeated.
+        Default: none.
     tie
         Keep one parameter equal to another one, such as left-gap right-gap. The option may be
         repeated.
     prior
-        Prior knowledge of a free parameter, NAME MEAN:DEVIATION. The option may be repeated.
+        Mean and standard deviation of the normal prior of a free parameter, NAME MEAN:DEVIATION,
+        such as gap 7.5mm:0.2mm. The option may be repeated. Default: none.
     columns
-        Variable and the column that holds it, such as displacement-excursion 'channel 3'. The
-        option may be repeated.
+        Variable and the column of the file that contains it, such as displacement-excursion
+        'channel 3'. The option may be repeated.
     units
         Variable or column and its unit, such as displacement-excursion mm. The option may be
         repeated.
     group
-        Name of the test, if a file holds several. Default: the only test.
+        Name of the test that is read, if a file contains several. Default: the only test in the
+        file.
     decimal
         Decimal mark of a table. Default: detected from the table.
     steady
@@ -86,7 +89,8 @@ def identify(
         the steady motion that the rig reaches from the measured state, and no initial states are
         fitted.
     compare
-        Other models that are also fitted: hertz, softening or hertz,softening. Default: none.
+        Other models that are also fitted: hertz (Hertzian contacts), softening (a softening
+        isolator) or hertz,softening. Default: none.
     """
     from vibroimpact.cli.measured import pair, shaking_of_tests, with_amplitude
     from vibroimpact.cli.output import progress_bar, tell

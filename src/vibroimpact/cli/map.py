@@ -52,14 +52,14 @@ def scenario_map(
     ----------
     rig
         The rig: the code of a laboratory case, or the path of a study file. A single sine must
-        shake the rig. Default: a rig with ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on both sides,
-        as in the published tests.
+        shake the rig. Default: a rig with damping-ratio 0.15, relaxation-time 0.01, stiffness-ratio
+        25.9 and gap-ratio 0.5 on both sides, as in the published tests.
     x
         Parameter of the horizontal axis and its range, NAME LOW:HIGH[:log][:NODES]. Without NODES
         there are 21 nodes. Physical parameters: gap, amplitude, bumper-stiffness,
-        proportional-stiffness (at a fixed C/K), isolator-period. Dimensionless parameters:
-        stiffness-ratio, gap-ratio, relaxation-time, damping-ratio, restitution. Default:
-        stiffness-ratio 0.5:100:log.
+        proportional-stiffness (bumper stiffness at a constant ratio of damping to stiffness),
+        isolator-period. Dimensionless parameters: stiffness-ratio, gap-ratio, relaxation-time,
+        damping-ratio, restitution. Default: stiffness-ratio 0.5:100:log.
     y
         Parameter of the vertical axis and its range, as for --x. Default: gap-ratio 0:1.
     border

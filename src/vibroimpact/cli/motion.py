@@ -36,7 +36,8 @@ def motion(
     For each motion, the command prints its type (periodic, quasi-periodic, chaotic or undecided)
     with the evidence, its extremes and its contacts. It writes:
 
-    - NAME-FREQUENCY-motion.nc: for each motion a group with samples, contacts, spectrum and section
+    - NAME-FREQUENCY-motion.nc: the samples, contacts, spectrum and Poincaré section of each motion,
+      with one NetCDF group per motion
     - NAME-FREQUENCY-motion.png: phase portraits, spectra and time histories
 
     For example:

@@ -154,17 +154,17 @@ class RigOptions:
     gap: _OfRig = None
     """Gap on each side, such as 7.5mm. It is half the total gap of a case code."""
     right_stiffness: _OfRig = None
-    """Stiffness of the right bumper."""
+    """Stiffness of the right bumper, such as 510kN/m."""
     right_damping: _OfRig = None
-    """Damping of the right bumper."""
+    """Damping of the right bumper, such as '0.9 kN s/m'."""
     right_gap: _OfRig = None
-    """Gap on the right side."""
+    """Gap on the right side, such as 7.5mm."""
     left_stiffness: _OfRig = None
-    """Stiffness of the left bumper."""
+    """Stiffness of the left bumper, such as 510kN/m."""
     left_damping: _OfRig = None
-    """Damping of the left bumper."""
+    """Damping of the left bumper, such as '0.9 kN s/m'."""
     left_gap: _OfRig = None
-    """Gap on the left side."""
+    """Gap on the left side, such as 7.5mm."""
     no_right: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False
     """Remove the right bumper."""
     no_left: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False
@@ -182,13 +182,14 @@ class ThresholdOptions:
     """Options for the thresholds between scenarios."""
 
     prominence: _Threshold = None
-    """Smallest prominence of a secondary resonance in η_a, as a share of its height (default:
-    0.02)."""
+    """Smallest prominence of a secondary resonance in the curve of η_a (the normalised excursion of
+    the acceleration), as a share of the height of this resonance (default: 0.02)."""
     extent: _Threshold = None
     """Smallest total width of secondary left hystereses and non-regular resonances, as a share of
     the natural frequency. Default: 0.08, the frequency step of the published tests."""
     touch: _Threshold = None
-    """Largest value of 1 - δ0 for which a contact is called grazing (default: 0.1)."""
+    """A contact counts as grazing only if the gap is smaller than the largest displacement without
+    stops by at most this share (default: 0.1)."""
     deformation: _Threshold = None
     """Largest penetration of a grazing contact, as a share of the gap (default: 0.1)."""
 
@@ -208,7 +209,7 @@ class OutputOptions:
     output: OutputFolder = "out"
     """Folder for the files, which is created if it does not exist (default: out)."""
     name: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """First part of the file names, NAME (default: the name of the rig)."""
+    """First part of the file names, NAME (default: the name of the rig or record)."""
     figure: Annotated[Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, show_default=False)] = (
         "png"
     )

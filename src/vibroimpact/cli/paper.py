@@ -35,8 +35,8 @@ def paper(
     For each statement, the report gives the computed quantity, the deciding numbers and a verdict:
     reproduced, not reproduced, or not testable without the data of the experiment. A statement that
     is not reproduced is not an error. The report counts the statements separately by kind, because
-    they are not equally strong tests. The outcome of some statements was open. The outcome of
-    others follows from the classification rules, from the inputs or from the equations.
+    they are not equally strong tests. The computation could have refuted some statements. Others
+    must hold because of the classification rules, the inputs or the equations.
 
     For example:
 

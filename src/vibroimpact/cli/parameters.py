@@ -25,7 +25,10 @@ PARAMETERS = (
 """Names of all parameters, written out because ``--help`` must not import what computes."""
 
 Varied: TypeAlias = Annotated[
-    str, Parameter(help=f"Parameter that is varied. The rig must have it. Names: {PARAMETERS}.")
+    str,
+    Parameter(
+        help=f"Parameter that is varied. The rig must have this parameter. Names: {PARAMETERS}."
+    ),
 ]
 Least: TypeAlias = Annotated[
     str | None,
@@ -33,9 +36,9 @@ Least: TypeAlias = Annotated[
         name="--from",
         allow_leading_hyphen=True,
         help=(
-            "Lowest value of the parameter. Default for the frequency: the value in the study "
-            "(table [sweep]), or 0.27 × the natural frequency; 0.3 Hz for laboratory cases. Other "
-            "parameters have no default."
+            "Lowest value of the parameter, such as 0.9Hz or 3mm. Default for the frequency: the "
+            "value in the study (table [sweep]), or 0.27 × the natural frequency; 0.3 Hz for "
+            "laboratory cases. Other parameters have no default."
         ),
     ),
 ]
@@ -45,9 +48,9 @@ Largest: TypeAlias = Annotated[
         name="--to",
         allow_leading_hyphen=True,
         help=(
-            "Highest value of the parameter. Default for the frequency: the value in the study "
-            "(table [sweep]), or 4.5 × the natural frequency; 5 Hz for laboratory cases. Other "
-            "parameters have no default."
+            "Highest value of the parameter, such as 1.3Hz or 7mm. Default for the frequency: the "
+            "value in the study (table [sweep]), or 4.5 × the natural frequency; 5 Hz for "
+            "laboratory cases. Other parameters have no default."
         ),
     ),
 ]

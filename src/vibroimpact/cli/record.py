@@ -39,7 +39,7 @@ def record(
 
     A record is a measured ground acceleration. The accepted formats are PEER AT2, COSMOS, CSMIP,
     SMC, GeoNet, K-NET, ESM, and columns of numbers. SAC and miniSEED are accepted if obspy is
-    installed. The command writes NAME-record.nc, with the groups record and spectrum, and
+    installed. The command writes NAME-record.nc, with the NetCDF groups record and spectrum, and
     NAME-record.png.
 
     For example:
@@ -71,9 +71,9 @@ def record(
     damping
         Damping ratios of the spectrum, such as 0,0.02,0.05.
     shortest
-        Shortest natural period of the spectrum.
+        Shortest natural period of the spectrum, such as 20ms.
     longest
-        Longest natural period of the spectrum.
+        Longest natural period of the spectrum, such as 5s.
     periods
         Number of natural periods. They are evenly spaced on a logarithmic axis.
     """

@@ -31,9 +31,9 @@ def sweep(
 ) -> int:
     """Sweep the forcing frequency up and down, and draw the resonance curves.
 
-    Each frequency is held until the motion is steady. The motion at the next frequency starts from
-    the final state and phase of this motion, as in a stepped-sine test. The command prints
-    resonances, jumps and hysteresis. It writes:
+    At each frequency, the motion is simulated until it is steady. The motion at the next frequency
+    starts from the final state and phase of this motion, as in a stepped-sine test. The command
+    prints resonances, jumps and hysteresis. It writes:
 
     - NAME-sweep.nc: all data
     - NAME-sweep.png: the resonance curves
@@ -64,8 +64,9 @@ def sweep(
         Order of the frequencies: forward (rising), backward (falling) or both. Default: the value
         in the study (table [sweep]), or both.
     physical
-        Draw the largest acceleration (g), displacement (mm) and contact force instead of η_a and
-        η_d. These quantities are always drawn if the motion without stops is unbounded.
+        Draw the largest acceleration (g), displacement (mm) and contact force instead of the
+        normalised excursions η_a and η_d. These quantities are always drawn if the motion without
+        stops is unbounded.
     """
     from rich.console import Group
 

@@ -97,9 +97,9 @@ def bifurcation_diagram(
         Further initial states, by name. From each of them a motion is started at every value.
     random
         Number of additional random initial states. The same states are used at every value. Their
-        displacements are at most 1.5 times the largest displacement of the other motions, or 1.5
-        times the widest gap if that is larger. The limit of their velocities is this displacement
-        times the angular forcing frequency. If the frequency is varied, its median is used.
+        displacements are at most 1.5 times the largest displacement of the other motions or 1.5
+        times the widest gap, whichever is larger. The largest velocity is this largest displacement
+        times the angular forcing frequency (the median, if the frequency is varied).
     seed
         Seed of the random initial states. The same seed gives the same initial states.
     section
