@@ -72,7 +72,12 @@ def test_units(tmp_path):
         ("0,1\n0,2\n0,3\n", None, "m/s^2", r"record: .*not evenly spaced"),
         ("1\n2\n", 0.1, "N", r"unit: .*"),
         ("1\n2\n", 0.1, "nonsense", r"unit: .*"),
-        ("0\n0\n0\n0\n0\n1\n1\n1\n1\n1\n", 0.1, "mm", r".*displacement\[\d\]: the displacement jumps"),
+        (
+            "0\n0\n0\n0\n0\n1\n1\n1\n1\n1\n",
+            0.1,
+            "mm",
+            r".*displacement\[\d\]: the displacement jumps",
+        ),
     ],
 )
 def test_refused_in_one_line(tmp_path, text, step, unit, line):
