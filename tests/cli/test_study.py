@@ -266,7 +266,7 @@ class TestWhatShakes:
             (
                 'step = 1\nunit = "mm"',
                 "\n".join("0" * 20 + "5" * 20),
-                r"displacement\[\d+\]: it jumps or is too rough",
+                r"displacement\[\d+\]: the displacement jumps or is too rough",
             ),
             ('step = 1\namplitude = "0.1 g"', "1\n2", r"amplitude and record are given; one of"),
         ],

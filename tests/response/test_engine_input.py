@@ -20,7 +20,7 @@ def test_a_contact_that_would_pull_is_refused() -> None:
 
 def test_an_elastic_bumper_cannot_lag_behind() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3), vi.Bumper(20.0, 0.0, 1.0))
-    with pytest.raises(vi.InputError, match=r"start\.contact: 0, but the mass presses"):
+    with pytest.raises(vi.InputError, match=r"start\.contact: 0, but the mass compresses"):
         vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 0.2)), 1, vi.State(1.5, 0.1, contact=0))
 
 

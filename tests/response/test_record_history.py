@@ -181,7 +181,7 @@ def test_a_motion_given_up_keeps_what_was_found() -> None:
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        ({"cycles": 5}, "cycles: 5, but a record has none; "),
+        ({"cycles": 5}, "cycles: 5, but a record has no cycles; "),
         ({"tail": -1.0}, "tail: -1"),
         ({"tail": "5 m"}, "tail: .*5 m"),
         ({"samples": -1}, "samples: -1"),

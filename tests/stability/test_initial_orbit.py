@@ -23,7 +23,7 @@ def doubled():
 
 def test_another_orbit_than_the_motion_from_rest_is_told():
     rig, shaken = doubled()
-    told = "of period 1 is not the motion from rest, which has period 2"
+    told = "period 1 and is not the motion from rest, which has period 2"
     with pytest.warns(RuntimeWarning, match=told):
         data = vi.orbit(vi.Rig(rig, shaken), period=1)
     assert int(data["period"]) == 1

@@ -276,5 +276,5 @@ def test_workers_that_join_later_take_part():
 
 
 def test_threads_and_a_cluster_exclude_one_another(cluster):
-    with pytest.raises(vi.InputError, match="threads: 2; on a cluster, its workers set"):
+    with pytest.raises(vi.InputError, match="threads: 2; on a cluster, each worker sets"):
         vi.sweeps(["B2-G1-A3"], GRID, threads=2, where=cluster)

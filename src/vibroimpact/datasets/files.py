@@ -156,8 +156,8 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     file_path = check_path(path, "file")
     if file_path.is_dir():
         raise InputError(
-            f"file: {str(path)!r} is a folder; a NetCDF file is accepted (to read the store of a "
-            "map or of demands, call the function that wrote it with the same argument `store`)"
+            f"file: {str(path)!r} is a folder; to read the store of a map or of demands, call the "
+            "function that wrote it with the same argument `store`; here, a NetCDF file is accepted"
         )
     if not file_path.is_file():
         raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")
