@@ -71,7 +71,7 @@ def test_a_truncated_file_is_refused(share: float, tmp_path: Path) -> None:
 
 def test_what_is_not_ours_is_refused(tmp_path: Path) -> None:
     refused(tmp_path / "none.nc", "does not exist")
-    refused(tmp_path, "a NetCDF file is accepted")
+    refused(tmp_path, "is a folder; to read the store of a map or of demands, call the function")
     text = tmp_path / "text.nc"
     text.write_text("frequency,eta\n1,2\n")
     refused(text, "damaged or not a NetCDF file")

@@ -58,7 +58,8 @@ def test_a_formula_has_the_value_that_it_says(formula, numbers, u, v, force) -> 
         ("k*u + k3*u**3", {"k": "1 N/m", "k3": "1 N/m^2"},
          "formula: column 7: k3: '1 N/m^2' is a pressure; a stiffness in N/m³"),
         ("f*sinh(u)", {"f": 1}, "formula: column 8: sinh of 'u', a length; one without a unit is"),
-        ("k*u**a", {"k": 1, "a": "1 m"}, "formula: column 6: a: '1 m' is a length; "),
+        ("k*u**a", {"k": 1, "a": "1 m"}, "formula: column 6: a: '1 m' is a length; "
+         "a dimensionless number"),
         ("k*u", {"k": 1, "q": 2}, "q: the formula 'k*u' does not contain this number; it contains"),
         ("k*d", {"k": 1}, "formula: column 3: 'd' is the deformation of a stop, whose"),
         ("2", {}, "formula: column 1: '2' does not depend on u or v"),

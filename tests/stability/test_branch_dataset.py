@@ -12,7 +12,9 @@ from stability.followed import diagram
 def test_an_orbit_without_extremes_is_told(monkeypatch):
     case = vi.laboratory.case("B2-G1-A3")
     monkeypatch.setattr("vibroimpact.stability.branch_dataset.MAX_EVENTS", 1)
-    with pytest.warns(RuntimeWarning, match="values of the orbit at .* are unknown: .*max_events"):
+    with pytest.warns(
+        RuntimeWarning, match="largest values of the orbit at .* are unknown: .*max_events"
+    ):
         data = vi.branch(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)), span=(1.95, 2.05)
         )
