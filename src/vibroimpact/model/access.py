@@ -11,7 +11,7 @@ from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.own_law import Law
-from vibroimpact.model.quantities import Quantity
+from vibroimpact.model.quantities import DIMENSIONLESS, Quantity
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import Bumper, Stop
 from vibroimpact.model.validation import Model
@@ -42,6 +42,23 @@ def quantity(part: Model, name: str, whose: str = "stops have") -> Quantity:
     return accepts.quantity
 
 
+def shared(parameter: str, name: str, values: set[float], kinds: set[Quantity]) -> float:
+    """The value of a number that both bumpers share; refused if value or unit differ."""
+    if len(values) != 1 or len(kinds) != 1:
+        told = (
+            "there is no bumper"
+            if not values
+            else f"their values are {sorted(values)}"
+            if len(kinds) == 1
+            else f"their units are {' and '.join(sorted(kind.symbol for kind in kinds))}"
+        )
+        raise InputError(
+            f"parameter: {parameter!r} applies to both bumpers, but {told}; use 'right_{name}' "
+            f"or 'left_{name}', or a rig with equal values"
+        )
+    return float(next(iter(values)))
+
+
 def bumpers(name: str) -> tuple[Read, Vary]:
     """Read and vary a number that both bumpers share."""
 
@@ -50,21 +67,12 @@ def bumpers(name: str) -> tuple[Read, Vary]:
         stops = [
             stop for stop in oscillator.stops if name in type(stop).model_fields
         ] or oscillator.stops
-        values = {number(stop, name) for stop in stops}
-        kinds = {quantity(stop, name) for stop in stops}
-        if len(values) != 1 or len(kinds) != 1:
-            told = (
-                "there is no bumper"
-                if not values
-                else f"their values are {sorted(values)}"
-                if len(kinds) == 1
-                else f"their units are {' and '.join(sorted(kind.symbol for kind in kinds))}"
-            )
-            raise InputError(
-                f"parameter: {name!r} applies to both bumpers, but {told}; use 'right_{name}' "
-                f"or 'left_{name}', or a rig with equal values"
-            )
-        return float(values.pop())
+        return shared(
+            name,
+            name,
+            {number(stop, name) for stop in stops},
+            {quantity(stop, name) for stop in stops},
+        )
 
     def vary(rig: Rig, value: float) -> Rig:
         oscillator = rig.oscillator
@@ -130,13 +138,13 @@ def formula_number(
         return formulas(rig.oscillator, whose, name, registered)
 
     def read(rig: Rig) -> float:
-        values = {dict(law.numbers)[name] for law in laws_of(rig).values()}
-        if len(values) > 1:
-            raise InputError(
-                f"parameter: 'bumper_{name}' applies to both bumpers, but their values are "
-                f"{sorted(values)}; use 'right_{name}' or 'left_{name}', or a rig with equal values"
-            )
-        return values.pop()
+        laws = laws_of(rig).values()
+        return shared(
+            f"{whose}_{name}",
+            name,
+            {dict(law.numbers)[name] for law in laws},
+            {law.quantities.get(name, DIMENSIONLESS) for law in laws},
+        )
 
     def vary(rig: Rig, value: float) -> Rig:
         try:
