@@ -5,6 +5,7 @@ The tables of the commands, such as ``[sweep]``, are theirs: see `vibroimpact.cl
 
 from __future__ import annotations
 
+import sys
 import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Self, TypeVar
@@ -177,8 +178,8 @@ def read_study(path: Path, kind: type[_Study]) -> _Study:
         raise InputError(f"study: {str(path)!r} is not TOML ({error}); TOML is accepted") from None
     except ValueError:  # Python reads no whole number of more than some thousand digits
         raise InputError(
-            f"study: {str(path)!r} has a whole number with too many digits; at most 4300 "
-            "digits are accepted"
+            f"study: {str(path)!r} has a whole number with too many digits; at most "
+            f"{sys.get_int_max_str_digits()} digits are accepted"
         ) from None
     except RecursionError:
         raise InputError(f"study: {str(path)!r} {_DEEP}") from None
