@@ -181,7 +181,7 @@ def test_what_has_no_bound_is_infinite() -> None:
         ({"vary": {"gap": []}}, "gaps: empty"),
         ({"vary": {"yield_force": [1.0]}}, "yield_force: unknown key"),
         ({"records": []}, "records: none given"),
-        ({"records": [RECORDS["a"], 3]}, r"records\['1'\]: 3; a Record"),
+        ({"records": [RECORDS["a"], 3]}, r"records\['1'\]: 3 is not a record; a Record"),
         ({"shaking": "3 s"}, "shaking: '3 s'"),
         ({"shaking": -1.0}, "shaking: -1"),
         ({"shaking": vi.Periodic(1.0, [1.0, 2.0])}, "shaking: the harmonics of a Periodic"),

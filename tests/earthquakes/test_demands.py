@@ -178,7 +178,7 @@ def test_it_is_saved_and_read(tmp_path) -> None:
     ("arguments", "line"),
     [
         ({"records": []}, "records: none given"),
-        ({"records": [3]}, r"records\['0'\]: 3; a Record"),
+        ({"records": [3]}, r"records\['0'\]: 3 is not a record; a Record"),
         ({"records": vi.Record([0.0, 0.0], 0.1), "intensity": "PGA"}, r"records\[0\]: it is 0"),
         ({"rig": []}, "rig: the list is empty"),
         ({"rig": 3}, "rig: 3 is not a rig"),
