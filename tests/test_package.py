@@ -17,6 +17,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import vibroimpact as vi
+from vibroimpact.model.parameters import PARAMETERS
 
 ROOT = Path(__file__).parents[1]
 SOURCES = sorted((ROOT / "src").rglob("*.py"))
@@ -78,6 +79,14 @@ def test_public_names_are_documented():
             assert f"`{name}" in page, f"{name} is not in docs/names.md"
     with pytest.raises(AttributeError, match="vibroimpact attribute nothing"):
         _ = vi.nothing
+
+
+def test_the_table_of_parameters_has_them_all():
+    page = (ROOT / "docs/names.md").read_text(encoding="utf-8")
+    rows = page.split("## Parameters that are varied")[1].split("Four parameters change")[0]
+    cells = (row.split("|")[1] for row in rows.splitlines() if row.startswith("|"))
+    listed = [name for cell in cells for name in re.findall(r"`(\w+)`", cell)]
+    assert sorted(one for one in listed if "NAME" not in one) == sorted(PARAMETERS)
 
 
 @pytest.mark.parametrize("path", SOURCES, ids=lambda path: str(path.relative_to(ROOT / "src")))

@@ -128,7 +128,7 @@ def test_a_study_that_is_shaken_by_several_harmonics_or_not_at_all(study):
     path = study('[excitation]\namplitudes = ["0.03 g", "0.01 g"]')
     rig = vi.Rig(STUDIED, vi.Periodic(1.0, ["0.03 g", "0.01 g"]))
     xr.testing.assert_equal(vi.sweep(path, GRID), vi.sweep(rig, GRID))
-    with pytest.raises(vi.InputError, match=r"^frequency: missing, and the rig leaves it open"):
+    with pytest.raises(vi.InputError, match=r"^frequency: missing, and the rig does not state it"):
         vi.steady(path)
     with pytest.raises(vi.InputError, match=r"^shaking: missing, and the rig has no shaking"):
         vi.sweep(study(""), GRID)
@@ -166,14 +166,14 @@ RECORD = vi.Record([0.1, 0.2], 0.01)
         (lambda: vi.sweep("none.toml", GRID), r"none\.toml' cannot be read .*study file"),
         (lambda: vi.sweep(CASE, 2.0), r"^frequencies: 2.0 is not a list"),
         (lambda: vi.sweep(CASE, "2 Hz"), r"^frequencies: '2 Hz' is a single text"),
-        (lambda: vi.simulate(CASE, 5), r"^frequency: missing, and the rig leaves it open"),
+        (lambda: vi.simulate(CASE, 5), r"^frequency: missing, and the rig does not state it"),
         (lambda: vi.simulate(CASE, 5, frequency="2 kg"), r"'2 kg' is a mass; a frequency"),
         (lambda: vi.seismic_response(CASE), r"^shaking: Harmonic\(.*is not a Record"),
         (lambda: vi.sweeps([OSCILLATOR], GRID), r"^rigs\[0\]: an Oscillator alone"),
         (lambda: vi.sweeps(3, GRID), r"^rigs: 3 is not a rig"),
         (lambda: vi.sweeps([], GRID), r"^rigs: the list is empty"),
         (lambda: vi.sweeps(["B9-G1-A3"], GRID), r"^rigs\[0\]: .*bumper 'B9'"),
-        (lambda: vi.Rig(SHAKEN, OSCILLATOR), r"^oscillator: a Harmonic is the shaking, which is"),
+        (lambda: vi.Rig(SHAKEN, OSCILLATOR), r"^oscillator: a Harmonic is a shaking, which is"),
         (lambda: vi.Rig(550.0, AMPLITUDE), r"^oscillator: 550.0 is not an Oscillator; Rig\("),
         (lambda: vi.Rig(OSCILLATOR, OSCILLATOR), r"^shaking: .* is not an excitation; Rig\("),
         (lambda: vi.Rig(OSCILLATOR, -1.0), r"^shaking: -1"),

@@ -2,10 +2,10 @@
 Resonance curves in millimetres and g
 =====================================
 
-For engineering use, this figure shows the largest acceleration, displacement and contact force at
-each frequency, in physical units. Dotted lines are the gaps. The labels mark frequencies that
-matter for the machine: A is the natural frequency of the isolator, and B is the frequency of a
-pump.
+The example is a machine on an isolator between two bumpers. For engineering use, this figure shows
+the largest acceleration, displacement and contact force at each frequency, in physical units.
+Dotted lines are the gaps. The labels mark frequencies that matter for the machine: A is the natural
+frequency of the isolator, and B is the frequency of a pump.
 """
 
 import vibroimpact as vi

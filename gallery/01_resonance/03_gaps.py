@@ -2,9 +2,9 @@
 The gap bends the resonance curve
 =================================
 
-This figure compares four gaps. If the gap is smaller, the peak leans farther to the right, and the
-frequency range with two coexisting motions is wider. Solid lines are upward sweeps, dashed lines
-are downward sweeps, and arrows are jumps.
+This figure compares the resonance curves of a mass between two bumpers for four gaps. If the gap is
+smaller, the peak leans farther to the right, and the frequency range with two coexisting motions is
+wider. Solid lines are upward sweeps, dashed lines are downward sweeps, and arrows are jumps.
 """
 
 import vibroimpact as vi

@@ -2,9 +2,11 @@
 From a bent resonance to a jump
 ===============================
 
-This figure compares five bumpers, with stiffness ratios λ from 0.5 to 80. Soft bumpers bend the
-resonance curve, but they do not fold it: upward and downward sweeps give the same curve. Above some
-stiffness, the curve folds over, and the sweeps jump. One legend serves both panels.
+This figure compares five bumpers. The stiffness ratio λ is the stiffness of a bumper divided by the
+stiffness of the isolator. It ranges from 0.5 to 80. Soft bumpers bend the resonance curve, but they
+do not fold it: upward and downward sweeps give the same curve. Above some stiffness, the curve
+folds over, and the sweeps jump. The left panel shows the displacement, and the right panel shows
+the acceleration.
 """
 
 from matplotlib.figure import Figure

@@ -2,10 +2,11 @@
 The unstable motion between the jumps
 =====================================
 
-At each frequency between the two jumps, there is a third motion, which is unstable. A small
-disturbance of it grows until the mass settles on one of the other two motions, so no sweep can
-follow it. Numerical continuation does find it (dashed). The result shows that the three motions
-form one curve with two folds.
+If the resonance curve of a rig has a hysteresis, the upward and the downward frequency sweep jump
+at different frequencies. At each frequency between the two jumps, there is a third motion, which is
+unstable. A small disturbance of this motion grows until the mass settles on one of the other two
+motions, so no sweep can follow the unstable motion. Numerical continuation can follow it (dashed
+curve). The result shows that the three motions form one curve with two folds.
 """
 
 import vibroimpact as vi

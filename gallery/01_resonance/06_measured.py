@@ -2,9 +2,9 @@
 A measured test and the model
 =============================
 
-The points are a test, and the curves are the model with the parameters that were identified from
-it. The test was made in frequency steps, so it locates a jump only to within one step. The figure
-shows this interval.
+The points are the measured values of a test. The curves are those of the model, with the parameters
+that were identified from the test. The frequency of the test was changed in steps, so a jump is
+located only to within one step. The figure shows this step.
 """
 
 import numpy as np

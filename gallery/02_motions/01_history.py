@@ -2,10 +2,10 @@
 A time history, impact by impact
 ================================
 
-This figure shows two coexisting motions at one frequency. An upward sweep follows the motion that
-hits a bumper on each side in every cycle. A downward sweep follows the other one, which is free
-flight. When the mass hits a damped bumper, the acceleration jumps, because the dashpot resists at
-once.
+This figure shows two motions that coexist at one frequency. An upward frequency sweep leads to the
+motion that hits a bumper on each side in every cycle. A downward sweep leads to the other motion,
+which touches no bumper (free flight). When the mass hits a damped bumper, the acceleration jumps,
+because the dashpot of the bumper resists at once.
 """
 
 import vibroimpact as vi

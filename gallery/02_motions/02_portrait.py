@@ -3,9 +3,9 @@ Phase portrait
 ==============
 
 A phase portrait shows the velocity over the displacement. A steady periodic motion is a closed
-curve. Diamonds are the points of the stroboscopic section, one per forcing cycle. Dashed lines are
-the undeformed bumpers. Beyond these lines, the curve is flattened, because the bumper stops the
-mass.
+curve. Diamonds mark the state at a fixed phase of the forcing, once per cycle (stroboscopic
+section). Dashed lines are the undeformed bumpers. Beyond these lines, the curve is flattened,
+because the bumper stops the mass.
 """
 
 import vibroimpact as vi

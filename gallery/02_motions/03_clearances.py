@@ -2,10 +2,11 @@
 Clearances: how a contact begins and ends
 =========================================
 
-The clearance is the distance between the mass and a bumper. The lower panel magnifies a
-detachment. When the mass leaves, the bumper is still deformed and follows the mass. The clearance
-therefore opens with zero speed. For this reason, a sign test of the clearance at fixed time steps
-is not reliable. It detects contacts that do not exist, and misses contacts that do.
+The clearance is the distance between the mass and a bumper. The lower panel magnifies a detachment.
+When the mass leaves, the bumper is still deformed and follows the mass. The clearance therefore
+opens with zero speed. For this reason, it is not reliable to detect contacts by the sign of the
+clearance at fixed time steps. Such a method detects contacts that do not exist, and misses contacts
+that do exist.
 """
 
 import vibroimpact as vi

@@ -2,10 +2,10 @@
 Hysteresis cycle: where the energy goes
 =======================================
 
-This figure shows the absolute acceleration over the displacement. The acceleration multiplied by
-the mass is the force on the mass. The area of the cycle, multiplied by the mass, is therefore the
-energy that the isolator and the bumpers dissipate in one period. The spikes are contacts with the
-bumpers.
+For two motions that coexist at one frequency, this figure shows the absolute acceleration over the
+displacement. The acceleration multiplied by the mass is the force on the mass. The area of the
+cycle, multiplied by the mass, is therefore the energy that the isolator and the bumpers dissipate
+in one period. The spikes are contacts with the bumpers.
 """
 
 import vibroimpact as vi

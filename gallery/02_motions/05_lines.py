@@ -2,9 +2,9 @@
 Fourier spectrum: impacts add overtones
 =======================================
 
-Without contacts, a linear rig responds to a sine with a sine, so its spectrum has one line. Two
-equal impacts per cycle add the odd harmonics. If the motion has lost its symmetry, it has even
-harmonics, too.
+Without contacts, a linear rig responds to a sine with a sine, so the spectrum of its motion has one
+line. Two equal impacts per cycle, one on each side, add the odd harmonics. If the motion has lost
+its symmetry, its spectrum has even harmonics, too.
 """
 
 import vibroimpact as vi

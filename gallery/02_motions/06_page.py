@@ -2,9 +2,9 @@
 A motion on one page
 ====================
 
-This page shows three motions of one rig: a periodic motion, a motion with twice the period, and a
-chaotic motion. For each of them, it shows the phase portrait, the spectrum and the time history.
-The line below each heading states the type of the motion.
+This figure shows three motions of one rig (a mass between two bumpers): a periodic motion, a motion
+with twice the period, and a chaotic motion. For each motion, it shows the phase portrait, the
+spectrum and the time history. The line below each heading states the type of the motion.
 """
 
 import vibroimpact as vi

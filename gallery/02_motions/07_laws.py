@@ -2,9 +2,10 @@
 Force-displacement laws
 =======================
 
-These figures show the force over the displacement for eight laws. The isolators slide, yield,
-harden or soften. The stops have a hard contact. You can combine any isolator with any stop on
-either side, and all functions of this package accept the combination.
+These figures show the force over the displacement for eight force laws. The first five laws are
+isolators, which slide, yield, harden or soften. The last three laws are stops, which act only
+during contact. You can combine any isolator with any stop on either side, and all functions of this
+package accept the combination.
 """
 
 from matplotlib.figure import Figure

@@ -2,9 +2,9 @@
 A strange attractor
 ===================
 
-This figure shows a chaotic motion at forty thousand points, one per forcing cycle. The set of these
-points is called a strange attractor. Between impacts, the flow stretches the set, and at impacts it
-folds the set. The result is many thin layers. Each fold ends where the mass just grazes the wall.
+This figure shows forty thousand states of a chaotic motion, one per forcing cycle. The set of these
+points is called a strange attractor. The motion between impacts stretches the set, and the impacts
+fold it. The result is many thin layers. Each fold ends where the mass just grazes the wall.
 """
 
 from matplotlib.figure import Figure

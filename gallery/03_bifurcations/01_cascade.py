@@ -3,9 +3,10 @@ Bifurcation diagram: period doubling to chaos
 =============================================
 
 The gap of a rig is varied upwards and downwards, and each steady motion is sampled once per forcing
-cycle. One point becomes two, and two become four. This is called a period-doubling cascade. Below
-4.7 mm, the motion is chaotic, except in periodic windows. The lower panel shows the largest
-Lyapunov exponent. Where it is positive, small disturbances grow.
+cycle. If the gap becomes smaller, one point becomes two, and two become four. This is called a
+period-doubling cascade. Below 4.7 mm, the motion is chaotic, except in small ranges of the gap in
+which it is periodic (periodic windows). The lower panel shows the largest Lyapunov exponent. Where
+it is positive, small disturbances grow.
 """
 
 import vibroimpact as vi

@@ -2,9 +2,10 @@
 A mass against a rigid wall
 ===========================
 
-This rig has a rigid wall instead of a bumper. The figure shows the velocity at each impact over the
-frequency. There are several period-doubling cascades, with chaos between them. Where red and blue
-differ, the upward and downward sweeps lead to different motions.
+In this rig, a mass on a spring hits a rigid wall. The figure shows the velocity at each impact over
+the forcing frequency. There are several period-doubling cascades, with chaos between them. Red
+points belong to the upward sweep of the frequency, and blue points to the downward sweep. Where the
+red and blue points differ, the two sweeps lead to different motions.
 """
 
 import vibroimpact as vi

@@ -3,8 +3,9 @@ Lyapunov exponents over the frequency
 =====================================
 
 The largest Lyapunov exponent is the rate at which two neighbouring motions separate. Where it is
-positive, the motion is chaotic and cannot be predicted for long. The half-width of each band is
-twice the standard uncertainty of the average.
+positive, the motion is chaotic and cannot be predicted for long. Each exponent is an average over
+many cycles. The band around a curve shows the uncertainty of this average: its half-width is twice
+the standard uncertainty.
 """
 
 import numpy as np

@@ -2,9 +2,10 @@
 A cusp: where jumps begin
 =========================
 
-A resonance curve that jumps has two folds. This figure follows both folds over frequency and gap.
-The folds meet in a cusp. If the gap is wider than at the cusp, there is no jump. Outside the
-grazing curve, the mass does not touch the bumpers.
+A resonance curve that jumps has two folds, that is, points at which it turns back. This figure
+follows both folds in the plane of frequency and gap. The folds meet in a cusp. If the gap is wider
+than at the cusp, there is no jump. On the grazing curve, the mass just touches the bumpers. Outside
+this curve, the mass does not touch them.
 """
 
 import vibroimpact as vi

@@ -2,10 +2,11 @@
 Symmetry breaking
 =================
 
-If a rig is its own mirror image, its motions may still be asymmetric. The eccentricity, which is
-the mean of the largest and the smallest displacement, shows this. It is zero while the mass hits
-both sides in the same way. After the symmetry breaking, there are two mirror-image motions. Their
-periods double repeatedly, until the motion is chaotic.
+If a rig is its own mirror image, its motions may still be asymmetric. A measure of the asymmetry is
+the eccentricity, which is the mean of the largest and the smallest displacement. It is zero while
+the mass hits both sides in the same way. After the symmetry breaking, there are two motions, each
+of which is the mirror image of the other. Their periods double repeatedly, until the motions are
+chaotic.
 """
 
 import vibroimpact as vi

@@ -2,9 +2,10 @@
 Basins of four motions of a ball on a wall
 ==========================================
 
-Each point is an initial state, that is, a displacement and a velocity. Its colour shows the steady
-motion to which this state leads. There are four such motions, with periods of 4 to 24 cycles. The
-basin borders are fractal. For initial states near a border, a more accurate measurement therefore
+A mass on a spring hits a rigid wall. Each point of the figure is an initial state, that is, a
+displacement and a velocity. The colour of the point shows the steady motion to which this state
+leads. There are four such motions, with periods of 4 to 24 cycles. The borders of the basins are
+fractal. If an initial state lies near a border, a more accurate measurement of this state therefore
 hardly improves the prediction.
 """
 

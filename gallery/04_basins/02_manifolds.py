@@ -2,8 +2,9 @@
 Basin borders are stable manifolds
 ==================================
 
-A saddle is an unstable periodic motion. Solid curves are its stable manifold, which is the border
-between the two basins. Dashed curves are its unstable manifold, which leads to the two steady
+A saddle is an unstable periodic motion. The solid curves are its stable manifold, that is, the
+initial states that lead to the saddle. They are the border between the basins of two steady
+motions. The dashed curves are the unstable manifold of the saddle, which leads to the two steady
 motions.
 """
 

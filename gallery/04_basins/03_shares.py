@@ -2,10 +2,11 @@
 Basin stability along a sweep
 =============================
 
-An upward sweep follows the motion with impacts until this motion no longer exists. Its basin of
-attraction shrinks at much lower frequencies. Basin stability is the share of random initial states
-that lead to the motion. It measures how well the motion withstands a disturbance. The figure also
-shows the uncertainty of this share.
+An upward frequency sweep follows the motion with impacts until this motion no longer exists. The
+basin of attraction of the motion (the initial states that lead to it) already shrinks at much lower
+frequencies. The basin stability of a motion is the share of random initial states that lead to it.
+This share measures how well the motion withstands a disturbance. The figure also shows the
+uncertainty of the share.
 """
 
 import numpy as np

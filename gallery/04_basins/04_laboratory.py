@@ -2,10 +2,11 @@
 Basins of a laboratory rig
 ==========================
 
-At 0.7 Hz, a published rig has two coexisting motions of nearly the same size. In contrast to a
-fractal border, the border of these basins is smooth. A slightly more accurate initial state
-therefore gives a slightly better prediction. In darker regions, more cycles pass until the final
-motion is certain.
+At 0.7 Hz, a rig from published laboratory tests has two coexisting motions of nearly the same size.
+The border between the basins of these motions is smooth. If an initial state lies near a smooth
+border, a slightly more accurate measurement of the state gives a slightly better prediction. (Near
+a fractal border, the prediction hardly improves.) In darker regions, more cycles pass until the
+final motion is certain.
 """
 
 import vibroimpact as vi

@@ -2,10 +2,12 @@
 Map of the seven scenarios
 ==========================
 
-A scenario describes the shape of the resonance curves of a rig. This map shows the scenario over
-the stiffness of the bumpers (horizontal) and the gap (vertical), both dimensionless. It shows where
-the resonance jumps (S2), where there are secondary resonances (S3), and where some motions are not
-regular (S4). The dashed line is the border at which jumps begin. Its position is exact.
+A scenario is a class of resonance curves, which describes the shape of the curves of a rig. This
+map shows the scenario over the stiffness of the bumpers (horizontal) and the gap (vertical), both
+dimensionless. For example, it shows where the resonance jumps (S2), where there are secondary
+resonances (S3), and where some motions are not regular (S4). The dashed line is the border at which
+jumps begin. It does not depend on the grid of the map, because it is computed separately and
+exactly.
 """
 
 import numpy as np

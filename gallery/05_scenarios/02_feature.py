@@ -2,9 +2,9 @@
 Frequency of the jump down
 ==========================
 
-This map covers the stiffness of the bumpers and the gap. For each rig, it shows the frequency at
-which an upward sweep jumps down, divided by the natural frequency. Stiff bumpers with a small gap
-shift the resonance to several times the natural frequency.
+The axes of this map are the stiffness of the bumpers and the gap, both dimensionless. For each rig,
+the map shows the frequency at which an upward sweep jumps down, divided by the natural frequency.
+Stiff bumpers with a small gap shift the resonance to several times the natural frequency.
 """
 
 import numpy as np

@@ -2,8 +2,9 @@
 Scenarios of forty-eight published tests
 ========================================
 
-This figure classifies each test of the published study from its computed resonance curves. The
-study has four bumpers, four gaps and three levels of shaking.
+A scenario is a class of resonance curves, such as curves with a jump. This figure shows the
+scenario of each test of the published study, which is determined from the computed resonance curves
+of the test. The study has four bumpers, four gaps and three levels of shaking.
 """
 
 import vibroimpact as vi

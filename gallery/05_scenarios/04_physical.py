@@ -2,8 +2,8 @@
 Scenario map in physical units
 ==============================
 
-This map shows the scenarios of one laboratory rig over the gap and the stiffness of its bumpers, in
-physical units.
+A scenario is a class of resonance curves, such as curves with a jump. This map shows the scenarios
+of one laboratory rig over the gap and the stiffness of its bumpers, in physical units.
 """
 
 from pathlib import Path

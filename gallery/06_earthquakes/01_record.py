@@ -3,8 +3,8 @@ A record and its response spectrum
 ==================================
 
 The upper panel shows the ground acceleration. The lower panel shows the response spectrum, that is,
-the peak responses of linear oscillators over their period. The spectrum is exact for the record: it
-includes maxima between two samples.
+the peak responses of linear oscillators over their natural period. The spectrum is exact for the
+record: it includes maxima between two samples.
 """
 
 import numpy as np

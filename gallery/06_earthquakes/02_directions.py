@@ -3,8 +3,8 @@ Two components: RotD50 and RotD100
 ==================================
 
 An instrument records the ground motion in two fixed directions, but a building may have another
-orientation. Therefore the response is computed for all directions in the plane. RotD50 is the
-median over these directions, and RotD100 is the largest value.
+orientation. Therefore the peak response is computed for all directions in the horizontal plane.
+RotD50 is the median of the peak response over these directions, and RotD100 is its largest value.
 """
 
 import numpy as np

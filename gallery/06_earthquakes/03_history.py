@@ -2,9 +2,9 @@
 A base-isolated building in an earthquake
 =========================================
 
-The example is a building on yielding isolators between two moat walls. Bands mark contacts with the
-walls, from their exact beginning to their exact end. After the earthquake, the building has a
-residual displacement.
+The example is a building on yielding isolators between two moat walls. Bands in the figure mark
+contacts with the walls, from their exact beginning to their exact end. After the earthquake, the
+building has a residual displacement.
 """
 
 import numpy as np

@@ -2,10 +2,10 @@
 An earthquake on one page
 =========================
 
-The panels show the record, the displacement between the walls, and the acceleration with a mark at
-each impact. They also show the force over the displacement, and the response spectra of ground and
-floor. The floor spectrum shows that the impacts mainly affect equipment with short natural
-periods.
+The example is a base-isolated building between two moat walls. The panels show the record, the
+displacement between the walls, and the acceleration with a mark at each impact. They also show the
+force over the displacement, and the response spectra of the motions of ground and floor. The floor
+spectrum shows that the impacts mainly affect equipment with short natural periods.
 """
 
 import numpy as np

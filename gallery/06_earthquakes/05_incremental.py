@@ -2,9 +2,11 @@
 Incremental dynamic analysis
 ============================
 
-Each of twelve records is scaled up step by step. The fractiles are the levels that a given share of
-the records does not exceed. Where they reach the gap, the mass hits the walls. At stronger shaking,
-displacements grow more slowly, while accelerations keep growing.
+Each of twelve records is scaled up step by step, and the peak responses of a base-isolated building
+are computed at each step. A fractile is the response that a given share of the records does not
+exceed. Where a fractile of the displacement reaches the gap, the building hits the moat walls. At
+stronger shaking, displacements grow more slowly than at weaker shaking, while accelerations keep
+growing.
 """
 
 import numpy as np

@@ -2,9 +2,10 @@
 Fragility: how likely is a hit?
 ===============================
 
-Twelve records are applied to a building with three different gaps. The marks are the shares of
-records in which the building hits a wall. The curves are lognormal fragility curves. Each is drawn
-with its confidence band and labelled with its median θ and its dispersion β.
+Twelve records are applied to a base-isolated building with three different gaps to the moat walls.
+The marks are the shares of records in which the building hits a wall. The curves are lognormal
+fragility curves. Each curve is drawn with its confidence band. Its label contains the median θ (the
+shaking for which a hit has a probability of 50 %) and the dispersion β.
 """
 
 import numpy as np

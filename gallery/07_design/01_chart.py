@@ -4,8 +4,8 @@ Design chart: which gap, which bumper?
 
 This chart shows the largest displacement and the largest acceleration of a machine on an isolator
 under sinusoidal shaking. The axes are the gap and the stiffness of the bumpers. Each design is
-evaluated at the frequency that is worst for it. Beyond the thick dashed line, the mass does not
-touch the bumpers.
+evaluated at the frequency that is worst for this design. Beyond the thick dashed line, the mass
+does not touch the bumpers.
 """
 
 import numpy as np

@@ -2,9 +2,10 @@
 Pareto front of designs
 =======================
 
-A smaller displacement means a larger acceleration. Each point is a design. The front consists of
-the designs that cannot be improved in both quantities at once. For every design off the front,
-there is a design on the front that is better in both.
+Each point is a design, that is, a gap and a stiffness of the bumpers. A good design has a small
+displacement and a small acceleration, but the two aims are in conflict. The front consists of the
+designs that cannot be improved in both quantities at once. For every design off the front, there is
+a design on the front that is better in both.
 """
 
 import numpy as np

@@ -3,8 +3,8 @@ Resonance curves of an uncertain rig
 ====================================
 
 The parameters of a rig vary, for example because gaps are set by hand or rubber comes from another
-batch. Each band of resonance curves contains nine rigs out of ten. A band is widest where some rigs
-jump and others do not.
+batch. At each frequency, the band contains the values of nine rigs out of ten. A band is widest
+where some rigs jump and others do not.
 """
 
 from functools import partial

@@ -2,10 +2,11 @@
 Sobol indices: which parameter matters
 ======================================
 
-Sobol indices divide the variance of the largest acceleration among the uncertain parameters. One
-index is the contribution of a parameter alone. The other is its total contribution, including
-interactions with other parameters. In this rig, it is most useful to measure the stiffness of the
-bumpers more accurately.
+Sobol indices divide the variance of the largest acceleration among the uncertain parameters. The
+figure shows two indices for each parameter. The first index is the contribution of the parameter
+alone. The second index is its total contribution, including interactions with other parameters. In
+this rig, the stiffness of the bumpers contributes most. It is therefore most useful to measure this
+stiffness more accurately.
 """
 
 import numpy as np

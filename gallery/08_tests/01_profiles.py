@@ -2,10 +2,10 @@
 Profile likelihood: how accurate is a fit?
 ==========================================
 
-A profile shows the uncertainty of a fitted parameter. This parameter is fixed at values away from
-its optimum, and all other parameters are fitted again. The ends of the confidence interval are
-where the curve crosses the dotted line. In this example, the damping of the bumpers is ten times
-less certain than their stiffness.
+A profile shows the uncertainty of a fitted parameter. To compute the profile, this parameter is
+fixed at values away from its optimum, and all other parameters are fitted again. The ends of the
+confidence interval are where the curve crosses the dotted line. In this example, the damping of the
+bumpers is ten times less certain than their stiffness.
 """
 
 import numpy as np

@@ -2,9 +2,10 @@
 Residuals of a wrong contact law
 ================================
 
-A test is fitted with Hertz contacts, but the tested rig does not have such contacts. If a model is
-right, the residuals are random noise within the band. Here, neighbouring residuals are correlated.
-This shows that the contact law is wrong, and the figure shows at which frequencies.
+A model with Hertz contacts is fitted to a test of a rig that does not have such contacts. If a
+model is right, its residuals are random noise within the band, which is two standard deviations
+wide to either side. In this figure, neighbouring residuals are correlated. The correlation shows
+that the contact law is wrong. The figure also shows at which frequencies the law is wrong.
 """
 
 import numpy as np

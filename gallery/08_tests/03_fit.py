@@ -2,7 +2,7 @@
 Fit of a time history
 =====================
 
-The dots are noisy measurements. The line is the motion of the fitted rig, including its contacts.
+The dots are noisy measurements of a motion with contacts. The line is the motion of the fitted rig.
 The initial state of this motion is fitted, too.
 """
 

@@ -2,10 +2,10 @@
 What to test next
 =================
 
-A dwell is a test at one frequency and one level of shaking. This map shows, for every possible next
-dwell, how much information it would give about all parameters together. The bright ridges are the
-best choices. They lie just above the level at which the mass touches the bumpers, and just before a
-jump.
+A dwell is a test at one frequency and one level of shaking. For every possible next dwell, this map
+shows how much information the dwell would give about all parameters together. The bright ridges are
+the best choices. They lie just above the level of shaking at which the mass begins to touch the
+bumpers, and just before a jump.
 """
 
 import numpy as np

@@ -3,8 +3,8 @@ One slider: the gap
 ===================
 
 If you move the slider for the gap, you see the resonance curve bend, jump and straighten again. The
-page below contains all its curves and needs no server. You can therefore send it by mail or include
-it in a report.
+page below contains the curves for all positions of the slider, so it needs no server. You can
+therefore send it by mail or include it in a report.
 
 .. raw:: html
 

@@ -2,9 +2,9 @@
 One trajectory
 ==============
 
-The problem is a mass that hits two bumpers in each forcing period. This package is compared with
-general integrators that were tuned for an error of at most 10⁻¹¹. The bars show the computing time
-on a logarithmic scale. The error is printed after each bar.
+The problem is a mass that hits each of two bumpers once per forcing period. This package is
+compared with general integrators that were tuned for an error of at most 10⁻¹¹. The bars show the
+computing time on a logarithmic scale. The error of each program is printed after its bar.
 """
 
 from benchmarks.results import number, rows

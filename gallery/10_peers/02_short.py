@@ -2,9 +2,10 @@
 Short runs, where this package is slower
 ========================================
 
-``vi.simulate`` checks its input and labels its result. This takes some tenths of a millisecond,
-even for a short run. For a run of only a few periods, a bare integrator is therefore faster. If you
-need many short sweeps, combine them in one call of ``vi.sweeps``.
+``vi.simulate`` checks its input and labels its result. The checks and labels take some tenths of a
+millisecond, even for a short run. For a run of only a few periods, an integrator without checks and
+labels is therefore faster. If you need many short sweeps, compute them in one call of
+``vi.sweeps``.
 """
 
 from benchmarks.results import number, rows

@@ -3,8 +3,8 @@ Time of other programs relative to this package
 ===============================================
 
 This figure shows every comparison of the benchmarks with another program, for problems that both
-can solve. To the left of the line, the other program is faster. Loops over scipy represent the code
-that a user would write without this package.
+programs can solve. To the left of the vertical line, the other program is faster than this package.
+Loops over scipy represent the code that a user would write without this package.
 """
 
 from benchmarks.results import against_others

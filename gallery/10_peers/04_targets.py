@@ -2,8 +2,9 @@
 Benchmark targets, met and missed
 =================================
 
-The benchmarks have targets, for example for the speed. This figure shows the margin to each target
-in the last full run. Crosses to the left of the line are targets that were not met.
+The benchmarks have targets, for example for the speed. For each target, this figure shows the
+measured margin in the last full run of the benchmarks. Crosses to the left of the vertical line are
+targets that were not met.
 """
 
 from benchmarks.results import margins

@@ -1,4 +1,4 @@
-"""Check the kind of an argument before it is used, so that a mistake is one line."""
+"""Check the type of an argument before it is used, so that an error is one line."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from typing import Any, cast
 from vibroimpact.errors import InputError, shown, unknown
 
 LONGEST_PATH = 4096
-"""Letters of a path, as operating systems take them."""
-VALUES = "a mapping of values by the names of parameters"
-"""What varies, in words."""
-STARTS = 'a mapping of states by name, such as {"mine": State(0.01, 0.0)},'
-"""Where motions start, in words."""
+"""Largest number of characters of a path in operating systems."""
+VALUES = "a mapping from names of parameters to values"
+"""Description of values that are varied."""
+STARTS = 'a mapping from names to states, such as {"mine": State(0.01, 0.0)},'
+"""Description of initial states."""
 MOST_LISTED = 1_000_000
-"""Items of a list that is not a record."""
+"""Largest number of items of a list that is not a record."""
 
 
 def check_path(value: object, field: str) -> Path:
@@ -26,7 +26,7 @@ def check_path(value: object, field: str) -> Path:
     Raises
     ------
     InputError
-        If it is not a text or a path, or no file system takes it.
+        If it is not a text or a path, or if no file system accepts it.
     """
     path = value if isinstance(value, str) else None
     if isinstance(value, os.PathLike):
@@ -49,14 +49,14 @@ def check_mapping(value: object, field: str, what: str) -> Mapping[str, Any]:
     value
         The argument.
     field
-        Its name.
+        Name of the argument.
     what
-        What is accepted, in words.
+        Description of accepted values.
 
     Raises
     ------
     InputError
-        If it is not a mapping, or one of its keys is not a text.
+        If it is not a mapping, or if one of its keys is not a text.
     """
     if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
         raise InputError(f"{field}: {shown(value)}; {what} is accepted")
@@ -64,26 +64,26 @@ def check_mapping(value: object, field: str, what: str) -> Mapping[str, Any]:
 
 
 def check_texts(value: object, field: str) -> None:
-    """Refuse anything but None and a mapping of texts to texts.
+    """Check that a value is None or a mapping from texts to texts.
 
     Raises
     ------
     InputError
-        If it is something else.
+        If it is anything else.
     """
-    held = {} if value is None else check_mapping(value, field, "a mapping of texts to texts")
+    held = {} if value is None else check_mapping(value, field, "a mapping from texts to texts")
     for key, one in held.items():
         if not isinstance(one, str):
             raise InputError(f"{field}[{key!r}]: {shown(one)} is not a text; a text is accepted")
 
 
 def check_variables(value: Any, names: Collection[str], field: str, what: str) -> None:
-    """Refuse anything but a dataset that has certain variables.
+    """Check that a value is a dataset with given variables. `what` describes accepted datasets.
 
     Raises
     ------
     InputError
-        If it is not a dataset, or a variable is missing.
+        If it is not a dataset, or if a variable is missing.
     """
     held = getattr(value, "data_vars", None)
     if not isinstance(held, Mapping) or not all(name in value.variables for name in names):
@@ -91,12 +91,12 @@ def check_variables(value: Any, names: Collection[str], field: str, what: str) -
 
 
 def check_name(value: object, names: Collection[str], field: str) -> str:
-    """Return a text that is one of several.
+    """Return a name that must be one of the given names.
 
     Raises
     ------
     InputError
-        If it is another, or not a text.
+        If it is another name, or if it is not a text.
     """
     if not isinstance(value, str) or value not in names:
         raise InputError(f"{field}: {unknown(value, names)}")
@@ -104,7 +104,7 @@ def check_name(value: object, names: Collection[str], field: str) -> str:
 
 
 def check_progress(value: Any) -> None:
-    """Refuse a `progress` that cannot be called.
+    """Check the argument `progress`.
 
     Raises
     ------
@@ -113,8 +113,8 @@ def check_progress(value: Any) -> None:
     """
     if value is not None and (isinstance(value, type) or not callable(value)):
         raise InputError(
-            f"progress: {shown(value)}; None or a function of the number done and the total, "
-            "such as progress_bar(), is accepted"
+            f"progress: {shown(value)}; None or a function of two numbers, the completed and the "
+            "total work, such as progress_bar(), is accepted"
         )
 
 
@@ -128,16 +128,16 @@ def check_list(
     value
         The argument.
     field
-        Its name.
+        Name of the argument.
     most
-        How many items it may have.
+        Largest number of items.
     what
-        What is accepted, in words.
+        Description of accepted values.
 
     Raises
     ------
     InputError
-        If it is not a list, is a text, or has more items than `most`.
+        If it is not a list, if it is a text, or if it has more than `most` items.
     """
     if not is_list(value):
         raise InputError(f"{field}: {shown(value)} is not a list; {what} is accepted")
@@ -148,24 +148,24 @@ def check_list(
 
 
 def is_list(value: object) -> bool:
-    """Whether a value has items that are read one by one: a text, bytes and mappings do not."""
+    """Return whether a value is a sequence of items. Texts, bytes and mappings are not."""
     value = getattr(value, "magnitude", value)  # of a quantity
     is_scalar = isinstance(value, str | bytes | Mapping) or getattr(value, "ndim", 1) == 0
     return isinstance(value, Iterable) and not is_scalar
 
 
 def is_pair(value: object) -> bool:
-    """Whether a value has two items in an order."""
+    """Return whether a value has two items in a fixed order."""
     return is_list(value) and not isinstance(value, Set) and _length(value) == 2
 
 
 def check_flag(value: object, field: str) -> bool:
-    """Return a truth value.
+    """Return a truth value, which may be a value of numpy.
 
     Raises
     ------
     InputError
-        If it is something else.
+        If it is neither True nor False.
     """
     kind = getattr(getattr(value, "dtype", None), "kind", "")  # of a value of numpy
     if not isinstance(value, bool) and (kind != "b" or getattr(value, "ndim", 1)):

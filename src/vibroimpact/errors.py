@@ -13,10 +13,10 @@ LONGEST = 320
 _END = LONGEST // 3
 """Number of characters kept of its end, which states what is accepted."""
 _LONG_WORD = re.compile(r"(\S{60})\S{140,}")
-"""A value that was given whole; a path may have 200 letters."""
+"""A word with more than 200 characters, which is shortened. Paths may have 200 characters."""
 _PATH = re.compile(r"'(?:/|[A-Za-z]:\\)[^']*'")
 _LIST = re.compile(r"(?:[^\s,;:]+(?: [^\s,;:]+){0,3}, ){4,}")
-"""Items of a list, of up to four words each, but for its last one."""
+"""Items of a list except for the last one. Each item has at most four words."""
 
 
 class InputError(ValueError):
@@ -39,26 +39,26 @@ class InputWarning(UserWarning):
 
 
 def warn_of_input(what: str, notes: Iterable[str], stacklevel: int = 3) -> None:
-    """Issue one `InputWarning` about one input, if there is anything to note.
+    """Issue one `InputWarning` with all notes on one input.
 
     Parameters
     ----------
     what
         The input, such as ``"record 'quake.csv'"``.
     notes
-        Assumptions and doubts about it, in words.
+        Assumptions and doubts about the input. Without notes, no warning is issued.
     stacklevel
-        As in `warnings.warn`; 3 is the caller of the function that calls this.
+        As in `warnings.warn`. 3 selects the caller of the function that calls this function.
     """
     if told := "; ".join(notes):
         warnings.warn(f"{what}: {told}", InputWarning, stacklevel=stacklevel)
 
 
 def short_line(message: str) -> str:
-    """Write a message on one line of at most `LONGEST` characters, excluding full paths of files.
+    """Return a message as one line of at most `LONGEST` characters, excluding full paths of files.
 
-    The longest list in it loses items before its last one; if that is not enough, the message loses
-    its middle.
+    If the message is longer, items before the last one are removed from its longest list. If this
+    is not enough, its middle is removed.
     """
     text = " ".join(message.split())
     most = LONGEST + sum(len(path) for path in _PATH.findall(text))
@@ -76,7 +76,7 @@ def short_line(message: str) -> str:
 
 
 def shown(value: object) -> str:
-    """Show an invalid value on one short line."""
+    """Return an invalid value as one short line."""
     try:
         text = " ".join(repr(value).split())
     except Exception:  # of a class that the user wrote
@@ -85,7 +85,7 @@ def shown(value: object) -> str:
 
 
 def meant(name: object, accepted: Iterable[str]) -> str:
-    """Suggest the accepted name nearest to a wrong one, such as ``did you mean gap?``, or ""."""
+    """Return a suggestion for a wrong name, such as ``did you mean gap?``, or ""."""
     if not isinstance(name, str):
         return ""
     written = name.strip().lower().replace("-", "_")
@@ -94,7 +94,7 @@ def meant(name: object, accepted: Iterable[str]) -> str:
 
 
 def unknown(name: object, accepted: Iterable[str]) -> str:
-    """Describe a name that is not accepted, for a message."""
+    """Return the text of an error about an unknown name, with the accepted names."""
     names = list(accepted)
     hint = meant(name, names)
     return f"{shown(name)}; {hint}{'One' if hint else 'one'} of {', '.join(names)} is accepted"
@@ -106,10 +106,10 @@ direction."""
 
 
 def printable(text: str) -> str:
-    r"""Write control characters as escapes such as \x1b; line breaks and tabs stay."""
+    r"""Return a text in which control characters, but not line breaks and tabs, are escaped."""
     return UNPRINTABLE.sub(lambda one: one[0] if one[0] in "\n\t" else ascii(one[0])[1:-1], text)
 
 
 def in_one_line(text: str) -> str:
-    """Write a text, such as the name of a file, on one line without control characters."""
+    """Return a text, such as a file name, as one line without control characters."""
     return " ".join(printable(text).split())

@@ -11,9 +11,10 @@ from vibroimpact.errors import printable
 
 
 def print_line(text: str) -> None:
-    """Print a line on standard error if that can be written to; a computation goes on without it.
+    """Print a line on standard error. If this is not possible, do nothing.
 
-    Without a standard error (a daemon, ``pythonw``) `print` would write to standard output.
+    In a process without standard error, such as a daemon or ``pythonw``, `print` would write to
+    standard output.
     """
     if sys.stderr is None:
         return

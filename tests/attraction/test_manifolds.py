@@ -202,7 +202,11 @@ def test_crossings_of_lines_that_are_known():
 @pytest.mark.parametrize(
     ("saddles", "words", "named"),
     [
-        (vi.State(0.0026, -0.027), {}, "saddles[0]: its multipliers"),
+        (
+            vi.State(0.0026, -0.027),
+            {},
+            "saddles[0]: this orbit is not a saddle, because its multipliers",
+        ),
         (xr.Dataset(), {}, "saddles[0]: this is not an orbit"),
         (None, {"spacing": 0.0}, "spacing: "),
         (None, {"longest": -1.0}, "longest: "),
@@ -219,7 +223,7 @@ def test_what_is_refused(saddles, words, named):
 def test_an_orbit_at_another_phase_is_refused():
     orbit = vi.orbit(vi.Rig(CASE.oscillator, EXCITATION), vi.State(0.0053, 0.002))
     with pytest.raises(
-        vi.InputError, match="its phase is 0 rad, but the phase of the excitation is 1"
+        vi.InputError, match="phase of this orbit is 0 rad, but the phase of the excitation is 1"
     ):
         vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION.replace(phase=1.0)), orbit, *WINDOW)
 

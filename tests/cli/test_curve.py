@@ -42,7 +42,7 @@ def test_summary_and_files(run, tmp_path):
     assert (code, errors) == (0, "")
     lines = [line.rstrip() for line in out.splitlines()]
     stem = "B2-G1-A3-fold-frequency-stiffness-ratio"
-    for line in ("B2-G1-A3", "1 curve of fold", "Files", f"  out/{stem}.nc", f"  out/{stem}.png"):
+    for line in ("B2-G1-A3", "1 fold curve", "Files", f"  out/{stem}.nc", f"  out/{stem}.png"):
         assert lines.count(line) == 1
     (cusp,) = (line for line in lines if "cusp" in line)
     words = cusp.replace(",", "").split()
@@ -144,7 +144,7 @@ def test_a_study_and_what_is_typed_over_it(run, tmp_path):
     words = ("--bifurcation", "grazing", "--damping", "1.2 kN s/m", "--figure", "svg")
     code, out, _ = run("low.toml", *GAP, *words)
     assert code == 0
-    assert "1 curve of grazing" in out
+    assert "1 grazing curve" in out
     path = tmp_path / "out/low-damping-1.2kNs_m-grazing-frequency-gap.nc"
     (group,) = groups(path)
     data = vi.load(path, group=group)

@@ -85,7 +85,7 @@ def test_an_amplitude_of_the_study_that_the_file_replaces_is_reported(file, tmp_
     words = ["identify", str(file), "--rig", "B2-G2-A3", "--free", "stiffness", "--starts", "1"]
     assert main([*words, "-o", str(tmp_path)]) == 0
     printed = capsys.readouterr()
-    line = "the amplitude is 0.04 g, from test.csv; that of the rig, 0.05 g, is not used"
+    line = "the amplitude is 0.04 g, from test.csv; the amplitude of the rig, 0.05 g, is not used"
     assert line in " ".join(printed.err.split())
     assert line in " ".join(printed.out.split())
 
@@ -97,7 +97,7 @@ def test_an_amplitude_without_a_unit_is_told_and_named_where_nothing_fits(file, 
     assert main([*words, "-o", str(tmp_path)]) == 0
     told = " ".join(capsys.readouterr().out.split())
     assert "amplitude of bare: 0.004079 g, from bare.csv" in told
-    assert "amplitude has no unit: taken as 0.04 m/s² (0.00408 g)" in told
+    assert "amplitude has no unit, so 0.04 m/s² (0.00408 g) was assumed" in told
     assert "the fit used the amplitude 0.004079 g, from bare.csv" in told
     assert main([*words, "-o", str(tmp_path), "--amplitude", "0.04 g", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)

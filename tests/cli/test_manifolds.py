@@ -21,7 +21,7 @@ def test_text_and_files(run, tmp_path):
     assert first.split() == ["1", "5.304", "1.984", "1", "5.856,", "0.005038"]
     assert "  2 of 2: the curve reaches the maximum length" in out
     assert "  2 of 2: the curve ends at a steady motion" in out
-    assert "the curves do not cross" in out
+    assert "stable and unstable manifolds do not cross" in out
     assert {p.name for p in (tmp_path / "out").iterdir()} == {f"{NAME}.nc", f"{NAME}.png"}
 
 
@@ -42,14 +42,17 @@ def test_a_saddle_that_is_given(run, tmp_path):
 def test_without_borders_there_is_no_saddle(run):
     code, out, _ = run("B3-Ginf-A3", "--frequency", "0.7Hz", "--nodes", "4", *WINDOW)
     assert code == 0
-    assert "no saddle was found" in out
+    assert "no saddle was found on the borders between basins" in out
 
 
 @pytest.mark.parametrize(
     ("words", "named"),
     [
         (("--saddle", "5mm"), "--saddle: '5mm'; a displacement and a velocity"),
-        (("--saddle", "2.6mm,-27mm/s"), "--saddle[0]: its multipliers"),
+        (
+            ("--saddle", "2.6mm,-27mm/s"),
+            "--saddle[0]: this orbit is not a saddle, because its multipliers",
+        ),
         (("--spacing", "0"), "--spacing: "),
         (("--period", "0"), "--period: 0"),
     ],

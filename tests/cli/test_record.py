@@ -57,12 +57,12 @@ def test_changes_in_their_order_and_json(run, quake):
     assert facts["samples"] == 5
     assert facts["peak"] == pytest.approx(1.96133)
     assert (facts["station"], facts["component"]) == ("elsewhere", "Z")
-    assert [note.split(" ")[0] for note in facts["notes"]] == [
-        "step",
-        "unit",
-        "cut",
-        "mean",
-        "scaled",
+    assert [" ".join(note.split(" ")[:2]) for note in facts["notes"]] == [
+        "the step",
+        "the unit",
+        "cut to",
+        "mean subtracted:",
+        "scaled by",
     ]
     assert facts["files"] == {"data": "out/made-record.nc", "figure": "out/made-record.svg"}
     (largest,) = facts["largest"]
@@ -99,7 +99,10 @@ def test_a_study_takes_a_component(tmp_path, run):
         (["--damping", "x"], "--damping: 'x' does not start with a number"),
         (["--periods", "1"], "--periods: 1; a whole number of at least 2"),
         (["--shortest", "0"], "--shortest: '0' is not greater than 0"),
-        (["--shortest", "2s", "--longest", "1s"], "--longest: 1s; a period longer than 2s"),
+        (
+            ["--shortest", "2s", "--longest", "1s"],
+            "--longest: 1s is not longer than --shortest, 2s; a longer",
+        ),
         (["--unit", "kg"], "--unit: '1 kg' is a mass"),
         (["--step", "-1s"], "--step: '-1s' is not greater than 0"),
         (["--start", "99s"], "--start: '99s' is greater than"),

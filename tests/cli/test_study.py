@@ -114,7 +114,7 @@ def test_all_unknown_keys_are_named_and_no_class_of_python(write):
     told = str(caught.value)
     for key, meant in (("sweep.stepp", "step"), ("simulate.frequncy", "frequency")):
         assert f"{key}: unknown key; " in told
-        assert f"perhaps {meant} is meant" in told
+        assert f"; did you mean {meant}?" in told
     assert "form: unknown key; " in told
     for name in ("SweepTable", "SimulateTable", "Study", "ExcitationTable", "Oscillator"):
         assert name not in told
@@ -126,7 +126,7 @@ def test_all_unknown_keys_are_named_and_no_class_of_python(write):
 
 def test_numbers_that_count_something(write):
     for line in ("[sweep]\nmax_cycles = 0", "[simulate]\nsamples = 0"):
-        with pytest.raises(vi.InputError, match=r"(max_cycles|samples): 0 is refused: .* 1"):
+        with pytest.raises(vi.InputError, match=r"(max_cycles|samples): 0 is invalid: .* 1"):
             read_study(write('case = "B2-G1-A3"\n' + line))
 
 
@@ -137,9 +137,9 @@ def test_a_study_needs_no_ending(write):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ('case = "B2-G1-A3"\n[sweep]\nform = 1', r"sweep.form: unknown key; .*perhaps from is"),
-        (RIG.replace("mass", "mas"), r"oscillator.mas: unknown key; .*perhaps mass is meant"),
-        (RIG.replace("gap", "gapp"), r"oscillator.right.gapp: unknown key; .*perhaps gap is"),
+        ('case = "B2-G1-A3"\n[sweep]\nform = 1', r"sweep.form: unknown key; .*did you mean from\?"),
+        (RIG.replace("mass", "mas"), r"oscillator.mas: unknown key; .*did you mean mass\?"),
+        (RIG.replace("gap", "gapp"), r"oscillator.right.gapp: unknown key; .*did you mean gap\?"),
         (
             RIG.replace("7.5 mm", "15 kg"),
             r"oscillator.right.gap: '15 kg' is a mass; a length is accepted",
@@ -151,7 +151,7 @@ def test_a_study_needs_no_ending(write):
         ),
         (
             RIG.replace('stiffness = "26.8 kN/m"', 'period = "2 s"'),
-            r"oscillator.isolator.damping_ratio: missing, but period needs it; a dimensionless",
+            r"oscillator.isolator.damping_ratio: missing, but period requires it; a dimensionless",
         ),
         (
             RIG.replace("damping =", 'period = "2 s", damping_ratio = 0.1, damping =', 1),
@@ -164,14 +164,14 @@ def test_a_study_needs_no_ending(write):
         (RIG, r"excitation.amplitude: missing; an acceleration"),
         (RIG + 'parameters = "table"', r"oscillator.parameters: unknown key"),
         ('parameters = "table"' + RIG, r"parameters are given without a case"),
-        ('case = "B2-G1-A3"' + RIG, r"both case and oscillator are given; exactly one of them"),
-        ('name = "x"', r"neither case nor oscillator is given; exactly one of them"),
+        ('case = "B2-G1-A3"' + RIG, r"both case and oscillator are given; exactly one of the two"),
+        ('name = "x"', r"neither case nor oscillator is given; exactly one of the two"),
         ('case = "B9-G1-A3"', r"study .*bumper 'B9' is unknown"),
-        ('case = "B2-G1-A3"\n[sweep]\ndirection = "up"', r"sweep.direction: 'up' is refused"),
-        ('case = "B2-G1-A3"\n[sweep]\nfrequencies = 1', r"sweep.frequencies: 1 is refused"),
+        ('case = "B2-G1-A3"\n[sweep]\ndirection = "up"', r"sweep.direction: 'up' is invalid"),
+        ('case = "B2-G1-A3"\n[sweep]\nfrequencies = 1', r"sweep.frequencies: 1 is invalid"),
         (
             'case = "B2-G1-A3"\n[sweep]\nfrequencies = [1]\nto = 2',
-            r"sweep: frequencies are listed and also given by from, to or step",
+            r"sweep: the list 'frequencies' is given together with 'from', 'to' or 'step'; either",
         ),
         ("case =\n\n", r"is not TOML \(.*line 1"),
     ],
@@ -234,7 +234,9 @@ class TestWhatShakes:
         path = write(
             RIG + '[excitation]\nrecord = "quake.csv"\nstep = "20 ms"\n[simulate]\ntail = "5 s"\n'
         )
-        with pytest.warns(vi.InputWarning, match="unit m/s², because the file states none"):
+        with pytest.warns(
+            vi.InputWarning, match="the unit m/s² was assumed, because the file states no unit"
+        ):
             what = subject(str(path), RigOptions())
         assert what.shaking == vi.Record(values, 0.02)
         assert what.study.simulate.tail == 5.0
@@ -247,7 +249,9 @@ class TestWhatShakes:
         rows = (f"{float(t)!r},{float(x)!r}" for t, x in zip(time, moved, strict=True))
         write("\n".join(["t,x", *rows]), "x.csv")
         path = write(RIG + '[excitation]\nrecord = "x.csv"\nunit = "mm"\n')
-        with pytest.warns(vi.InputWarning, match="displacements, differentiated twice"):
+        with pytest.warns(
+            vi.InputWarning, match="the values are displacements, which were differentiated twice"
+        ):
             shaking = subject(str(path), RigOptions()).shaking
         expected = vi.Record.from_displacement(1e-3 * moved, 0.05)
         assert shaking.step == pytest.approx(expected.step, rel=1e-14)
@@ -257,7 +261,7 @@ class TestWhatShakes:
         ("text", "csv", "message"),
         [
             ('step = "1 ms"', "0.1\nnan\n0.2", r"line 2: nan is not finite"),
-            ('step = "1 ms"', "0.1", r"acceleration: 1 given; at least 2 samples"),
+            ('step = "1 ms"', "0.1", r"acceleration: 1 given; one sequence of at least 2 samples"),
             ("step = 0", "0.1\n0.2", r"excitation.step: 0 is not greater than 0"),
             ('step = "-1 ms"', "0.1\n0.2", r"excitation.step: '-1 ms' is not greater than 0"),
             ("", "0.1\n0.2", r"excitation.step: missing, and .* has no times"),

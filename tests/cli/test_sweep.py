@@ -26,7 +26,7 @@ def test_summary_and_files(run, tmp_path):
     assert any(line.startswith("forward downward 2.65 and 2.66") for line in lines)
     assert any(line.startswith("backward upward 1.68 and 1.67") for line in lines)
     assert any(line.startswith("η_a forward secondary 0.57") for line in lines)
-    assert "1.68 to 2.65 Hz: right (forward above backward)" in lines
+    assert "1.68 to 2.65 Hz: right (forward curve above backward curve)" in lines
     files = {p.name for p in (tmp_path / "out").iterdir()}
     assert files == {f"B2-G1-A3-identified-sweep.{ending}" for ending in ("nc", "png", "txt")}
     for name in files:
@@ -59,8 +59,8 @@ def test_json_and_nothing_else(run, tmp_path):
 def test_left_hysteresis_and_advice(run):
     words = ("B3-10mm-A3", "--from", "0.6Hz", "--to", "1.2Hz", "--step", "0.01Hz")
     _, told, _ = run(*words)
-    assert "0.68 to 0.72 Hz: left (backward above forward)" in told
-    assert "Not settled\n" in told
+    assert "0.68 to 0.72 Hz: left (backward curve above forward curve)" in told
+    assert "Motion not settled\n" in told
     assert "raise --max-cycles" in told
     assert "Advice: " in told
 

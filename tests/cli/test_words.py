@@ -43,7 +43,7 @@ def refused(tmp_path, monkeypatch, capsys):
     ],
 )
 def test_values_with_blanks_need_quotes(refused, words, hint):
-    assert refused(*words).endswith(f"; a value with blanks needs quotes, as {hint}")
+    assert refused(*words).endswith(f"; put quotes around a value with blanks, as in {hint}")
 
 
 def test_no_hint_where_none_is_needed(refused):

@@ -177,10 +177,10 @@ def test_what_has_no_bound_is_infinite() -> None:
     [
         ({"vary": {}}, "vary: {}; values of at least one parameter"),
         ({"vary": {"length": [1.0]}}, "vary: 'length'; one of "),
-        ({"vary": {"amplitude": [1.0]}}, "vary: 'amplitude' is that of a sine"),
+        ({"vary": {"amplitude": [1.0]}}, "vary: 'amplitude' is a parameter of a sine"),
         ({"vary": {"gap": []}}, "gaps: empty"),
         ({"vary": {"yield_force": [1.0]}}, "yield_force: unknown key"),
-        ({"records": []}, "records: none given"),
+        ({"records": []}, "records: missing; one or several records are accepted"),
         ({"records": [RECORDS["a"], 3]}, r"records\['1'\]: 3 is not a record; a Record"),
         ({"shaking": "3 s"}, "shaking: '3 s'"),
         ({"shaking": -1.0}, "shaking: -1"),

@@ -62,7 +62,7 @@ def test_a_wide_gap_leaves_nothing_to_choose() -> None:
     need = float(vi.required_gap(RIG, records=RECORDS)["required_gap"])
     untouched = (
         "the best design touches no stop, so the properties of the stops do not matter; the "
-        "limit of peak force does not bind: 0 N of 1 MN"
+        "design stays below the limit of peak force: 0 N of 1 MN"
     )
     with pytest.warns(vi.InputWarning, match=f"^least_acceleration: {untouched}"):
         found = vi.least_acceleration(
@@ -83,11 +83,11 @@ def test_what_binds_and_what_does_not_is_noted() -> None:
     found = vi.least_acceleration(RIG, RANGES, records=RECORDS, limits=limits)
     assert float(found["penetration"]) == pytest.approx(2e-3, rel=1e-2)
     (note,) = found.attrs["notes"].splitlines()
-    assert note.startswith("the limit of peak force does not bind: ")
+    assert note.startswith("the design stays below the limit of peak force: ")
     assert note.endswith(" N of 1 MN")
     stiff = {"bumper_stiffness": (2e6, 3e6)}
     ended = vi.least_acceleration(RIG, stiff, records=RECORDS, gap="10 mm")
-    assert ended.attrs["notes"] == "bumper_stiffness ended at the lower end of its range, 2000 kN/m"
+    assert ended.attrs["notes"] == "bumper_stiffness lies at the lower end of its range, 2000 kN/m"
 
 
 def test_it_is_repeatable() -> None:

@@ -157,7 +157,8 @@ def test_runs_that_are_given_up_are_told() -> None:
     coarse = noise(8, step=0.5)
     with pytest.warns(
         RuntimeWarning,
-        match=r"demands: .* given up for \d of 2 runs: one forcing cycle has more contacts",
+        match=r"demands: .* given up for \d of 2 runs: one forcing cycle or record step has more "
+        "contacts",
     ):
         data = vi.demands(RIGS["walls"], coarse, [1e-6, 1.0], max_events=1)
     assert data["status"].values.ravel().tolist() == [0, 2]
@@ -177,7 +178,7 @@ def test_it_is_saved_and_read(tmp_path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        ({"records": []}, "records: none given"),
+        ({"records": []}, "records: missing; one or several records are accepted"),
         ({"records": [3]}, r"records\['0'\]: 3 is not a record; a Record"),
         ({"records": vi.Record([0.0, 0.0], 0.1), "intensity": "PGA"}, r"records\[0\]: it is 0"),
         ({"rig": []}, "rig: the list is empty"),
@@ -194,7 +195,7 @@ def test_it_is_saved_and_read(tmp_path) -> None:
         ({"gaps": ["1 kg"]}, r"gaps\[0\]: "),
         ({"gaps": [0.1], "vary": {"gap": [0.1]}}, "gaps: given together with"),
         ({"vary": {"length": [1.0]}}, "vary: 'length'; one of "),
-        ({"vary": {"amplitude": [1.0]}}, "vary: 'amplitude' is that of a sine"),
+        ({"vary": {"amplitude": [1.0]}}, "vary: 'amplitude' is a parameter of a sine"),
         ({"vary": {"restitution": [0.5]}}, "parameter: "),
         ({"tail": -1.0}, "tail: -1"),
         ({"block": 0}, "block: 0"),

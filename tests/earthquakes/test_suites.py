@@ -63,7 +63,7 @@ def test_the_probability_of_impact() -> None:
 def test_wrong_input() -> None:
     data = lognormal(np.random.default_rng(1), 5, SCALES, 0.5)
     for ask, line in (
-        (lambda: vi.fractiles(3), "demands: 3; a dataset of demands"),
+        (lambda: vi.fractiles(3), "demands: 3; the result of demands"),
         (lambda: vi.fractiles(data, "peak"), "quantity: 'peak'; one of peak_displacement is"),
         (lambda: vi.fractiles(data, shares=(1.2,)), r"shares\[0\]: 1.2"),
         (lambda: vi.fractiles(data, shares=()), "shares: missing"),

@@ -243,7 +243,7 @@ def test_the_command_says_where_and_ends_with_ctrl_c():
         finally:
             process.kill()  # if it has not ended
     assert process.returncode == 0
-    assert said.endswith("The explorer has ended.\n")
+    assert said.endswith("The explorer has stopped.\n")
 
 
 def test_without_websockets_that_is_said_before_anything_is_loaded():

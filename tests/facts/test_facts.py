@@ -56,7 +56,7 @@ def test_one_direction_has_no_hysteresis_to_seek():
     data = vi.sweep("B2-G1-A3", [1.0, 1.2], "forward")
     text = as_text(sweeps.text(data, features(data), []))
     assert "2 frequencies from 1 to 1.2 Hz, forward" in text
-    assert "not computed, needs both directions" in text
+    assert "not computed, because it needs both sweep directions" in text
 
 
 def test_each_scenario_has_a_meaning():

@@ -666,7 +666,7 @@ def refused(call, begins: str, *holds: str) -> None:
 
 @pytest.mark.parametrize("draw", [phase_portrait, hysteresis_cycle, clearances, time_history])
 def test_what_is_no_recorded_motion_is_refused(draw):
-    steadily = "a dataset of steady, or of simulate with samples"
+    steadily = "the result of steady, or of simulate with samples"
     unsampled = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 2, samples=0)
     swept = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), [1.0, 2.0])
     for wrong in (xr.Dataset(), unsampled, swept, vi.fourier_spectrum(hitting())):
@@ -701,7 +701,8 @@ def test_other_quantities_and_datasets_are_no_spectrum():
         "displacement, velocity, acceleration",
     )
     for wrong in (hitting(), xr.Dataset()):
-        refused(lambda wrong=wrong: spectrum_lines(wrong), "spectra: ", "a dataset of spectrum")
+        accepted = "the result of fourier_spectrum"
+        refused(lambda wrong=wrong: spectrum_lines(wrong), "spectra: ", accepted)
         refused(lambda wrong=wrong: spectrum_lines({"a": lines, "b": wrong}), "spectra: ")
 
 

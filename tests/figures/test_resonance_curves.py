@@ -136,7 +136,7 @@ class TestPrimaryResonance:
             "forward sweep",
             "backward sweep",
             "free flight",
-            "right hysteresis (forward above)",
+            "right hysteresis (forward above backward)",
         ]
         assert lower.get_legend() is None
 
@@ -161,7 +161,7 @@ class TestOtherSweeps:
         found = shades(upper)
         assert [hatched for _, _, hatched in found] == [True, False]
         assert found[0][:2] == pytest.approx((0.675, 0.725))
-        assert "left hysteresis (backward above)" in legend_texts(upper)
+        assert "left hysteresis (backward above forward)" in legend_texts(upper)
         assert {"forward jump up", "backward jump down"} < set(arrows(upper))
 
     def test_each_panel_shows_which_sweep_is_above_in_it(self):
@@ -171,9 +171,10 @@ class TestOtherSweeps:
         for given, hatched in ((data, [True, True]), (turned, [True, False])):
             axes = resonance_curves(given)
             assert [shades(ax)[0][2] for ax in axes] == hatched
-        assert {"left hysteresis (backward above)", "right hysteresis (forward above)"} < set(
-            legend_texts(axes[0])
-        )
+        assert {
+            "left hysteresis (backward above forward)",
+            "right hysteresis (forward above backward)",
+        } < set(legend_texts(axes[0]))
 
     def test_unsettled_motions_are_marked(self):
         data = swept("B3-10mm-A3", 0.5, 4, 0.01)

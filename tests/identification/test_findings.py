@@ -27,7 +27,8 @@ def test_right_and_left_exchanged_fit_excursions_as_well_and_are_reported():
     (other,) = found.alternative_value.values
     assert other == pytest.approx(found.fitted_value.values[::-1], rel=1e-9)
     assert float(found.alternative_rise[0]) < 0.01
-    assert "with right and left exchanged, the rig fits as well: right_gap 9." in found.findings
+    told = "with right and left exchanged, the rig fits equally well: right_gap 9."
+    assert told in found.findings
     assert "left_gap 12." in found.findings or "left_gap 11.9" in found.findings
 
 
@@ -41,7 +42,7 @@ def test_maxima_and_minima_tell_the_sides():
 def test_sides_that_only_the_given_values_tell_are_reported():
     data = curves(UNEVEN, "0.04 g", 0.01, frequencies=GRID)
     found = vi.identify(UNEVEN, data, "right_gap", **QUICK)
-    assert "only the given values decide which side is the right one" in found.findings
+    assert "only the values that you passed determine which side is the right one" in found.findings
 
 
 @pytest.fixture(scope="module")
@@ -111,8 +112,8 @@ def test_of_a_bumper_that_is_never_touched_only_the_least_gap_is_known():
     for name in ("bumper_stiffness", "bumper_damping"):
         assert found.interval_open.sel(parameter=name).values.all()
     known = (
-        "gap (gap of each side) is known from below only: in these tests the mass does not touch "
-        f"the stop, and all values from {1e3 * low:.3g} mm upward fit as well"
+        "gap (gap of each side) has only a lower limit: in these tests the mass does not touch "
+        f"the stop, and all values from {1e3 * low:.3g} mm upward fit equally well"
     )
     lines = found.findings.splitlines()
     assert any(line.startswith(known) for line in lines)
@@ -148,7 +149,8 @@ def test_a_shaking_of_the_rig_that_the_data_replace_is_reported(shaking):
 
 def test_the_amplitude_of_a_computed_sweep_is_its_own():
     data = vi.sweep(vi.Rig(CASE.oscillator, "0.04 g"), GRID)
-    with pytest.warns(vi.InputWarning, match=r"the amplitude is 0\.04 g, from the data; that of"):
+    told = r"the amplitude is 0\.04 g, from the data; the amplitude of"
+    with pytest.warns(vi.InputWarning, match=told):
         found = vi.identify(vi.Rig(CASE.oscillator, "0.05 g"), data, "stiffness", **QUICK)
     assert found.fitted_value.values[0] == pytest.approx(31900.0, rel=1e-6)
     assert vi.fitted_rig(found).amplitude == pytest.approx(0.04 * 9.80665)
@@ -157,9 +159,10 @@ def test_the_amplitude_of_a_computed_sweep_is_its_own():
 def test_a_measured_base_and_its_frequency_replace_those_of_the_rig():
     data = vi.simulate(vi.Rig(CASE.oscillator, vi.Harmonic("0.04 g", 1.5)), 6, samples=40)
     given = vi.Rig(CASE.oscillator, vi.Harmonic("0.06 g", 1.7))
-    with pytest.warns(vi.InputWarning, match="the frequency is 1.5 Hz, from the data; that of the"):
+    told = "the frequency is 1.5 Hz, from the data; the frequency of the"
+    with pytest.warns(vi.InputWarning, match=told):
         found = vi.identify(given, data, "stiffness", **QUICK)
-    assert "the amplitude is 0.04 g, from the measured base; that of the rig, 0.06 g" in (
+    assert "the amplitude is 0.04 g, from the measured base; the amplitude of the rig, 0.06 g" in (
         found.findings
     )
     same = vi.identify(vi.Rig(CASE.oscillator, "0.04 g"), data, "stiffness", **QUICK)

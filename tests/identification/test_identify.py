@@ -256,4 +256,5 @@ def test_a_column_that_was_not_understood_is_named(tmp_path):
         vi.InputWarning, match="columns were not understood and were left out: Kanal 7"
     ):
         fit = vi.identify(rig, path, "stiffness", tried=0, starts=1, profiles=False)
-    assert "own: 'Kanal 7' of the file not understood and not used" in fit.attrs["findings"]
+    told = "own: columns of the file were not understood and were left out: 'Kanal 7'"
+    assert told in fit.attrs["findings"]

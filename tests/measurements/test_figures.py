@@ -63,7 +63,7 @@ def test_features_are_told_with_the_step(curves):
     words = "\n".join(in_words(curves))
     assert "in steps of 0.1 Hz" in words
     assert "forward: jump down between 2.6 and 2.7 Hz" in words
-    assert "hysteresis, forward above: 1.8 to 2.6 Hz" in words
+    assert "hysteresis, forward curve above backward curve: 1.8 to 2.6 Hz" in words
 
 
 def test_curves_alone_and_over_computed_ones(curves, computed):
@@ -288,7 +288,7 @@ def test_one_side_alone_is_told(end, side):
     assert f"peak of the acceleration's {side} at" in told
     assert "E_a" not in told
     words = {"max": "maxima", "min": "minima"}[end]
-    assert f"displacement: {words} alone were measured" in told
+    assert f"displacement: only {words} were measured" in told
     upper, lower = figures.resonance_curves(as_measured(data))
     assert upper.get_ylabel() == f"{side} of absolute\nacceleration (g)"
     assert (lower.lines[0].get_ydata()[0] > 0.0) == (end == "max")

@@ -127,7 +127,7 @@ def test_the_same_channels(write, ending, tmp_path):
     np.testing.assert_allclose(data["acceleration"], ACCELERATION, **rough)
     np.testing.assert_allclose(data["base_acceleration"], BASE, **rough)
     if write in (rate, groups, rate_beside):
-        assert "the time is computed from" in data.attrs["notes"]
+        assert "the times were computed from" in data.attrs["notes"]
 
 
 def nodes(path, channels, binary):

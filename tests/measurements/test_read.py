@@ -121,9 +121,9 @@ def test_units_repeats_gaps_and_rows_without_a_frequency_are_told(tmp_path):
         0.980665
     )
     notes = data.attrs["notes"].splitlines()
-    assert "rows without a frequency are left out: 1 (line 9)" in notes
+    assert "rows without a frequency were left out: 1 (line 9)" in notes
     assert "missing values: 1" in notes
-    assert any("held up to 2 times" in note for note in notes)
+    assert any("measured up to 2 times" in note for note in notes)
     assert data.attrs["left_out"] == "remark"
 
 
@@ -153,7 +153,7 @@ def test_an_amplitude_with_a_decimal_comma(tmp_path, said, mark, amplitude):
 @pytest.mark.parametrize(
     ("said", "amplitude", "told"),
     [
-        ("# amplitude = 0.04", 0.04, "amplitude has no unit: taken as 0.04 m/s² (0.00408 g)"),
+        ("# amplitude = 0.04", 0.04, "amplitude has no unit, so 0.04 m/s² (0.00408 g) was assumed"),
         ("Amplitude;0,04 g", 0.392266, ""),
         ("# amplitude_g = 0.04", 0.392266, ""),
         ("# amplitude (m/s²) = 0.4", 0.4, ""),
@@ -183,7 +183,7 @@ def test_numbers_beside_the_columns_are_read_or_told(tmp_path, said, amplitude, 
     [
         ({"amplitude_g": 0.04}, 0.392266, ""),
         ({"amplitude": "0.04 g"}, 0.392266, ""),
-        ({"amplitude": 0.04}, 0.04, "amplitude has no unit: taken as 0.04 m/s² (0.00408 g)"),
+        ({"amplitude": 0.04}, 0.04, "amplitude has no unit, so 0.04 m/s² (0.00408 g) was assumed"),
         ({"A_g": 0.04, "name": "B2"}, None, "left out: A_g = 0.04"),
     ],
 )
@@ -193,7 +193,7 @@ def test_numbers_beside_the_vectors_of_matlab(tmp_path, group, beside, amplitude
     data = vi.read_measurement(tmp_path / "test.mat")
     assert data.attrs.get("amplitude") == (amplitude and pytest.approx(amplitude))
     assert told in data.attrs["notes"]
-    assert ("next to the columns" in data.attrs["notes"]) == (amplitude is None)
+    assert ("entries outside the columns" in data.attrs["notes"]) == (amplitude is None)
 
 
 def test_numbers_and_letters_beside_the_vectors_of_hdf5(tmp_path):
@@ -257,7 +257,7 @@ def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
         ("f,u (mm)\n1,2\n", "columns={'displacement_excursion': 'u'}"),
         ("drive,Ed\n1,2\n", "such as columns={'frequency': 'drive'}"),
         ("time,ch 3\n1,2\n", "such as columns={'displacement': 'ch 3'}"),
-        ("u,a\n1,2\n", "a time, or a sampling rate fs, is needed, such as columns={'time'"),
+        ("u,a\n1,2\n", "a time, or a sampling rate fs, is required, such as columns={'time'"),
         ("f,Ea (mV)\n1,2\n", "'1 mV' is not an acceleration"),
         ("", "is empty"),
         ("1,2\n2,3\n", "does not name its 2 columns"),

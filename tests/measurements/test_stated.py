@@ -331,7 +331,7 @@ def test_units_of_tdms_that_differ_are_refused(tmp_path):
     path = tdms(tmp_path / "a.tdms", ("u_mm", U, {"wf_increment": 0.004, "unit_string": "m"}))
     data = vi.read_measurement(path)
     np.testing.assert_allclose(data["displacement"], U, rtol=1e-12)
-    assert "'u_mm' is read in m, although its name states mm" in data.attrs["notes"]
+    assert "'u_mm' was read in m, although its name states mm" in data.attrs["notes"]
 
 
 @pytest.mark.parametrize("name", ["displacement", "time"])

@@ -110,11 +110,11 @@ def test_a_table_takes_the_mass_of_its_oscillator(table, made):
     [
         (
             {"period": "2.5 s"},
-            "damping_ratio: missing, but period needs it; a dimensionless number",
+            "damping_ratio: missing, but period requires it; a dimensionless number",
         ),
         (
             {"damping_ratio": 0.1},
-            "period: missing, but damping_ratio needs it; a time greater than 0",
+            "period: missing, but damping_ratio requires it; a time greater than 0",
         ),
         (
             {"period": 2, "damping_ratio": 0.1, "stiffness": 3},
@@ -133,10 +133,10 @@ def test_a_table_takes_the_mass_of_its_oscillator(table, made):
         ({"period": 2, "damping_ratio": -0.1}, "damping_ratio: -0.1 is less than 0"),
         ({"period": 2, "damping_ratio": 0.1, "dampin": 3}, "dampin: unknown key; stiffness, "),
         ({"kind": "bilinear", "period": 2}, "period: unknown key; elastic_stiffness, post_yield_"),
-        ({"kind": "friction", "radius": 2}, "coefficient: missing, but radius needs it"),
+        ({"kind": "friction", "radius": 2}, "coefficient: missing, but radius requires it"),
         (
             {"kind": "bilinear", "strength": 5e5, "yield_displacement": 1, "post_yield_period": 1},
-            "strength: 500000.0 times the weight; a share of it up to 1 is accepted, such as 0.05",
+            "strength: 500000.0 times the weight; a share of the weight up to 1, such as 0.05",
         ),
         (
             {

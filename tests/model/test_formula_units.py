@@ -91,7 +91,9 @@ def test_refused(name: str, span: tuple[float, float], told: str) -> None:
 def test_a_formula_of_a_built_in_law_has_the_parameters_of_that_law() -> None:
     cubic = vi.Law("k*u + k3*u**3", k=1.0, k3=2.0)
     rig = vi.Rig(vi.Oscillator(1.0, cubic), 1.0)
-    with pytest.raises(vi.InputError, match="isolator is a PolynomialIsolator, not a formula"):
+    with pytest.raises(
+        vi.InputError, match="isolator is of the class PolynomialIsolator, not a formula"
+    ):
         vi.branch(rig, parameter="isolator_k3", span=(1.0, 2.0), frequency=0.1)
 
 

@@ -67,7 +67,7 @@ def test_only_an_unusual_kind_is_written():
         ),
         (
             {"right": {**WALL, "gapp": 2}},
-            "rig.right.gapp: unknown key; restitution and gap are accepted, perhaps gap is meant",
+            "rig.right.gapp: unknown key; restitution and gap are accepted; did you mean gap?",
         ),
         (
             {"right": {"kind": "rigid", "gap": 2}},

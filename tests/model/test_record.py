@@ -61,9 +61,13 @@ def test_it_tells_what_it_is_in_one_line():
     [
         ([1.0, math.nan, 2.0], 0.1, r"acceleration\[1\]: nan is not finite; finite samples"),
         ([1.0, 2.0, -math.inf], 0.1, r"acceleration\[2\]: -inf is not finite"),
-        ([1.0], 0.1, r"acceleration: 1 given; at least 2 samples in m/s²"),
-        ([], 0.1, r"acceleration: 0 given; at least 2 samples"),
-        ([[1.0, 2.0], [3.0, 4.0]], 0.1, r"acceleration: shape \(2, 2\); at least 2"),
+        ([1.0], 0.1, r"acceleration: 1 given; one sequence of at least 2 samples in m/s²"),
+        ([], 0.1, r"acceleration: 0 given; one sequence of at least 2 samples"),
+        (
+            [[1.0, 2.0], [3.0, 4.0]],
+            0.1,
+            r"acceleration: shape \(2, 2\); one sequence of at least 2",
+        ),
         (5.0, 0.1, r"acceleration: .*at least 2 samples"),
         ("a.csv", 0.1, r"acceleration: 'a.csv' is not a list of numbers"),
         (None, 0.1, r"acceleration: .*"),
@@ -132,7 +136,7 @@ ROUGH = r"displacement\[\d+\]: the displacement jumps or is too rough"
             np.random.default_rng(1).normal(size=401),
             r"displacement\[\d+\]: the displacement jumps or is too",
         ),
-        (np.sin(TIME)[:7], r"displacement: 7 given; at least 8 samples in m"),
+        (np.sin(TIME)[:7], r"displacement: 7 given; one sequence of at least 8 samples in m"),
         (np.where(TIME == 1.0, np.nan, TIME), r"displacement\[100\]: nan is not finite"),
     ],
 )
@@ -151,7 +155,7 @@ def test_scaled_cut_and_levelled_say_so():
     assert record.scaled(peak="0.5 g").peak == pytest.approx(4.903325)
     part = double.cut("0.6 s", 1.5)
     np.testing.assert_array_equal(part.acceleration, [-2.0, 8.0, -4.0])
-    assert part.about.notes == ("scaled by -2", "cut to 0.5 to 1.5 s")
+    assert part.about.notes == ("scaled by -2", "cut to the part from 0.5 to 1.5 s")
     np.testing.assert_array_equal(record.cut().acceleration, record.acceleration)
     level = record.levelled()
     np.testing.assert_allclose(level.acceleration, record.acceleration, atol=1e-15)
@@ -171,7 +175,7 @@ def test_scaled_cut_and_levelled_say_so():
         (lambda r: r.scaled(2, peak=1), "peak: 1 is given together with scale = 2;"),
         (lambda r: r.scaled(peak="-1 g"), "peak: '-1 g' is not greater than 0"),
         (lambda r: vi.Record([0, 0], 1).scaled(peak=1), "peak: 1 cannot be reached"),
-        (lambda r: r.cut(2, 1), "end: 1, with start 2; at least 2 samples"),
+        (lambda r: r.cut(2, 1), "end: 1 s leaves fewer than 2 samples after the start, 2 s"),
         (lambda r: r.cut(0, 99), "end: 99 is greater than 2.25"),
         (lambda r: r.cut(-1), "start: -1 is less than 0"),
         (lambda r: r.levelled("parabola"), "baseline: 'parabola'; 'mean' or 'line' is accepted"),

@@ -69,7 +69,7 @@ def test_a_power_bumper_of_every_way():
         (
             "power",
             {"dissipation": None, "restitution": 0},
-            "restitution: 0 needs an infinite dissipation with the relation 'exact'; a resti",
+            "restitution: 0 requires an infinite dissipation with the relation 'exact'; a resti",
         ),
         ("power", {"dissipation": -1}, "dissipation: -1 is less than 0; a dissipation factor"),
         (

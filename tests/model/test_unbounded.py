@@ -61,7 +61,7 @@ def test_a_swing_beyond_it_grows_and_one_below_does_not(law):
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_steady_refuses_it_and_gives_the_one_below(law):
     rig = vi.Oscillator(MASS, law)
-    with pytest.raises(vi.InputError, match="bounded force is too small to hold it"):
+    with pytest.raises(vi.InputError, match="bounded force is too small to hold the mass"):
         vi.steady(vi.Rig(rig, vi.Harmonic(1.01 * BOUND, NATURAL)))
     assert vi.steady(vi.Rig(rig, vi.Harmonic(0.9 * BOUND, NATURAL)))["motion"].item() == "periodic"
 

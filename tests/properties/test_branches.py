@@ -12,7 +12,7 @@ from properties.strategies import Motion, examples, motions
 ENDS = (
     "the range ends at",
     "it is closed",
-    "it is born at",
+    "it meets the orbits",
     "no orbit could be found",
     "400 points",
     "orbits are not isolated",

@@ -113,7 +113,7 @@ def test_a_step_above_the_values(tmp_path, line):
     record = vi.Record.read(written(tmp_path, f"made up\n{line}\n1\n2\n-3\n0\n"))
     np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0, 0.0])
     assert record.step == pytest.approx(0.01, rel=1e-14)
-    assert record.about.notes == ("unit m/s², because the file states none",)
+    assert record.about.notes == ("the unit m/s² was assumed, because the file states no unit",)
 
 
 COMMAS = {
@@ -152,7 +152,7 @@ def test_the_end_of_the_data_is_no_row(tmp_path):
     text = "1\n2\n-3\n*** End Data ***\n"
     record = vi.Record.read(written(tmp_path, text), step=0.1)
     np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0])
-    with pytest.raises(vi.InputError, match="line 5: numbers after the end of the data"):
+    with pytest.raises(vi.InputError, match="line 5: numbers follow the end of the data"):
         vi.Record.read(written(tmp_path, text + "4\n"), step=0.1)
 
 
@@ -187,7 +187,7 @@ def test_a_sample_that_is_missing_is_no_jitter(tmp_path, gone):
             vi.Record.read(path)
         record = vi.Record.read(path, step=0.01)
         assert len(record.acceleration) == 299
-        assert "step 10 ms, not the file's uneven times" in record.about.notes
+        assert "the step 10 ms replaces the uneven times in the file" in record.about.notes
 
 
 def test_a_step_beside_even_times(tmp_path):
@@ -195,7 +195,7 @@ def test_a_step_beside_even_times(tmp_path):
     assert vi.Record.read(path, step=0.1).step == 0.1
     record = vi.Record.read(path, step=0.05)
     assert record.step == 0.05
-    assert "step 50 ms, not the file's 0.1 s" in record.about.notes
+    assert "the step 50 ms replaces the step in the file, 0.1 s" in record.about.notes
 
 
 @pytest.mark.parametrize(
@@ -207,12 +207,12 @@ def test_units_of_a_header_between_spaces(tmp_path, head):
     path.write_text("\n".join([head, *rows]), encoding="utf-8")
     record = vi.Record.read(path)
     assert abs(record.acceleration).max() == pytest.approx(9.80665, rel=1e-3)
-    assert not any("none" in note for note in record.about.notes)
+    assert not any("no unit" in note for note in record.about.notes)
 
 
 def test_a_sentence_above_the_numbers_names_no_columns(tmp_path):
     path = tmp_path / "sentence.txt"
     rows = [f"{0.01 * i:.4f} {math.sin(i):.6f}" for i in range(60)]
     path.write_text("\n".join(["Kobe station", *rows]), encoding="utf-8")
-    with pytest.warns(vi.InputWarning, match="the file states none"):
+    with pytest.warns(vi.InputWarning, match="the file states no unit"):
         vi.Record.read(path)

@@ -84,11 +84,13 @@ def test_a_gap_of_years_takes_no_memory(tmp_path):
 def test_the_scale_of_sac_is_used_of_counts_and_noted_of_others(tmp_path):
     counts = np.round(1000.0 * np.sin(0.1 * np.arange(500))).astype(np.float32)
     path = traces(tmp_path / "a.sac", ("AAA", "HNE", 0, counts), form="SAC", calib=1e-3)
-    with pytest.warns(vi.InputWarning, match="values multiplied by 0.001, the scale of the header"):
+    with pytest.warns(
+        vi.InputWarning, match="the values were multiplied by 0.001, the scale in the header"
+    ):
         record = vi.Record.read(path, unit="m/s^2")
     np.testing.assert_allclose(record.acceleration, 1e-3 * counts, rtol=1e-6)
     scaled = (counts / 3000.0).astype(np.float32)
     path = traces(tmp_path / "b.sac", ("AAA", "HNE", 0, scaled), form="SAC", calib=1e-3)
-    with pytest.warns(vi.InputWarning, match="scale of the header, 0.001, is not used"):
+    with pytest.warns(vi.InputWarning, match="scale in the header, 0.001, is not used"):
         record = vi.Record.read(path, unit="m/s^2")
     np.testing.assert_array_equal(record.acceleration, scaled.astype(float))

@@ -91,7 +91,7 @@ def test_knet_keeps_its_offset_and_says_so(written):
     assert record.step == 0.1
     assert (record.about.station, record.about.component) == ("NWH001", "N-S")
     (left,) = vi.Record.read(written(knet())).about.notes
-    assert left.startswith("mean 0.847639 g not subtracted, 27.7 % of")
+    assert left.startswith("the mean, 0.847639 g or 27.7 % of the peak, was not subtracted")
     assert vi.Record.read(written(knet("5"))).about.component == "E-W, surface"
     assert vi.Record.read(written(knet("1")), "N-S").about.component == "N-S, borehole"
 
@@ -142,18 +142,22 @@ def replaced(lines: list[str], old: str, new: str) -> list[str]:
 DAMAGED = {
     "peer, truncated": (peer()[:-1], 5, "the file ends after 5 of 10 values"),
     "peer, more than announced": ([*peer(each=3), "1.0"], 9, "a further value after the 10"),
-    "peer, fewer announced": (peer("NPTS= 8, DT= .01 SEC"), 6, "10 values until here, and 8"),
+    "peer, fewer announced": (
+        peer("NPTS= 8, DT= .01 SEC"),
+        6,
+        "the file has 10 values up to this line, but 8 are announced",
+    ),
     "peer, more announced": (peer("NPTS= 12, DT= .01 SEC"), 6, "the file ends after 10 of 12"),
     "peer, two headers": (peer() + peer(), 10, "a second header"),
     "peer, decimal commas": (replaced(peer(), ".0000000E+00", ",0000000E+00"), 5, "has a comma"),
     "peer, separated by commas": (replaced(peer(), "E+00 ", "E+00,"), 5, "has a comma"),
     "peer, not a number": (replaced(peer(), "2.0000000E+00", "NaN"), 5, "'NaN' is not finite"),
     "peer, stars": (replaced(peer(), "1.0000000E+00", "***"), 6, r"'\*\*\*' is not a number"),
-    "peer, no count": (peer("NPTS, DT= .01 SEC"), 4, "has no number of values"),
+    "peer, no count": (peer("NPTS, DT= .01 SEC"), 4, "states no number of values"),
     "peer, none": (peer("NPTS= 0, DT= .01 SEC"), 4, "0 values"),
     "smc, truncated": (smc()[:-1], 29, "the file ends after 8 of 10 values"),
     "smc, header alone": (smc()[:20], 20, "the file ends within the header"),
-    "smc, no comments": (replaced(smc(), "| made", "  made"), 28, "this is not a comment"),
+    "smc, no comments": (replaced(smc(), "| made", "  made"), 28, "this line is not a comment"),
     "cosmos, truncated": (cosmos()[:-2], 46, "the file ends after 8 of 10 values"),
     "cosmos, in the header": (cosmos()[:30], 30, "the file ends after"),
     "cosmos, too many": (replaced(cosmos(), "   10  accel", "    8  accel"), 47, "a further value"),
@@ -183,7 +187,7 @@ DAMAGED = {
         "the row has 1 number, but the rows above have 2",
     ),
     "columns, nan": (["0 1", "0.1 nan", "0.2 3"], 2, "nan is not finite"),
-    "columns, announced": (["3 0.01", "1", "2"], 1, "3 values are announced, and 2 follow"),
+    "columns, announced": (["3 0.01", "1", "2"], 1, "the file announces 3 values, but 2 follow"),
 }
 
 
@@ -214,7 +218,7 @@ def test_no_step_is_told_with_the_line_where_it_should_stand(written, name):
     path = written(lines)
     with pytest.raises(vi.InputError) as refused:
         vi.Record.read(path)
-    none = f"has none in {where}; a time is accepted"
+    none = f'has no step in {where}; the time between two samples is accepted, such as "10 ms"'
     assert str(refused.value) == f"step: missing, and {path!r} {none}"
     assert vi.Record.read(path, step="20 ms").step == 0.02
 
@@ -226,14 +230,14 @@ def test_what_the_file_says_can_be_overridden(written):
     assert (record.step, record.about.station, record.about.unit) == (0.02, "elsewhere", "m/s^2")
     assert record.about.component == "up"
     assert record.about.notes == (
-        "step 20 ms, not the file's 0.01 s",
-        "unit m/s^2, not the file's g",
+        "the step 20 ms replaces the step in the file, 0.01 s",
+        "the unit m/s^2 replaces the unit in the file, g",
     )
     with pytest.raises(vi.InputError, match=r"^unit: '1 N' is a force"):
         vi.Record.read(path, unit="N")
     with pytest.raises(vi.InputError, match=r"^record: .*: unit: '1 cm/s' is a velocity"):
         vi.Record.read(written(cosmos(unit="cm/sec(05)")))
-    with pytest.raises(vi.InputError, match=r"^unit: missing, and .* has counts; "):
+    with pytest.raises(vi.InputError, match=r"^unit: missing, and the values in .* are counts; "):
         vi.Record.read(written(cosmos(unit="counts(50)")))
 
 
@@ -300,7 +304,7 @@ def test_sac_in_either_order_of_bytes_and_miniseed(tmp_path):
         assert (record.about.station, record.about.component) == ("XX.NWH", "HNE")
     trace.stats.sac = {"idep": 7}
     trace.write(str(tmp_path / "velocity.sac"), format="SAC")
-    with pytest.raises(vi.InputError, match=r"unit: missing, and .* has velocities"):
+    with pytest.raises(vi.InputError, match=r"unit: missing, and the values in .* are velocities"):
         vi.Record.read(tmp_path / "velocity.sac")
 
     other = obspy.Trace(2 * values, {**head, "channel": "HNN"})

@@ -47,7 +47,7 @@ def test_segments_are_tests(tmp_path):
         vi.read_measurement(path)
     assert len(vi.read_measurement(path, group="2")["time"]) == 10
     with pytest.raises(
-        vi.InputError, match="line 1: 2 segments; a file with one segment is accepted"
+        vi.InputError, match="line 1: the file has 2 segments; a file with one segment is accepted"
     ):
         vi.Record.read(path, 1)
 
@@ -69,10 +69,14 @@ def test_what_is_damaged_is_refused_in_one_line(tmp_path, at):
 def test_a_label_and_a_name_that_differ_are_refused(tmp_path):
     lines = [line.replace("North", "North (mm/s^2)") for line in lvm()]
     path = written(tmp_path, lines)
-    with pytest.raises(vi.InputError, match=r"states the units 'mm/s\^2' and '.+' of 'North"):
+    with pytest.raises(
+        vi.InputError, match=r"states two units of 'North.*', 'mm/s\^2' and '.+'; pass"
+    ):
         vi.Record.read(path, 1)
-    with pytest.warns(vi.InputWarning, match=r"unit g, not the file's mm/s\^2"):
+    with pytest.warns(vi.InputWarning, match=r"the unit g replaces the unit in the file, mm/s\^2"):
         assert vi.Record.read(path, 1, unit="g").about.unit == "g"
     lines = [line.replace("North", "North_g") for line in lvm()]
-    with pytest.warns(vi.InputWarning, match="read in .+, although its name states g"):
+    with pytest.warns(
+        vi.InputWarning, match="the values are read in .+, although the name of the column states g"
+    ):
         vi.Record.read(written(tmp_path, lines), 1)

@@ -171,14 +171,16 @@ def test_what_is_read_is_what_the_file_states(name):
 def test_counts_need_a_unit():
     pytest.importorskip("obspy")
     path = measured("records/mseed/NP.2825..HNE.mseed")
-    with pytest.raises(vi.InputError, match=r"unit: missing, and .* has counts; .*--scale"):
+    with pytest.raises(
+        vi.InputError, match=r"unit: missing, and the values in .* are counts; .*--scale"
+    ):
         vi.Record.read(path)
     record = vi.Record.read(path, unit="m/s^2").scaled(1 / 214748)
     assert record.peak == pytest.approx(0.353, rel=2e-3)
     left, large, scaled = record.about.notes
     assert large.startswith("the peak is 7.72e+03 g, more than the 5 g of usual records")
-    assert left.startswith("mean ")
-    assert "not subtracted, 46.2 % of the peak" in left
+    assert left.startswith("the mean, ")
+    assert left.endswith(" or 46.2 % of the peak, was not subtracted")
     assert scaled == "scaled by 4.65662e-06"
     assert "mean subtracted: -0.16298" in record.levelled().about.notes[-1]
 
@@ -186,7 +188,7 @@ def test_counts_need_a_unit():
 def test_a_record_of_sac_says_that_its_unit_was_taken_for_granted():
     pytest.importorskip("obspy")
     record = vi.Record.read(measured("records/sac/BRIHN1.GS..sac"))
-    assert "unit m/s², because the file states none" in record.about.notes
+    assert "the unit m/s² was assumed, because the file states no unit" in record.about.notes
 
 
 def test_a_record_of_one_header_line_with_count_and_step():

@@ -64,7 +64,7 @@ def test_an_at2_file_that_states_no_unit_is_in_g_and_says_so(tmp_path):
     path = written(tmp_path, "\n".join(peer(stated="Acceleration")) + "\n")
     record, told = noted(path)
     assert record.peak == pytest.approx(3.5 * GRAVITY, rel=1e-14)
-    assert told == "unit g, the usual unit of PEER files, because the file states none"
+    assert told == "the unit g of most PEER files was assumed, because the file states no unit"
 
 
 @pytest.mark.parametrize(
@@ -98,7 +98,7 @@ def test_a_unit_after_a_single_column(tmp_path):
         record, told = noted(written(tmp_path, head + "# dt: 10 ms\n" + rows))
         assert (record.about.unit, told) == ("g", "")
     _, told = noted(written(tmp_path, "# dt: 10 ms\n" + rows))
-    assert told == "unit m/s², because the file states none"
+    assert told == "the unit m/s² was assumed, because the file states no unit"
 
 
 @pytest.mark.parametrize(
@@ -160,7 +160,7 @@ def test_a_record_that_ends_in_motion_is_not_doubted(tmp_path):
 def test_datasets_keep_what_was_noted(tmp_path):
     rows = "".join(f"{a!r}\n" for a in SWAY.tolist())
     record, told = noted(written(tmp_path, rows), step=0.01)
-    assert told == "unit m/s², because the file states none"
+    assert told == "the unit m/s² was assumed, because the file states no unit"
     motion = vi.simulate(vi.Rig(RIG, record), tail=1.0)
     demands = vi.demands(RIG, {"quake": record, "made": vi.Record(SWAY, 0.01)})
     made = {
@@ -186,9 +186,9 @@ ROWS = "".join(f"{0.01 * n:.2f},{n % 7 - 3}\n" for n in range(40))
 @pytest.mark.parametrize(
     ("head", "said"),
     [
-        ("t (s),a (g)\ns,cm/s^2\n", "states the units 'g' and 'cm/s^2'"),
-        ("# units: cm/s^2\nt (s),a (g)\n", "states the units 'g' and 'cm/s^2'"),
-        ("units: cm/s^2\nunits: g\n", "states the units 'g' and 'cm/s^2'"),
+        ("t (s),a (g)\ns,cm/s^2\n", "states two units, 'g' and 'cm/s^2'"),
+        ("# units: cm/s^2\nt (s),a (g)\n", "states two units, 'g' and 'cm/s^2'"),
+        ("units: cm/s^2\nunits: g\n", "states two units, 'g' and 'cm/s^2'"),
         ("t (ms),a (g)\ns,g\n", "its times are in 'ms' and in 's'; one unit is accepted, or step="),
     ],
 )

@@ -75,7 +75,7 @@ def test_figures_of_a_fit(fit):
 
 def test_the_next_test_reduces_every_error(case, fit):
     advice = vi.next_test(fit, np.arange(0.5, 5.01, 0.1), [case.amplitude])
-    assert "next test: a hold at" in advice.attrs["findings"]
+    assert "next test: a measurement at" in advice.attrs["findings"]
     error = advice.remaining_error.sel(parameter="bumper_damping").isel(candidate_amplitude=0)
     best = error.isel(error.argmin(...))
     assert 0.3 < float(best) < 1.0

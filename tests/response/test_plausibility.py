@@ -13,7 +13,7 @@ RIG = vi.Oscillator("5000 t", vi.Isolator.from_period("5000 t", "2.5 s", 0.15))
 SLIDING = vi.Oscillator("5000 t", vi.FrictionIsolator("30 MN/m", "4 MN s/m", "100 kN"))
 WALL = vi.Bumper("500 MN/m", "5 MN s/m", 250.0)
 RECORD = vi.Record(0.3 * np.sin(2.5 * np.arange(0.0, 8.0, 0.02)), 0.02)
-FREE, FOUND = "displacement of free flight, 523.4 mm", r"displacement that was found, \d.* mm"
+FREE, FOUND = "displacement of free flight, 523.4 mm", r"displacement that was computed, \d.* mm"
 
 
 @pytest.mark.parametrize(
@@ -49,7 +49,7 @@ def test_a_gap_of_metres_that_were_millimetres_is_doubted(of, rig, whose):
 
 
 def test_a_damping_ratio_of_percent_is_doubted():
-    told = r"damping_ratio: 15 is 15 times the critical damping; was 15 % meant\?"
+    told = r"damping_ratio: 15 is 15 times the critical damping; did you mean 15 %\?"
     with pytest.warns(vi.InputWarning, match=f"^{told}$"):
         made = vi.Isolator.from_period("5000 t", "2.5 s", 15)
     assert vi.Oscillator("5000 t", made).damping_ratio == pytest.approx(15.0)

@@ -107,7 +107,7 @@ def test_each_orbit_of_a_doubled_period_is_listed_once():
         own = data["bifurcation_value"].values[mine]
         assert len(own) == len(np.unique(np.round(own, 7)))
         for end in ("low", "high"):
-            assert "it is born at 1." in data.attrs[f"branch_{i}_ended_{end}"]
+            assert "it meets the orbits of period 1 at 1." in data.attrs[f"branch_{i}_ended_{end}"]
 
 
 def test_a_branch_may_be_born_in_a_grazing():
@@ -115,8 +115,8 @@ def test_a_branch_may_be_born_in_a_grazing():
     data = diagram("B4-10mm-A3", 0.4)
     (four,) = {int(i) for i in data["branch"].values[data["period"].values == 4]}
     low, high = data.attrs[f"branch_{four}_ended_low"], data.attrs[f"branch_{four}_ended_high"]
-    assert low == "it is born at 1.10911961, in a grazing of the orbits of period 2"
-    assert high == "it is born at 1.22528743, from the orbits of period 2"
+    assert low == "it meets the orbits of period 2 at 1.10911961, where they graze"
+    assert high == "it meets the orbits of period 2 at 1.22528743"
     grazing = values(data, "grazing")
     assert np.abs(grazing - 1.109119613).min() < 1e-9
     two = np.flatnonzero(data["period"].values == 2)

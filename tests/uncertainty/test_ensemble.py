@@ -177,7 +177,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ),
         (
             {"distributions": {"frequency": "normal:5%"}},
-            "'frequency' is a variable",
+            "'frequency' is also the name of a variable",
         ),
         ({"draws": 100}, "draws: 100; .* such as 128"),
         ({"draws": 0}, "draws"),

@@ -76,9 +76,10 @@ def basins(
         Number of grid nodes along each axis, or a pair of numbers: along the displacement axis and
         along the velocity axis.
     refine
-        Number of times that the grid is refined to twice the density near the borders of basins. No
-        further states are computed between nodes that lead to the same motion. Therefore stripes
-        narrower than the spacing of the first grid may be missed.
+        Number of times that the grid is refined near the borders of basins. Each time, the spacing
+        of the grid is halved there. No states are added between neighbouring states that lead to
+        the same motion. Therefore parts of a basin that are narrower than the spacing of the first
+        grid may be missed.
     right_bumper, left_bumper
         Initial deformation of the right and of the left bumper (m; negative on the left). If the
         initial displacement compresses the bumper further, the larger deformation is used. Pass 0
@@ -119,9 +120,9 @@ def basins(
         - ``border_distance``, the distance of the motion from the border of its basin;
         - ``mirror_image``, the number of the motion that is its mirror image.
 
-        The dim ``point`` counts the points of the motions at the stroboscopic section. Single
-        numbers are ``basin_entropy``, ``border_entropy`` and ``uncertainty_exponent``, which
-        measure how the basins are intermingled.
+        The dim ``point`` counts the points of the motions at the stroboscopic section. The single
+        numbers ``basin_entropy``, ``border_entropy`` and ``uncertainty_exponent`` measure how
+        strongly the basins are intermingled.
 
     Raises
     ------
@@ -187,7 +188,7 @@ def span_of(
     is_ordered = is_list(given) and hasattr(given, "__len__") and not isinstance(given, Set)
     if not is_ordered or getattr(given, "ndim", 1) != 1 or len(given) != 2:
         raise InputError(
-            f"{field}: {shown(given)}; a pair of the lowest and the highest is accepted"
+            f"{field}: {shown(given)}; a pair of the lowest and the highest value is accepted"
         )
     low, high = (to_si(one, quantity, f"{field}[{i}]") for i, one in enumerate(given))
     if not low < high:
@@ -284,7 +285,7 @@ def _dataset(
     rows, columns = (len(range(0, n, step)) for n in plan.shape)
     data.attrs["lattice"] = f"each of {columns} × {rows} states was computed" + (
         f"; refined {plan.refine} times near borders, to {plan.shape[1]} × {plan.shape[0]}: "
-        "regions narrower than the first grid may be missed"
+        "regions narrower than the spacing of the first grid may be missed"
         if plan.refine
         else ""
     )

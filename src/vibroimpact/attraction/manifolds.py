@@ -58,8 +58,8 @@ def manifolds(
     The manifolds are curves in the stroboscopic section at the initial phase of the excitation. A
     motion that starts on a stable curve converges to the saddle orbit. The borders of basins of
     attraction are such stable curves. A motion that starts next to the saddle moves away from it
-    along its unstable curve. If a stable and an unstable curve cross, the map has horseshoes, and
-    transients look chaotic.
+    along its unstable curve. If a stable and an unstable curve cross, the stroboscopic map has
+    horseshoes, and transients look chaotic.
 
     Parameters
     ----------
@@ -77,11 +77,11 @@ def manifolds(
     period
         Period of the saddle orbits that are passed as states, in forcing cycles.
     spacing
-        Largest distance between neighbouring points of a curve, with displacement and velocity each
-        divided by the width of its range.
+        Largest distance between neighbouring points of a curve. To compute it, displacement and
+        velocity are each divided by the width of their range.
     longest
-        Length at which a curve ends, with displacement and velocity each divided by the width of
-        its range.
+        Length at which a curve ends. To compute it, displacement and velocity are each divided by
+        the width of their range.
     max_cycles, max_events, threads
         As in `basins`.
     progress

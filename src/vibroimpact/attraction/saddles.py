@@ -76,8 +76,9 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
         saddle = abs(values[0]) > 1.0 > abs(values[1]) and not np.iscomplex(values).any()
         if status or not saddle:
             raise InputError(
-                f"{where}: its multipliers are {values[0]:.4g} and {values[1]:.4g}; an orbit "
-                "with one multiplier above 1 in absolute value and one below is accepted"
+                f"{where}: this orbit is not a saddle, because its multipliers are {values[0]:.4g} "
+                f"and {values[1]:.4g}; an orbit with one multiplier above 1 in absolute value and "
+                "one below is accepted"
             )
         real, ways = values.real, vectors.real
         found.append(Saddle(here, point[:2].copy(), real[0], ways[:, 0], real[1], ways[:, 1]))
@@ -100,7 +101,7 @@ def check_flies(stage: Stage, orbit: Orbit) -> None:
             raise InputError(
                 f"excitation.phase: at {stage.excitation.phase:.6g} rad, the saddle at "
                 f"{point[0]:.6g} m presses a stop whose force depends on the impact speed, so "
-                "its stable and unstable curves do not lie in a plane; a phase without contact "
+                "its stable and unstable manifolds do not lie in a plane; a phase without contact "
                 "is accepted"
             )
         _, _, point = evaluated(one, point, orbit.facts[0])
@@ -127,8 +128,8 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
         phase = float(orbit["final_state"].sel(component="phase"))
         if abs(np.sin(0.5 * (phase - stage.excitation.phase))) > 1e-9:
             raise InputError(
-                f"{where}: its phase is {phase:.6g} rad, but the phase of the excitation is "
-                f"{stage.excitation.phase:.6g} rad; equal phases are accepted"
+                f"{where}: the phase of this orbit is {phase:.6g} rad, but the phase of the "
+                f"excitation is {stage.excitation.phase:.6g} rad; equal phases are accepted"
             )
     found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
     check_flies(stage, found)

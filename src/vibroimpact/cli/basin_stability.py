@@ -29,10 +29,10 @@ def basin_stability(
 ) -> int:
     """Compute the share of random states that lead to each steady motion, along a parameter.
 
-    This share is the basin stability of the motion. Each motion has a number. The command simulates
-    from the states of a motion at the next value of the parameter. If these simulations lead to a
-    nearby motion, this motion gets the same number. If the parameter is the frequency, --frequency
-    has no effect.
+    This share is the basin stability of the motion. The command numbers the motions. To find a
+    motion again at the next value of the parameter, it starts simulations there from the states of
+    the motion. If they lead to a nearby motion, that motion gets the same number. If the parameter
+    is the frequency, --frequency has no effect.
 
     The command prints the range of the parameter in which each motion exists, with its shares. It
     writes NAME-PARAMETER-basin-stability.nc and NAME-PARAMETER-basin-stability.png.
@@ -61,7 +61,7 @@ def basin_stability(
     shaken, window = states.rig(what, along), states.window()
     values = np.linspace(*span, whole(steps, "steps", 2))
     with results(what, output) as written:
-        with progress_bar("following") as progress:
+        with progress_bar("computing shares") as progress:
             data = vi.basin_stability(
                 shaken,
                 *window,

@@ -26,8 +26,8 @@ def basins(
 
     The initial states form a grid of displacements and velocities at one forcing frequency. You
     need not know the steady motions in advance. The command prints each motion with the share of
-    the states that lead to it, and measures of how the basins are intermingled (entropies). It
-    writes NAME-FREQUENCY-basins.nc and NAME-FREQUENCY-basins.png.
+    the states that lead to it. It also prints entropies, which measure how strongly the basins are
+    intermingled. It writes NAME-FREQUENCY-basins.nc and NAME-FREQUENCY-basins.png.
 
     For example:
 
@@ -49,7 +49,7 @@ def basins(
     shaken, window = states.rig(what), states.window()
     hertz = shaken.frequency
     with results(what, output) as written:
-        with progress_bar("following") as progress:
+        with progress_bar("computing basins") as progress:
             data = vi.basins(
                 shaken,
                 *window,

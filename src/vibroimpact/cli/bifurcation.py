@@ -48,13 +48,13 @@ def bifurcation(
 ) -> int:
     """Compute a bifurcation diagram: the steady motions at a series of values of a parameter.
 
-    At each value, the motion is simulated until it is steady. The motion at the next value starts
-    from the final state of this motion. The order of the values is rising, falling or both
-    (--direction). Motions may also start from random states (--random). For each motion, the
-    diagram shows the points of a Poincaré section, the period and the largest Lyapunov exponent.
+    At each value, the motion is simulated until it is steady. Its final state is the initial state
+    at the next value. The order of the values is rising, falling or both (--direction). Motions may
+    also start from random states (--random). For each motion, the diagram shows the points of a
+    Poincaré section, the period and the largest Lyapunov exponent.
 
-    The command prints the ranges in which the motions have the same type. It writes
-    NAME-PARAMETER-diagram.nc and NAME-PARAMETER-diagram.png.
+    The command prints the ranges of the parameter in which the type of the motion does not change.
+    It writes NAME-PARAMETER-diagram.nc and NAME-PARAMETER-diagram.png.
 
     For example:
 
@@ -70,8 +70,8 @@ def bifurcation(
         Forcing frequency, such as 2Hz, if another parameter is varied. Default: the frequency in
         the study (table [simulate]).
     direction
-        Order of the values: rising (up), falling (down) or both. If it is none, motions start only
-        from random states (--random).
+        Order of the values: up (rising), down (falling), both, or none. With none, motions start
+        only from random states (--random).
     quantity
         Quantity on the vertical axis of the figure. A displacement or velocity is recorded once per
         forcing cycle, and an impact-velocity or impact-phase at the start of each contact.
@@ -92,7 +92,7 @@ def bifurcation(
     span = option_range(what, along, start, stop)
     shaken = rig_at(what, frequency, phase, along)
     with results(what, output) as written:
-        with progress_bar("holding") as progress:
+        with progress_bar("computing motions") as progress:
             data = vi.bifurcation_diagram(
                 shaken,
                 along,

@@ -50,8 +50,8 @@ def branch(
     - the motion without contact
     - each symmetry breaking and each period doubling on the branches
 
-    With --start or --period, only one branch is followed. It starts from the orbit near --start, or
-    from the steady motion that is reached from rest.
+    With --start or --period, only one branch is followed. It starts from the orbit near the state
+    --start. Without --start, it starts from the steady motion that is reached from rest.
 
     The command prints the bifurcations. It writes NAME-PARAMETER-branches.nc and
     NAME-PARAMETER-branches.png. If the parameter is the frequency, the figure also shows a stepped
@@ -66,8 +66,8 @@ def branch(
     Parameters
     ----------
     frequency
-        Forcing frequency, such as 2Hz. It is required if another parameter is varied, or with
-        --start or --period. Default: the frequency in the study (table [simulate]).
+        Forcing frequency, such as 2Hz. It is used if another parameter is varied, and with --start
+        or --period. Default: the frequency in the study (table [simulate]).
     quantity
         Quantity on the vertical axis of the figure. eta_d and eta_a are the normalised excursions
         (maximum minus minimum) of displacement and acceleration.
@@ -76,7 +76,7 @@ def branch(
         instead of eta_a.
     basins
         Number of values of the parameter at which basins of attraction are computed. The basins
-        help to find isolated branches, even if few initial states lead to these branches.
+        help to find isolated branches to which only few initial states lead.
     begin
         Displacement and velocity near the first orbit of one branch, such as 5mm,100mm/s. Default:
         all branches are followed.
@@ -100,7 +100,7 @@ def branch(
     near = None if begin is None else state("--start", begin)
     swept = None
     with results(what, output) as written:
-        with progress_bar("following") as progress:
+        with progress_bar("following branches") as progress:
             if is_one:
                 data = vi.branch(
                     shaken, near, parameter=along, span=span, period=period, progress=progress

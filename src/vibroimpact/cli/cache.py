@@ -12,10 +12,10 @@ from vibroimpact.cli.function_options import calls
 def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = False) -> int:
     """List the folders of compiled code with their sizes and ages, or remove them.
 
-    The engine is compiled on first use. The compiled code is stored in the cache folder of the
-    user, or in the folder that the environment variable VIBROIMPACT_CACHE_DIR names. Each version
-    has its own folder. You can remove the code at any time. Code that another process is compiling
-    or loading is kept.
+    vibroimpact compiles its numerical code on first use. The compiled code is stored in the cache
+    folder of the user, or in the folder that the environment variable VIBROIMPACT_CACHE_DIR names.
+    Each version of vibroimpact has its own folder there. You can remove the code at any time. Code
+    that another process is compiling or loading is kept.
 
     For example:
 

@@ -29,15 +29,17 @@ def classify(
 ) -> int:
     """Classify the resonance curves of a rig by their scenario, S0 to S6, with the evidence.
 
-    The command sweeps the frequency forward and backward, and prints the scenario with the features
-    of the curves that determine it. It writes NAME-scenario.nc (the curves) and NAME-scenario.png.
+    The command sweeps the frequency forward and backward. It prints the scenario, and the features
+    of the curves that determine the scenario. It writes NAME-scenario.nc (the curves) and
+    NAME-scenario.png.
     The scenarios are:
 
     - S0: the mass touches no bumper
     - S1: the mass grazes a bumper
     - S2: the primary resonance has a right hysteresis
-    - S3: as S2, with a secondary resonance
-    - S4: secondary resonances have a left hysteresis or are not regular
+    - S3: as S2, and there is a secondary resonance
+    - S4: secondary resonances have a left hysteresis or are not regular, such as
+      chaotic or subharmonic ones
     - S5: the curves are smooth, and the bumpers touch the mass at rest
     - S6: the curves are bent to the right, without jumps
 
@@ -54,7 +56,8 @@ def classify(
     start
         Lowest frequency, such as 0.3Hz. Default: 0.4 × the natural frequency.
     stop
-        Highest frequency, such as 5Hz. Default: above the highest possible primary resonance.
+        Highest frequency, such as 5Hz. Default: a frequency above the highest possible primary
+        resonance.
     step
         Step between frequencies, such as 0.01Hz. Default: 0.01 × the natural frequency.
     """

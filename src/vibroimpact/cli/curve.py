@@ -48,9 +48,9 @@ def curve(
     """Follow bifurcations as curves in the plane of two parameters, through cusps.
 
     The command first finds the bifurcations of one kind along the first parameter. It then follows
-    each of them as a curve over both parameters. It prints the ends and the cusps of each curve. It
-    writes NAME-BIFURCATION-FIRST-SECOND.nc, with one NetCDF group per curve, and a figure of the
-    plane.
+    each bifurcation as a curve over both parameters. It prints the ends and the cusps of each
+    curve. It writes NAME-BIFURCATION-FIRST-SECOND.nc, with one NetCDF group per curve, and
+    NAME-BIFURCATION-FIRST-SECOND.png.
 
     For example:
 
@@ -62,14 +62,14 @@ def curve(
     bifurcation
         Kind of bifurcation that is followed.
     over
-        Names of the two parameters, separated by a comma; for the names see vibroimpact branch. The
-        command first finds the bifurcations along the first parameter.
+        Names of the two parameters, separated by a comma. For the names, see --parameter of
+        vibroimpact branch. The command first finds the bifurcations along the first parameter.
     first
-        Range of the first parameter, LOW:HIGH. Default for the frequency: as for vibroimpact
-        branch. For another parameter the range is required.
+        Range of the first parameter, LOW:HIGH. Default, if it is the frequency: as for --from and
+        --to of vibroimpact branch. For another parameter the range is required.
     second
-        Range of the second parameter, LOW:HIGH, such as 1mm:20mm. Default for the frequency: as
-        for vibroimpact branch. For another parameter the range is required.
+        Range of the second parameter, LOW:HIGH, such as 1mm:20mm. Default, if it is the frequency:
+        as for --from and --to of vibroimpact branch. For another parameter the range is required.
     frequency
         Forcing frequency, such as 2Hz, if the frequency is not the first parameter. Default: the
         frequency in the study (table [simulate]).
@@ -84,14 +84,14 @@ def curve(
     names = [name.strip().replace("-", "_") for name in over.split(",")]
     if len(names) != 2:
         raise InputError(
-            f"--over: {over!r} is not a pair; two names with a comma are accepted, such as "
-            "frequency,gap"
+            f"--over: {over!r} is not a pair; two names with a comma between them are accepted, "
+            "such as frequency,gap"
         )
     kind, pair = _KINDS[bifurcation], (names[0], names[1])
     shaken = rig_at(what, frequency, along=names[0])
     spans = _range(what, "--first", pair[0], first), _range(what, "--second", pair[1], second)
     with results(what, output) as written:
-        with progress_bar("following") as progress:
+        with progress_bar("following curves") as progress:
             found = curves_of_kind(shaken, kind, parameters=pair, spans=spans, progress=progress)
         ending = f"{bifurcation}-{'-'.join(names).replace('_', '-')}"
         written.write(found, ending, figures.bifurcation_curves, f"{what.title}, {kind}")

@@ -41,8 +41,8 @@ def design(
 ) -> int:
     """Compute the gap at which a rig hits no stop, and compare designs of its gaps and stops.
 
-    The rig is shaken by records, or by a sine whose frequency is swept up and down. For each
-    design, the command computes the largest displacement, acceleration and contact force. It
+    The rig is shaken by earthquake records, or by a sine whose frequency is swept up and down. For
+    each design, the command computes the largest displacement, acceleration and contact force. It
     writes:
 
     - NAME-design.nc and NAME-design.csv: the results of all designs, with a row for each design
@@ -50,7 +50,8 @@ def design(
     - NAME-pareto.png: the Pareto front of displacement and acceleration. It contains each design
       for which no other design is better in both quantities.
 
-    Limits (--limit) apply to the designs of the Pareto front and to the search (--best).
+    A design that exceeds a limit (--limit) is excluded from the Pareto front and from the search
+    for the best bumper (--best).
 
     For example:
 
@@ -62,26 +63,26 @@ def design(
     Parameters
     ----------
     records
-        Files of records. Default: the records in the study, or sines with the amplitude of the
-        rig's shaking.
+        Files of earthquake records; for the formats, see vibroimpact record. Default: the records
+        in the study, or sines with the amplitude of the rig's shaking.
     vary
         Parameter that is varied and its range, NAME LOW:HIGH[:log][:VALUES]. The option may be
-        used once or twice. Without VALUES there are 15 values. Examples of names: gap,
-        bumper-stiffness (at constant damping), stiffness-at-restitution (stiffness of the bumpers
-        at constant coefficient of restitution), bumper-damping, isolator-period, damping-ratio,
-        yield-force. Default: the parameters in the study (table [design]). If the study has none,
-        the gap is varied up to slightly above the gap at which the rig hits no stop. If all stops
-        are linear bumpers, their stiffness is varied, too.
+        used once or twice. VALUES is the number of values; without it, there are 15 values.
+        Examples of names: gap, bumper-stiffness (at constant damping), stiffness-at-restitution
+        (stiffness of the bumpers at constant coefficient of restitution), bumper-damping,
+        isolator-period, damping-ratio, yield-force. Default: the parameters in the study (table
+        [design]). If the study has none, the gap is varied, up to slightly above the gap at which
+        the rig hits no stop. If all stops are linear bumpers, their stiffness is varied, too.
     best
         Also search for the bumper that gives the smallest acceleration of the mass. The search
         keeps the gap of the rig.
     limit
         Quantity and the value that it must not exceed, such as peak-force 5MN. The quantities are
         peak-force, penetration and peak-displacement. The option may be repeated. These limits are
-        added to the limits in the study (table [design]).
+        added to the limits in the study (table [design]). Default: only the limits in the study.
     fractile
-        Fractile of the response to the records, from 0 to 1. Default: the value in the study
-        (table [design]), or 1, which is the largest response to any of the records.
+        Share of the records whose response is below the reported value, from 0 to 1. Default: the
+        value in the study (table [design]), or 1, which gives the largest response to any record.
     start
         Lowest frequency of the sines. Default: the value in the study (table [sweep]), or a
         frequency below the primary resonance of each design.
@@ -116,7 +117,7 @@ def design(
     }
     least = None
     with results(what, output) as written:
-        with progress_bar("computing") as progress:
+        with progress_bar("computing designs") as progress:
             gap = vi.required_gap(designed, **options)
             values = ranges or usual_ranges(what.oscillator, float(gap["required_gap"]))
             options |= {"limits": limits, "progress": progress}

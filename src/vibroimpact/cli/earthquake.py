@@ -53,13 +53,13 @@ def earthquake(
     Parameters
     ----------
     records
-        Files of records; for the formats see vibroimpact record. Default: the record in the study.
+        Files of records; for the formats, see vibroimpact record. Default: the record in the study.
     tail
         Duration of free vibration after each record, such as 10s. Default: two natural periods of
         the mass, computed with the smallest stiffness of the isolator's force law.
     samples
-        Number of samples per step of a record, in the figures and the files. This number affects
-        the floor spectrum, but not the peaks.
+        Number of samples per time step of a record, in the figures and the files. This number
+        affects the response spectrum of the mass. It does not affect the peaks of the response.
     """
     from rich.text import Text as Line
 
@@ -85,7 +85,7 @@ def earthquake(
     with results(what, output) as written:
         for name, record in shaking.items():
             shaken = vi.Rig(what.oscillator, record)
-            with progress_bar("following") as progress:
+            with progress_bar("simulating") as progress:
                 groups = earthquake_response(shaken, tail=tail, samples=samples, progress=progress)
                 free = response_without_stops(shaken, tail=tail, progress=progress)
             ending = f"{file_stem(name)}-earthquake"

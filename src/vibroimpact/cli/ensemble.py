@@ -39,10 +39,11 @@ def ensemble(
 ) -> int:
     """Draw random rigs from the distributions of their parameters, and sweep each of them.
 
-    The command prints fractiles of the peaks over the rigs. It writes:
+    For each peak, such as the largest displacement over all frequencies, the command prints the
+    values that 5 %, 50 % and 95 % of the rigs do not exceed. It writes:
 
     - NAME-ensemble.nc: the sweeps of all rigs, with the parameters of each rig
-    - NAME-ensemble.png: the resonance curves with bands
+    - NAME-ensemble.png: the median of the resonance curves, and the band from 5 % to 95 %
     - NAME-sensitivity-PEAK.nc and NAME-sensitivity-PEAK.png: with --sensitivity, the Sobol indices
       of each peak
 
@@ -56,9 +57,11 @@ def ensemble(
     uncertain
         Parameter and its distribution. The option may be repeated. Examples: gap
         normal:7.5mm:0.5mm, damping lognormal:0.2, stiffness uniform:5%. Other distributions are
-        triangular:LOW:MODE:HIGH and normal:MEAN:DEVIATION:LOW:HIGH. A single number or percentage
-        is relative to the value of the rig. The names of the parameters are those of vibroimpact
-        branch. Default: the distributions in the study (table [ensemble]).
+        triangular:LOW:MODE:HIGH and normal:MEAN:DEVIATION:LOW:HIGH. If you pass only one number,
+        as in uniform:5%, the distribution is centred on the value of the parameter in the rig. The
+        number is then the spread as a share of this value. For the names of parameters, see
+        --parameter of vibroimpact branch. Default: the distributions in the study (table
+        [ensemble]).
     sensitivity
         Also compute which parameter contributes most to the variance of the peaks (Sobol indices).
     start
@@ -72,7 +75,8 @@ def ensemble(
         List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step.
     physical
         Draw the largest acceleration (g) and displacement (mm) instead of the normalised excursions
-        η_a and η_d.
+        η_a and η_d. An excursion is the maximum minus the minimum. It is normalised by the largest
+        excursion of the same rig without stops.
     """
     from vibroimpact.cli.frequency_grid import default_range, list_frequencies
     from vibroimpact.cli.output import progress_bar

@@ -76,5 +76,5 @@ def _quoting(words: Sequence[str]) -> str:
             unit.append(word)
         if unit:
             value = " ".join((words[i + 1], *unit))
-            return f'; a value with blanks needs quotes, as {option} "{value}"'
+            return f'; put quotes around a value with blanks, as in {option} "{value}"'
     return ""

@@ -25,7 +25,7 @@ def explore(
 
     The command starts a server, prints the address of its page, and opens the page in a browser. By
     default, only this machine can open the page. To stop the server, press Ctrl-C. On first use,
-    the engine is compiled, which takes a minute.
+    vibroimpact compiles its numerical code, which takes a minute.
 
     For example:
 
@@ -43,8 +43,8 @@ def explore(
     browser
         Open the page in a browser. This is the default.
     host
-        Address on which the server listens. If it is not the default address, other machines can
-        connect, provided that they know the token in the printed address.
+        Address on which the server listens. If you pass another address than the default, other
+        machines can connect if they know the token in the printed address.
     """
     from vibroimpact.explorer import require_websockets
 
@@ -67,11 +67,11 @@ def explore(
     first = begin(Rig(what.oscillator, what.repeated), what.name, span)
 
     def announce(address: str) -> None:
-        print(f"The explorer is at {address}\nCtrl-C ends it.", flush=True)
+        print(f"The explorer is at {address}\nPress Ctrl-C to stop it.", flush=True)
         if host not in LOOPBACK:
             warn(
-                f"anyone who reaches {host} and knows the token in this address can use this "
-                "machine to compute, and the connection is not encrypted"
+                f"anyone who can connect to {host} and knows the token in this address can run "
+                "computations on this machine, and the connection is not encrypted"
             )
         if browser:
             import webbrowser
@@ -82,5 +82,5 @@ def explore(
         with search_as_usual():
             serve(first, announce, host, port)
     except KeyboardInterrupt:
-        print("The explorer has ended.")
+        print("The explorer has stopped.")
     return 0

@@ -182,5 +182,8 @@ def sine_span(
         return None
     if low is None or high is None:
         which = "--from" if low is None else "--to"
-        raise InputError(f"{which}: missing; the lowest and the highest frequency are accepted")
+        raise InputError(
+            f"{which}: missing, but the other end of the range is given; both ends, or neither, "
+            "are accepted"
+        )
     return low, high

@@ -57,7 +57,8 @@ def identify(
     data
         Files of the tests, as CSV, MAT, HDF5, UFF58, TDMS or NetCDF.
     rig
-        The tested rig: a case code or a study file, with guesses of the free parameters.
+        The tested rig: a case code or a study file. Its values are the starting values of the free
+        parameters.
     free
         Parameters that are fitted, separated by commas, such as
         stiffness,damping,bumper-stiffness,gap.
@@ -68,22 +69,22 @@ def identify(
         Bounds of a free parameter, NAME LOW:HIGH, such as gap 5mm:10mm. The option may be repeated.
         Default: none.
     tie
-        Keep one parameter equal to another one, such as left-gap right-gap. The option may be
-        repeated.
+        Parameter that is kept equal to another parameter, such as left-gap right-gap. The option
+        may be repeated. Default: none.
     prior
         Mean and standard deviation of the normal prior of a free parameter, NAME MEAN:DEVIATION,
         such as gap 7.5mm:0.2mm. The option may be repeated. Default: none.
     columns
         Variable and the column of the file that contains it, such as displacement-excursion
-        'channel 3'. The option may be repeated.
+        'channel 3'. The option may be repeated. Default: the names of the columns are interpreted.
     units
         Variable or column and its unit, such as displacement-excursion mm. The option may be
-        repeated.
+        repeated. Default: the units in the file.
     group
         Name of the test that is read, if a file contains several. Default: the only test in the
         file.
     decimal
-        Decimal mark of a table. Default: detected from the table.
+        Decimal mark of the numbers, if the file is a text table. Default: detected from the table.
     steady
         Treat the time histories as records of steady motions. Each history is then compared with
         the steady motion that the rig reaches from the measured state, and no initial states are

@@ -34,7 +34,7 @@ def manifolds(
     stable manifold of a saddle orbit leads to this orbit. Stable manifolds are the borders of
     basins. A motion that starts next to a saddle orbit moves away along its unstable manifold.
 
-    The command prints the saddle orbits, and the points where the manifolds cross. It writes
+    The command prints the saddle orbits, and the points at which manifolds cross. It writes
     NAME-FREQUENCY-manifolds.nc and NAME-FREQUENCY-manifolds.png.
 
     For example:
@@ -64,7 +64,7 @@ def manifolds(
     near = [state("--saddle", text, shaken.harmonic.phase) for text in saddle]
     hertz = shaken.frequency
     with results(what, output) as written:
-        with progress_bar("following") as progress:
+        with progress_bar("computing manifolds") as progress:
             data = vi.manifolds(
                 shaken,
                 near or None,

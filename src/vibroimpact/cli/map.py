@@ -39,8 +39,8 @@ def scenario_map(
     those of the rig (default: the published rig B3-A3).
 
     The map is written to NAME-X-Y-map.zarr block by block. If the command is stopped, run the same
-    command again to complete the map. The command prints the share of each scenario, and draws
-    NAME-X-Y-map.png.
+    command again to complete the map. The command prints the share of the map that each scenario
+    occupies. It draws the map as NAME-X-Y-map.png.
 
     For example:
 
@@ -55,20 +55,21 @@ def scenario_map(
         shake the rig. Default: a rig with damping-ratio 0.15, relaxation-time 0.01, stiffness-ratio
         25.9 and gap-ratio 0.5 on both sides, as in the published tests.
     x
-        Parameter of the horizontal axis and its range, NAME LOW:HIGH[:log][:NODES]. Without NODES
-        there are 21 nodes. Physical parameters: gap, amplitude, bumper-stiffness,
-        proportional-stiffness (bumper stiffness at a constant ratio of damping to stiffness),
-        isolator-period. Dimensionless parameters: stiffness-ratio, gap-ratio, relaxation-time,
-        damping-ratio, restitution. Default: stiffness-ratio 0.5:100:log.
+        Parameter of the horizontal axis and its range, NAME LOW:HIGH[:log][:NODES]. NODES is the
+        number of grid points along the axis; without it, there are 21. Physical parameters: gap,
+        amplitude, bumper-stiffness, proportional-stiffness (bumper stiffness at a constant ratio of
+        damping to stiffness), isolator-period. Dimensionless parameters: stiffness-ratio,
+        gap-ratio, relaxation-time, damping-ratio, restitution. Default: stiffness-ratio
+        0.5:100:log.
     y
         Parameter of the vertical axis and its range, as for --x. Default: gap-ratio 0:1.
     border
         Also draw the exact border between rigs with jumps and rigs without jumps. This is the
         default.
     where
-        Where the work is done: threads, processes, or the address of a dask scheduler, such as
+        Where the computation runs: threads, processes, or the address of a dask scheduler, such as
         tcp://10.0.0.1:8786. The choice does not affect the result. Default: processes if the first
-        grid has at least 500 nodes, and threads otherwise.
+        grid has at least 500 points, and threads otherwise.
     """
     from rich.text import Text
 
@@ -92,7 +93,7 @@ def scenario_map(
     ending = f"{'-'.join(names).replace('_', '-')}-map"
     with results(what, output) as written:
         written.files["data"] = store = written.path(ending, "zarr")
-        with progress_bar("mapping") as progress:
+        with progress_bar("computing the map") as progress:
             data = vi.scenario_map(
                 what.rig,
                 *axes,

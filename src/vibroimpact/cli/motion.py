@@ -70,7 +70,7 @@ def motion(
     with results(what, output) as written:
         found = {}
         for hertz, one in shaken.items():
-            with progress_bar("following") as progress:
+            with progress_bar("finding motions") as progress:
                 found[hertz] = named_motions(one, branch, **options, progress=progress)
         drawn = {
             hertz: {name: data for name, data in motions.items() if data.sizes["time"]}

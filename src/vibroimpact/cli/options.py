@@ -31,9 +31,9 @@ RigName: TypeAlias = Annotated[
         name="CASE|STUDY.toml",
         help=(
             "The rig: the code of a laboratory case, or the path of a study file. A code is "
-            "BUMPER-GAP-ACCELERATION. BUMPER is B1 to B4, or a stiffness. GAP is G1 to G4, or a "
-            "total gap (each side has half of it), or Ginf for a rig without bumpers. ACCELERATION "
-            "is A1 to A3, or a peak acceleration. Examples: B2-G1-A3, B3-10mm-A3, "
+            "BUMPER-GAP-ACCELERATION. BUMPER is B1 to B4, or a stiffness. GAP is G1 to G4, a total "
+            "gap (half of it is on each side), or Ginf for a rig without bumpers. "
+            "ACCELERATION is A1 to A3, or a peak acceleration. Examples: B2-G1-A3, B3-10mm-A3, "
             "510kN/m-G1-0.05g."
         ),
     ),
@@ -77,8 +77,8 @@ Where: TypeAlias = Annotated[
     str,
     Parameter(
         group=COMPUTATION,
-        help="Where the work is done: threads, processes, or the address of a dask scheduler, such "
-        "as tcp://10.0.0.1:8786. The choice does not affect the result.",
+        help="Where the computation runs: threads, processes, or the address of a dask scheduler, "
+        "such as tcp://10.0.0.1:8786. The choice does not affect the result.",
     ),
 ]
 Physical: TypeAlias = Annotated[bool, Parameter(group=OUTPUT, negative="")]
@@ -110,7 +110,7 @@ def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
     for name, value in pairs:
         key = name.replace("-", "_")
         if key in found:
-            raise InputError(f"{option}: {name!r} is given twice; once is accepted")
+            raise InputError(f"{option}: {name!r} is given twice; each name is accepted once")
         found[key] = value
     return found
 
@@ -128,12 +128,12 @@ class RigOptions:
     parameters: Annotated[
         Literal["table", "identified", "refined"] | None, Parameter(group=RIG)
     ] = None
-    """Parameter set of a laboratory case. table: the table of the paper that published the tests,
-    for all cases. identified: fitted values, only for B2-G1-A3 and B2-G2-A2. refined: those of
-    the table, but with a softening isolator, for all cases. Default: table."""
+    """Parameter set of a laboratory case. table: the values in the table of the paper on these
+    cases, for all cases. identified: fitted values, only for B2-G1-A3 and B2-G2-A2.
+    refined: the same as table, but with a softening isolator, for all cases. Default: table."""
     amplitude: _OfRig = None
-    """Amplitude of the shaking: peak acceleration of the base, such as 0.05g or 0.49m/s^2, peak
-    displacement of the base, such as 5mm, or peak force on the mass, such as 120N."""
+    """Amplitude of the shaking. Its unit selects the quantity: peak acceleration of the base (0.05g
+    or 0.49m/s^2), peak displacement of the base (5mm), or peak force on the mass (120N)."""
     mass: _OfRig = None
     """Mass, such as 550kg or 5000t."""
     weight: _OfRig = None
@@ -182,14 +182,15 @@ class ThresholdOptions:
     """Options for the thresholds between scenarios."""
 
     prominence: _Threshold = None
-    """Smallest prominence of a secondary resonance in the curve of η_a (the normalised excursion of
-    the acceleration), as a share of the height of this resonance (default: 0.02)."""
+    """Least prominence of a secondary resonance in the curve of η_a, the normalised excursion of
+    the acceleration, as a share of the height of the resonance. A less prominent resonance is
+    ignored. Default: 0.02."""
     extent: _Threshold = None
-    """Smallest total width of secondary left hystereses and non-regular resonances, as a share of
-    the natural frequency. Default: 0.08, the frequency step of the published tests."""
+    """Least total width of secondary left hystereses and non-regular resonances in scenario S4, as
+    a share of the natural frequency. Default: 0.08, the frequency step of the published tests."""
     touch: _Threshold = None
-    """A contact counts as grazing only if the gap is smaller than the largest displacement without
-    stops by at most this share (default: 0.1)."""
+    """A contact counts as grazing only if the gap is at most this share smaller than the largest
+    displacement without stops (default: 0.1)."""
     deformation: _Threshold = None
     """Largest penetration of a grazing contact, as a share of the gap (default: 0.1)."""
 
@@ -209,7 +210,7 @@ class OutputOptions:
     output: OutputFolder = "out"
     """Folder for the files, which is created if it does not exist (default: out)."""
     name: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """First part of the file names, NAME (default: the name of the rig or record)."""
+    """NAME, with which the names of all files begin (default: the name of the rig or record)."""
     figure: Annotated[Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, show_default=False)] = (
         "png"
     )

@@ -32,11 +32,12 @@ def paper(
     can compute, and the testable statements of the paper. The images are in the folder "figures"
     next to the reports.
 
-    For each statement, the report gives the computed quantity, the deciding numbers and a verdict:
-    reproduced, not reproduced, or not testable without the data of the experiment. A statement that
-    is not reproduced is not an error. The report counts the statements separately by kind, because
-    they are not equally strong tests. The computation could have refuted some statements. Others
-    must hold because of the classification rules, the inputs or the equations.
+    For each statement, the report gives the computed quantity, the numbers on which the verdict is
+    based, and the verdict: reproduced, not reproduced, or not testable without the data of the
+    experiment. If a statement is not reproduced, the command does not fail. The report counts the
+    statements separately by kind, because they are not equally strong tests. The computation could
+    have refuted some statements. Others must hold because of the classification rules, the inputs
+    or the equations.
 
     For example:
 

@@ -36,9 +36,9 @@ Least: TypeAlias = Annotated[
         name="--from",
         allow_leading_hyphen=True,
         help=(
-            "Lowest value of the parameter, such as 0.9Hz or 3mm. Default for the frequency: the "
-            "value in the study (table [sweep]), or 0.27 × the natural frequency; 0.3 Hz for "
-            "laboratory cases. Other parameters have no default."
+            "Lowest value of the parameter, such as 0.9Hz or 3mm. Only the frequency has a "
+            "default: the value in the study (table [sweep]). If there is none, the default is "
+            "0.27 × the natural frequency, or 0.3 Hz for laboratory cases."
         ),
     ),
 ]
@@ -48,9 +48,9 @@ Largest: TypeAlias = Annotated[
         name="--to",
         allow_leading_hyphen=True,
         help=(
-            "Highest value of the parameter, such as 1.3Hz or 7mm. Default for the frequency: the "
-            "value in the study (table [sweep]), or 4.5 × the natural frequency; 5 Hz for "
-            "laboratory cases. Other parameters have no default."
+            "Highest value of the parameter, such as 1.3Hz or 7mm. Only the frequency has a "
+            "default: the value in the study (table [sweep]). If there is none, the default is "
+            "4.5 × the natural frequency, or 5 Hz for laboratory cases."
         ),
     ),
 ]
@@ -87,10 +87,11 @@ def option_range(
     from vibroimpact.cli.frequency_grid import NO_DEFAULT, default_span
     from vibroimpact.model import to_si
     from vibroimpact.model.parameters import parameter
+    from vibroimpact.model.units import pretty
 
     varied = parameter(name, field, what.repeated.of).of(what.oscillator)
     defaults = default_span(what) if name == "frequency" else (None, None)
-    missing = f"missing; the end of the range of {name} is accepted"
+    missing = f"missing, and the range of {name} has no default; a value of {name} is accepted"
     ends = []
     for option, text, default in zip(options, (low, high), defaults, strict=True):
         end = default if text is None else text
@@ -103,7 +104,7 @@ def option_range(
             ends.append(to_si(end, varied.quantity, option, minimum=least, maximum=most))
     if not ends[0] < ends[1]:
         raise InputError(
-            f"{options[1]}: {ends[1]:g} does not lie above {options[0]}, {ends[0]:g}; a larger "
-            "value is accepted"
+            f"{options[1]}: {pretty(ends[1], varied.quantity)} is not greater than the lower end "
+            f"of the range, {pretty(ends[0], varied.quantity)}; a rising range is accepted"
         )
     return ends[0], ends[1]

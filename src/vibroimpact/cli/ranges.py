@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
 from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.units import pretty
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
@@ -41,7 +42,8 @@ def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[
     rest = parts[3:] if logarithmic else parts[2:]
     if len(parts) < 2 or len(rest) > 1 or not all(parts):
         raise InputError(
-            f"{option}: {text!r}; a range LOW:HIGH[:log][:NODES] is accepted, such as 0.5:100:log"
+            f"{option}: {text!r} is not a range; LOW:HIGH[:log][:NUMBER] is accepted, such as "
+            "0.5:100:log"
         )
     above = None if varied.zero and not logarithmic else 0.0
     least = 0.0 if above is None else None
@@ -50,15 +52,19 @@ def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[
         for part in parts[:2]
     )
     if not low < high:
-        raise InputError(f"{option}: {low:g} is not below {high:g}; a rising range is accepted")
+        raise InputError(
+            f"{option}: {pretty(low, varied.quantity)} is not below the upper end of the range, "
+            f"{pretty(high, varied.quantity)}; a rising range is accepted"
+        )
     if rest:
         if not (rest[0].isascii() and rest[0].isdecimal()) or int(rest[0]) < 2:
             raise InputError(
-                f"{option}: {rest[0]!r} nodes; a whole number of at least 2 is accepted"
+                f"{option}: {rest[0]!r} is not a number of values; a whole number of at least 2 is "
+                "accepted"
             )
         nodes = int(rest[0])
     if nodes > MOST:
-        raise InputError(f"{option}: {nodes} nodes; at most {MOST} are accepted")
+        raise InputError(f"{option}: {nodes} values; at most {MOST} are accepted")
     shares = [i / (nodes - 1) for i in range(nodes)]
     if logarithmic:
         ratio = math.log(high / low)

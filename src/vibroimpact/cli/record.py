@@ -93,7 +93,10 @@ def record(
     first = to_si(shortest, TIME, "--shortest", above=0.0)
     last = to_si(longest, TIME, "--longest", above=0.0)
     if not first < last:
-        raise InputError(f"--longest: {longest}; a period longer than {shortest} is accepted")
+        raise InputError(
+            f"--longest: {longest} is not longer than --shortest, {shortest}; a longer period is "
+            "accepted"
+        )
     natural_periods = np.geomspace(first, last, whole(periods, "periods", 2))
     found = vi.Record.read(
         file, reading.component, station=station, label=label, **reading.arguments()

@@ -44,17 +44,19 @@ class RecordOptions:
     """Options that replace statements in the files of records."""
 
     component: _Stated = None
-    """Component that is read, if the file has several: its name in the file, such as 90, Up or HNE,
-    or its number. Pass one component for all records, or one per record, such as 90,Up."""
+    """Component that is read, if the file has several. Pass its name in the file (such as HNE, Up
+    or 90) or its position, starting from 1. Pass one component for all records, or one per record,
+    such as 90,Up."""
     unit: _Stated = None
     """Unit of the values, such as g or cm/s^2. If it is a unit of length, such as mm, the values
     are displacements and are differentiated twice. Pass one unit for all records, or one per
     record."""
     step: Annotated[_Stated, Parameter(allow_leading_hyphen=True)] = None
-    """Time between samples, such as 10ms. It replaces the times in the file. Pass one step for all
-    records, or one per record."""
+    """Time between samples, such as 10ms. It replaces the step or the times in the file. Pass one
+    step for all records, or one per record."""
     decimal: Annotated[Literal[".", ","] | None, Parameter(group=READING)] = None
-    """Decimal mark of a table. Default: detected from the table."""
+    """Decimal mark of the numbers, if the file is a text table. Default: detected from the
+    table."""
 
     def arguments(self) -> dict[str, Any]:
         """Return the options as arguments of `Record.read`, without the component."""
@@ -149,7 +151,8 @@ def record_of_study(what: Subject) -> dict[str, Record]:
 
     if not isinstance(what.shaking, Record):
         raise InputError(
-            "RECORD: missing; the file of a record is accepted, or a study that names one"
+            "RECORD: missing; the file of a record is accepted, or a study with a record as its "
+            "excitation"
         )
     about = what.shaking.about
     return {record_name(about.source, about.component): what.shaking}
@@ -185,6 +188,7 @@ def records_or_sines(
     for option, value in (("--scale", scale), ("--peak", peak)):
         if value is not None and not records:
             raise InputError(
-                f"{option}: {value!r}, but no record is given; use --amplitude to scale a sine"
+                f"{option}: {value!r}, but no record is given; use --amplitude to set the "
+                "amplitude of a sine"
             )
     return scale_records(records, scale, peak) or None

@@ -177,7 +177,8 @@ def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated:
     """Return the shaking with the amplitude of the option. Several harmonics keep their shape."""
     if isinstance(shaking, Record):
         raise InputError(
-            f"--amplitude: {amplitude!r}, but a record shakes this rig; use --peak to scale it"
+            f"--amplitude: {amplitude!r}, but a record shakes this rig; to scale the record, use "
+            "--peak of vibroimpact earthquake or vibroimpact design"
         )
     if isinstance(shaking, Periodic):
         size, _ = sized(amplitude, shaking.of, "--amplitude", positive=True)
@@ -197,7 +198,7 @@ def _named(text: str, options: RigOptions) -> _Named:
         beside = path.with_name(f"{path.name}.toml") if path.name else path
         if beside.is_file():
             return _of_study(str(beside), read_study(beside), options)
-        raise InputError(f"{error}; or the path of a study file, NAME.toml") from None
+        raise InputError(f"{error}; the path of a study file, NAME.toml, is accepted too") from None
 
 
 def _shaken_by(case: Case) -> Harmonic:
@@ -250,27 +251,27 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
     if shared and not targets:
         option = _SHARED[shared[0]]
         raise InputError(
-            f"{_flag(option)}: given with --no-right and --no-left; it needs a bumper on at least "
-            "one side"
+            f"{_flag(option)}: given with --no-right and --no-left, which leave no bumper; leave "
+            "out one of these three options"
         )
     for field in shared:
         if not any(_has(getattr(oscillator, side), field) for side in targets):
             raise InputError(
-                f"{_flag(_SHARED[field])}: given, but no stop has a {field}; it needs a stop "
-                f"with a {field} on at least one side"
+                f"{_flag(_SHARED[field])}: no stop of this rig has a {field}; the option is "
+                f"accepted if the stop on at least one side has a {field}"
             )
     for side in removed:
         own = [field for field in _SHARED if getattr(options, f"{side}_{field}") is not None]
         if removed[side] and own:
             raise InputError(
-                f"{_flag(f'{side}_{own[0]}')}: given with --no-{side}; one of them is accepted"
+                f"{_flag(f'{side}_{own[0]}')}: given with --no-{side}; one of the two is accepted"
             )
         bumper: Stop | None = None if removed[side] else getattr(oscillator, side)
         for field in own:
             if not _has(bumper, field):
                 raise InputError(
-                    f"{_flag(f'{side}_{field}')}: given, but the {side} stop is {bumper}; "
-                    "it needs a bumper there"
+                    f"{_flag(f'{side}_{field}')}: the {side} stop is {bumper}, which has no "
+                    f"{field}; the option is accepted for a stop with a {field}"
                 )
         values = {
             field: _value(bumper or _ANY_BUMPER, field, option, options)
@@ -307,8 +308,8 @@ def _isolator(oscillator: Oscillator, options: RigOptions) -> AnyIsolator:
             continue
         if field not in type(isolator).model_fields:
             raise InputError(
-                f"{_flag(option)}: given, but the isolator is {isolator}; "
-                f"it needs an isolator with a {field}"
+                f"{_flag(option)}: the isolator is {isolator}, which has no {field}; the option "
+                f"is accepted for an isolator with a {field}"
             )
         if option == field:
             values[field] = _value(isolator, field, field, options)

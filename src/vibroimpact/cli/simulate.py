@@ -52,8 +52,8 @@ def simulate(
     cycles
         Number of forcing cycles. Default: the number in the study (table [simulate]), or 100.
     samples
-        Number of samples per forcing cycle, or per step of a record. It does not affect the
-        computed motion. Default: 256 per forcing cycle, or 1 per step of a record.
+        Number of samples per forcing cycle, or per time step of a record. It does not affect the
+        computed motion. Default: 256 per forcing cycle, or 1 per time step of a record.
     displacement
         Initial displacement, such as 5mm. Default: the static equilibrium.
     velocity
@@ -89,7 +89,7 @@ def simulate(
     if cycles is None and not of_record:
         cycles = table.cycles or _CYCLES
     with results(what, output) as written:
-        with progress_bar("following") as progress:
+        with progress_bar("simulating") as progress:
             data = vi.simulate(
                 shaken,
                 cycles,

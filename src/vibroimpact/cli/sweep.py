@@ -65,8 +65,9 @@ def sweep(
         in the study (table [sweep]), or both.
     physical
         Draw the largest acceleration (g), displacement (mm) and contact force instead of the
-        normalised excursions η_a and η_d. These quantities are always drawn if the motion without
-        stops is unbounded.
+        normalised excursions η_a and η_d. An excursion is the maximum minus the minimum. It is
+        normalised by the largest excursion of the same rig without stops. If the motion without
+        stops is unbounded, the largest values are always drawn.
     """
     from rich.console import Group
 

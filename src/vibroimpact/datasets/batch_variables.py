@@ -43,7 +43,7 @@ MANY_MOTIONS: dict[str, Variable] = {
     "uncertainty_exponent": Variable(
         "1",
         "exponent of the share of uncertain states",
-        "1 for a smooth border; the dimension of the border is 2 minus this",
+        "1 for a smooth border; the dimension of the border is 2 minus this exponent",
     ),
     "uncertainty_exponent_error": Variable("1", "standard error of the uncertainty exponent"),
     # stable and unstable curves
@@ -91,7 +91,9 @@ MANY_MOTIONS: dict[str, Variable] = {
     ),
     "penetration_ratio": Variable("1", "largest penetration divided by the gap"),
     "resonance_ratio": Variable(
-        "1", "frequency of the primary resonance divided by that without stops", "of η_d, forward"
+        "1",
+        "frequency of the primary resonance divided by its value without stops",
+        "of η_d, forward",
     ),
     "peak_eta_a_forward": Variable("1", "largest η_a, forward"),
     "peak_eta_a_backward": Variable("1", "largest η_a, backward"),

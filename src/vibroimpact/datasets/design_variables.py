@@ -47,7 +47,9 @@ DESIGN: dict[str, Variable] = {
     # sizing
     "penetration": Variable("m", "largest displacement beyond a gap"),
     "hitting": Variable(
-        "1", "share of the records under which the mass hits a stop; for a sine: whether it does"
+        "1",
+        "share of the records under which the mass hits a stop",
+        "for sines: whether the mass hits a stop",
     ),
     "pareto": Variable(
         "1", "whether no other design is better in both displacement and acceleration"
@@ -57,7 +59,7 @@ DESIGN: dict[str, Variable] = {
     "acceleration_frequency": Variable("Hz", "frequency of the largest acceleration"),
     "unsettled_count": Variable("1", "number of frequency steps without a periodic motion"),
     **{
-        f"required_gap{side}": Variable("m", f"gap of {which} side with which there is no contact")
+        f"required_gap{side}": Variable("m", f"smallest gap of {which} side without contact")
         for side, which in (("", "each"), ("_right", "the right"), ("_left", "the left"))
     },
     "evaluations": Variable("1", "number of designs that were tried"),

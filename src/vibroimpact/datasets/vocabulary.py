@@ -28,7 +28,7 @@ VARIABLES: dict[str, Variable] = {
     "time": Variable("s", "time"),
     "cycle": Variable("1", "time in forcing cycles"),
     "start": Variable(
-        "1", "initial state of the motions", "up, down: the final state at the value before"
+        "1", "initial state of the motions", "up, down: the final state at the previous value"
     ),
     "component": Variable("1", "component of the state"),
     # sweep

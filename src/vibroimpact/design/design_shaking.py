@@ -219,7 +219,8 @@ def _range(frequencies: Any) -> tuple[float | None, float | None]:
         return None, None
     if isinstance(frequencies, str) or len(frequencies) != 2:
         raise InputError(
-            f'frequency_span: {frequencies!r}; the lowest and the highest, as ("0.2 Hz", "3 Hz"), '
+            f"frequency_span: {frequencies!r}; the lowest and the highest frequency, as "
+            '("0.2 Hz", "3 Hz"), '
             "are accepted"
         )
     low, high = (

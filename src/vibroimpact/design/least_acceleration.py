@@ -127,11 +127,11 @@ def least_acceleration(
     """Find the design with the least peak acceleration, such as the best bumper for a gap.
 
     The peak acceleration jumps where the motion jumps, and it has several local minima. Each value
-    requires a whole computation. Therefore the search uses differential evolution (Storn and Price
-    1997, in ``scipy.optimize``). This method needs no derivative, can leave local minima, and
-    evaluates a whole generation of designs at once on all threads. The same seed gives the same
-    result. It is not proved that the result is the global minimum: another ``seed`` may find a
-    lower acceleration.
+    requires a sweep or the motions through all records. Therefore the search uses differential
+    evolution (Storn and Price 1997, in ``scipy.optimize``). This method needs no derivative, can
+    leave local minima, and evaluates a whole generation of designs at once on all threads. The same
+    seed gives the same result. It is not proved that the result is the global minimum: another
+    ``seed`` may find a lower acceleration.
 
     Parameters
     ----------
@@ -287,7 +287,8 @@ def _slack(best: Mapping[str, float], limits: Mapping[str, float]) -> Iterator[s
             reached, allowed = (
                 pretty(float(f"{value:.4g}"), quantity) for value in (best[name], limit)
             )
-            yield f"the limit of {name.replace('_', ' ')} does not bind: {reached} of {allowed}"
+            limit = name.replace("_", " ")
+            yield f"the design stays below the limit of {limit}: {reached} of {allowed}"
 
 
 def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
@@ -302,7 +303,7 @@ def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
                 float(low if share <= _NEAR else high), PARAMETERS[name].of(space.rig).quantity
             )
             which = "lower" if share <= _NEAR else "upper"
-            yield f"{name} ended at the {which} end of its range, {end}"
+            yield f"{name} lies at the {which} end of its range, {end}"
 
 
 def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:

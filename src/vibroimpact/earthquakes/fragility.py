@@ -53,9 +53,9 @@ def fragility(
     The same records are used at all scales. Therefore the numbers at two scales are not
     independent, and the intervals count each record only once. For each record they use the two
     scales between which the record begins to exceed the limit. The intervals and the confidence
-    band belong to a set of lognormal curves that rise with the scale. They are also valid for few
-    records. In that case the fitted β is too small on average, and it lies in the lower part of its
-    interval.
+    band belong to a set of lognormal curves that rise with the scale. The intervals and the band
+    are also valid for few records. In that case the fitted β is too small on average, and it lies
+    in the lower part of its interval.
 
     Parameters
     ----------
@@ -74,8 +74,8 @@ def fragility(
     -------
     xarray.Dataset
         ``median_capacity`` is θ, in the units of the scale. ``dispersion`` is β.
-        ``fitted_probability`` is the curve at the scales. The ends of the intervals of these three
-        have the same names with ``_bound`` (dim ``bound``: lower, upper). ``exceeding`` and
+        ``fitted_probability`` is the curve at the scales. The interval of each of these three
+        variables has the same name with ``_bound`` (dim ``bound``: lower, upper). ``exceeding`` and
         ``probability`` are defined as in `exceedance`.
 
         A curve is NaN if the records do not determine it, for example because fewer than two scales

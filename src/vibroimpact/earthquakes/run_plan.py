@@ -85,7 +85,7 @@ def runs(rig: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None)
             one,
             "gaps" if name == "gap" else f"vary[{name!r}]",
             NOT_VARIED,
-            "is that of a sine",
+            "is a parameter of a sine",
         )
         for name, values in given.items()
     )
@@ -121,7 +121,7 @@ def suite(records: Any) -> dict[str, Record]:
                 f"records[{name!r}]: {shown(one)} is not a record; a Record is accepted"
             )
     if not found:
-        raise InputError("records: none given; one or several are accepted")
+        raise InputError("records: missing; one or several records are accepted")
     return found
 
 

@@ -82,8 +82,8 @@ def seismic_response(
         2,000 natural periods at most. ``residual_displacement`` is the middle of the last swing,
         because an undamped motion swings about the position at which it would rest.
         ``residual_swing`` is half the width of this last swing. If it is below a billionth of the
-        peak, it is an upper bound of the error. For other isolators ``residual_displacement`` is
-        the equilibrium, and ``residual_swing`` is not computed.
+        peak, it is an upper bound of the error of ``residual_displacement``. For other isolators
+        ``residual_displacement`` is the equilibrium, and ``residual_swing`` is not computed.
 
         If the computation was given up, all values are NaN, and ``status`` gives the reason.
 

@@ -63,8 +63,8 @@ def fractiles(
     Raises
     ------
     InputError
-        If ``demands`` is not such a dataset, or if a value is invalid. Also if runs were given up
-        because they had too many contacts or steps.
+        If ``demands`` is not a dataset of `demands` or `ensemble`, or if a value is invalid. Also
+        if runs were given up because they had too many contacts or steps.
     """
     over = "sample" if "sample" in getattr(demands, "dims", ()) else "record"
     values = (_drawn if over == "sample" else known)(demands, quantity)
@@ -175,7 +175,7 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
     """
     held = isinstance(demands, xr.Dataset) and {"record", "scale"} <= set(demands.dims)
     if not held or "status" not in demands:
-        raise InputError(f"demands: {shown(demands)}; a dataset of demands is accepted")
+        raise InputError(f"demands: {shown(demands)}; the result of demands is accepted")
     peaks = [
         str(name)
         for name, one in demands.data_vars.items()

@@ -1,7 +1,7 @@
 """A fixed point of the stroboscopic map nearby, and whether it attracts: Newton's last steps.
 
 The derivative is that of small disturbances, one for each part of the state that outlives a cycle:
-where these are two, four cycles and one for each step do, and no law needs to be differentiated.
+where these are two, it takes three cycles, and each further step one. No law is differentiated.
 """
 
 from __future__ import annotations

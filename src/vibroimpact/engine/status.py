@@ -28,19 +28,19 @@ MORE_CYCLES = "max_cycles in Python"
 _ADVICE = {
     Status.DONE: "done",
     Status.NOT_SETTLED: (
-        "the motion did not settle within the allowed number of cycles, and was measured after "
-        f"them; for a slow transient, raise {MORE_CYCLES}; `steady`, started from `section`, tells "
-        "a slow transient from chaos"
+        "the motion did not settle within the allowed number of cycles, so it was measured over "
+        f"the cycles after this limit; for a slow transient, raise {MORE_CYCLES}; to distinguish a "
+        "slow transient from chaos, start `steady` from `section`"
     ),
     Status.TOO_MANY_EVENTS: (
-        "one forcing cycle has more contacts and detachments, or steps between them, than "
-        "max_events allows; if the mass chatters, give the stop more damping or less restitution, "
-        "or raise max_events in Python; if a damping_exponent below 1 makes the motion too stiff "
-        "near rest, raise the exponent"
+        "one forcing cycle or record step has more contacts and detachments than max_events "
+        "allows, or too many integration steps between them; if the mass chatters, give the stop "
+        "more damping or less restitution, or raise max_events in Python; if a damping_exponent "
+        "below 1 makes the motion too stiff near rest, raise the exponent"
     ),
     Status.TOO_MUCH_WORK: (
-        "the fastest rate of the rig is too large compared with the forcing frequency to compute "
-        "one cycle; raise the frequency, or lower the largest stiffness or damping"
+        "the fastest rate of the rig is too large to compute one forcing cycle or record step; "
+        "raise the frequency, or lower the largest stiffness or damping"
     ),
     Status.NOT_FINITE: (
         "the motion exceeded the range of floating-point numbers; check the orders of magnitude "

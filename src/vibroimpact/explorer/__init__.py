@@ -1,18 +1,18 @@
-"""The explorer: a page on which knobs are turned and resonance curves bend.
+"""The explorer: a page in a browser with a knob for each parameter of a rig.
 
-One page, one session, one immutable state::
+Each page has one session, and each session has one immutable state::
 
-    state.py      what is shown, and what was shown before
-    controls.py   the knobs that a state has, with their ranges
-    change.py     from a state to the next one
-    presets.py    where to begin
-    pictures/     from a state to what is drawn; a picture a file
-    session.py    what a page asks for, and the newest request only
-    server.py     pages and sessions on this machine
+    state.py      the state of a page, and the states for undo and redo
+    controls.py   the knobs of a state, with their ranges
+    change.py     functions that return the next state
+    presets.py    the states from which a page can start
+    pictures/     functions that compute the pictures of a state, one file per picture
+    session.py    the requests of one page, of which only the newest is computed
+    server.py     the server of the pages and their sessions
     share.py      a state as an address, a study file and a program
 
-The page itself (HTML, CSS, JavaScript) is in ``page/``: it draws what it is
-sent and computes nothing.
+The page itself (HTML, CSS, JavaScript) is in ``page/``. It draws the pictures that the server
+sends, and computes nothing.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from vibroimpact.errors import InputError
 
 
 def require_websockets() -> None:
-    """Refuse to serve a page without the websocket library, before anything is computed.
+    """Check that the websocket library is installed, before anything is computed.
 
     Raises
     ------
     InputError
-        If it is missing.
+        If the library is not installed.
     """
     if find_spec("websockets") is None:
         raise InputError(

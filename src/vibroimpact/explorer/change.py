@@ -1,4 +1,4 @@
-"""From a state to the next one: what the knobs and choices of the page do."""
+"""Functions that return the next state of a page after an action of the user."""
 
 from __future__ import annotations
 
@@ -16,28 +16,28 @@ from vibroimpact.model.rig import Rig
 
 SIDES = ("right", "left")
 DIMENSIONLESS = ("stiffness_ratio", "gap_ratio", "relaxation_time")
-"""Of a stop; those of the whole rig are parameters without a side."""
+"""Dimensionless parameters of a stop."""
 OF_RIG = ("isolator_period", "damping_ratio")
 
 
 def moved(state: State, path: str, value: float | str) -> State:
-    """Return the state with one knob at another value.
+    """Return the state with another value of one knob.
 
     Parameters
     ----------
     state
-        What is shown.
+        The state of the page.
     path
-        As `controls` names the knob: ``"mass"``, ``"isolator.stiffness"``, ``"right.gap"``,
-        ``"stops.gap"`` of both sides, ``"amplitude"``; ``"damping_ratio"``,
+        Name of the knob, as in `controls`. Examples are ``"mass"``, ``"isolator.stiffness"``,
+        ``"right.gap"``, ``"stops.gap"`` (both sides), ``"amplitude"``, ``"damping_ratio"`` and
         ``"stops.gap_ratio"``.
     value
-        In SI units, or a text with units.
+        The new value, in SI units or as text with a unit.
 
     Raises
     ------
     InputError
-        If there is no such knob, or the value cannot be used.
+        If there is no such knob, or if the value is invalid.
     """
     rig = state.oscillator
     part, _, name = path.rpartition(".")
@@ -78,18 +78,21 @@ def _stop_moved(
 
 
 def one_sided(rig: Oscillator, side: str) -> Oscillator:
-    """The rig with the stop of one side only, by which parameters of both are those of one."""
+    """Return the oscillator with the stop of one side only.
+
+    A parameter that is defined for both stops then applies to this stop alone.
+    """
     other = "left" if side == "right" else "right"
     return rig.replace(**{other: None})
 
 
 def with_law(state: State, part: str, kind: str) -> State:
-    """Return the state with another law of the isolator or of a stop, as strong as the last one.
+    """Return the state with another law of the isolator or of a stop, about as strong as before.
 
     Raises
     ------
     InputError
-        If there is no such part or law.
+        If there is no such part, or if there is no such law.
     """
     rig = state.oscillator
     if part == "isolator":
@@ -104,7 +107,11 @@ def with_law(state: State, part: str, kind: str) -> State:
 
 
 def joined(state: State, together: bool) -> State:
-    """Return the state with one knob for both stops, the left one then as the right one."""
+    """Return the state with one knob for both stops, or with a knob for each stop.
+
+    With one knob, the left stop becomes equal to the right stop. If there is no right stop, the
+    right stop becomes equal to the left stop.
+    """
     if not together:
         return state._replace(together=False)
     rig = state.oscillator
@@ -118,7 +125,7 @@ def chosen(state: State, direction: str, frequency: float | str) -> State:
     Raises
     ------
     InputError
-        If the direction is unknown, or the frequency lies outside the sweeps.
+        If the direction is unknown, or if the frequency is outside the range of the sweeps.
     """
     if direction not in ("forward", "backward"):
         raise InputError(
@@ -133,7 +140,9 @@ def chosen(state: State, direction: str, frequency: float | str) -> State:
 
 
 def looked(state: State, how: Mapping[str, bool]) -> State:
-    """Return the state with pictures shown or hidden, and curves in η or physical.
+    """Return the state with pictures shown or hidden, or with curves in other units.
+
+    The key ``"physical"`` selects curves in mm and g (true) or the normalised curves η (false).
 
     Raises
     ------
@@ -159,7 +168,7 @@ def placed(state: State, stiffness_ratio: float, gap_ratio: float) -> State:
     Raises
     ------
     InputError
-        If the rig has no such ratios.
+        If the rig has no stiffness ratio λ or no gap ratio δ0, or if a ratio is not finite.
     """
     if not (math.isfinite(stiffness_ratio) and math.isfinite(gap_ratio)):
         raise InputError("point: the ratios are not finite numbers; a point of the map is accepted")

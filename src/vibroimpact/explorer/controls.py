@@ -1,4 +1,4 @@
-"""The knobs that a state has: every number of the rig, in physical and in dimensionless form."""
+"""The knobs of a state: one for each number of the rig, in physical and in dimensionless form."""
 
 from __future__ import annotations
 
@@ -72,16 +72,16 @@ class Control(NamedTuple):
     low: float
     high: float
     log: bool
-    """Whether it turns by factors."""
+    """Whether the scale of the knob is logarithmic."""
 
 
 def controls(state: State, first: State) -> list[Control]:
-    """Return the knobs of a state; their ranges lie around where the page began.
+    """Return the knobs of a state. Their ranges contain the initial values of the page.
 
     Raises
     ------
     ArithmeticError
-        If a number of the rig, or the end of a range, has no bound.
+        If a number of the rig, or an end of a range, is not finite.
     """
     found = [*_physical(state, first), *_dimensionless(state)]
     for knob in found:
@@ -143,7 +143,7 @@ class _Sizes:
         }
 
     def of(self, quantity: Quantity, value: float) -> float:
-        """A large value, also where the knob began elsewhere."""
+        """Return a large value of a quantity: at least twice the initial value of the knob."""
         return max(self._known.get(quantity, 1.0), 2.0 * abs(value))
 
 
@@ -184,7 +184,10 @@ def _dimensionless(state: State) -> Iterator[Control]:
 
 
 def one_sided_or_none(rig: Oscillator, side: str) -> Oscillator | None:
-    """The rig with one stop only; None where there is none, or nothing then holds the mass."""
+    """Return the oscillator with the stop of one side only.
+
+    Return None if there is no such stop, or if nothing would then hold the mass.
+    """
     try:
         return one_sided(rig, side) if getattr(rig, side) is not None else None
     except InputError:

@@ -1,6 +1,6 @@
-"""A page without a server: one knob, and a family of curves that was computed before.
+"""A page without a server: one knob, and precomputed resonance curves for each of its values.
 
-``python -m vibroimpact.explorer.family docs/explorer.html`` writes it for the documentation.
+``python -m vibroimpact.explorer.family docs/explorer.html`` writes the page of the documentation.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from vibroimpact.explorer.presets import FIRST, preset
 
 KNOB = "stops.gap"
 VALUES = tuple(float(f"{gap:.4g}") for gap in np.linspace(0.0, 37.5e-3, 31))
-"""Gaps in m: from bumpers that touch the mass to free flight."""
+"""Gaps in m: from bumpers that touch the mass to a gap that the mass does not reach."""
 _MODULES = ("plot.js", "curves.js", "still.js")
 
 
@@ -43,7 +43,7 @@ def family(values: tuple[float, ...] = VALUES) -> dict[str, Any]:
 
 
 def page(found: dict[str, Any]) -> str:
-    """Return the whole page, with its style and its program in it."""
+    """Return the page as one HTML text, which contains its style sheet and its program."""
     folder = resources.files(__package__) / "page"
     # One program: what the modules import of one another stands above them.
     parts = [(folder / name).read_text(encoding="utf-8") for name in _MODULES]

@@ -1,4 +1,4 @@
-"""Files of what is shown, as a page saves them."""
+"""Files that a page can save: the study, a program, and the resonance curves."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from vibroimpact.model.names import file_stem
 
 
 def made(kind: str, state: State, swept: Callable[[], xr.Dataset]) -> dict[str, Any]:
-    """Return a file: its name, its kind and its bytes.
+    """Return a file: its name, its media type and its bytes (as Base64 text).
 
     Parameters
     ----------
     kind
-        ``"study"``, ``"python"``, ``"netcdf"`` or ``"csv"``.
+        Kind of file: ``"study"``, ``"python"``, ``"netcdf"`` or ``"csv"``.
     state
-        What is shown.
+        The state of the page.
     swept
-        Gives its fine sweep.
+        Function that returns the fine sweep of this state.
 
     Raises
     ------
     InputError
-        If there is no such kind.
+        If the kind is unknown.
     """
     ways: dict[str, tuple[str, str, Callable[[], bytes]]] = {
         "study": (".toml", "application/toml", lambda: share.study(state).encode()),

@@ -1,7 +1,8 @@
-"""Another law in the place of the one that is there, about as strong.
+"""Replace the law of an isolator or of a stop by another law that is about as strong.
 
-Who chooses a law wants to see what it changes, and so the new one takes over what it shares with
-the old one: its force at the largest displacement of free flight, and its gap.
+A user who selects another law wants to see the effect of the law alone. Therefore the new law has
+the gap of the old law, and about the same force. The forces are compared at the largest
+displacement without stops, or for stops at a share of it.
 """
 
 from __future__ import annotations
@@ -30,25 +31,25 @@ from vibroimpact.model.largest_free_response import largest_free_flight
 from vibroimpact.model.stops import STOPS
 
 NONE = "none"
-"""The law of a stop that is not there."""
+"""Kind that removes a stop."""
 _RESTITUTION, _RELAXATION, _STIFFER = 0.6, 0.01, 20.0
-"""Of a stop where none was; τ and λ those of the published rig, nearly."""
+"""Values of a new stop. τ and λ are close to those of the published rig."""
 _PRESSED = 0.2
-"""Depth over free flight's displacement at which stops of two laws are equally strong."""
+"""Penetration at which two stops have equal forces, divided by the displacement without stops."""
 
 
 def isolator_laws() -> list[str]:
-    """Kinds of isolators that can replace another one, by the names of a study file."""
+    """Return the kinds of isolators that can be selected, as they are named in study files."""
     return [kind for kind in ISOLATORS.classes if kind != Law.kind]
 
 
 def stop_laws() -> list[str]:
-    """Kinds of stops that can replace another one, by the names of a study file."""
+    """Return the kinds of stops that can be selected, as they are named in study files."""
     return [NONE, *(kind for kind in STOPS.classes if kind != Law.kind)]
 
 
 def free_displacement(state: State) -> float:
-    """Displacement amplitude (m) about which the laws are compared: that of free flight."""
+    """Return the displacement (m) at which laws are compared: the largest one without stops."""
     rig = state.oscillator
     omega = rig.angular_frequency
     isolator = rig.isolator
@@ -59,12 +60,12 @@ def free_displacement(state: State) -> float:
 
 
 def isolator_of(kind: str, state: State) -> AnyIsolator:
-    """Return an isolator of a kind, with the stiffness and the damping of the one that is there.
+    """Return an isolator of a kind, with the stiffness and damping of the present isolator.
 
     Raises
     ------
     InputError
-        If there is no such kind.
+        If the kind is unknown.
     """
     old = state.oscillator.isolator
     if kind == old.kind:
@@ -89,12 +90,12 @@ def isolator_of(kind: str, state: State) -> AnyIsolator:
 
 
 def stop_of(kind: str, state: State, side: str) -> Stop | None:
-    """Return a stop of a kind, where the one of that side is and about as strong.
+    """Return a stop of a kind, with the gap of the present stop and about the same force.
 
     Raises
     ------
     InputError
-        If there is no such kind.
+        If the kind is unknown.
     """
     rig = state.oscillator
     old: Stop | None = getattr(rig, side)

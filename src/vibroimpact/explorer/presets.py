@@ -1,4 +1,4 @@
-"""Where to begin: the published tests, an example of each rarer scenario, and a building."""
+"""Initial states: the published tests, an example of each rarer scenario, and a building."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from vibroimpact.explorer.state import State, begin
 from vibroimpact.model import Bumper, Isolator, Oscillator, Rig, laboratory
 
 FIRST = "B2-G1-A3"
-"""What a page begins with: right hysteresis, plain to see."""
+"""Default preset of a page: its resonance curves have a distinct right hysteresis."""
 
 _CASES = {
     "S4: motions that are not regular (B3, 10 mm, A3)": "B3-10mm-A3",
@@ -18,7 +18,7 @@ BUILDING = "building with moat"
 
 
 def names() -> list[tuple[str, list[str]]]:
-    """Groups of presets by what they are called."""
+    """Return the names of the presets, by group."""
     return [
         ("examples", [*_CASES, BUILDING]),
         ("published tests", [case.code for case in laboratory.campaign()]),
@@ -26,12 +26,12 @@ def names() -> list[tuple[str, list[str]]]:
 
 
 def preset(name: str) -> State:
-    """Return the state that a preset begins with.
+    """Return the initial state of a preset.
 
     Raises
     ------
     InputError
-        If there is none of that name.
+        If no preset has this name.
     """
     if name == BUILDING:
         state = begin(_building(), BUILDING)

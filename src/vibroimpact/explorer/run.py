@@ -32,12 +32,12 @@ def serve(
         Host name or address to listen on. If it is reachable from other machines, the address
         contains a token.
     port
-        Port number; 0 chooses a free one.
+        Port number. 0 selects a free port.
 
     Raises
     ------
     InputError
-        If the websocket library is missing, or the host or port is invalid or in use.
+        If the websocket library is not installed, or if the host or the port is invalid or in use.
     """
     asyncio.run(serving(first, host, port, ready))
 
@@ -49,7 +49,7 @@ async def serving(
     ready: Callable[[str], None],
     stop: asyncio.Event | None = None,
 ) -> None:
-    """Do what `serve` does, until `stop` is set."""
+    """Serve pages, as `serve` does, until `stop` is set."""
     require_websockets()
     from vibroimpact.explorer.server import start
 
@@ -67,7 +67,7 @@ async def serving(
 
 
 class Explored:
-    """A page in a notebook; a browser can open it by its `address`."""
+    """A page in a notebook. You can also open its `address` in a browser."""
 
     def __init__(self, where: str, height: int) -> None:
         self.address = where

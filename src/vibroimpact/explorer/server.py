@@ -1,10 +1,10 @@
-"""The server of the explorer: pages and sessions, for this machine only.
+"""The server of the explorer: pages and their sessions, by default for this machine only.
 
-A page is a handful of files that are read when the server starts; nothing else is ever opened for a
-page, and what a page sends is read as JSON, numbers and names. A session is a websocket. Both are
-refused to whoever is not a page of this server: by the ``Host`` that was asked for (or a name that
-somebody else resolves to this machine would do), by the ``Origin`` of the websocket, and, beyond
-this machine, by a token.
+The files of the page are read when the server starts. The server opens no other file for a page.
+Messages of a page are read as JSON, and contain only numbers and names. A session is a websocket.
+The server refuses requests that do not come from one of its own pages. It checks the header
+``Host``, because another name may resolve to this machine, and the header ``Origin`` of a
+websocket. If other machines can connect, it also checks a token.
 """
 
 from __future__ import annotations
@@ -36,11 +36,11 @@ from vibroimpact.explorer.state import State
 from vibroimpact.tasks.threads import Stopped
 
 MOST_SESSIONS = 16
-"""Pages that are served at once."""
+"""Largest number of open pages."""
 MOST_MESSAGE = 16_384
-"""Bytes of a message from a page."""
+"""Largest size of a message from a page (bytes)."""
 MOST_COMPUTING = 4
-"""Pictures that are made at once; a sweep has threads of its own, and files have another place."""
+"""Number of pictures that are computed at once. A sweep has its own threads, and so have files."""
 _MOMENT = 0.1
 """Seconds that a picture which is overtaken is waited for."""
 _SELDOM = 0.3
@@ -58,12 +58,12 @@ _POLICY = (
 
 
 class Limits(NamedTuple):
-    """Who is served."""
+    """The requests that are served."""
 
     hosts: frozenset[str]
-    """As the header ``Host`` has them, of this machine alone; none where a token is asked for."""
+    """Accepted values of the header ``Host``: names of this machine. Empty if there is a token."""
     token: str
-    """What the address must hold; empty where everyone on this machine is served."""
+    """Token that the address must contain. Empty if only this machine can connect."""
 
 
 def _files() -> dict[str, tuple[bytes, str]]:
@@ -80,7 +80,7 @@ def _files() -> dict[str, tuple[bytes, str]]:
 
 
 class Explorer:
-    """Serves pages that begin with one state."""
+    """Server of pages that start with a given state."""
 
     def __init__(self, first: State, limits: Callable[[], Limits]) -> None:
         self._first, self._limits, self._files = first, limits, _files()
@@ -92,7 +92,7 @@ class Explorer:
         self._files_in = ThreadPoolExecutor(1, "explorer-file")
 
     def answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Answer an HTTP request; None starts a websocket."""
+        """Return the response to an HTTP request, or None if a websocket is to be opened."""
         try:
             return self._answered(request)
         except (ValueError, MultipleValuesError):
@@ -308,26 +308,26 @@ def _refused(status: HTTPStatus, why: str) -> Response:
 
 
 async def start(first: State, host: str, port: int, token: str = "") -> tuple[Server, str]:
-    """Begin to serve.
+    """Start the server.
 
     Parameters
     ----------
     first
-        What a page begins with.
+        Initial state of a page.
     host, port
-        Where; port 0 takes a free one.
+        Host and port on which the server listens. Port 0 selects a free port.
     token
-        What an address must hold; empty for none.
+        Token that an address must contain. Default: no token is required.
 
     Returns
     -------
     server, address
-        The server runs until it is closed.
+        The server, which runs until it is closed, and the address of its page.
 
     Raises
     ------
     OSError
-        If the port is taken, or the host is none of this machine's.
+        If the port is in use, or if the host is not an address of this machine.
     """
     # It tells of every visitor that is refused; who is refused reads why.
     quiet = logging.getLogger("vibroimpact.explorer")

@@ -1,7 +1,7 @@
-"""One page's session: what it asks for, and the newest request only.
+"""The session of one page, which computes the pictures of the newest request only.
 
-A message changes the state at once. Then the pictures of that state are made, stage by stage, the
-quick ones first; when the next message comes, those that are not made yet are not made any more.
+A message changes the state at once. After that the pictures of the new state are computed, the
+quick ones first. If the next message arrives, the remaining pictures are not computed any more.
 """
 
 from __future__ import annotations
@@ -29,52 +29,52 @@ Message = dict[str, Any]
 MOST_SECONDS = 60.0
 """For one picture; the work that a page can ask for is bounded."""
 _NO_NUMBER = (
-    "value: with this value the rig has numbers that are not finite; a moderate value is accepted"
+    "value: with this value, some numbers of the rig are not finite; a moderate value is accepted"
 )
 _PATIENCE = 0.25
 """Seconds that a coarse picture is waited for though another is asked for."""
 
 
 class Stage(NamedTuple):
-    """One picture that is to be made."""
+    """One picture that is to be computed."""
 
     kind: str
     key: Hashable
-    """What it depends on: a picture of the same key is not made again."""
+    """All that the picture depends on. A picture with the same key is not computed again."""
     make: Callable[[Progress], Message]
 
     @property
     def long(self) -> bool:
-        """Whether it may take seconds; a coarse picture does not."""
+        """Whether the computation may take seconds, which is not the case for a coarse picture."""
         return isinstance(self.key, tuple) and self.key[0] != "coarse"
 
 
 class Session:
-    """What one page shows, and what it has been sent.
+    """The state of one page, and the pictures that were sent to it.
 
-    The server calls `take` for each message and `stages` after it; nothing else keeps anything, and
-    nothing that is kept grows.
+    The server calls `take` for each message, and `stages` after it. The session holds all data of a
+    page, and their size is bounded.
     """
 
     def __init__(self, first: State) -> None:
         self.history = History(first, first)
         self.asked = 0
-        """Counts requests; a stage of an older one is not wanted any more."""
+        """Number of requests. Pictures of an older request are not computed any more."""
         self.number: int | None = None
-        """What the page calls the last request."""
+        """Number of the last request, as the page counts."""
         self.ended = False
-        """Whether the page has gone."""
+        """Whether the page was closed."""
         self._dragging = False
         self._sent: dict[str, Hashable] = {}
         self._sweeps: dict[bool, tuple[Hashable, xr.Dataset]] = {}
 
     @property
     def state(self) -> State:
-        """What is shown now."""
+        """The present state of the page."""
         return self.history.now
 
     def hello(self) -> Message:
-        """What a page has to know first."""
+        """Return the first message to a page: its presets, laws and scenarios."""
         return {
             "hello": True,
             "presets": presets.names(),
@@ -90,7 +90,8 @@ class Session:
         Returns
         -------
         dict
-            ``state`` with the knobs; or ``refused`` with the reason, and nothing has changed.
+            ``state`` with the knobs. If the message is invalid, ``refused`` with the reason; the
+            state does not change then.
         """
         if not isinstance(message, dict) or not isinstance(message.get("do"), str):
             return {"refused": "message: it is not valid; a message of the page is accepted"}
@@ -113,7 +114,7 @@ class Session:
         return {**told, "n": number}
 
     def told(self) -> Message:
-        """The state as the page shows it."""
+        """Return the state in the form in which it is sent to the page."""
         return shown_as(self.history)
 
     def _next(self, message: Message) -> History:
@@ -151,7 +152,7 @@ class Session:
         raise InputError(f"message: {shown(do)} is unknown; an action of the page is accepted")
 
     def stages(self) -> Iterator[Stage]:
-        """Return what is to be made of the state now, quick pictures first."""
+        """Yield the pictures of the present state that are to be computed, quick ones first."""
         state = self.state
         rig = (state.oscillator, _without_frequency(state), state.span)
         look = (*rig, state.physical)
@@ -194,22 +195,24 @@ class Session:
                 yield Stage(kind, (word, *where), _scenarios(where, fine))
 
     def wants(self, stage: Stage) -> bool:
-        """Whether a stage has not been sent, nor a better picture of the same."""
+        """Return whether neither this picture nor a finer one was sent to the page."""
         sent = self._sent.get(stage.kind)
         assert isinstance(stage.key, tuple)
         return sent not in (stage.key, ("fine", *stage.key[1:]))
 
     def sent(self, stage: Stage) -> None:
-        """Note that the page has a picture."""
+        """Record that a picture was sent to the page."""
         self._sent[stage.kind] = stage.key
 
     def make(self, stage: Stage, asked: int, progress: Progress | None = None) -> Message:
-        """Make a picture, unless another request comes.
+        """Compute a picture, unless another request arrives.
 
         Raises
         ------
         Stopped
-            If it is not wanted any more.
+            If another request arrived.
+        InputError
+            If the computation takes too long, or if a number of the rig is not finite.
         """
         # When it was first told of: what is compiled before is not counted.
         begun: float | None = None
@@ -224,8 +227,8 @@ class Session:
                 raise Stopped
             if taken > MOST_SECONDS:
                 raise InputError(
-                    f"{stage.kind}: the computation was stopped after {MOST_SECONDS:g} s; to "
-                    "reduce the time, add damping or show fewer pictures"
+                    f"{stage.kind}: the computation took longer than {MOST_SECONDS:g} s and was "
+                    "stopped; to reduce the time, add damping or show fewer pictures"
                 )
             if progress:
                 progress(done, total)
@@ -235,14 +238,14 @@ class Session:
         return _bounded(lambda: stage.make(check))
 
     def file(self, kind: str, state: State | None = None) -> Message:
-        """Return a file for the page to save: of a state, or of what is shown.
+        """Return a file that the page saves. Default of the state: the present state of the page.
 
         Raises
         ------
         InputError
-            If there is no such file.
+            If the kind of file is unknown.
         Stopped
-            If the page has gone.
+            If the page was closed.
         """
         here = state or self.state
 
@@ -254,7 +257,7 @@ class Session:
         return _bounded(lambda: made(kind, here, lambda: self._swept(here, True, check)))
 
     def end(self) -> None:
-        """Note that the page has gone, and nothing is wanted any more."""
+        """Record that the page was closed, so that all its computations stop."""
         self.ended = True
         self.asked += 1
 
@@ -283,12 +286,12 @@ class Session:
 
 
 def shown_as(history: History) -> Message:
-    """Return the state as the page shows it.
+    """Return the present state in the form in which it is sent to a page.
 
     Raises
     ------
     InputError
-        If its mass has no spring.
+        If several harmonics shake the rig, or if its isolator has no stiffness.
     """
     one_sine(history.now.rig, "amplitude")
     state, first = history.now, history.first

@@ -1,4 +1,4 @@
-"""A state as text: an address, a study file, and the program that gives the same."""
+"""A state as text: an address, a study file, and a Python program that computes its curves."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import json
 import re
 from typing import Any, get_args
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.explorer.change import joined, looked
 from vibroimpact.explorer.pictures.curves import FINE
 from vibroimpact.explorer.state import Direction, State
@@ -20,7 +20,7 @@ from vibroimpact.model.units import pretty
 from vibroimpact.scenarios.axes import one_sine
 
 MOST = 8000
-"""Letters of an address."""
+"""Largest number of characters of an address."""
 _LONGEST_NAME = 80
 
 
@@ -44,15 +44,15 @@ def address(state: State) -> str:
 
 
 def from_address(text: object) -> State:
-    """Return the state that an address holds.
+    """Return the state that an address contains.
 
-    It is read as numbers, names of laws and names of choices, which are checked like those of a
-    study file; nothing in it is run, opened or looked up.
+    The address contains only numbers, names of laws and names of choices. They are checked in the
+    same way as the values of a study file. Nothing in an address is run or opened.
 
     Raises
     ------
     InputError
-        If it is none, or a value in it cannot be used.
+        If the address cannot be read, or if a value in it is invalid.
     """
     if not isinstance(text, str) or not 0 < len(text) <= MOST:
         raise InputError(
@@ -81,10 +81,10 @@ def _from_table(table: Any) -> State:
             f"address: the name {shown(name)} is not valid; a text of at most {_LONGEST_NAME} "
             "printable characters is accepted"
         )
-    if direction not in get_args(Direction) or of not in list(QUANTITIES):
-        raise InputError(
-            "address: it contains an unknown choice; the choices that the page offers are accepted"
-        )
+    if direction not in get_args(Direction):
+        raise InputError(f"address: the direction is {unknown(direction, get_args(Direction))}")
+    if of not in list(QUANTITIES):
+        raise InputError(f"address: the quantity of the shaking is {unknown(of, QUANTITIES)}")
     if not (isinstance(span, list) and len(span) == 2):
         raise InputError(
             f"address: the span {shown(span)} is not valid; two frequencies are accepted"
@@ -108,7 +108,7 @@ def _from_table(table: Any) -> State:
 
 
 def study(state: State) -> str:
-    """Return the study file of a state, which every command takes."""
+    """Return the study file of a state, which all commands accept."""
     lines = [f"name = {_quoted(state.name)}", "", "[oscillator]"]
     for key, value in state.oscillator.model_dump(exclude_none=True).items():
         lines.append(f"{key} = {_toml(value)}")
@@ -155,7 +155,7 @@ def _quoted(text: str) -> str:
 
 
 def program(state: State) -> str:
-    """Return the Python program that gives the curves and the motion of a state."""
+    """Return a Python program that computes the curves and the motion of a state."""
     low, high = state.span
     oscillator, shaken = state.oscillator, state.shaking
     kinds = {type(oscillator).__name__, type(oscillator.isolator).__name__}

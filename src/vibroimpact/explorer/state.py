@@ -1,4 +1,4 @@
-"""What a page shows: one immutable value, and the values that it had before."""
+"""The state of a page, as one immutable value, and its history for undo and redo."""
 
 from __future__ import annotations
 
@@ -13,32 +13,32 @@ from vibroimpact.scenarios.axes import one_sine
 Direction = Literal["forward", "backward"]
 
 MOST_STEPS = 100
-"""Steps that can be undone: a page that stays open must not grow."""
+"""Largest number of steps that can be undone. It bounds the memory of a page that stays open."""
 LOWEST, HIGHEST = 0.45, 4.5
-"""Range of the sweeps over the natural frequency, as wide as that of the published tests."""
+"""Ends of the range of the sweeps, divided by the natural frequency, as in the published tests."""
 _CHOSEN = 1.8
 """Initial frequency divided by the natural frequency: within the hysteresis of the published
 rig."""
 ON_DEMAND = ("branch", "map", "basins")
-"""Pictures that are made on request only."""
+"""Pictures that are computed only on request."""
 
 
 class State(NamedTuple):
-    """What a page shows."""
+    """The state of a page: its rig, its selected motion, and its choices."""
 
     name: str
-    """Of the rig it began with."""
+    """Name of the rig with which the page started."""
     oscillator: Oscillator
     shaking: Harmonic
-    """Its frequency is that of the selected motion."""
+    """The shaking, at the frequency of the selected motion."""
     span: tuple[float, float]
-    """Lowest and highest frequency of the sweeps, Hz."""
+    """Lowest and highest frequency of the sweeps, in Hz."""
     direction: Direction = "forward"
-    """The sweep on whose curve the motion was chosen."""
+    """Sweep direction of the curve on which the motion was selected."""
     together: bool = True
-    """Whether both stops have one knob."""
+    """Whether one knob sets the values of both stops."""
     physical: bool = False
-    """Whether the curves are in mm and g rather than η."""
+    """Whether the curves are in mm and g instead of normalised (η)."""
     shown: frozenset[str] = frozenset()
     """Pictures of `ON_DEMAND` that are shown."""
 
@@ -49,7 +49,7 @@ class State(NamedTuple):
 
 
 def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) -> State:
-    """Return the state that a rig begins with.
+    """Return the initial state for a rig.
 
     Parameters
     ----------
@@ -57,15 +57,15 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
         The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
         path of a study file.
     name
-        What it is called; that of a case is its code.
+        Name of the rig. Default: its own name; for a laboratory case, its code.
     span
-        Lowest and highest frequency in Hz; None for those of the published tests, over the
-        natural frequency.
+        Lowest and highest frequency in Hz. Default: 0.45 and 4.5 times the natural frequency, as
+        in the published tests.
 
     Raises
     ------
     InputError
-        If it is not a rig, is not shaken by one sine, or its mass has no spring.
+        If the rig is invalid or is not shaken by one sine, or if its isolator has no stiffness.
     """
     given = one_sine(as_rig(rig), "amplitude")
     oscillator, shaken = given.oscillator, given.sine
@@ -91,18 +91,18 @@ def _short(value: float) -> float:
 
 
 class History(NamedTuple):
-    """The state, where it began, and the ones that undo and redo lead to."""
+    """The present state of a page, its first state, and the states for undo and redo."""
 
     first: State
-    """What reset leads to, and what the ranges of the knobs lie around."""
+    """The first state, to which reset returns. The ranges of the knobs contain its values."""
     now: State
     past: tuple[State, ...] = ()
     future: tuple[State, ...] = ()
     gesture: str = ""
-    """What the last step belongs to: the many states of one drag are one step."""
+    """Name of the last gesture. All states of one gesture, such as a drag, are one step of undo."""
 
     def to(self, state: State, gesture: str = "") -> History:
-        """Go on to a state."""
+        """Return the history with a new present state."""
         if state == self.now:
             return self._replace(gesture=gesture)
         if gesture and gesture == self.gesture:
@@ -111,7 +111,7 @@ class History(NamedTuple):
         return self._replace(now=state, past=past, future=(), gesture=gesture)
 
     def undo(self) -> History:
-        """Go back by one step, if there is one."""
+        """Return to the previous state, if there is one."""
         if not self.past:
             return self
         *past, now = self.past
@@ -119,7 +119,7 @@ class History(NamedTuple):
         return self._replace(now=now, past=tuple(past), future=future, gesture="")
 
     def redo(self) -> History:
-        """Take back an undo, if there was one."""
+        """Return to the state before the last undo, if there was one."""
         if not self.future:
             return self
         now, *future = self.future
@@ -127,5 +127,5 @@ class History(NamedTuple):
         return self._replace(now=now, past=past, future=tuple(future), gesture="")
 
     def anew(self, state: State) -> History:
-        """Begin with another rig; undo leads back to this one."""
+        """Start with another rig. Undo returns to the present rig."""
         return self.to(state)._replace(first=state)

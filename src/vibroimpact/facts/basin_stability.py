@@ -57,7 +57,7 @@ def text(data: xr.Dataset) -> RenderableType:
     table.add_column("motion")
     table.add_column("kind and period")
     words = along.replace("_", " ") + (f" ({unit.symbol})" if unit.symbol else "")
-    for heading in (words, "least share", "largest share", "95% interval"):
+    for heading in (words, "smallest share", "largest share", "95% interval of the largest"):
         table.add_column(heading, justify="right")
     motions = list(enumerate(found["motions"], 1))
     chosen = sorted(motions, key=lambda one: -max(one[1]["share"]))[:_MOST]

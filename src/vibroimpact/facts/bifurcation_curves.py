@@ -29,7 +29,7 @@ def facts(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> di
 def text(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> RenderableType:
     """Return the same as lines."""
     plural = "s" if len(found) > 1 else ""
-    lines = [Text(), Text(f"{len(found)} curve{plural} of {kind}", style="bold")]
+    lines = [Text(), Text(f"{len(found)} {kind} curve{plural}", style="bold")]
     for name, data in found.items():
         lines.append(
             Text(

@@ -65,7 +65,7 @@ def text(data: xr.Dataset) -> RenderableType:
         title = f"Branch {number}: period {one['period']}, {one['points']} orbit{plural}"
         parts += [Text(), Text(title, style="bold")]
         if one["closed"]:
-            parts.append(Text("closed"))
+            parts.append(Text("the branch is a closed curve"))
         else:
             parts.append(Text(f"beginning: {one['ended_low']}; end: {one['ended_high']}"))
         mine = [b for b in told["bifurcations"] if b["branch"] == number]

@@ -163,7 +163,7 @@ def _limits_facts(data: xr.Dataset) -> dict[str, Any]:
 
 def _which(data: xr.Dataset, front: int) -> str:
     """How many designs keep the limits, and how many of them no other one beats."""
-    best = f"{front} {_be(front)} not dominated by another (displacement and acceleration)"
+    best = f"{front} {_be(front)} not dominated by another design in displacement and acceleration"
     told = _limits_facts(data)
     if not told:
         return best

@@ -84,7 +84,7 @@ def text(
     rest, swing = float(response["residual_displacement"]), float(response["residual_swing"])
     still = abs(swing) <= 1e-5 * float(response["peak_displacement"])
     table.add_row(
-        "comes to rest at",
+        "resting position",
         pretty(rest, LENGTH),
         _unsettled(rig, swing, still),
     )
@@ -124,8 +124,8 @@ def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> 
     far = max((float(free[f"peak_displacement_{side}"]), side) for side in hit)
     ratio = float(response["peak_acceleration"]) / float(free["peak_acceleration"])
     return (
-        f"{said}. Its acceleration is {plain(ratio, 3)} times that without stops, where it would "
-        f"move {_value(far[0], LENGTHS)} to the {far[1]}."
+        f"{said}. Its acceleration is {plain(ratio, 3)} times the acceleration without stops. "
+        f"Without stops, it would move {_value(far[0], LENGTHS)} to the {far[1]}."
     )
 
 

@@ -15,8 +15,8 @@ from vibroimpact.response.curve_pair import in_contact
 
 _SHARES = (0.05, 0.5, 0.95)
 _PEAKS = {
-    "eta_a": ("peak η_a", None),
-    "eta_d": ("peak η_d", None),
+    "eta_a": ("largest η_a", None),
+    "eta_d": ("largest η_d", None),
     "peak_acceleration": ("largest absolute acceleration", ACCELERATIONS),
     "peak_displacement": ("largest displacement", LENGTHS),
     "peak_force": ("largest contact force", FORCES),
@@ -76,7 +76,7 @@ def text(data: xr.Dataset, given: dict[str, str], indices: dict[str, xr.Dataset]
 
 def _fractiles(peaks: dict[str, list[float]]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    table.add_column("over all frequencies")
+    table.add_column("fractiles over the rigs")
     for share in _SHARES:
         table.add_column(f"{100 * share:g} %", justify="right")
     table.add_column("")
@@ -93,8 +93,8 @@ def _fractiles(peaks: dict[str, list[float]]) -> Table:
 
 def _orders(words: str, orders: dict[str, dict[str, float]]) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    table.add_column(f"variance of the {words}")
-    for name in ("alone", "with interactions"):
+    table.add_column(f"share of the variance of the {words}")
+    for name in ("parameter alone", "with interactions"):
         table.add_column(name, justify="right")
     for name, one in sorted(orders.items(), key=lambda item: -item[1]["total_order"]):
         table.add_row(

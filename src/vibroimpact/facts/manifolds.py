@@ -43,7 +43,7 @@ def text(data: xr.Dataset) -> RenderableType:
     found = facts(data)
     saddles, curves = found["saddles"], found["curves"]
     if not saddles:
-        return Text("\nno saddle was found: no border between basins leads to a saddle")
+        return Text("\nno saddle was found on the borders between basins")
     far = fitting((one["displacement"] for one in saddles), LENGTHS)
     fast = fitting((one["velocity"] for one in saddles), SPEEDS)
     table = Table(box=None, pad_edge=False, padding=(0, 2))
@@ -68,13 +68,13 @@ def text(data: xr.Dataset) -> RenderableType:
         mine = [one for one in curves if one["kind"] == kind]
         ends = Counter(one["ended"] for one in mine)
         length = sum(one["length"] for one in mine)
-        lines.append(f"{kind} curves, total length {length:.3g} window widths:")
+        lines.append(f"{kind} manifolds, total length {length:.3g} window widths:")
         lines += [f"  {count} of {len(mine)}: {why}" for why, count in ends.most_common()]
     crossed = found["crossings"]
     lines.append(
-        f"the curves cross {'once' if crossed == 1 else f'{crossed} times'}: motions look chaotic "
-        "before they settle"
+        f"stable and unstable manifolds cross {'once' if crossed == 1 else f'{crossed} times'}, so "
+        "motions look chaotic before they settle"
         if crossed
-        else "the curves do not cross"
+        else "stable and unstable manifolds do not cross"
     )
     return Group(Text(), table, Text(), Text("\n".join(lines)))

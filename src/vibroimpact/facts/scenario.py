@@ -47,8 +47,8 @@ def text(found: Classification) -> RenderableType:
         Text(f"{found.scenario}: {meaning(found.scenario)}", style="bold"),
         table,
         Text(
-            f"Confidence {found.confidence:.0%}: share of the variations of the thresholds (each "
-            "halved and each doubled) that do not change the scenario (over these frequencies)"
+            f"Confidence {found.confidence:.0%}: this share of the halved and doubled thresholds "
+            "gives the same scenario (over the swept frequencies)"
         ),
         *others,
     )

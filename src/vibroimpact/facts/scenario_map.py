@@ -48,7 +48,7 @@ def text(data: xr.Dataset, refine: int) -> RenderableType:
     refined = {0: "", 1: ", refined once"}.get(refine, f", refined {refine} times")
     line = (
         f"{columns} × {rows} nodes{refined}: {found['computed']} of {found['nodes']} computed; "
-        "share of the nodes"
+        "shares of the scenarios:"
     )
     return Group(Text(line), table)
 

@@ -60,8 +60,8 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
         _jumps(found),
         Text(),
         _hysteresis(data, found),
-        _ranges("Contact with a bumper", found.contact, "nowhere"),
-        _ranges("Not settled", found.unsettled, "nowhere"),
+        _ranges("Contact with a bumper", found.contact),
+        _ranges("Motion not settled", found.unsettled),
     ]
     notes = noted(data)
     parts += [Text(f"Note: {line}") for line in notes if line.startswith((UNBOUNDED, STIFF))]
@@ -80,7 +80,7 @@ def _peaks(found: Features) -> RenderableType:
                 table.add_row(
                     symbol,
                     peak.direction,
-                    f"{kind}, at the end" if peak.at_end else kind,
+                    f"{kind}, at the end of the range" if peak.at_end else kind,
                     f"{plain(peak.frequency)}",
                     f"{plain(peak.value, 4)}",
                     f"{plain(peak.prominence, 3)}",
@@ -106,24 +106,24 @@ def _jumps(found: Features) -> RenderableType:
 
 def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
     if data.sizes["direction"] < 2:
-        return Text("Hysteresis: not computed, needs both directions")
+        return Text("Hysteresis: not computed, because it needs both sweep directions")
     if not found.hysteresis:
         return Text("Hysteresis: none")
     lines = []
     for item in found.hysteresis:
-        above = "forward above backward" if item.side == "right" else "backward above forward"
-        notes = [f"{item.side} ({above})"]
+        higher, lower = ("forward", "backward")[:: 1 if item.side == "right" else -1]
+        notes = [f"{item.side} ({higher} curve above {lower} curve)"]
         if item.below is None or item.above is None:
-            notes.append("continues beyond the range")
+            notes.append("continues beyond the swept range")
         if not item.settled:
             notes.append("not settled")
         lines.append(f"  {_span(item.low, item.high)} Hz: {', '.join(notes)}")
     return Text("\n".join(["Hysteresis", *lines]))
 
 
-def _ranges(title: str, ranges: tuple[Range, ...], none: str) -> RenderableType:
+def _ranges(title: str, ranges: tuple[Range, ...]) -> RenderableType:
     if not ranges:
-        return Text(f"{title}: {none}")
+        return Text(f"{title}: at no frequency")
     lines = []
     for direction in dict.fromkeys(item.direction for item in ranges):
         spans = [_span(item.low, item.high) for item in ranges if item.direction == direction]

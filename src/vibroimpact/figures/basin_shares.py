@@ -39,7 +39,7 @@ def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     """
     if "share" not in data or data["share"].ndim != 2:
         raise InputError(
-            "data: the shares of the basins belong to a single rig; a dataset of "
+            "data: the shares of the basins belong to a single rig; the result of "
             "`basin_stability`, called with a parameter and its values, is accepted"
         )
     ax = axes_or_new(ax, (7.2, 4.4), title)

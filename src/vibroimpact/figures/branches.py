@@ -88,7 +88,7 @@ def branch_diagram(
             else "not a branch"
         )
         raise InputError(
-            f"data: this is {another}; a dataset of branch or resonance_diagram is accepted"
+            f"data: this is {another}; the result of branch or resonance_diagram is accepted"
         )
     if quantity not in QUANTITIES:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(QUANTITIES)} is accepted")
@@ -99,7 +99,7 @@ def branch_diagram(
             "accepted"
         )
     if sweep is not None and "direction" not in sweep.coords:
-        raise InputError("sweep: this is not a sweep; a dataset of sweep is accepted")
+        raise InputError("sweep: this is not a sweep; the result of the function sweep is accepted")
     factor, label = axis_label(data[quantity], quantity)
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])

@@ -52,7 +52,7 @@ def bifurcation_curves(
     else:
         names, given = [""], [curves]
     if not given or any("other_parameter" not in data.attrs for data in given):
-        raise InputError("curves: empty; at least one dataset of bifurcation_curve is accepted")
+        raise InputError("curves: empty; at least one result of bifurcation_curve is accepted")
     pairs = {(data.attrs["parameter"], data.attrs["other_parameter"]) for data in given}
     if len(pairs) > 1:
         raise InputError(

@@ -58,7 +58,8 @@ def incremental_curves(
     Raises
     ------
     InputError
-        If ``demands`` is not such a dataset, has fewer than two scales, or holds several rigs.
+        If ``demands`` is not a dataset of `demands`, has fewer than two scales, or holds several
+        rigs.
     """
     if isinstance(ax, str):
         raise InputError(
@@ -117,11 +118,12 @@ def fragility_curves(
     Raises
     ------
     InputError
-        If ``fragility`` is not such a dataset, or has more curves than can be distinguished.
+        If ``fragility`` is not a dataset of `fragility`, or has more curves than can be
+        distinguished.
     """
     if not isinstance(fragility, xr.Dataset) or "fitted_probability" not in fragility:
         raise InputError(
-            "fragility: this is not a fragility result; a dataset of fragility is accepted"
+            "fragility: this is not a fragility result; the result of fragility is accepted"
         )
     from scipy.special import ndtr, ndtri
 

@@ -72,7 +72,7 @@ def design_chart(
     Raises
     ------
     InputError
-        If ``data`` is not such a dataset.
+        If ``data`` is not a dataset of `design_chart` with one or two varied parameters.
     """
     dims = _dims(data)
     for name in quantities:
@@ -110,7 +110,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     Raises
     ------
     InputError
-        If ``data`` is not such a dataset, or if no design was computed.
+        If ``data`` is not a dataset of `design_chart`, or if no design was computed.
     """
     dims = _dims(data)
     u, a = (
@@ -226,7 +226,7 @@ def _best(data: xr.Dataset) -> str:
 
 def _dims(data: Any) -> list[str]:
     if not isinstance(data, xr.Dataset) or "pareto" not in data:
-        raise InputError("data: this is not a dataset of designs; a dataset of design is accepted")
+        raise InputError("data: this is not a dataset of designs; use the result of design_chart")
     return [str(dim) for dim in data["pareto"].dims]
 
 

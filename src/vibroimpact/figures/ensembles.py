@@ -52,12 +52,13 @@ def resonance_bands(
     Raises
     ------
     InputError
-        If the dataset is not an ensemble of sweeps, or if it does not contain the quantity.
+        If the dataset is not an ensemble of sweeps, or if it does not contain one of the
+        quantities.
     """
     if not {"sample", "direction", "frequency"} <= set(data.dims):
         raise InputError(
             f"data: a dataset with the dimensions {dict(data.sizes)} is not an ensemble of sweeps; "
-            "a dataset of ensemble is accepted"
+            "the result of ensemble is accepted"
         )
     low, high = shares
     if not 0.0 <= low < 0.5 < high <= 1.0:
@@ -140,7 +141,7 @@ def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | N
     """
     if "total_order" not in data:
         raise InputError(
-            "data: it has no sensitivity indices; a dataset of sensitivity is accepted"
+            "data: it has no sensitivity indices; the result of sensitivity is accepted"
         )
     others = [dim for dim in data["total_order"].dims if dim != "uncertain_parameter"]
     if len(others) > 1:

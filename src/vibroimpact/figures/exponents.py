@@ -37,7 +37,7 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
         If the dataset has no exponents, or if they do not depend on exactly one parameter.
     """
     if "exponents" not in data or "exponent" not in data["exponents"].dims:
-        raise InputError("data: it has no exponents; a dataset of lyapunov_exponents is accepted")
+        raise InputError("data: it has no exponents; the result of lyapunov_exponents is accepted")
     found = data[["exponents", "exponents_uncertainty"]]
     if "rig" not in found.dims:
         found = found.expand_dims("rig")

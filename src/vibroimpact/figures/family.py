@@ -119,7 +119,7 @@ def resonance_family(
         a label, a colour or a marker belongs to an unknown rig.
     """
     if not isinstance(data, xr.Dataset) or not {"rig", "direction", "frequency"} <= set(data.dims):
-        raise InputError("data: these are not sweeps of rigs; a dataset of sweeps is accepted")
+        raise InputError("data: these are not sweeps of rigs; the result of sweeps is accepted")
     if quantity not in get_args(Quantity):
         accepted = ", ".join(get_args(Quantity))
         raise InputError(f"quantity: {quantity!r}; one of {accepted} is accepted")

@@ -181,4 +181,4 @@ def fit_history(
 
 def _check(result: xr.Dataset) -> None:
     if "fit_residual" not in result:
-        raise InputError("result: this is not a fit; a dataset of identify is accepted")
+        raise InputError("result: this is not a fit; the result of identify is accepted")

@@ -63,7 +63,9 @@ def spectrum_lines(
         raise InputError("spectra: empty; at least one spectrum is accepted")
     for data in given.values():
         if not isinstance(data, xr.Dataset) or "order" not in data.coords:
-            raise InputError("spectra: this is not a spectrum; a dataset of spectrum is accepted")
+            raise InputError(
+                "spectra: this is not a spectrum; the result of fourier_spectrum is accepted"
+            )
     factor, label = _LABELS[quantity]
     ax = axes_or_new(ax, (5.6, 3.6), title)
     frequency = None

@@ -96,7 +96,7 @@ def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:
     parameters = json.loads(getattr(motion, "attrs", {}).get("parameters", "{}"))
     if "record" not in parameters or "displacement" not in motion:
         raise InputError(
-            "motion: this is not the response to a record; a dataset of simulate with a Record "
+            "motion: this is not the response to a record; the result of simulate with a Record "
             "and samples is accepted (time_history draws other motions)"
         )
     oscillator = parameters["oscillator"]

@@ -23,8 +23,8 @@ from vibroimpact.response.resonance import Features, Hysteresis, Jump, features
 
 _HATCHES = {"right": "", "left": "/////"}
 _LABELS = {
-    "right": "right hysteresis (forward above)",
-    "left": "left hysteresis (backward above)",
+    "right": "right hysteresis (forward above backward)",
+    "left": "left hysteresis (backward above forward)",
 }
 _ARROWS_APART = 5.0
 """Smallest distance between a forward and a backward arrow, in points."""

@@ -60,7 +60,7 @@ def response_spectra(
     dims = getattr(spectrum, "sizes", {})
     if not isinstance(spectrum, xr.Dataset) or dims.get("natural_period", 0) < 2:
         raise InputError(
-            "spectrum: this is not a response spectrum over natural periods; a dataset of "
+            "spectrum: this is not a response spectrum over natural periods; the result of "
             "response_spectrum with at least two periods is accepted"
         )
     factor, label = _LABELS[quantity]

@@ -67,7 +67,7 @@ def scenario_map(
         If the dataset is not a map, or if the border belongs to another map.
     """
     if "scenario" not in data or data["scenario"].ndim != 2:
-        raise InputError("data: this is not a map; a dataset of scenario_map is accepted")
+        raise InputError("data: this is not a map; the result of scenario_map is accepted")
     second, first = (str(name) for name in data["scenario"].dims)
     if border is not None and not {first, second} <= set(border.variables):
         raise InputError(

@@ -76,7 +76,7 @@ def section_diagram(
             if "branch" in data
             else "not a bifurcation diagram"
         )
-        raise InputError(f"data: this is {another}; a dataset of bifurcation_diagram is accepted")
+        raise InputError(f"data: this is {another}; the result of bifurcation_diagram is accepted")
     if quantity is None:
         quantity = "contact_start_velocity" if "contact_side" in data else held[0]
     if quantity not in held:

@@ -78,19 +78,19 @@ def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
     for i, name in enumerate(order[1:], 1):
         less = akaike[i] - akaike[0]
         how = (
-            "has no support beside it"
+            "the data do not support this model"
             if less > _CLEAR
-            else "cannot be distinguished from it by these data"
+            else "these data cannot distinguish the two models"
             if less < 2.0
-            else "is less likely"
+            else "this model is less likely"
         )
-        lines.append(f"{name}: Akaike's criterion is {less:.1f} above that of {best}: it {how}")
+        lines.append(f"{name}: Akaike's criterion is {less:.1f} above that of {best}: {how}")
     for name, one in zip(order, chance, strict=True):
         if one < CERTAIN:
             lines.append(f"{name}: its residuals are not noise, so this model is incomplete")
     if chance[0] < CERTAIN:
         lines.append(
-            "none of these models is complete: the residuals of the best one are not noise, either"
+            "none of these models is complete: even the residuals of the best model are not noise"
         )
     data.attrs["findings"] = "\n".join(lines)
     return describe(data, "vibroimpact.compare_fits")

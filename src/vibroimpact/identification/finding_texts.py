@@ -60,13 +60,14 @@ def findings(
                 both = "ratio" if correlation[i, j] > 0 else "product"
                 lines.append(
                     f"{one} and {other} can hardly be distinguished (correlation "
-                    f"{correlation[i, j]:.3f}): their {both} is known better than each of them"
+                    f"{correlation[i, j]:.3f}): their {both} is known better than either value"
                 )
     for number, (test, what) in enumerate(zip(problem.tests, judged, strict=True)):
         if left := str(test.data.attrs.get("left_out", "")).splitlines():
             lines.append(
-                f"{test.name}: {', '.join(map(repr, left))} of the file not understood and not "
-                "used; state with columns= of read_measurement what a column contains"
+                f"{test.name}: columns of the file were not understood and were left out: "
+                f"{', '.join(map(repr, left))}; state their content with columns= of "
+                "read_measurement"
             )
         unused = str(test.data.attrs["unused_shaking"]).splitlines()
         lines += [f"{test.name}: {line}" for line in unused]
@@ -113,14 +114,16 @@ def _alternatives(data: xr.Dataset, problem: Problem, x: Array) -> list[str]:
             mirrored = bool(rival["alternative_mirrored"])
             exchanged = exchanged or mirrored
             lines.append(
-                f"with right and left exchanged, the rig fits as well: {told}; {_BLIND}"
+                f"with right and left exchanged, the rig fits equally well: {told}; {_BLIND}"
                 if mirrored
-                else f"another rig fits as well: {told}"
+                else f"another rig fits equally well: {told}"
             )
     asked = any(one.name.partition("_")[0] in ("right", "left") for one in problem.free)
     uneven = any(not problem.rig_of(x, test)[0].oscillator.symmetric for test in problem.tests)
     if asked and uneven and not exchanged and all(test.blind for test in problem.tests):
-        lines.append(f"only the given values decide which side is the right one: {_BLIND}")
+        lines.append(
+            f"only the values that you passed determine which side is the right one: {_BLIND}"
+        )
     return lines
 
 
@@ -136,25 +139,25 @@ def _of(data: xr.Dataset, problem: Problem, number: int, idle: Untouched) -> str
         return f"{named} is not determined: in these tests the mass does not touch the stop"
     if number in idle.gaps:
         return (
-            f"{named} is known from below only: in these tests the mass does not touch the stop, "
-            f"and all values from {pretty(low, one.quantity, 3)} upward fit as well (with the "
+            f"{named} has only a lower limit: in these tests the mass does not touch the stop, "
+            f"and all values from {pretty(low, one.quantity, 3)} upward fit equally well (with the "
             "other values of the stop unchanged)"
         )
     if not (open_low or open_high or weak):
         return ""
     ends = f"{pretty(low, one.quantity, 3)} to {pretty(high, one.quantity, 3)}"
     if open_low and open_high:
-        return f"{named} is not determined: all values from {ends} fit as well"
+        return f"{named} is not determined: all values from {ends} fit equally well"
     if open_low:
-        return f"{named} is known from above only: values from {ends} fit as well"
+        return f"{named} has only an upper limit: values from {ends} fit equally well"
     if open_high and high < one.high:
         return (
-            f"{named} is known from below only: values from {pretty(low, one.quantity, 3)} upward "
-            f"fit as well (tried up to {pretty(high, one.quantity, 3)})"
+            f"{named} has only a lower limit: values from {pretty(low, one.quantity, 3)} upward "
+            f"fit equally well (values up to {pretty(high, one.quantity, 3)} were tried)"
         )
     if open_high:
-        return f"{named} is known from below only: values from {ends} fit as well"
-    return f"{named} is poorly determined: values from {ends} fit as well"
+        return f"{named} has only a lower limit: values from {ends} fit equally well"
+    return f"{named} is poorly determined: values from {ends} fit equally well"
 
 
 def amplitude_words(shaken: Any, source: str) -> str:
@@ -176,8 +179,9 @@ def _shape(name: str, kind: str, what: Structure, amplitude: str) -> list[str]:
         )
     elif what.chance < HINT:
         lines.append(
-            f"{name}: neighbouring residuals are more alike than pure noise would be in all but "
-            f"{100.0 * what.chance:.1g} % of tests: compare other laws of the stops or the isolator"
+            f"{name}: neighbouring residuals are alike; with pure noise, they would be so alike in "
+            f"only {100.0 * what.chance:.1g} % of tests: compare other laws of the stops or the "
+            "isolator"
         )
     if what.excess_chance < CERTAIN and np.isfinite(what.excess):
         lines.append(

@@ -146,7 +146,7 @@ def _unused(rig: Rig, test: Test, source: str) -> list[str]:
     share = _MEASURED if source == BASE else _STATED
     sine = own if isinstance(own, Harmonic) and rig.amplitudes is None else None
     if source != RIG and not (sine and _agree(sine, used, share)):
-        instead = f"that of the rig, {_size(sine)}," if sine else "the shaking of the rig"
+        instead = f"the amplitude of the rig, {_size(sine)}," if sine else "the shaking of the rig"
         lines.append(
             f"the amplitude is {_size(used)}, from {in_one_line(source)}; {instead} is not used"
         )
@@ -154,7 +154,7 @@ def _unused(rig: Rig, test: Test, source: str) -> list[str]:
         measured = used.frequency
         if abs(measured - rig.frequency) > _MEASURED * rig.frequency:
             lines.append(
-                f"the frequency is {measured:.4g} Hz, from the data; that of the rig, "
+                f"the frequency is {measured:.4g} Hz, from the data; the frequency of the rig, "
                 f"{rig.frequency:.4g} Hz, is not used"
             )
     return lines

@@ -247,6 +247,6 @@ def _enough(problem: Problem) -> None:
     if points + priors < unknowns:
         names = ", ".join(one.key for one in problem.free)
         raise InputError(
-            f"free: {unknowns} unknowns ({names}) and {points} measured values; add measured "
+            f"free: {unknowns} unknowns ({names}), but only {points} measured values; add measured "
             "values or fit fewer parameters"
         )

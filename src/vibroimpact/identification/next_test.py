@@ -255,13 +255,14 @@ def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
         best = of.isel(dict(zip(of.dims, _first_least(of.values), strict=True)))
         amplitude = pretty(float(best["candidate_amplitude"]), PARAMETERS["amplitude"].quantity, 3)
         where = (
-            f"a hold at {float(best['frequency']):.3g} Hz ({best['direction'].item()}), {amplitude}"
+            f"a measurement at {float(best['frequency']):.3g} Hz ({best['direction'].item()}), "
+            f"{amplitude}"
         )
         if what and float(best) > _LITTLE:
             lines.append(
-                f"next test: no hold of a stepped sine would be much more informative; {where}, "
-                f"would reduce the standard error of {what} to {100.0 * float(best):.1f} % of "
-                "its current value"
+                "next test: no measurement with a stepped sine would add much information; "
+                f"{where}, would reduce the standard error of {what} to "
+                f"{100.0 * float(best):.1f} % of its current value"
             )
             break
         if what:

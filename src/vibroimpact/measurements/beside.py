@@ -50,10 +50,10 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
         if value is None and _BARE.fullmatch(said.strip()):
             told = f"{found[name]:.6g} {quantity.symbol}"
             told += f" ({found[name] / GRAVITY:.3g} g)" if quantity is ACCELERATION else ""
-            notes.append(f"{name} has no unit: taken as {told}")
+            notes.append(f"{name} has no unit, so {told} was assumed")
     if left:
         notes.append(
-            f"entries next to the columns were not understood and were left out: {', '.join(left)}"
+            f"entries outside the columns were not understood and were left out: {', '.join(left)}"
         )
     return found
 

@@ -51,7 +51,7 @@ def curves(
     usable = np.isfinite(at) & (at > 0.0)
     if not usable.all():
         rows = ", ".join(table.row(int(i)) for i in np.flatnonzero(~usable)[:5])
-        notes.append(f"rows without a frequency are left out: {int((~usable).sum())} ({rows})")
+        notes.append(f"rows without a frequency were left out: {int((~usable).sum())} ({rows})")
     points: dict[tuple[str, str, float], list[float]] = {}
     empty = 0
     for found, values in known.values():
@@ -75,7 +75,7 @@ def curves(
     if most > 1:
         held = len({key[1:] for key, values in points.items() if len(values) > 1})
         what = "1 frequency was" if held == 1 else f"{held} frequencies were"
-        facts.append(f"{what} held up to {most} times; all values are kept")
+        facts.append(f"{what} measured up to {most} times; all values are kept")
     data = xr.Dataset(coords={"direction": present, "frequency": frequency})
     for name in dict.fromkeys(key[0] for key in points):
         grid = np.full((len(present), len(frequency), most), np.nan)
@@ -88,7 +88,7 @@ def curves(
     file = Path(table.path).name
     facts += [f"{file}: no {way} sweep was measured" for way in DIRECTIONS if way not in present]
     if len(frequency) == 1:
-        notes.append("only one frequency: this is not a curve, and jumps cannot be detected")
+        notes.append("there is only one frequency, so jumps cannot be detected")
     return data
 
 
@@ -109,13 +109,14 @@ def _directions(
     turns = np.flatnonzero(np.diff(np.sign(change[change != 0.0])))
     if len(f) > 1 and f[-1] < f[0] and not len(turns):
         notes.append(
-            "no column states the sweep direction: the frequencies fall, so backward was assumed"
+            "no column states the sweep direction, and the frequencies fall, so backward was "
+            "assumed"
         )
         return ["backward"] * len(at)
     top = int(np.nanargmax(at)) if len(f) else 0
     if len(turns) == 1 and 0 < top < len(at) - 1:
         notes.append(
-            "no column states the sweep direction: forward was assumed while the frequencies "
+            "no column states the sweep direction, so forward was assumed while the frequencies "
             f"rise, and backward from {table.row(top + 1)}"
         )
         return ["forward" if i <= top else "backward" for i in range(len(at))]
@@ -125,5 +126,5 @@ def _directions(
             "frequencies neither rise, nor fall, nor first rise and then fall; a column "
             "'direction' with forward and backward is accepted, or direction='forward'"
         )
-    notes.append("no column states the sweep direction: forward was assumed")
+    notes.append("no column states the sweep direction, so forward was assumed")
     return ["forward"] * len(at)

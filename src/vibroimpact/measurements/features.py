@@ -172,7 +172,7 @@ def in_words(data: xr.Dataset) -> list[str]:
         if peak.primary and (name := names[peak.curve]) is not None
     ]
     lines += [
-        f"{kind}: {side} alone were measured; the motion on the other side is unknown"
+        f"{kind}: only {side} were measured; the motion on the other side is unknown"
         for kind in ("acceleration", "displacement")
         for end, side in (("max", "maxima"), ("min", "minima"))
         if f"{kind}_{end}" in names.values()
@@ -182,6 +182,7 @@ def in_words(data: xr.Dataset) -> list[str]:
         low, high = sorted((jump.before, jump.after))
         lines.append(f"{jump.direction}: jump {way} between {low:.4g} and {high:.4g} Hz")
     for item in found.hysteresis:
-        side = "forward above" if item.side == "right" else "backward above"
+        higher, lower = ("forward", "backward")[:: 1 if item.side == "right" else -1]
+        side = f"{higher} curve above {lower} curve"
         lines.append(f"hysteresis, {side}: {item.low:.4g} to {item.high:.4g} Hz")
     return lines

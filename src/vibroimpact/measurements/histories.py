@@ -53,7 +53,7 @@ def history(table: Columns, known: Known, notes: list[str], facts: list[str]) ->
             f"one of {', '.join(repr(column.name) for column in table.columns)}"
         )
     if (lost := int((~usable).sum())) > 0:
-        notes.append(f"rows without a time are left out: {lost}")
+        notes.append(f"rows without a time were left out: {lost}")
     order = np.flatnonzero(usable)[np.argsort(time[usable], kind="stable")]
     if (np.diff(order) < 0).any():
         notes.append("the times were not in order, and were sorted")

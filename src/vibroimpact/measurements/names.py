@@ -157,9 +157,9 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
     values = np.asarray(column.values, dtype=float) * found.factor
     notes = []
     if found.factor != 1.0:
-        notes.append(f"{column.name!r} is read as an amplitude, which is half an excursion")
+        notes.append(f"{column.name!r} was read as an amplitude, which is half an excursion")
     if unit == column.unit and unit and found.unit and not alike(unit, found.unit):
-        notes.append(f"{column.name!r} is read in {unit}, although its name states {found.unit}")
+        notes.append(f"{column.name!r} was read in {unit}, although its name states {found.unit}")
     if unit is not None and unit.strip() not in ("-", "–", "1", ""):
         where = f"measurement: {path!r}, column {column.name!r}"
         if quantity is DIMENSIONLESS and unit.strip() == "%":
@@ -170,12 +170,12 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
         largest = float(np.nanmax(np.abs(values), initial=0.0))
         if quantity is LENGTH and largest > 2.0:
             notes.append(
-                f"{column.name!r} has no unit: its values reach {largest:.4g}, so millimetres "
+                f"{column.name!r} has no unit, and its values reach {largest:.4g}, so millimetres "
                 "were assumed"
             )
             values = values * 1e-3
         else:
-            notes.append(f"{column.name!r} has no unit: taken as {quantity.symbol}")
+            notes.append(f"{column.name!r} has no unit, so {quantity.symbol} was assumed")
     return values, "; ".join(notes) or None
 
 

@@ -201,7 +201,7 @@ def _checked(data: xr.Dataset) -> xr.Dataset:
     else:
         raise InputError(
             "measurement: the dataset holds neither curves (direction, frequency) nor a history "
-            "(time); a dataset of sweep, simulate or read_measurement is accepted"
+            "(time); the result of sweep, simulate or read_measurement is accepted"
         )
     return data.assign_attrs(kind=kind, notes="")
 
@@ -219,9 +219,8 @@ def as_measured(data: object, where: str = "data") -> xr.Dataset:
     if isinstance(data, xr.Dataset):
         return _checked(data)
     raise InputError(
-        f"{where}: {type(data).__name__} is not a measurement; a dataset of read_measurement, or "
-        "the "
-        "path of a file, is accepted"
+        f"{where}: {type(data).__name__} is not a measurement; the result of read_measurement, "
+        "or the path of a file, is accepted"
     )
 
 
@@ -360,7 +359,7 @@ def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: li
     typed = " ".join(f"--columns {key.replace('_', '-')} {name!r}" for key, name in pairs)
     accepted = f"; the names are {', '.join(listed)}" if listed else ""
     return (
-        f": {', '.join(told)}; {missing} is needed, such as columns={{{said}}} (command line: "
+        f": {', '.join(told)}; {missing} is required, such as columns={{{said}}} (command line: "
         f"{typed}){accepted}"
     )
 

@@ -50,9 +50,14 @@ def timed(table: Columns) -> list[Columns]:
             part = part._replace(columns=(time, *part.columns))
             own = any(column.step is not None for column in columns)
             if given and not own:
-                told = f"the time is computed from {given[0]} = {table.said[given[0]]}, from 0 s on"
+                told = (
+                    f"the times were computed from {given[0]} = {table.said[given[0]]}, and start "
+                    "at 0 s"
+                )
             else:
-                told = f"the time is computed from the step of {step:g} s, from {start:g} s on"
+                told = (
+                    f"the times were computed from the step of {step:g} s, and start at {start:g} s"
+                )
             part = part._replace(notes=(*part.notes, told))
         if len(groups) > 1:
             name = table.said.get("group", "")

@@ -66,8 +66,8 @@ def completed(table: Columns) -> Columns:
         if (new.scale, new.offset) != (old.scale, old.offset)
     ]
     notes = tuple(
-        f"values of {c.name!r} times {1.0 if c.scale is None else c.scale:g}"
-        f"{f' plus {c.offset:g}' if c.offset else ''}, the scale that the file states"
+        f"the values of {c.name!r} were multiplied by {1.0 if c.scale is None else c.scale:g}"
+        f"{f', and {c.offset:g} was added' if c.offset else ''}, as the file states"
         for c in scaled
     )
     return table._replace(
@@ -153,7 +153,7 @@ def _applied(column: Column) -> Column:
         return column._replace(scale=None, offset=None)
     if column.values.dtype.kind not in _NUMBERS + "c":
         return doubtful(
-            column._replace(scale=None, offset=None), "a scale of a column that is not numeric"
+            column._replace(scale=None, offset=None), "a scale for a column that is not numeric"
         )
     values = column.values * scale + offset
     return column._replace(values=values, scale=None, offset=None)

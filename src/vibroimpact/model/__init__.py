@@ -1,4 +1,4 @@
-"""What vibrates: oscillator, excitation and state, in physical or dimensionless form."""
+"""The mechanical model: oscillator, excitation and state, physical or dimensionless."""
 
 from vibroimpact.model import laboratory
 from vibroimpact.model.dimensionless import (

@@ -1,4 +1,4 @@
-"""Where a record comes from, and what a caller states instead of the file."""
+"""The source of a record, and values of the caller that replace statements in its file."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from vibroimpact.records.commas import Decimal
 from vibroimpact.records.doubts import of_end, of_times
 from vibroimpact.records.read import read_channel
 
-NO_UNIT = "unit m/s², because the file states none"
-"""What is noted where neither file nor user says a unit."""
+NO_UNIT = "the unit m/s² was assumed, because the file states no unit"
+"""Note if neither the file nor the user states a unit."""
 
 
 class About(NamedTuple):
-    """Where a record comes from, and what was done to it."""
+    """The source of a record, and its changes."""
 
     source: str = ""
     """The file."""
@@ -30,9 +30,9 @@ class About(NamedTuple):
     station: str = ""
     component: str = ""
     unit: str = ""
-    """Of the file's values."""
+    """Unit of the values in the file."""
     notes: tuple[str, ...] = ()
-    """Assumptions and changes, in order."""
+    """Assumptions, doubts and changes, in their order."""
 
 
 def read_values(
@@ -42,12 +42,12 @@ def read_values(
     step: float | str | None,
     decimal: Decimal | None,
 ) -> tuple[NDArray[np.float64], float, Quantity, About]:
-    """Read the values of a file in SI units, their step (s), what they are and where they are from.
+    """Return the values in a file (SI units), their step (s), their quantity and their source.
 
     Raises
     ------
     InputError
-        As of `vibroimpact.Record.read`.
+        As in `vibroimpact.Record.read`.
     """
     form, found, _ = read_channel(path, component, decimal)
     notes = list(found.notes)
@@ -65,14 +65,19 @@ def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
         if found.uneven:
             raise InputError(f"record: {path!r}, {found.uneven}")
         if found.step is None:
-            none = f"has none in {found.where}" if found.where else "has no times"
-            raise InputError(f"step: missing, and {path!r} {none}; a time is accepted")
+            none = f"has no step in {found.where}" if found.where else "has no times"
+            raise InputError(
+                f"step: missing, and {path!r} {none}; the time between two samples is accepted, "
+                'such as "10 ms"'
+            )
         return found.step
     spacing = to_si(step, TIME, "step", above=0.0)
     if found.uneven:
-        notes.append(f"step {pretty(spacing, TIME)}, not the file's uneven times")
+        notes.append(f"the step {pretty(spacing, TIME)} replaces the uneven times in the file")
     elif found.step is not None and not math.isclose(found.step, spacing, rel_tol=1e-9):
-        notes.append(f"step {pretty(spacing, TIME)}, not the file's {found.step:g} s")
+        notes.append(
+            f"the step {pretty(spacing, TIME)} replaces the step in the file, {found.step:g} s"
+        )
     return spacing
 
 
@@ -84,9 +89,9 @@ def _unit(
     if taken is None:
         if found.unclear:
             raise InputError(
-                f"unit: missing, and {path!r} has {found.unclear}; give the unit of an "
-                'acceleration, such as "m/s^2", then scale the values with Record.scaled or '
-                "--scale"
+                f"unit: missing, and the values in {path!r} are {found.unclear}; a unit of "
+                'acceleration, such as "m/s^2", is accepted; then scale the values with '
+                "Record.scaled or --scale"
             )
         taken = "m/s^2"
         notes.append(NO_UNIT)
@@ -100,13 +105,16 @@ def _unit(
         if not _same(other, factor, quantity):
             of = f" of {found.component!r}" if found.component else ""
             raise InputError(
-                f"record: {path!r} states the units {taken!r} and {other!r}{of}; unit= (--unit), "
-                "with the unit of the values, is accepted"
+                f"record: {path!r} states two units{of}, {taken!r} and {other!r}; pass the unit of "
+                "the values as unit= (--unit)"
             )
     if unit is None and found.of_name and not _same(found.of_name, factor, quantity):
-        notes.append(f"read in {taken}, although its name states {found.of_name}")
+        notes.append(
+            f"the values are read in {taken}, although the name of the column states "
+            f"{found.of_name}"
+        )
     if unit is not None and found.unit is not None and not _same(found.unit, factor, quantity):
-        notes.append(f"unit {unit}, not the file's {found.unit}")
+        notes.append(f"the unit {unit} replaces the unit in the file, {found.unit}")
     return taken, factor, quantity
 
 

@@ -17,13 +17,19 @@ from vibroimpact.model.stops import Bumper, Stop
 from vibroimpact.model.validation import Model
 
 Read = Callable[[Rig], float]
-"""The value of a parameter in a rig."""
+"""Function that returns the value of a parameter in a rig."""
 Vary = Callable[[Rig, float], Rig]
-"""The rig at another value of a parameter."""
+"""Function that returns the rig with another value of a parameter."""
 
 
 def number(part: Model, name: str, whose: str = "stops have") -> float:
-    """A number of an isolator or a stop, if it has it."""
+    """Return the value of a field of an isolator or a stop.
+
+    Raises
+    ------
+    InputError
+        If the part has no such field, or if the field is not a number.
+    """
     value = getattr(part, name) if name in type(part).model_fields else None
     if value is None or isinstance(value, str | int):
         numbers = [key for key, held in dict(part).items() if isinstance(held, float)]
@@ -35,7 +41,7 @@ def number(part: Model, name: str, whose: str = "stops have") -> float:
 
 
 def quantity(part: Model, name: str, whose: str = "stops have") -> Quantity:
-    """What a number of an isolator or a stop is."""
+    """Return the quantity of a field of an isolator or a stop."""
     number(part, name, whose)
     accepts = part.accepts(name)
     assert accepts is not None
@@ -43,7 +49,13 @@ def quantity(part: Model, name: str, whose: str = "stops have") -> Quantity:
 
 
 def shared(parameter: str, name: str, values: set[float], kinds: set[Quantity]) -> float:
-    """The value of a number that both bumpers share; refused if value or unit differ."""
+    """Return the value that both bumpers have in common.
+
+    Raises
+    ------
+    InputError
+        If there is no bumper, or if the values or the units of the bumpers differ.
+    """
     if len(values) != 1 or len(kinds) != 1:
         told = (
             "there is no bumper"
@@ -60,7 +72,7 @@ def shared(parameter: str, name: str, values: set[float], kinds: set[Quantity]) 
 
 
 def bumpers(name: str) -> tuple[Read, Vary]:
-    """Read and vary a number that both bumpers share."""
+    """Return the functions that read and vary a value of both bumpers."""
 
     def read(rig: Rig) -> float:
         oscillator = rig.oscillator
@@ -87,7 +99,7 @@ def bumpers(name: str) -> tuple[Read, Vary]:
 
 
 def one_bumper(side: str, name: str) -> tuple[Read, Vary]:
-    """Read and vary a number of the stop on one side."""
+    """Return the functions that read and vary a value of the stop on one side."""
 
     def bumper(rig: Oscillator) -> Stop:
         found: Stop | None = getattr(rig, side)
@@ -112,7 +124,7 @@ def one_bumper(side: str, name: str) -> tuple[Read, Vary]:
 
 
 def oscillator_number(name: str) -> tuple[Read, Vary]:
-    """Read and vary a number of the oscillator itself."""
+    """Return the functions that read and vary a value of the oscillator itself."""
     return (
         lambda rig: float(getattr(rig.oscillator, name)),
         lambda rig, value: rig.with_parts(rig.oscillator.replace(**{name: value})),
@@ -120,7 +132,7 @@ def oscillator_number(name: str) -> tuple[Read, Vary]:
 
 
 def isolator(name: str) -> tuple[Read, Vary]:
-    """Read and vary a number of the isolator."""
+    """Return the functions that read and vary a value of the isolator."""
 
     def vary(rig: Rig, value: float) -> Rig:
         law = rig.oscillator.isolator.replace(**{name: value})
@@ -132,7 +144,10 @@ def isolator(name: str) -> tuple[Read, Vary]:
 def formula_number(
     whose: str, name: str, registered: Callable[[], Iterable[str]]
 ) -> tuple[Read, Vary]:
-    """Read and vary a number of a formula: the isolator's, that of a stop, or of both bumpers."""
+    """Return the functions that read and vary a number in the formula of a law.
+
+    `whose` is ``"isolator"``, ``"right"``, ``"left"``, or ``"bumper"`` for both stops.
+    """
 
     def laws_of(rig: Rig) -> dict[str, Law]:
         return formulas(rig.oscillator, whose, name, registered)
@@ -159,7 +174,13 @@ def formula_number(
 def formulas(
     oscillator: Oscillator, whose: str, name: str, registered: Callable[[], Iterable[str]]
 ) -> dict[str, Law]:
-    """The laws given as formulas that have a number of this name, by their field of the rig."""
+    """Return the laws whose formula has a number of this name, by their field in the oscillator.
+
+    Raises
+    ------
+    InputError
+        If no formula has such a number.
+    """
     fields = ("right", "left") if whose == "bumper" else (whose,)
     laws = {field: getattr(oscillator, field) for field in fields}
     given = {field: law for field, law in laws.items() if isinstance(law, Law)}
@@ -169,17 +190,23 @@ def formulas(
         if names:
             accepted = " or ".join(repr(f"{whose}_{one}") for one in names) + " is accepted"
         else:
-            law = type(next(iter(laws.values()))).__name__.replace("NoneType", "None")
-            accepted = f"{'right' if whose == 'bumper' else whose} is a {law}, not a formula"
+            part, law = next(iter(laws.items()))
+            stop = "" if part == "isolator" else " stop"
+            accepted = (
+                f"the rig has no {part} stop"
+                if law is None
+                else f"the {part}{stop} is of the class {type(law).__name__}, not a formula"
+            )
+        owner = {"isolator": "isolator", "bumper": "stops"}.get(whose, f"{whose} stop")
         raise InputError(
-            f"parameter: '{whose}_{name}' is neither a parameter of this rig nor a number of a "
-            f"formula; {meant(f'{whose}_{name}', registered())}{accepted}"
+            f"parameter: '{whose}_{name}' is not a parameter of this rig, and no formula of the "
+            f"{owner} has a number {name!r}; {meant(f'{whose}_{name}', registered())}{accepted}"
         )
     return found
 
 
 def forcing(name: str) -> tuple[Read, Vary]:
-    """Read and vary a number of what shakes the rig."""
+    """Return the functions that read and vary a value of the shaking."""
     return (
         lambda rig: float(getattr(rig.periodic, name)),
         lambda rig, value: rig.with_parts(
@@ -189,13 +216,16 @@ def forcing(name: str) -> tuple[Read, Vary]:
 
 
 def spring(rig: Oscillator, name: str) -> float:
-    """The isolator's K, for a ratio that only linear laws have."""
+    """Return the stiffness K of the isolator. `name` is a ratio that requires linear laws."""
     rig.check_linear(f"{name!r}")
     return rig.isolator.initial_stiffness
 
 
 def in_proportion(unit: Callable[[Oscillator], float]) -> tuple[Read, Vary]:
-    """The bumpers' stiffness over a unit, at a fixed relaxation time C_j/K_j."""
+    """Return the functions for the bumper stiffness at a constant relaxation time C_j/K_j.
+
+    The stiffness is divided by `unit`, a function of the oscillator.
+    """
     stiffness_of, _ = bumpers("stiffness")
 
     def read(rig: Rig) -> float:
@@ -216,7 +246,10 @@ def in_proportion(unit: Callable[[Oscillator], float]) -> tuple[Read, Vary]:
 
 
 def at_restitution() -> tuple[Read, Vary]:
-    """The bumpers' stiffness at a fixed restitution: C_j as √(K_j M), as `from_restitution`."""
+    """Return the functions for the bumper stiffness at a constant coefficient of restitution.
+
+    C_j is then proportional to √(K_j M), as in `Bumper.from_restitution`.
+    """
     stiffness_of, _ = bumpers("stiffness")
 
     def read(rig: Rig) -> float:
@@ -244,15 +277,16 @@ def at_restitution() -> tuple[Read, Vary]:
 
 
 def scale_of(rig: Rig) -> float:
-    """Return the peak base acceleration (m/s²) by which gaps are scaled whatever shakes the mass.
+    """Return the peak base acceleration (m/s²) that scales the gaps.
 
-    Of a displacement X of the base it is X ω0², of a force F on the mass F/M: the largest
-    displacement in free flight is the same under it (see `peak_displacement`).
+    For a displacement X of the base it is X ω0², and for a force F on the mass it is F/M. The
+    largest displacement without stops is then the same as for this base acceleration (see
+    `peak_displacement`).
 
     Raises
     ------
     InputError
-        If several harmonics shake it.
+        If several harmonics shake the rig.
     """
     oscillator, shaken = rig.oscillator, rig.periodic
     if not isinstance(shaken, Harmonic):
@@ -264,7 +298,7 @@ def scale_of(rig: Rig) -> float:
 
 
 def gap_ratio() -> tuple[Read, Vary]:
-    """δ0 = G0_j/u_max at a fixed peak of free flight."""
+    """Return the functions for the gap ratio δ0 = G0_j/u_max, at a constant u_max."""
     gap_of, with_gap = bumpers("gap")
 
     def read(rig: Rig) -> float:
@@ -277,7 +311,7 @@ def gap_ratio() -> tuple[Read, Vary]:
 
 
 def relaxation_time() -> tuple[Read, Vary]:
-    """τ = ω0 C_j/K_j at a fixed stiffness."""
+    """Return the functions for the relaxation time τ = ω0 C_j/K_j, at a constant stiffness."""
 
     def read(rig: Rig) -> float:
         oscillator = rig.oscillator
@@ -308,7 +342,7 @@ def relaxation_time() -> tuple[Read, Vary]:
 
 
 def isolator_period() -> tuple[Read, Vary]:
-    """T = 2π √(M/K) at fixed mass and damping ratio."""
+    """Return the functions for the period T = 2π √(M/K), at a constant mass and damping ratio."""
 
     def read(rig: Rig) -> float:
         oscillator = rig.oscillator
@@ -324,7 +358,7 @@ def isolator_period() -> tuple[Read, Vary]:
 
 
 def damping_ratio() -> tuple[Read, Vary]:
-    """ξ = C/(2√(K M)) at fixed stiffness and mass."""
+    """Return the functions for the damping ratio ξ = C/(2√(K M)), at a constant K and M."""
 
     def vary(rig: Rig, value: float) -> Rig:
         oscillator = rig.oscillator

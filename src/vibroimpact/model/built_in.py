@@ -1,4 +1,4 @@
-"""A law given as a formula that is one of the built-in laws becomes that one."""
+"""Replace a law that is defined by a formula by the built-in law with the same force."""
 
 from __future__ import annotations
 
@@ -9,17 +9,19 @@ from vibroimpact.model.stops import Bumper, PowerBumper, Stop
 
 
 def as_isolator(law: AnyIsolator) -> AnyIsolator:
-    """Return the built-in isolator that a formula describes, or the law as it is.
+    """Return the built-in isolator with the same force as a formula, or else the law itself.
 
     Raises
     ------
     InputError
-        If it is a stop's law.
+        If the formula is the law of a stop.
     """
     if not isinstance(law, Law):
         return law
     if law.is_stop:
-        raise InputError("gap: an isolator has no gap; a law of u and v without a gap is accepted")
+        raise InputError(
+            "gap: an isolator has no gap; a formula of u and v without a gap is accepted"
+        )
     parts = law.parts
     if parts.rest:
         return law
@@ -32,17 +34,17 @@ def as_isolator(law: AnyIsolator) -> AnyIsolator:
 
 
 def as_stop(law: Stop | None) -> Stop | None:
-    """Return the built-in stop that a formula describes, or the law as it is.
+    """Return the built-in stop with the same force as a formula, or else the law itself.
 
     Raises
     ------
     InputError
-        If it is an isolator's law.
+        If the formula is the law of an isolator.
     """
     if not isinstance(law, Law):
         return law
     if law.gap is None:
-        raise InputError("gap: missing; a stop's law has a gap, such as '7.5 mm'")
+        raise InputError("gap: missing; the law of a stop requires a gap, such as '7.5 mm'")
     parts = law.parts
     if not parts.rest:
         return Bumper(parts.stiffness, parts.damping, law.gap)

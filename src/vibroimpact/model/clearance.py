@@ -1,4 +1,4 @@
-"""How far a mass may swing about where its isolator holds it, before it meets a stop."""
+"""Distances from the equilibrium on the isolator alone to the stops."""
 
 from __future__ import annotations
 
@@ -7,7 +7,10 @@ from vibroimpact.model.oscillator import Oscillator
 
 
 def at_rest(oscillator: Oscillator, force: float | None = None) -> float:
-    """Where the isolator alone holds the mass against a force (N), the constant one if None (m)."""
+    """Return the displacement (m) at which the isolator alone balances a constant force (N).
+
+    Default of the force: the constant force of the oscillator.
+    """
     held = oscillator.force if force is None else force
     if oscillator.isolator.linear:
         return held / oscillator.isolator.initial_stiffness
@@ -15,9 +18,9 @@ def at_rest(oscillator: Oscillator, force: float | None = None) -> float:
 
 
 def room(oscillator: Oscillator) -> dict[str, float]:
-    """How far each stop stands from where the isolator would hold the mass at rest (m).
+    """Return the distance (m) of each stop from the equilibrium on the isolator alone.
 
-    That is its gap, shifted by what the constant force does to the isolator.
+    It is the gap, changed by the displacement that the constant force causes.
     """
     rest = at_rest(oscillator)
     sides = {"right": (oscillator.right, -rest), "left": (oscillator.left, rest)}

@@ -1,4 +1,4 @@
-"""Numbers that count something."""
+"""Checks of whole numbers, such as numbers of samples, cycles and rigs."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from numbers import Integral
 from vibroimpact.errors import InputError, shown
 
 LARGEST = 2**62
-"""What the engine counts with."""
+"""Largest number that the engine can count to."""
 
 MOST_SAMPLES = 20_000_000
-"""Samples of one record: about 3 GB."""
+"""Largest number of samples of a time history, about 3 GB."""
 
 
 def check_samples(cycles: float, samples: int, field: str) -> None:
-    """Refuse a record that no memory holds.
+    """Raise an error if a time history has more samples than fit in the memory.
 
     Raises
     ------
     InputError
-        If there are more than `MOST_SAMPLES` in all.
+        If there are more than `MOST_SAMPLES` samples in total.
     """
     if cycles * samples > MOST_SAMPLES:
         raise InputError(
@@ -29,29 +29,29 @@ def check_samples(cycles: float, samples: int, field: str) -> None:
 
 
 MOST_CYCLES = 10_000
-"""Forcing cycles of an orbit's period."""
+"""Largest period of an orbit, in forcing cycles."""
 
 MOST_EVENTS = 10_000_000
-"""Contacts and detachments in one cycle at which a run may be given up."""
+"""Largest accepted ``max_events``: contacts and detachments in one forcing cycle."""
 
 
 MOST_TAIL = 1e8
-"""Seconds of free vibration after a record."""
+"""Largest duration of free vibration after a record (s)."""
 
 MOST_DRAWS, MOST_RESAMPLES = 2**20, 100_000
-"""Random rigs of one call, and sets of them that are drawn again."""
+"""Largest number of random rigs, and of bootstrap samples of them."""
 
 MOST_STARTS = 1_000_000
-"""Random initial states of one call."""
+"""Largest number of random initial states."""
 
 
 def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int:
-    """Read a whole number, numpy's included.
+    """Return a whole number, which may be an integer of numpy.
 
     Raises
     ------
     InputError
-        If it is none, less than `least` or more than `most`.
+        If the value is not a whole number, or if it is less than `least` or greater than `most`.
     """
     if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < least:
         raise InputError(f"{field}: {shown(value)}; a whole number of at least {least} is accepted")
@@ -61,7 +61,7 @@ def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int
 
 
 def check_max_events(value: object) -> int:
-    """Read how many contacts and detachments are followed in one cycle.
+    """Return the largest number of contacts and detachments in one forcing cycle.
 
     Raises
     ------
@@ -72,12 +72,12 @@ def check_max_events(value: object) -> int:
 
 
 def share(value: object, field: str) -> float:
-    """Read a number between 0 and 1, both excluded.
+    """Return a number that is greater than 0 and less than 1.
 
     Raises
     ------
     InputError
-        If it is none.
+        If the value is not such a number.
     """
     from vibroimpact.model.quantities import DIMENSIONLESS
     from vibroimpact.model.units import to_si

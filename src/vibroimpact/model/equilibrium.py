@@ -1,13 +1,14 @@
-"""Where the mass stays while nothing shakes it.
+"""The static equilibrium: the position of the mass if nothing shakes it.
 
-The force of a first, slow loading from u = 0,
+The force of a first, slow loading from u = 0 is
 
     isolator(u) + right(u - G_R) - left(-u - G_L),
 
-each stop pushing only, rises with u as far as the isolator's force does, and rigid stops bound u.
-So there is one place where it equals the constant force; without that force and with no gap below
-0 it is u = 0. Friction holds the mass at u = 0 if it can. Without a spring the mass stays anywhere
-between its stops, u = 0 among them.
+where each stop can only push. This force rises with u as long as the force of the isolator rises,
+and rigid stops limit u. Therefore it equals the constant force at only one displacement. If there
+is no constant force and no gap is negative, this displacement is u = 0. If friction can hold the
+mass at u = 0, the mass stays there. Without a spring, the mass can stay at any place between its
+stops, and u = 0 is returned.
 """
 
 from __future__ import annotations
@@ -25,18 +26,18 @@ from vibroimpact.model.units import pretty
 
 
 def equilibrium(oscillator: Oscillator) -> State:
-    """Return the state of rest that is reached from u = 0 without a memory of anything else.
+    """Return the state of rest that a slow loading from u = 0 reaches.
 
     Parameters
     ----------
     oscillator
-        What vibrates; its base stands still.
+        The oscillator. Its base is at rest.
 
     Returns
     -------
     State
-        The displacement, with zero velocity. What it leaves open follows from the rig: bumpers
-        are pressed as far as the mass reaches into them.
+        The displacement, with zero velocity. The other values follow from the rig: a bumper is
+        compressed as far as the mass penetrates into it.
 
     Raises
     ------
@@ -125,8 +126,8 @@ def _by_root(oscillator: Oscillator) -> float:
                 raise InputError(
                     "isolator: it softens, and its largest force, "
                     f"{pretty(isolator.strongest, FORCE)} at {pretty(isolator.reach, LENGTH)}, "
-                    f"does not balance {pretty(abs(push), FORCE)}; a smaller force or preload is "
-                    "accepted"
+                    f"does not balance the force of {pretty(abs(push), FORCE)} on the mass; a "
+                    "smaller constant force or preload is accepted"
                 )
             return end
         way = min(2.0 * way, most)

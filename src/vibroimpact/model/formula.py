@@ -1,7 +1,7 @@
-"""A law as text: parsed without running it, checked, and written as a list of operations.
+"""Formulas of laws: texts that are parsed and checked, but never run as code.
 
-The text is read by Python's parser, and only sums, products, quotients, powers and the functions
-below are accepted; nothing is evaluated as code. What has no variable becomes one number.
+Python's parser reads the text. Only sums, products, quotients, powers and the functions below are
+accepted. A part of the formula that contains no variable is replaced by one number.
 """
 
 from __future__ import annotations
@@ -15,21 +15,21 @@ from typing import ClassVar, NamedTuple, NoReturn, TypeAlias
 from vibroimpact.errors import InputError, meant, shown
 
 _LONGEST = 300
-"""Characters of a formula."""
+"""Largest number of characters of a formula."""
 
 LARGEST = 31
 """Largest exponent."""
 
 MOST_OPERATIONS, MOST_NUMBERS = 50, 8
-"""Of one formula, as the engine has room for; what has no variable is one number."""
+"""Largest numbers of operations and of numbers in one formula."""
 
 Dimension: TypeAlias = tuple[float, float, float] | None
-"""Powers of mass, length and time; None for a plain number, whose unit is what fits."""
+"""Powers of mass, length and time. None for a number without a unit, which may have any unit."""
 
 NONE, LENGTH, VELOCITY, FORCE = (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 1.0, -1.0), (1.0, 1.0, -2.0)
 
 ODD, EVEN, NEITHER = -1, 1, 0
-"""How a part changes if the displacement and the velocity change their signs."""
+"""Effect on a part if displacement and velocity change their signs: new sign, none, or other."""
 
 FUNCTIONS = {
     "exp": NEITHER,
@@ -41,13 +41,13 @@ FUNCTIONS = {
     "cos": EVEN,
     "abs": EVEN,
 }
-"""By name, and what each is of an odd argument."""
+"""Accepted functions by name, with the parity of their value if the argument is odd."""
 
 _REFUSED = {
-    "sign": "a force that jumps can hold the mass at rest; abs(u) and abs(v) are accepted, and dry "
-    "friction is a FrictionIsolator",
-    "max": "no Taylor series passes its corner; abs(u) and abs(v) are accepted",
-    "min": "no Taylor series passes its corner; abs(u) and abs(v) are accepted",
+    "sign": "a force that jumps can hold the mass at rest; abs(u) and abs(v) are accepted; for dry "
+    "friction, use a FrictionIsolator",
+    "max": "it has no Taylor series at its corner; abs(u) and abs(v) are accepted",
+    "min": "it has no Taylor series at its corner; abs(u) and abs(v) are accepted",
     "log": "it is not finite at rest; powers and exp are accepted",
 }
 
@@ -64,10 +64,10 @@ _WRITTEN = {
 
 
 class Node(NamedTuple):
-    """A part of a formula: an operation or what stands at its end, and where it begins.
+    """A part of a formula, with its text and the column where it starts.
 
-    `kind` is ``number``, ``variable``, a sign ``+ - * / **``, or the name of a function; the
-    exponent of a power is a number.
+    `kind` is ``number``, ``variable``, an operator ``+ - * / **``, ``neg``, or the name of a
+    function. The exponent of a power is a number.
     """
 
     kind: str
@@ -78,7 +78,7 @@ class Node(NamedTuple):
 
 
 class Formula(NamedTuple):
-    """A formula that has been checked: its tree, with all numbers put in."""
+    """A formula that has been checked. Its tree contains the values of all numbers."""
 
     text: str
     variables: tuple[str, str]
@@ -89,7 +89,7 @@ class Formula(NamedTuple):
         return value_of(self.tree, dict(zip(self.variables, (x, v), strict=True)))[0]
 
     def slope(self, x: float, v: float, which: int) -> float:
-        """Return the derivative by the displacement (0) or the velocity (1)."""
+        """Return the derivative with respect to the displacement (0) or the velocity (1)."""
         values = dict(zip(self.variables, (x, v), strict=True))
         return value_of(self.tree, values, self.variables[which])[1]
 
@@ -102,20 +102,20 @@ def read_formula(
     Parameters
     ----------
     text
-        Such as ``"k*u + k3*u**3"``.
+        The formula, such as ``"k*u + k3*u**3"``.
     numbers
-        Value and dimension of each declared number, in SI units.
+        Values in SI units and dimensions of the numbers, by name.
     variables
         Names of the displacement or deformation (m) and of its rate (m/s).
 
     Raises
     ------
     InputError
-        If it cannot be read, has an undeclared name, or its units do not fit; the line names the
-        column.
+        If the formula cannot be read, contains a name without a value, or has inconsistent units.
+        The message states the column.
     """
     if not isinstance(text, str):
-        raise InputError(f"formula: {shown(text)} is not a text; one such as 'k*u' is accepted")
+        raise InputError(f"formula: {shown(text)} is not a text; a text such as 'k*u' is accepted")
     if len(text) > _LONGEST:
         raise InputError(f"formula: it has {len(text)} characters; at most {_LONGEST} are accepted")
     try:
@@ -139,12 +139,12 @@ def read_formula(
     if unit is not None and not _same(unit, FORCE):
         refuse_at(1, f"the formula is {_words(unit)}, not a force")
     if made.kind == "number":
-        refuse_at(1, f"{text.strip()!r} does not depend on {variables[0]} or {variables[1]}")
+        refuse_at(1, f"{text.strip()!r} contains neither {variables[0]} nor {variables[1]}")
     return Formula(text.strip(), variables, made)
 
 
 def refuse_at(column: int, problem: str) -> NoReturn:
-    """Refuse a formula for what stands in a column.
+    """Raise an error about the part of a formula that starts in a column.
 
     Raises
     ------
@@ -169,7 +169,7 @@ def _words(unit: tuple[float, float, float]) -> str:
 
 
 class Reader:
-    """Turns the parser's tree into nodes, refusing all but formulas."""
+    """Converter of the parser's tree to nodes. It accepts only the operations of formulas."""
 
     _signs: ClassVar = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.Pow: "**"}
 
@@ -184,11 +184,11 @@ class Reader:
         self.units: dict[Node, Dimension] = {}
 
     def column(self, part: ast.expr) -> int:
-        """Where a part begins, from 1."""
+        """Return the column where a part starts, counted from 1."""
         return len(self.text.encode()[: part.col_offset].decode(errors="ignore")) + 1
 
     def read(self, part: ast.expr) -> Node:
-        """Read one part."""
+        """Return the node of a part of the tree."""
         at = self.column(part)
         text = ast.get_source_segment(self.text, part) or ""
         if isinstance(part, ast.Constant):
@@ -220,21 +220,21 @@ class Reader:
         )
 
     def named(self, name: str, at: int) -> Node:
-        """Read a variable or a declared number."""
+        """Return the node of a name, which is a variable or a number with a value."""
         if name in self.variables:
             return Node("variable", (), at, name)
         if name not in self.numbers:
             known = (*self.variables, *self.numbers)
             if name == "d":
-                refuse_at(
-                    at, "'d' is the deformation of a stop, whose law has a gap; 'u' is accepted"
-                )
+                refuse_at(at, "'d' is used for a stop, but this law has no gap; 'u' is accepted")
             if name == "u":
-                refuse_at(at, "'u' is the displacement, of an isolator; 'd' is accepted with a gap")
+                refuse_at(
+                    at, "'u' is used for an isolator, but this law has a gap; 'd' is accepted"
+                )
             refuse_at(
                 at,
-                f"{name!r} is not declared; {meant(name, known)}{', '.join(known)} are accepted, "
-                f"or {name}=... beside the formula",
+                f"{name!r} has no value; {meant(name, known)}{', '.join(known)} are accepted, or "
+                f"{name}=... as another argument",
             )
         if name not in self.used:
             self.used.append(name)
@@ -243,28 +243,28 @@ class Reader:
         return node
 
     def called(self, part: ast.Call, at: int, text: str) -> Node:
-        """Read a function's value."""
+        """Return the node of a function call."""
         name = part.func.id if isinstance(part.func, ast.Name) else ""
         if name in _REFUSED:
             refuse_at(at, f"{name} is not accepted: {_REFUSED[name]}")
         if name not in FUNCTIONS or part.keywords or len(part.args) != 1:
             what = (
-                f"{name!r} is not a function of formulas"
+                f"{name!r} is not a function that formulas accept"
                 if name and name not in FUNCTIONS
                 else f"{text!r} cannot be read"
             )
-            refuse_at(at, f"{what}; {', '.join(FUNCTIONS)} of one argument are accepted")
+            refuse_at(at, f"{what}; {', '.join(FUNCTIONS)} with one argument are accepted")
         inner = self.read(part.args[0])
         if name == "abs" and inner.kind not in ("number", "variable"):
             refuse_at(
                 at,
-                f"the absolute value of {inner.text!r} is not accepted, because its zero may lie "
+                f"the absolute value of {inner.text!r} is not accepted, because its corner may lie "
                 f"anywhere; abs({self.variables[0]}) and abs({self.variables[1]}) are accepted",
             )
         return self.made(name, (inner,), at, text)
 
     def power(self, base: Node, exponent: Node, at: int, text: str) -> Node:
-        """Read a power, whose exponent is a number."""
+        """Return the node of a power. The exponent must be a number."""
         if exponent.kind != "number":
             refuse_at(
                 exponent.column, f"the exponent {exponent.text!r} varies; a number is accepted"
@@ -282,7 +282,7 @@ class Reader:
         return self.made("**", (base, exponent), at, text)
 
     def made(self, kind: str, parts: tuple[Node, ...], at: int, text: str) -> Node:
-        """Make a node; one of numbers alone is a number."""
+        """Return a node of other nodes. If all of them are numbers, it is a number, too."""
         node = Node(kind, parts, at, text)
         unit = self.dimension(node)
         if all(part.kind == "number" for part in parts):
@@ -294,13 +294,13 @@ class Reader:
         return node
 
     def dimension(self, node: Node) -> Dimension:
-        """Check the units of a node whose parts have been checked."""
+        """Return the dimension of a node, and check its units on the first call."""
         if node not in self.units:
             self.units[node] = self.found(node)
         return self.units[node]
 
     def found(self, node: Node) -> Dimension:
-        """Find the unit of a node."""
+        """Compute the dimension of a node from the dimensions of its parts."""
         kind, parts = node.kind, node.parts
         if kind == "number":
             return None if node.text not in self.numbers else self.numbers[node.text][1]
@@ -312,8 +312,8 @@ class Reader:
             if one is not None and other is not None and not _same(one, other):
                 refuse_at(
                     parts[1].column,
-                    f"{parts[1].text!r} is {_words(other)} and is added to {parts[0].text!r}, "
-                    f"{_words(one)}",
+                    f"{parts[1].text!r} is {_words(other)}, but it is added to {parts[0].text!r}, "
+                    f"which is {_words(one)}",
                 )
             return one if other is None else other
         if kind in ("neg", "abs"):
@@ -337,7 +337,8 @@ class Reader:
         if inner is not None and not _same(inner, NONE):
             refuse_at(
                 parts[0].column,
-                f"{kind} of {parts[0].text!r}, {_words(inner)}; one without a unit is accepted",
+                f"the argument of {kind}, {parts[0].text!r}, is {_words(inner)}; a number without "
+                "a unit is accepted",
             )
         return NONE
 
@@ -349,7 +350,7 @@ def _literal(node: Node) -> bool:
 
 
 def value_of(node: Node, values: Mapping[str, float], by: str = "") -> tuple[float, float]:
-    """Return the value of a node and its derivative by a variable."""
+    """Return the value of a node, and its derivative with respect to the variable `by`."""
     kind = node.kind
     if kind == "number":
         return node.number, 0.0

@@ -1,4 +1,4 @@
-"""Terms of a formula: parity, divisors, and the list of operations that the engine emits."""
+"""Terms of a formula: their parity, their divisors, and the list of operations for the engine."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from vibroimpact.model.formula import (
 
 
 def parity(node: Node) -> int:
-    """Return ODD, EVEN or NEITHER."""
+    """Return whether a part of a formula is ODD, EVEN or NEITHER."""
     kind = node.kind
     if kind == "number":
         return EVEN
@@ -54,7 +54,7 @@ def terms(node: Node) -> list[tuple[float, Node]]:
 
 
 def monomial(node: Node, variables: Sequence[str]) -> tuple[float, tuple[float, ...]] | None:
-    """Return the factor and the powers of x, v, |x| and |v| of a product; None if it is none."""
+    """Return the factor and the powers of x, v, |x| and |v| in a product, or None if it is none."""
     kind = node.kind
     if kind == "number":
         return node.number, (0.0, 0.0, 0.0, 0.0)
@@ -83,30 +83,31 @@ def monomial(node: Node, variables: Sequence[str]) -> tuple[float, tuple[float, 
 
 
 def everywhere(node: Node) -> Iterator[Node]:
-    """All parts of a formula, itself first."""
+    """Yield all parts of a formula, beginning with the whole formula."""
     yield node
     for part in node.parts:
         yield from everywhere(part)
 
 
 _SIZES = [10.0 ** (0.05 * i) for i in range(-180, 81)]
-"""Of displacements (m) and velocities (m/s) at which a divisor must not have come to 0."""
+"""Displacements (m) and velocities (m/s) at which divisors are checked."""
 
 
 def check_divisors(formula: Formula, both_ways: bool) -> None:
-    """Refuse a divisor, or the base of a broken or negative power, that comes to 0.
+    """Raise an error if a divisor, or the base of a fractional or negative power, can become 0.
 
     Parameters
     ----------
     formula
-        What is checked.
+        The formula.
     both_ways
-        Whether the first variable may be below 0.
+        Whether the first variable may be negative.
 
     Raises
     ------
     InputError
-        The line names the column and where the divisor is 0.
+        If a divisor or such a base can become 0. The message states the column, and the values of
+        the variables.
     """
     for node in everywhere(formula.tree):
         if node.kind == "/":
@@ -168,18 +169,18 @@ def _check_nonzero(formula: Formula, node: Node, part: Node, above: bool, both_w
 def operations(
     signed: Sequence[tuple[float, Node]], variables: Sequence[str]
 ) -> tuple[list[str | int], list[float]]:
-    """Write a sum of terms in reverse Polish notation.
+    """Convert a sum of terms to reverse Polish notation.
 
     Returns
     -------
     operations, numbers
-        Names of operations as of `engine.series.program`; behind some stands an index of the
-        numbers, or a whole exponent.
+        Names of operations as in `engine.series.program`. After some operations, there is an index
+        of the numbers, or a whole exponent.
 
     Raises
     ------
     InputError
-        If it has more than there is room for.
+        If there are too many operations or numbers.
     """
     found: list[str | int] = []
     numbers: list[float] = []

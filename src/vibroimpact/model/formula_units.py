@@ -75,13 +75,13 @@ def check_numbers(
     Parameters
     ----------
     formula
-        Text that may not have been checked.
+        Formula, as text.
     numbers
-        Values in SI units and the dimensions that were stated, by name.
+        Values in SI units and stated dimensions of the numbers, by name.
     given
-        The same numbers as the user wrote them.
+        The numbers as they were passed by the user.
     variables
-        Names of displacement and velocity.
+        Names of the displacement and of the velocity.
     """
     stated = [name for name, (_, dimension) in numbers.items() if dimension is not None]
     if not stated:

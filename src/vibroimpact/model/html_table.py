@@ -1,4 +1,4 @@
-"""Tables that a notebook shows."""
+"""HTML tables for notebooks."""
 
 from __future__ import annotations
 

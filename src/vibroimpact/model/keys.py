@@ -1,22 +1,22 @@
-"""Keys of tables in messages: those that are accepted, and the one that an unknown one may mean."""
+"""Lists of accepted keys in messages, and suggestions for unknown keys."""
 
 from __future__ import annotations
 
 import difflib
 
 MOST = 5
-"""Unknown keys that a message names; looking for what is meant takes long for many."""
+"""Largest number of unknown keys in a message. A search for suggestions takes long for many."""
 SHOWN = 60
-"""Letters of a key that a message shows."""
+"""Largest number of characters of a key in a message."""
 
 
 def listed(keys: list[str]) -> str:
-    """Write keys as a list in words."""
+    """Return keys as a list in words, such as ``"mass, right and left"``."""
     return " and ".join(filter(None, (", ".join(keys[:-1]), keys[-1])))
 
 
 def unknown_key(keys: list[str], name: str) -> str:
-    """Say that a key is unknown, which are accepted, and which may be meant."""
+    """Describe the error of an unknown key, with the accepted keys and a suggestion."""
     close = difflib.get_close_matches(name[:SHOWN], keys, n=1, cutoff=0.7)
-    hint = f", perhaps {close[0]} is meant" if close else ""
+    hint = f"; did you mean {close[0]}?" if close else ""
     return f"unknown key; {listed(keys)} are accepted{hint}"

@@ -1,4 +1,4 @@
-"""Largest free response of a linear isolator over all frequencies, in closed form."""
+"""Largest response without stops over all frequencies, for a linear isolator, in closed form."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from vibroimpact.model.quantities import ACCELERATION
 from vibroimpact.model.units import to_si
 
 _NO_DAMPING = 1e-150
-"""A damping ratio below which the peak is larger than any number."""
+"""Damping ratio below which the peak is larger than the largest floating-point number."""
 _ALL_DAMPING = 1e100
-"""Damping ratio from which on the mass moves with the base, to rounding."""
+"""Damping ratio above which the mass moves with the base, except for rounding errors."""
 
 
 def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
-    """Return the largest displacement amplitude in free flight, over all frequencies.
+    """Return the largest displacement amplitude without stops, over all frequencies.
 
-    u_max = A/(2ξ√(1-ξ²) ω0²), reached at ω = ω0√(1-2ξ²).
+    It is u_max = A/(2ξ√(1-ξ²) ω0²), at ω = ω0√(1-2ξ²).
 
     Parameters
     ----------
     oscillator
-        The oscillator; its stops are left out of account.
+        The oscillator. Its stops are ignored.
     amplitude
-        Peak base acceleration A in m/s², or text with units.
+        Peak base acceleration A in m/s², or text with a unit.
 
     Returns
     -------
@@ -47,25 +47,25 @@ def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
 def largest_free_flight(
     angular_frequency: float, damping_ratio: float, amplitude: float
 ) -> tuple[float, float]:
-    """Return the largest amplitudes in free flight, over all frequencies.
+    """Return the largest amplitudes without stops, over all frequencies.
 
-    Of the displacement A/(2ξ√(1-ξ²) ω0²) (see ``peak_displacement``), or A/ω0², which it comes
-    close to at low frequencies, if ξ is at least 1/√2. Of the absolute acceleration
-    A √(1 + 4ξ²r²)/√((1 - r²)² + 4ξ²r²) at r² = 2/(1 + √(1 + 8ξ²)).
+    The amplitude of the displacement is A/(2ξ√(1-ξ²) ω0²) (see ``peak_displacement``). If ξ is at
+    least 1/√2, it is A/ω0², its limit at low frequencies. The amplitude of the absolute
+    acceleration is A √(1 + 4ξ²r²)/√((1 - r²)² + 4ξ²r²) at r² = 2/(1 + √(1 + 8ξ²)).
 
     Parameters
     ----------
     angular_frequency
-        ω0 in rad/s.
+        Natural angular frequency ω0 in rad/s.
     damping_ratio
-        ξ; with 0 both are infinite.
+        Damping ratio ξ. If it is 0, both amplitudes are infinite.
     amplitude
         Peak base acceleration A in m/s².
 
     Returns
     -------
     tuple of float
-        In m and m/s².
+        Amplitudes of the displacement (m) and of the absolute acceleration (m/s²).
     """
     xi, static = damping_ratio, amplitude / angular_frequency**2
     if xi < _NO_DAMPING:
@@ -80,12 +80,12 @@ def largest_free_flight(
 
 
 def peak_of(mass: float, stiffness: float, damping_ratio: float, amplitude: float) -> float:
-    """Return the largest displacement amplitude in free flight (m), by which gaps are scaled.
+    """Return the largest displacement amplitude without stops (m), which scales the gaps.
 
     Raises
     ------
     InputError
-        If there is no finite peak.
+        If there is no finite resonance peak.
     """
     if not 0.0 < damping_ratio < math.sqrt(0.5):
         raise InputError(

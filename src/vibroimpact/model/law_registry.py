@@ -1,12 +1,12 @@
-"""Laws that a study file names by their kind.
+"""Classes of laws, which the key ``kind`` of a table selects in a study file.
 
-A part of a rig may follow one of several laws, each a class of its own. In a table, ``kind``
-says which::
+A part of a rig can have one of several laws. Each law is a class. In a table, ``kind`` selects the
+law::
 
     right = { kind = "rigid", restitution = 0.8, gap = "7.5 mm" }
 
-One law of each part is the usual one and needs no ``kind``. A new law is a class derived from
-`Named`, and one more entry in the `Kinds` of the field that holds it.
+One law of each part is the default and needs no ``kind``. A new law is a class derived from
+`Named`, and an entry in the `Kinds` of the field that contains the law.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ class Named(Model):
     """A model object whose table has a kind."""
 
     kind: ClassVar[str]
-    """Its name in a table."""
+    """Name of the law in a table."""
     usual: ClassVar[bool] = False
-    """Whether it is what a table without a kind describes."""
+    """Whether a table without a kind describes this law."""
 
     @constructor
     def __init__(self, /, **values: Any) -> None:
@@ -57,15 +57,15 @@ class Named(Model):
         return found if self.usual else {"kind": self.kind, **found}
 
     def rows(self) -> list[tuple[str, str]]:
-        """As for every part of the model, with its kind first unless it is the usual one."""
+        """Return the rows of `Model.rows`, after the kind of the law if it is not the default."""
         return super().rows() if self.usual else [("kind", self.kind), *super().rows()]
 
 
 class Kinds(Choice):
-    """Annotation of a field: which classes it takes, told apart by ``kind``.
+    """Annotation of a field that accepts several classes. The key ``kind`` selects the class.
 
-    ``Annotated[Bumper | RigidStop | None, Kinds(Bumper, RigidStop)]`` is one of the two, or a
-    table of one of the two, or None.
+    ``Annotated[Bumper | RigidStop | None, Kinds(Bumper, RigidStop)]`` accepts an object or a table
+    of one of the two classes, or None.
     """
 
     def __init__(self, *classes: type[Named]) -> None:
@@ -73,13 +73,13 @@ class Kinds(Choice):
         (self.usual,) = (one.kind for one in classes if one.usual)
 
     def kind_of(self, value: Any) -> str:
-        """The kind of an object or a table; what is neither passes for the usual one."""
+        """Return the kind of an object or a table, or the default kind for any other value."""
         if isinstance(value, Mapping):
             return str(value.get("kind", self.usual))
         return value.kind if isinstance(value, Named) else self.usual
 
     def unknown(self, value: Any) -> str:
-        """Say what is wrong with the kind of a table."""
+        """Describe the error of a table with an unknown kind."""
         *names, last = map(repr, self.classes)
         known = f"{', '.join(names)} or {last}" if names else last
         kind = value["kind"] if isinstance(value, Mapping) else self.kind_of(value)
@@ -88,7 +88,7 @@ class Kinds(Choice):
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
     ) -> CoreSchema:
-        """Tell pydantic to choose the class by the kind."""
+        """Return a schema with which pydantic selects the class by the kind."""
         schema: CoreSchema = core_schema.tagged_union_schema(
             {kind: handler.generate_schema(one) for kind, one in self.classes.items()},
             self.kind_of,

@@ -1,4 +1,4 @@
-"""Names that users give: what they may hold, and what they are in files and in figures."""
+"""Names that users choose: accepted characters, and their form in file names and figures."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from typing import Any
 from vibroimpact.errors import UNPRINTABLE, InputError, printable, shown
 
 _LONGEST = 200
-"""Letters of a name."""
+"""Largest number of characters of a name."""
 _LONGEST_STEM = 140
-"""Bytes of a file name's first part: file systems take 255 in all."""
+"""Largest number of bytes of the first part of a file name. File systems allow 255 in total."""
 
 
 def check_name(name: Any, field: str) -> str:
-    """Read a name that is printed, drawn and written into files.
+    """Check a name that is printed, drawn and written into files, and return it.
 
     Raises
     ------
     InputError
-        If it is not a text, is longer than 200 characters, or has control characters or line
-        breaks.
+        If the name is not a text, is longer than 200 characters, or contains control characters or
+        line breaks.
     """
     if not isinstance(name, str):
         raise InputError(f"{field}: {shown(name)}; a text is accepted")
@@ -44,7 +44,7 @@ def literal(name: str) -> str:
 
 
 def file_stems(names: Iterable[str]) -> dict[str, str]:
-    """File names of several names, by name: those that would share one end with a hash."""
+    """Return file names for several names. Equal file names are distinguished by a hash."""
     stems = {name: file_stem(name) for name in names}
     many = Counter(stem.lower() for stem in stems.values())
     return {
@@ -64,16 +64,19 @@ def _kept(sign: str) -> bool:
 
 
 def kept_letters(text: str) -> str:
-    """What of a text may stand in a file's name, with ``_`` for the rest: texts may share it."""
+    """Return a text with ``_`` in place of characters that a file name should not contain.
+
+    Different texts may give the same result.
+    """
     signs = [sign if _kept(sign) else " " for sign in text]
     return re.sub("[ _]+", "_", "".join(signs)).strip("_.")
 
 
 def file_stem(name: str) -> str:
-    """A name as the first part of a file's name: letters and digits of any script, ``.+-_``.
+    """Return the first part of a file name: letters and digits of any script, and ``.+-_``.
 
-    Blanks become ``_``. If more is left out, or the name is long, a hash distinguishes it from
-    others.
+    Blanks become ``_``. If other characters are left out, or if the name is long, a hash is
+    appended, so that different names give different file names.
     """
     whole = unicodedata.normalize("NFC", name)
     stem = kept_letters(whole)

@@ -137,8 +137,8 @@ class Oscillator(Model):
             if not least <= size <= _MOST:
                 raise InputError(
                     f"mass {m:g} kg, stiffness {k:g} N/m and damping {self.isolator.damping:g} "
-                    f"N s/m: the {what}, about {size:.0e}, is outside the range that can be "
-                    f"computed with; a value between {least:g} and {_MOST:g} is accepted"
+                    f"N s/m: the {what}, about {size:.0e}, is outside the computable range; a "
+                    f"value between {least:g} and {_MOST:g} is accepted"
                 )
         return self
 
@@ -225,8 +225,8 @@ class Oscillator(Model):
         self._springs("damping ratio")
         if self.isolator.damping_exponent != 1.0:
             raise InputError(
-                f"isolator.damping_exponent: {self.isolator.damping_exponent:g}, so the damping "
-                "ratio is undefined because it depends on the velocity; 1 is accepted"
+                f"isolator.damping_exponent: {self.isolator.damping_exponent:g}; the damping ratio "
+                "would depend on the velocity, so it is undefined; 1 is accepted"
             )
         return 2.0 * math.sqrt(self.isolator.initial_stiffness * self.mass)
 
@@ -234,7 +234,7 @@ class Oscillator(Model):
         if self.isolator.initial_stiffness == 0.0:
             raise InputError(
                 f"isolator.stiffness: 0, so there is no {what}; a stiffness greater than 0 "
-                "is accepted, or values that do not need it, such as frequencies in Hz"
+                f"is accepted, or values that do not require a {what}, such as frequencies in Hz"
             )
 
     @property

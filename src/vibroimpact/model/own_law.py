@@ -208,7 +208,7 @@ class Law(Named):
 
     @property
     def operations(self) -> tuple[list[str | int], list[float]]:
-        """What the engine evaluates in reverse Polish notation, and the numbers in it.
+        """The operations that the engine evaluates, in reverse Polish notation, and their numbers.
 
         For an isolator, this part contains the terms that built-in laws do not have. For a stop, it
         contains all terms.
@@ -304,8 +304,8 @@ def _check_odd(read: Formula) -> None:
         if parity(term) != ODD:
             raise InputError(
                 f"formula: column {term.column}: {term.text!r} does not change its sign with u and "
-                "v, as the force of an isolator does; odd powers, sinh, sin, tanh, and products "
-                "with abs or even powers are accepted"
+                "v, as the force of an isolator must; odd powers, sinh, sin, tanh, and their "
+                "products with abs or even powers are accepted"
             )
 
 

@@ -1,8 +1,8 @@
-"""The parameters of a rig and its forcing: one registry for all that varies them.
+"""The registry of the parameters of a rig and its shaking.
 
-Branches, curves, maps and the command line ask here for the name, the unit and the meaning of a
-parameter, and for its value in a rig and the rig at another value. A new one is one entry of
-`PARAMETERS`.
+For each parameter, the registry contains the name, the unit and the meaning, and functions that
+read its value from a rig and set another value. Branches, curves, maps and the command line use
+this registry. A new parameter is a new entry of `PARAMETERS`.
 """
 
 from __future__ import annotations
@@ -48,11 +48,11 @@ _UNITS = {
     power_stiffness(3.0): "N m-3",
     power_stiffness(5.0): "N m-5",
 }
-"""As datasets write them; units of laws with other exponents as they are."""
+"""Units as they are written in datasets. For other quantities, the symbol is written."""
 
 
 def in_units(units: str) -> Quantity:
-    """What a dataset's units are those of."""
+    """Return the quantity that has these units in a dataset."""
     return next(quantity for quantity, text in _UNITS.items() if text == units)
 
 
@@ -60,38 +60,38 @@ _PEAKS = {"displacement": "peak base displacement", "force": "peak force on the 
 
 
 class Parameter(NamedTuple):
-    """One quantity that can be varied."""
+    """A parameter of a rig that can be varied."""
 
     name: str
     quantity: Quantity
     long_name: str
     read: Read
-    """Its value in a rig; refused where the rig has none."""
+    """Function that returns the value in a rig, or raises an error if the rig has no such value."""
     vary: Vary
-    """The rig at another value."""
+    """Function that returns the rig with another value."""
     zero: bool = True
-    """Whether it may be 0."""
+    """Whether the value 0 is accepted."""
     comment: str = ""
-    """Its definition."""
+    """Definition of the parameter."""
     least: float | None = 0.0
     most: float | None = None
-    """What it may not fall below and not exceed; None for no bound."""
+    """Lowest and highest accepted value. None if there is no bound."""
     measured: Callable[[Oscillator], Quantity] | None = None
-    """What it is in a rig, where its unit depends on an exponent of the rig."""
+    """Function that returns the quantity in a rig, if an exponent of the rig sets the unit."""
     straight: bool = True
-    """Whether it moves the rig's numbers along a straight line, as what is followed must."""
+    """Whether the numbers of the rig depend linearly on the parameter. Branches require this."""
 
     @property
     def units(self) -> str:
-        """The SI unit, as datasets write it."""
+        """The SI unit, as it is written in datasets."""
         return _UNITS.get(self.quantity, self.quantity.symbol)
 
     def of(self, rig: Oscillator) -> Parameter:
-        """As it is in a rig: the unit of a damping or a stiffness may depend on an exponent."""
+        """Return the parameter with its unit in a rig, which may depend on an exponent."""
         return self if self.measured is None else self._replace(quantity=self.measured(rig))
 
     def beside(self, value: float, factor: float = 2.0) -> float:
-        """Another value that it may have, so many times as large or as small; 0 counts as 1."""
+        """Return another accepted value: `factor` times as large or as small, or for 0 near 1."""
         larger = factor * value if value else factor - 1.0
         if self.most is None or larger <= self.most:
             return larger
@@ -99,17 +99,17 @@ class Parameter(NamedTuple):
 
     @property
     def physical(self) -> bool:
-        """Whether it has a unit."""
+        """Whether the parameter has a unit."""
         return self.quantity is not DIMENSIONLESS
 
 
 def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> Parameter:
-    """Look up a parameter; `of` names the quantity of an amplitude.
+    """Return the parameter with a given name. `of` is the quantity of an amplitude.
 
     Raises
     ------
     InputError
-        If no parameter has that name.
+        If no parameter has this name.
     """
     key = name.replace("-", "_") if isinstance(name, str) else ""
     if key not in PARAMETERS:
@@ -125,7 +125,7 @@ def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[flo
     Raises
     ------
     InputError
-        If it is not a pair, a value is invalid, or the range is empty.
+        If the range is not a pair, if a value is invalid, or if the range is empty.
     """
     if not is_pair(span):
         raise InputError(
@@ -240,7 +240,7 @@ _FORMULAS = {
 
 
 class Registry(dict[str, Parameter]):
-    """Parameters by name, also those of the numbers of any formula, which are not iterated over."""
+    """Parameters by name. An iteration leaves out the parameters for the numbers of formulas."""
 
     def __contains__(self, name: object) -> bool:
         return dict.__contains__(self, name) or (isinstance(name, str) and bool(_of_formula(name)))
@@ -252,7 +252,7 @@ class Registry(dict[str, Parameter]):
         return found
 
     def get(self, name: str, default: Any = None) -> Any:
-        """Return the parameter, or a default where there is none."""
+        """Return the parameter with this name, or the default if there is none."""
         return dict.get(self, name) or _of_formula(name) or default
 
 
@@ -363,6 +363,7 @@ PARAMETERS = Registry(
         ),
     )
 )
-"""By name. `bumper_stiffness` keeps the bumpers' damping C_j, `proportional_stiffness` and
-`stiffness_ratio` keep their C_j/K_j, `stiffness_at_restitution` their C_j/√K_j, `isolator_period`
-keeps the damping ratio, and the ratios keep the other quantities that they are made of."""
+"""Parameters by name. `bumper_stiffness` does not change the damping C_j of the bumpers.
+`proportional_stiffness` and `stiffness_ratio` do not change their C_j/K_j, and
+`stiffness_at_restitution` does not change their C_j/√K_j. `isolator_period` does not change the
+damping ratio. The ratios do not change the other quantities in their definitions."""

@@ -1,4 +1,4 @@
-"""The kinds of physical quantities: which units each takes and how it is written."""
+"""Physical quantities: their units, and how their values are written."""
 
 from __future__ import annotations
 
@@ -13,16 +13,17 @@ GRAVITY = 9.80665
 
 
 class Scale(NamedTuple):
-    """A unit for printing, and from which size on it is used."""
+    """A unit for printed values."""
 
     least: float
+    """Smallest value (in SI units) that is printed in this unit."""
     size: float
-    """In SI units."""
+    """Size of the unit in SI units."""
     symbol: str
 
 
 def fitting(values: Iterable[float], scales: tuple[Scale, ...]) -> Scale:
-    """The unit in which the largest of some values is written; the SI unit of zeros."""
+    """Return the unit in which the largest of the values is written; the SI unit for zeros."""
     largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
     if largest == 0.0:
         return next((scale for scale in scales if scale.size == 1.0), scales[0])
@@ -31,24 +32,23 @@ def fitting(values: Iterable[float], scales: tuple[Scale, ...]) -> Scale:
 
 @dataclass(frozen=True, slots=True)
 class Quantity:
-    """A kind of physical quantity: which units it takes and how it is written.
+    """A physical quantity, with its units.
 
     Attributes
     ----------
     name
-        What it is called in messages, such as ``"length"``.
+        Name in messages, such as ``"length"``.
     base
-        Exponents of the SI base units, with the radian counted as a base unit so that an
-        angle is distinguished from a ratio and an angular frequency from a frequency.
+        Exponents of the SI base units. The radian counts as a base unit, so that an angle differs
+        from a ratio, and an angular frequency from a frequency.
     symbol
         The SI unit, such as ``"m"``; empty for a ratio.
     example
-        Text with units that is accepted, such as ``"15 mm"``.
+        Accepted text with a unit, such as ``"15 mm"``.
     number
-        The same example as a plain SI number.
+        The same example as a number in SI units.
     scales
-        Units for printing, largest first: (smallest size printed in it, its size in SI units,
-        its symbol).
+        Units for printed values, from the largest to the smallest.
     """
 
     name: str
@@ -59,7 +59,7 @@ class Quantity:
     scales: tuple[Scale, ...]
 
     def unit(self, *values: float) -> Scale:
-        """The unit in which the largest of some values is written; that of 1 for zeros."""
+        """Return the unit in which the largest of the values is written; the SI unit for zeros."""
         return fitting(values, self.scales)
 
     @property
@@ -184,7 +184,7 @@ DECAY = Quantity(
 
 @cache
 def power_stiffness(exponent: float) -> Quantity:
-    """Force over length to a power: the k of k uⁿ, in N/mⁿ; the stiffness for n = 1."""
+    """Return the quantity of k in a force k uⁿ, in N/mⁿ. For n = 1 it is the stiffness."""
     if exponent == 1.0:
         return STIFFNESS
     power = _SUPERSCRIPTS.get(exponent, f"^{exponent:g}")
@@ -208,7 +208,7 @@ def power_stiffness(exponent: float) -> Quantity:
 
 @cache
 def power_damping(exponent: float) -> Quantity:
-    """Force over velocity to a power: the c of c |v|^α sgn v; the damping for α = 1."""
+    """Return the quantity of c in a force c |v|^α sgn v. For α = 1 it is the damping."""
     if exponent == 1.0:
         return DAMPING
     over = f"(s/m)^{exponent:g}"
@@ -228,7 +228,7 @@ def power_damping(exponent: float) -> Quantity:
 
 @cache
 def in_base_units(mass: float, length: float, time: float) -> Quantity:
-    """A quantity by its powers of mass, length and time, written in kg, m and s."""
+    """Return the quantity with these powers of mass, length and time, written in kg, m and s."""
     named = zip(("kg", "m", "s"), (mass, length, time), strict=True)
     symbol = " ".join(
         f"{name}^{power:g}" if power != 1.0 else name for name, power in named if power
@@ -244,7 +244,7 @@ def in_base_units(mass: float, length: float, time: float) -> Quantity:
 
 
 _SUPERSCRIPTS = {2.0: "²", 3.0: "³"}
-"""Exponents that a unit shows raised."""
+"""Exponents that are written as superscripts."""
 
 
 def _base(mass: float, length: float, time: float) -> tuple[tuple[str, float], ...]:

@@ -1,4 +1,4 @@
-"""Read what stands for a rig: a `Rig`, a laboratory case, its code, or the path of a study file."""
+"""Read a rig: a `Rig`, a laboratory case or its code, or the path of a study file."""
 
 from __future__ import annotations
 
@@ -33,41 +33,43 @@ def as_rig(
     where: str = "rig",
     oscillator_alone: bool = False,
 ) -> Rig:
-    """Read a rig.
+    """Return the rig that an argument describes.
 
     Parameters
     ----------
     value
-        What a function was given as a rig.
+        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
+        path of a study file.
     frequency
-        In Hz, or text with a unit; replaces that of the rig. None leaves it as it is.
+        Forcing frequency in Hz, or text with a unit. Default: the frequency of the rig.
     where
-        The argument, which the error names.
+        Name of the argument in error messages.
     oscillator_alone
-        Whether an `Oscillator` is accepted, if another argument gives the shaking.
+        Whether an `Oscillator` without shaking is accepted. Default: False.
 
     Raises
     ------
     InputError
-        If it is not a rig, there is no such case, the study file cannot be used, or the rig has
-        no frequency because a record shakes it.
+        If the value is not a rig, or if the study file is invalid. Also if a frequency is passed,
+        but a record shakes the rig.
     """
     rig = _read(value, where, oscillator_alone)
     return rig if frequency is None else rig.at(frequency)
 
 
 def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> dict[str, Rig]:
-    """Read one rig or several: an iterable, or a mapping from names to rigs.
+    """Return one or several rigs by their names. Several rigs are a list or a mapping from names.
 
     Returns
     -------
     dict
-        From names to rigs, in their order. A rig without a name is called by its position.
+        Mapping from names to rigs, in the same order. The name of a rig without a name is its
+        position.
 
     Raises
     ------
     InputError
-        If there is none, or one is not a rig.
+        If there are no rigs, or if one of them is not a rig.
     """
     alone = is_one_rig(rigs) or not (is_list(rigs) or isinstance(rigs, Mapping))
     if isinstance(rigs, Mapping):
@@ -91,7 +93,7 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
 
 
 def is_one_rig(value: object) -> bool:
-    """Whether a value is one rig, or is meant to be, rather than several."""
+    """Return whether a value is one rig, or part of one rig, instead of several rigs."""
     return isinstance(value, Rig | Case | Oscillator | str | Path)
 
 
@@ -124,7 +126,7 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
 
 
 def from_lowest(rig: Rig, parameter: str, span: Any) -> Rig:
-    """Return a rig at the lowest frequency of a span, if the frequency is varied and left open."""
+    """Return the rig. If its frequency is open and varied, set the lowest frequency of the span."""
     open_and_varied = isinstance(parameter, str) and parameter == "frequency"
     if rig.frequency is None and open_and_varied and is_pair(span):
         return rig.at(next(iter(span)))

@@ -18,7 +18,7 @@ from vibroimpact.records.commas import checked
 from vibroimpact.records.doubts import of_size
 
 _RESOLVED = 1.5
-"""By how much the peak of a second derivative may grow when the samples left out are used."""
+"""Largest ratio of the peaks of the second derivative from all and from every second sample."""
 
 
 _OFF = 0.05
@@ -91,8 +91,8 @@ class Record:
         station, label
             Names of the station and of the component. They replace the names in the file.
         decimal
-            Decimal mark of a table, ``"."`` or ``","``. Default: detected from the table. If the
-            table is ambiguous, the mark is required.
+            Decimal mark of the numbers, ``"."`` or ``","``, if the file is a text table. Default:
+            detected from the table. If the table is ambiguous, the mark is required.
 
         Raises
         ------
@@ -110,11 +110,14 @@ class Record:
             raise InputError(f"record: {str(path)!r}: {error}") from None
         notes = list(about.notes)
         if quantity is LENGTH:
-            notes.append("displacements, differentiated twice")
+            notes.append("the values are displacements, which were differentiated twice")
         mean = float(record.acceleration.mean())
         if abs(mean) > _OFF * record.peak:
             share = 100.0 * abs(mean) / record.peak
-            told = f"mean {pretty(mean, ACCELERATION)} not subtracted, {share:.3g} % of the peak"
+            told = (
+                f"the mean, {pretty(mean, ACCELERATION)} or {share:.3g} % of the peak, was not "
+                "subtracted"
+            )
             notes.append(told)
         notes += of_size(record.peak, about.unit if quantity is ACCELERATION else "")
         record._about = about._replace(
@@ -259,10 +262,10 @@ class Record:
         first, behind = round(begins / self._step), min(round(ends / self._step), last) + 1
         if behind - first < 2:
             raise InputError(
-                f"end: {ends:g}, with start {begins:g}; at least 2 samples, {self._step:g} s "
-                "apart, are accepted"
+                f"end: {ends:g} s leaves fewer than 2 samples after the start, {begins:g} s; the "
+                f"samples are {self._step:g} s apart, and at least 2 are accepted"
             )
-        told = f"cut to {first * self._step:g} to {(behind - 1) * self._step:g} s"
+        told = f"cut to the part from {first * self._step:g} to {(behind - 1) * self._step:g} s"
         return self._changed(self._acceleration[first:behind], told)
 
     def levelled(self, baseline: Literal["mean", "line"] = "mean") -> Record:
@@ -354,8 +357,8 @@ def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDA
         ) from None
     if found.ndim != 1 or len(found) < least:
         raise InputError(
-            f"{field}: {f'{len(found)} given' if found.ndim == 1 else f'shape {found.shape}'}; at "
-            f"least {least} samples in {quantity.symbol} in one sequence are accepted"
+            f"{field}: {f'{len(found)} given' if found.ndim == 1 else f'shape {found.shape}'}; one "
+            f"sequence of at least {least} samples in {quantity.symbol} is accepted"
         )
     for i in np.flatnonzero(~np.isfinite(found))[:1]:
         raise InputError(f"{field}[{i}]: {found[i]} is not finite; finite samples are accepted")

@@ -1,15 +1,15 @@
-"""Restitution of a Kelvin-Voigt contact that pushes and never pulls.
+"""Coefficient of restitution of a Kelvin-Voigt contact, which can push, but not pull.
 
-A mass M meets a bumper K_j, C_j with velocity v, and nothing else acts. With
-z = C_j/(2√(K_j M)), the contact force falls to zero, and the contact ends, when the mass returns
-with e v,
+A mass M hits a bumper K_j, C_j with the velocity v, without other forces. With z = C_j/(2√(K_j M)),
+the contact force falls to zero and the contact ends when the mass returns with the velocity e v.
+The coefficient of restitution e follows from
 
     -ln e = 2 z arccos z/√(1 - z²),    z < 1,
     -ln e = 2 s coth s, z = cosh s,    z > 1,
 
-and 2 at z = 1 (Schwager and Pöschel, Granular Matter 9 (2007) 465-469). A contact that lasted
-until the bumper is back at rest, and so pulled, would return less: the formula
-z = -ln e/√(π² + ln² e) is for that one.
+and -ln e = 2 at z = 1 (Schwager and Pöschel, Granular Matter 9 (2007) 465-469). The usual formula
+z = -ln e/√(π² + ln² e) is for another contact, which lasts until the bumper is undeformed again.
+That contact pulls at its end, and its rebound velocity is lower.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from collections.abc import Callable
 
 
 def damping_ratio(restitution: float) -> float:
-    """Return z for a restitution e between 0 (excluded) and 1.
+    """Return z for a coefficient of restitution e, greater than 0 and at most 1.
 
-    -ln e rises with z, so halving a bracket finds it.
+    -ln e increases with z, so that bisection finds z.
     """
     loss = -math.log(restitution)
     if loss == 0.0:

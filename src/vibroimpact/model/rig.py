@@ -172,7 +172,7 @@ class Rig:
             as_periodic(self.shaking, "shaking")  # which says what is wrong
         if self.frequency is None:
             raise InputError(
-                "frequency: missing, and the rig leaves it open; a frequency greater than 0 is "
+                "frequency: missing, and the rig does not state it; a frequency greater than 0 is "
                 'accepted, such as frequency="2 Hz" or Rig(oscillator, Harmonic("0.05 g", "2 Hz"))'
             )
 
@@ -312,5 +312,5 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
 def _misplaced(value: object) -> str:
     """Describe the value that was passed instead of an oscillator."""
     if isinstance(value, Harmonic | Periodic | Record):
-        return f"a {type(value).__name__} is the shaking, which is the second argument"
+        return f"a {type(value).__name__} is a shaking, which is the second argument"
     return f"{shown(value)} is not an Oscillator"

@@ -1,6 +1,6 @@
-"""The rig of a study file, in TOML: a case of the laboratory, or an oscillator and what shakes it.
+"""The rig of a study file in TOML: a laboratory case, or an oscillator with its shaking.
 
-The tables of the commands, such as ``[sweep]``, are theirs: see `vibroimpact.cli.study`.
+The tables of the commands, such as ``[sweep]``, are read by `vibroimpact.cli.study`.
 """
 
 from __future__ import annotations
@@ -26,16 +26,17 @@ from vibroimpact.model.validation import Accepts, Model, validate
 _Study = TypeVar("_Study", bound="RigStudy")
 
 _DEEPEST = 20
-"""Levels of tables and lists in a study file."""
+"""Largest number of levels of nested tables and lists in a study file."""
 _DEEP = f"nests tables or lists too deeply; at most {_DEEPEST} levels are accepted"
 
 
 class ExcitationTable(Model):
-    """``[excitation]``: what shakes the mass, at whatever frequency; or a record in a file.
+    """Table ``[excitation]``: the periodic shaking without its frequency, or the file of a record.
 
-    An amplitude is one of acceleration, displacement or force, by its unit. A record stands beside
-    the study file; its `component` where the file has several, its `step` (s), its `unit` and its
-    `decimal` mark if the file does not state them; a unit may be one of length.
+    The unit of an amplitude determines whether it is an acceleration, a displacement or a force.
+    The path of a record is relative to the study file. `component` is required if its file has
+    several components. `step` (s), `unit` and `decimal` are required if the file does not state
+    them. The unit may be a unit of length.
     """
 
     amplitude: float | str | None = None
@@ -63,12 +64,12 @@ class ExcitationTable(Model):
         return self
 
     def shaking(self, folder: Path) -> Repeated | Record | None:
-        """What it describes; paths are relative to the folder.
+        """Return the shaking. The path of a record is relative to `folder`.
 
         Raises
         ------
         InputError
-            If the record cannot be read, or a value cannot be used.
+            If the record cannot be read, or if a value is invalid.
         """
         if self.record is not None:
             return Record.read(
@@ -87,7 +88,7 @@ class ExcitationTable(Model):
 
 
 class RigStudy(Model):
-    """A study file, of which the tables of commands are let be."""
+    """A study file. The tables of the commands are not checked."""
 
     name: str | None = None
     case: str | None = None
@@ -107,7 +108,7 @@ class RigStudy(Model):
             none = self.case is None
             given = "neither case nor oscillator is" if none else "both case and oscillator are"
             raise InputError(
-                f'{given} given; exactly one of them is accepted, such as case = "B2-G1-A3"'
+                f'{given} given; exactly one of the two is accepted, such as case = "B2-G1-A3"'
             )
         if self.parameters is not None and self.case is None:
             raise InputError(
@@ -116,19 +117,19 @@ class RigStudy(Model):
         return self
 
     def rig(self, path: Path, parameters: Parameters | None = None) -> Rig:
-        """The rig that is described; the frequency of a periodic shaking is left open.
+        """Return the rig of the study. The frequency of a periodic shaking is open.
 
         Parameters
         ----------
         path
-            Of the file, from which records are found.
+            Path of the study file, to which the paths of records are relative.
         parameters
-            Of a case, instead of those that the study names.
+            Parameter set of a laboratory case. Default: the set in the study.
 
         Raises
         ------
         InputError
-            If there is no such case, a record cannot be read, or a value cannot be used.
+            If there is no such case, if a record cannot be read, or if a value is invalid.
         """
         where, name = f"study {str(path)!r}", self.name or printable(path.stem)
         try:
@@ -152,15 +153,15 @@ def read_study(path: Path, kind: type[_Study]) -> _Study:
     Parameters
     ----------
     path
-        Where it is.
+        Path of the file.
     kind
-        What is read of it.
+        Class of the study, which determines the tables that are read.
 
     Raises
     ------
     InputError
-        If it cannot be read, is not TOML, has an unknown key or a value that cannot be used;
-        the line names the file and the path of the key in it.
+        If the file cannot be read, is not TOML, or has an unknown key or an invalid value. The
+        message states the file and the path of the key.
     """
     try:
         # Some editors put a mark before the text, which "-sig" leaves out.
@@ -206,6 +207,6 @@ def read_rig_study(path: Path) -> Rig:
     Raises
     ------
     InputError
-        As of `read_study` and `RigStudy.rig`.
+        As in `read_study` and `RigStudy.rig`.
     """
     return read_study(path, RigStudy).rig(path)

@@ -1,11 +1,11 @@
-"""Resonances without bound: free flight that no dashpot, no spring and no stop holds.
+"""Unbounded resonances: motions without stops whose amplitude grows without limit.
 
-Where the force of an isolator is K u + q with |q| at most Q, and there is no dashpot, let the
-harmonic n of what shakes it have the natural frequency √(K/M) and the size M A_n. Multiplied by
-the free motion of that phase and taken over a cycle, the equation of motion says how fast this
-motion grows: by the work of M A_n, less than that of q, which is at most 4 Q/π times as large as
-that of a unit sine. Above M A_n = 4 Q/π no motion is bounded. For friction it is Den Hartog's
-bound (1931), F_c/(M A) = π/4.
+The force of the isolator is K u + q with |q| at most Q, and there is no dashpot. Harmonic n of the
+shaking has the natural frequency √(K/M) and the force amplitude M A_n. Multiply the equation of
+motion by the free motion in phase with this force, and integrate over a cycle. The integral shows
+how fast the motion grows: by the work of M A_n, minus the work of q. The work of q is at most 4 Q/π
+times the work of a unit sine. Therefore no motion is bounded if M A_n is greater than 4 Q/π. For
+friction, this is the limit of Den Hartog (1931), F_c/(M A) = π/4.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from vibroimpact.model.rig import Rig
 
 
 def undamped_frequency(oscillator: Oscillator) -> float:
-    """√(K/M)/2π in Hz, if the isolator is K u and a bounded force without a dashpot; or 0."""
+    """Return √(K/M)/2π in Hz if the force is K u plus a bounded force, without a dashpot; or 0."""
     isolator = oscillator.isolator
     parts = isolator.linear_and_bounded
     if isolator.damping > 0.0 or parts is None or parts[0] == 0.0:
@@ -29,12 +29,17 @@ def undamped_frequency(oscillator: Oscillator) -> float:
 
 
 def grows(rig: Rig, frequency: float, within: float) -> int:
-    """Harmonic at which free flight has no bound at a frequency (Hz); 0 if there is none.
+    """Return the harmonic that makes the motion without stops unbounded, or 0 if there is none.
 
     Parameters
     ----------
+    rig
+        The rig.
+    frequency
+        Forcing frequency (Hz).
     within
-        |1 - r²| up to which the two frequencies are one.
+        Largest |1 - r²| for which a harmonic counts as resonant. r is its frequency divided by the
+        natural frequency.
     """
     oscillator, shaken = rig.oscillator, rig.periodic
     natural = undamped_frequency(oscillator)
@@ -49,7 +54,7 @@ def grows(rig: Rig, frequency: float, within: float) -> int:
 
 
 def has_no_bound(rig: Rig) -> bool:
-    """Whether free flight grows without bound at some frequency."""
+    """Return whether the motion without stops is unbounded at some forcing frequency."""
     oscillator, shaken = rig.oscillator, rig.periodic
     natural = undamped_frequency(oscillator)
     if natural == 0.0:

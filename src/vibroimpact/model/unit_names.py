@@ -1,4 +1,4 @@
-"""Which units a text may have: those of engineering, and none that is two units."""
+"""Accepted units: units of engineering whose name has only one meaning."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _TWO_MEANINGS: tuple[tuple[re.Pattern[str], str], ...] = tuple(
         ("mil", "thou (0.0254 mm), mm, or rad of an angle"),
     )
 )
-"""Words with two meanings, and what to write instead."""
+"""Unit names with two meanings, and the names to write instead."""
 
 _ACCEPTED = frozenset(
     """
@@ -39,21 +39,21 @@ _ACCEPTED = frozenset(
     percent permille ppm
     """.split()  # noqa: SIM905
 )
-"""Units as pint names them, with any prefix.
+"""Accepted units by their names in pint. Each may have a prefix.
 
-pint knows a thousand more, among them constants and prints' measures: its ``zeta`` is 3e10, its
-``c`` the speed of light, its ``a`` a year.
+pint has a thousand more units, including constants and typographic units. In pint, ``zeta`` is
+3e10, ``c`` is the speed of light, and ``a`` is a year.
 """
 
 FRACTIONS = ("%", "percent", "permille", "ppm")
-"""Fractions of 1; none is accepted beside another unit."""
+"""Fractions of 1, which are not accepted together with another unit."""
 
 
 def two_meanings(name: str) -> str:
-    """What to write instead of a word with two meanings; nothing for any other word."""
+    """Return the names to write instead of a name with two meanings; empty for other names."""
     return next((meant for word, meant in _TWO_MEANINGS if word.fullmatch(name)), "")
 
 
 def accepted_unit(canonical: str) -> bool:
-    """Whether a unit is one of engineering, by its name in pint without a prefix."""
+    """Return whether a unit is accepted. `canonical` is its name in pint without a prefix."""
     return canonical in _ACCEPTED

@@ -1,4 +1,4 @@
-"""Units in a text, read by pint, which is imported on first use: its registry takes 0.3 s."""
+"""Units that pint reads. pint is imported on first use, because its registry takes 0.3 s."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ _BARE_POWER = re.compile(r"(?<=[A-Za-z)])(-?[1-9])")
 
 
 class RefusalError(Exception):
-    """Why a value cannot be used, in words that follow the value."""
+    """Exception that states why a value is invalid. Its text follows the value in a sentence."""
 
 
 def unit_text(rest: str) -> str:
-    """Return a unit as pint writes it.
+    """Return a unit in the notation of pint.
 
     Raises
     ------
     RefusalError
-        If it is not a product of powers of names.
+        If the unit is not a product of powers of names.
     """
     if _UNITS.fullmatch(rest) is None:
         raise RefusalError(f"has a unit that cannot be read, '{rest}'")
@@ -42,18 +42,18 @@ def unit_text(rest: str) -> str:
 
 
 def with_unit(number: Decimal, rest: str) -> Any:
-    """Return a number with a unit as pint's quantity.
+    """Return a number with a unit as a quantity of pint.
 
     Raises
     ------
     RefusalError
-        If the unit is unknown, ambiguous, or a fraction with a unit.
+        If the unit is unknown or ambiguous, or if it contains a fraction such as %.
     """
     names = _NAMES_IN.findall(rest)
     if rest not in FRACTIONS:
         for fraction in FRACTIONS:
             if any(fraction in name for name in names):
-                raise RefusalError(f"has a {fraction} and a unit; one of the two is accepted")
+                raise RefusalError(f"has {fraction} and a unit; one of the two is accepted")
     for name in names:
         if meant := two_meanings(name):
             raise RefusalError(f"has the ambiguous unit '{name}'; write {meant}")
@@ -70,19 +70,19 @@ def with_unit(number: Decimal, rest: str) -> Any:
 
 
 def check_used(rest: str) -> None:
-    """Refuse units that pint knows and that are not used here.
+    """Raise an error if a text contains a unit that only pint accepts.
 
     Raises
     ------
     RefusalError
-        If there is one.
+        If there is such a unit.
     """
     registry = _registry()
     for name in _NAMES_IN.findall(rest):
         # pint takes the first of several readings. It finds none for a sign such as °.
         readings = registry.parse_unit_name(name)
         if readings and not accepted_unit(readings[0][1]):
-            raise RefusalError(f"has a unit that is not used here, '{name}'")
+            raise RefusalError(f"has a unit that is not accepted, '{name}'")
 
 
 @cache

@@ -343,7 +343,7 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
         problem = f"{value} is not a table; a table with {listed(in_order(wanted))} is accepted"
     else:
         message = mistake["msg"]
-        problem = f"{value} is refused: {message[:1].lower()}{message[1:]}"
+        problem = f"{value} is invalid: {message[:1].lower()}{message[1:]}"
     return f"{path}: {problem}" if path else problem
 
 

@@ -1,4 +1,4 @@
-"""Several parameters of a rig at once: values that are varied, and the rig that has them."""
+"""Vary several parameters of a rig at once."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import doubt_damping_ratio, to_si
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
-"""Parameters that also set a damping, which a damping that is named after them replaces."""
+"""Parameters that also set a damping. They are set first, so that a varied damping replaces it."""
 
 _LAST = ("stiffness_ratio", "damping_ratio", "gap_ratio", "relaxation_time")
-"""Parameters that are made of others, which are set before; the last is made of the first."""
+"""Parameters that depend on others. They are set after all others, in this order."""
 
 
 class Varied(NamedTuple):
-    """Values of one parameter."""
+    """The values of one parameter that is varied."""
 
     name: str
     values: NDArray[np.float64]
@@ -34,23 +34,23 @@ class Varied(NamedTuple):
 def varied(
     name: str, values: Any, rig: Oscillator, field: str, but: tuple[str, ...], why: str
 ) -> Varied:
-    """Read values of a parameter.
+    """Read the values of a parameter that is varied.
 
     Parameters
     ----------
     name, values
-        Of the registry; in SI units or as text.
+        Name of the parameter, and its values in SI units or as texts with units.
     rig
-        Whose units it has.
+        The oscillator. The unit of the parameter may depend on its laws.
     field
-        Names the values in messages.
-    but
-        Parameters that are not accepted here, and in words `why`.
+        Name of the values in messages.
+    but, why
+        Names of parameters that are not accepted, and the reason in words.
 
     Raises
     ------
     InputError
-        If there is no such parameter, or a value cannot be used or is given twice.
+        If there is no such parameter, or if a value is invalid or occurs twice.
     """
     known = parameter(name, "vary").of(rig)
     if known.name in but:
@@ -71,12 +71,12 @@ def varied(
 
 
 def vary_all(rig: Rig, values: Iterable[tuple[Parameter, float]]) -> Rig:
-    """Return the rig at values of several parameters, in whatever order.
+    """Return the rig with values of several parameters. Their order does not matter.
 
     Raises
     ------
     InputError
-        If it cannot have one, or has no such parameter.
+        If the rig does not have a parameter, or if a value is invalid.
     """
     for one, value in sorted(values, key=lambda pair: _turn(pair[0].name)):
         rig = one.vary(rig, value)

@@ -1,1 +1,1 @@
-"""Measured records in files, a format a file; plain numbers and the units that files state."""
+"""Readers of record files, one module per format. They return numbers and the stated units."""

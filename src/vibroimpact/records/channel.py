@@ -1,4 +1,4 @@
-"""What a file holds of one component, as plain numbers; and what a format provides."""
+"""Result of the readers, one component of a record; and the functions of a format."""
 
 from __future__ import annotations
 
@@ -15,38 +15,38 @@ class Channel(NamedTuple):
     """One component of a record."""
 
     values: NDArray[np.float64]
-    """As they stand in the file, but for a scale that the file states."""
+    """Values in the file, multiplied by the scale that the file states."""
     step: float | None
-    """Time between them in s; None where the file does not say."""
+    """Time between samples in s. None if the file does not state it."""
     unit: str | None
-    """Of the values, such as ``"cm/s^2"``; None where the file does not say."""
+    """Unit of the values, such as ``"cm/s^2"``. None if the file does not state it."""
     station: str = ""
     component: str = ""
     also: tuple[str, ...] = ()
     """Other names of the component."""
     where: str = ""
-    """Where in the file the step should stand, such as ``"line 4"``."""
+    """Place in the file where the step should be, such as ``"line 4"``."""
     unclear: str = ""
-    """What the values are if no unit may be guessed for them, such as ``"counts"``."""
+    """Kind of the values if their unit must not be guessed, such as ``"counts"``."""
 
     others: tuple[str, ...] = ()
-    """Units that the file states of the values elsewhere."""
+    """Units of the values that the file states at other places."""
     of_name: str | None = None
-    """The unit that the name of the column ends in, where another place states one."""
+    """Unit at the end of the name of the column, if another place states a unit, too."""
     notes: tuple[str, ...] = ()
-    """What was assumed of the values or their times."""
+    """Assumptions about the values or their times."""
     uneven: str = ""
-    """Why times that the file has make no step, in words; empty where they do, or it has none."""
+    """Reason why the times in the file do not give one step. Empty if there is no such reason."""
 
     def called(self, name: str) -> bool:
-        """Whether the component has this name, in capitals or not."""
+        """Return whether the component has this name. Upper and lower case do not matter."""
         return name.lower() in {one.lower() for one in (self.component, *self.also) if one}
 
 
 class Format(NamedTuple):
-    """A format: its name, whether a file is one by its content, and the file's channels.
+    """A file format: its name, and functions that recognise and read its files.
 
-    ``read`` raises `InputError` with the line that cannot be read.
+    If a line cannot be read, ``read`` raises an `InputError` that states this line.
     """
 
     name: str

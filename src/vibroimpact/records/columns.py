@@ -1,10 +1,10 @@
-"""Records as plain numbers: values alone, or times and values, in columns or in two rows.
+"""Records as tables of numbers: values, or times and values, in columns or in two rows.
 
-Apart by commas, semicolons or blanks; commas within quotes, or beside another separator, are
-decimal ones. Lines before the first number, and what follows a ``#``, are left out; the last line
-of words before the numbers names the columns, with units in brackets, at the end of a name or in a
-line of units under them, and a line there may say ``dt = 0.01`` or ``units: cm/s^2``. Two numbers
-above a single column are its length and its step. ``*** End Data ***`` ends a table.
+The numbers are separated by commas, semicolons or blanks. Commas within quotes, or together with
+another separator, are decimal commas. Text after a ``#`` is ignored. The last line of words before
+the numbers contains the names of the columns. Units are in brackets, at the end of a name, or in a
+line below the names. A line before the numbers may contain ``dt = 0.01`` or ``units: cm/s^2``. Two
+numbers above a single column are its length and its step. ``*** End Data ***`` ends a table.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ from vibroimpact.records.stated import (
 )
 
 _EVEN = 0.01
-"""By how much of a step a time may be off without a note."""
+"""Largest deviation of a time, as a share of the step, that is not noted."""
 _UNEVEN = 0.1
-"""By how much of a step times may be off that are taken as even, which is noted."""
+"""Largest deviation of times, as a share of the step, that count as even. It is noted."""
 _ROUNDED = 0.25
-"""The same of times that are rounded to their last digit; a missing sample is off by 0.5."""
+"""Largest deviation of rounded times. A missing sample gives a deviation of 0.5."""
 _STEP = re.compile(
     r"\b(?:dt|step|time step|sampling interval)\s*[=:]\s*"
     r"([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(s|sec|seconds|ms)?\s*$",
@@ -43,13 +43,13 @@ _STEP = re.compile(
 )
 _END = re.compile(r"\W*end\W+(?:of\W+)?(?:the\W+)?(?:data|file|record)\W*", re.IGNORECASE)
 _WORD = re.compile(r"[^\s(\[]+(?:\s*(?:\([^)]*\)|\[[^\]]*\]))?")
-"""A name between spaces, with the unit in brackets after it."""
+"""A name between blanks, which may be followed by a unit in brackets."""
 _IN_A_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "-": 1.0, "": 1.0}
 _Array = NDArray[np.float64]
 
 
 def read(file: File) -> list[Channel]:
-    """The columns of a file, that of the time left out."""
+    """Read the columns of a file, except for the column of times."""
     if not file.lines:
         raise InputError(f"record: {file.path!r} is not text; columns of numbers are accepted")
     decimal = file.decimal or decimal_mark(file.lines, f"record: {file.path!r}")
@@ -61,7 +61,7 @@ def read(file: File) -> list[Channel]:
         count, step = rows[0]
         if count != len(rows) - 1:
             raise file.refused(
-                lines[0], f"{count:g} values are announced, and {len(rows) - 1} follow"
+                lines[0], f"the file announces {count:g} values, but {len(rows) - 1} follow"
             )
         rows, lines = rows[1:], lines[1:]
     table = _table(file, rows, lines)
@@ -119,7 +119,9 @@ def _numbers(file: File, decimal: Decimal) -> tuple[list[list[float]], list[int]
             words.append(line)
             continue
         if ended:
-            raise file.refused(at, "numbers after the end of the data; one record is accepted")
+            raise file.refused(
+                at, "numbers follow the end of the data; a file with one record is accepted"
+            )
         rows.append(row)
         lines.append(at)
     return rows, lines, words
@@ -171,7 +173,7 @@ def _table(file: File, rows: list[list[float]], lines: list[int]) -> _Array:
     for at, width in zip(lines, widths, strict=True):
         if width != widths[0]:
             told = f"the row has {width} number{'' if width == 1 else 's'}, but the rows above "
-            raise file.refused(at, f"{told}have {widths[0]}; rows of one length are accepted")
+            raise file.refused(at, f"{told}have {widths[0]}; rows of equal length are accepted")
     table = np.array(rows)
     return table.T if len(rows) == 2 and widths[0] > 2 else table
 
@@ -207,7 +209,7 @@ def _spacing(
     # A sample that is missing shifts those behind it by a whole step, wherever it is.
     if step > 0.0 and 0.5 * np.ptp(off) <= within:
         told = f"its times are uneven by up to {abs(off[worst]) / each:.3g} s"
-        return step / each, f"{told}: a step of {step / each:.6g} s is used", ""
+        return step / each, f"{told}, so the average step of {step / each:.6g} s is used", ""
     row = file.lines[lines[0]]
     may_be = "," in row and "." not in row and file.decimal is None
     hint = "; decimal=',' (--decimal ,) reads decimal commas" if may_be else ""

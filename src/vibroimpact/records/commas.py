@@ -1,4 +1,4 @@
-"""Whether the commas of a table part its columns or are decimal ones."""
+"""Find out whether the commas of a table separate its columns or are decimal commas."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _QUOTED = re.compile(r"[\"']\s*([^\"']*)\s*[\"']")
 
 
 def checked(decimal: object) -> Decimal | None:
-    """A decimal mark that a caller gives.
+    """Check the decimal mark that a caller passes, and return it.
 
     Raises
     ------
@@ -33,15 +33,15 @@ def checked(decimal: object) -> Decimal | None:
 
 
 def decimal_mark(lines: Iterable[str], where: str) -> Decimal:
-    """The decimal mark of a table.
+    """Return the decimal mark of a table.
 
-    A comma is one if it stands within quotes, or within numbers that semicolons, tabs or blanks
-    part.
+    A comma is a decimal mark if it is within quotes, or within numbers that are separated by
+    semicolons, tabs or blanks.
 
     Raises
     ------
     InputError
-        If each comma may part thousands, and neither semicolons nor tabs part the numbers.
+        If each comma may separate thousands, and neither semicolons nor tabs separate the numbers.
     """
     numbers: list[str] = []
     parted = False
@@ -67,5 +67,5 @@ def decimal_mark(lines: Iterable[str], where: str) -> Decimal:
 
 
 def pointed(line: str) -> str:
-    """A line with decimal points in place of its decimal commas."""
+    """Return a line with decimal points in place of decimal commas."""
     return re.sub(r"(?<=\d),(?=\d)|(?<![\d,]),(?=\d)", ".", line)

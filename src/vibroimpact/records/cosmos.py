@@ -1,8 +1,8 @@
 """COSMOS files, V1 and V2, of version 1.20: channels one after the other.
 
-A channel has lines of text whose number stands in the first, integers and reals in columns whose
-width stands above them, comments, and a line that states how many values follow, their unit and
-their width. The step is real 62, in ms.
+A channel has lines of text, the first of which states their number. They are followed by integers
+and reals in columns; the line above them states the width of the columns. After the comments, a
+line states the number of the values, their unit and their width. The step is real 62, in ms.
 """
 
 from __future__ import annotations
@@ -40,12 +40,12 @@ _STATION = re.compile(r"Code:\s*(\S+)\s+(.*)")
 
 
 def recognises(file: File) -> bool:
-    """Whether the first line names the format."""
+    """Return whether a file has this format: its first line names it."""
     return bool(file.lines) and bool(_BEGINS.search(file.lines[0]))
 
 
 def read(file: File) -> list[Channel]:
-    """The channels of a file."""
+    """Read the channels of a file."""
     found: list[Channel] = []
     at = 0
     while at < len(file.lines):
@@ -77,13 +77,13 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
     data = _expected(file, at, _DATA, "line above the values")
     count, width = int(data[1]), int(data[4])
     if count < 1:
-        raise file.refused(at, f"{count} values; at least 2 are accepted")
+        raise file.refused(at, f"the header states {count} values; at least 2 are accepted")
     values, at = file.numbers(at + 1, count, width)
     if at < len(file.lines):
         file.behind(at, count, width)
         if not re.match(r"\s*(End-of-data|/&)", file.lines[at], re.IGNORECASE):
-            told = f"{file.lines[at].strip()[:40]!r} does not end the data of the channel"
-            raise file.refused(at, told)
+            told = f"{file.lines[at].strip()[:40]!r} does not end the data of the channel; "
+            raise file.refused(at, f"{told}'End-of-data' is accepted")
     step = 1e-3 * float(numbers[_STEP]) if len(numbers) > _STEP else 0.0
     head = file.lines[first : first + int(begins[1])]
     code = next((c for line in said if (c := _CODE.search(line))), None)

@@ -1,8 +1,8 @@
 """CSMIP's V1 and V2 files: channels one after the other, each with its own header.
 
-The line above the values of the acceleration says how many there are, their unit, and the step or
-the samples a second; newer ones say the columns as well, else a line has eight values. In V2 the
-velocities and displacements follow.
+The line above the values of the acceleration states their number, their unit, and the step or the
+number of samples per second. In newer files it also states the columns. In older files, each line
+has eight values. In V2 files, velocities and displacements follow.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ _A_LINE = 8
 
 
 def recognises(file: File) -> bool:
-    """Whether it begins as such a file does, and has a line above values."""
+    """Return whether a file has this format: its first line, and a line that describes values."""
     lines = file.lines
     return bool(lines) and bool(_BEGINS.match(lines[0])) and any(map(_DATA.match, lines[:80]))
 
 
 def read(file: File) -> list[Channel]:
-    """The channels of a file."""
+    """Read the channels of a file."""
     found: list[Channel] = []
     at = 0
     while at < len(file.lines):
@@ -45,13 +45,17 @@ def read(file: File) -> list[Channel]:
 
 def _channel(file: File, first: int) -> tuple[Channel, int]:
     if not _BEGINS.match(file.lines[first]):
-        told = f"{file.lines[first].strip()[:40]!r} does not start a channel"
+        told = f"{file.lines[first].strip()[:40]!r} does not start a channel; a header is accepted"
         raise file.refused(first, told)
     at = first
     number = towards = station = ""
     while not (data := _DATA.match(file.line(at))):
         if at > first + 2 and _BEGINS.match(file.lines[at]):
-            raise file.refused(at, "a second header, but no line above values after the first one")
+            raise file.refused(
+                at,
+                "a second header starts here, but the first header has no line that describes its "
+                "values; a complete file is accepted",
+            )
         if named := _TOWARDS.match(file.lines[at]):
             number, towards = named.groups()
         if known := _STATION.match(file.lines[at]):
@@ -61,7 +65,7 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
     line, above = file.lines[at], at
     count = int(data[1])
     if count < 1:
-        raise file.refused(at, f"{count} values; at least 2 are accepted")
+        raise file.refused(at, f"the header states {count} values; at least 2 are accepted")
     columns = _COLUMNS.search(line)
     width = int(columns[1]) if columns else len(file.line(at + 1).rstrip()) // _A_LINE
     values, at = file.numbers(at + 1, count, width or None)
@@ -99,7 +103,10 @@ def _end(file: File, at: int, first: int) -> int:
             _, at = file.numbers(at + 1, int(other[1]), width or None)
             continue
         if line.strip():
-            told = f"{line.strip()[:40]!r} does not end the channel that starts in line {first + 1}"
+            told = (
+                f"{line.strip()[:40]!r} does not end the channel that starts in line {first + 1}; "
+                "'/&' is accepted"
+            )
             raise file.refused(at, told)
         at += 1
     return at

@@ -1,4 +1,4 @@
-"""What of a record is probably not what its file means: its size, its times, its last value."""
+"""Doubts about the values of a record: its peak, its times and its last value."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from vibroimpact.records.stated import spelled
 
 GRAVITY = 9.80665
 PEAKS = (0.001, 5.0)
-"""In g: few records that are used are weaker; none is known that is stronger."""
+"""Usual range of peaks in g. Few records have a lower peak, and no known record a higher one."""
 STEPS = (1e-4, 0.1)
-"""In s."""
+"""Usual range of time steps in s."""
 LONGEST = 1800.0
-"""In s."""
+"""Longest usual duration in s."""
 _USUAL = {"m/s^2": 1.0, "g": GRAVITY, "cm/s^2": 0.01, "mm/s^2": 0.001}
 _FAR = 10.0
-"""Times the largest change among the last samples from which on the last one is doubted."""
+"""Change to the last value that is doubted, divided by the largest change before it."""
 _LAST = 50
 _SMALL = 0.01
-"""Share of the peak up to which no change is doubted."""
+"""Largest change that is never doubted, as a share of the peak."""
 _WIDE = 8
-"""Numbers in a line from which on they are one row, of which the last is like the others."""
+"""Largest number of columns. A line with more numbers is one row of values."""
 _FORM = re.compile(r"[+-]?\d*(?:\.(?P<decimals>\d*))?(?:[eEdD][+-]?(?P<exponent>\d+))?")
 
 
 def of_size(peak: float, unit: str) -> list[str]:
-    """Doubts about a peak (m/s²) of values in a unit; empty for displacements."""
+    """Return doubts about a peak (m/s²) of values in a unit. `unit` is empty for displacements."""
     unit = spelled(unit)
     size = peak / GRAVITY
     if peak == 0.0 or PEAKS[0] <= size <= PEAKS[1]:
@@ -45,7 +45,7 @@ def of_size(peak: float, unit: str) -> list[str]:
 
 
 def of_times(step: float, count: int) -> list[str]:
-    """Doubts about a step (s), and about how long the record lasts."""
+    """Return doubts about the step (s), and about the duration of the record."""
     found = []
     lasts = step * (count - 1)
     if not STEPS[0] * (1.0 - 1e-9) <= step <= STEPS[1] * (1.0 + 1e-9):
@@ -60,7 +60,7 @@ def of_times(step: float, count: int) -> list[str]:
 
 
 def of_end(values: NDArray[np.float64]) -> list[str]:
-    """Doubts about a last value that is far from those before it."""
+    """Return doubts about a last value that is far from the values before it."""
     if len(values) < 10:
         return []
     changes = np.abs(np.diff(values[-_LAST - 1 :]))
@@ -73,7 +73,7 @@ def of_end(values: NDArray[np.float64]) -> list[str]:
 
 
 def of_last_line(file: File) -> list[str]:
-    """Doubts about a last number that has no line break after it, and another form."""
+    """Return doubts about a last number without a line break that has other digits than usual."""
     if file.ends_whole or not file.lines:
         return []
     cells = _cells(file.lines[-1])

@@ -1,4 +1,4 @@
-"""ESM's and ITACA's ASCII files (DYNA 1): lines of ``KEY: value``, then a value a line."""
+"""ESM's and ITACA's ASCII files (DYNA 1): lines ``KEY: value``, then one value per line."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ _ENTRY = re.compile(r"([A-Z][A-Z0-9_/^]*):\s*(.*?)\s*$")
 
 
 def recognises(file: File) -> bool:
-    """Whether the header begins with the event's name and has the step's key."""
+    """Return whether a file has this format: its header starts with EVENT_NAME and has NDATA."""
     lines = file.lines[:80]
     return bool(lines) and lines[0].startswith("EVENT_NAME:") and any("NDATA:" in x for x in lines)
 
 
 def read(file: File) -> list[Channel]:
-    """The one component of a file."""
+    """Read the component of a file."""
     entries: dict[str, str] = {}
     where: dict[str, int] = {}
     at = 0
@@ -35,13 +35,15 @@ def read(file: File) -> list[Channel]:
 
     found = number("NDATA")
     if not 1.0 <= found < math.inf:
-        told = f"NDATA: {entries.get('NDATA')!r}; a number of values of at least 2 is accepted"
+        told = f"NDATA: {entries.get('NDATA')!r}; a number of at least 2 values is accepted"
         raise file.refused(where.get("NDATA", at - 1), told)
     count = int(found)
     values, behind = file.numbers(at, count)
     for further in range(behind, len(file.lines)):
         if _ENTRY.match(file.lines[further]):
-            raise file.refused(further, "a second header; one record per file is accepted")
+            raise file.refused(
+                further, "a second header starts here; one record per file is accepted"
+            )
     file.behind(behind, count)
     step = number("SAMPLING_INTERVAL_S")
     names = [entries.get("NETWORK", ""), entries.get("STATION_CODE", "")]

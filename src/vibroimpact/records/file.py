@@ -1,4 +1,4 @@
-"""A file of a record: its bytes, its lines, and numbers in lines of free or fixed columns."""
+"""A record file: its bytes, its lines, and numbers in its lines, in free or fixed columns."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _PACKED = b"\x1f\x8b"
 
 
 class File:
-    """A file that was read into memory, unpacked where it was packed by gzip.
+    """A file that was read into memory. If gzip has compressed it, it is decompressed.
 
-    Lines are counted from 0 here and from 1 in messages. ``decimal`` is the mark that the caller
-    says its columns have.
+    Lines are counted from 0 in the code, and from 1 in messages. ``decimal`` is the decimal mark
+    that the caller passed, or None.
     """
 
     def __init__(self, path: Path | str, decimal: Decimal | None = None) -> None:
@@ -44,7 +44,7 @@ class File:
 
     @cached_property
     def lines(self) -> list[str]:
-        """Its lines; none where it is not text."""
+        """The lines of the file. A file that is not text has no lines."""
         if b"\0" in self.data[:4096]:
             return []
         try:
@@ -57,49 +57,51 @@ class File:
 
     @cached_property
     def ends_whole(self) -> bool:
-        """Whether a line break, or the mark of an older end, stands at its end."""
+        """Whether the file ends with a line break, or with an end-of-file character."""
         return self.data.rstrip(b" \t\0")[-1:] in (b"\n", b"\r", b"\x1a", b"")
 
     def line(self, at: int) -> str:
-        """A line.
+        """Return a line.
 
         Raises
         ------
         InputError
-            If the file has ended.
+            If the file has no such line.
         """
         if at >= len(self.lines):
-            raise self.refused(len(self.lines) - 1, "the file ends within the header")
+            raise self.refused(
+                len(self.lines) - 1, "the file ends within the header; a complete file is accepted"
+            )
         return self.lines[at]
 
     def refused(self, at: int, why: str) -> InputError:
-        """The error that names a line."""
+        """Return an error that states a line of the file."""
         return InputError(f"record: {self.path!r}, line {at + 1}: {why}")
 
     def numbers(
         self, first: int, count: int, width: int | None = None
     ) -> tuple[NDArray[np.float64], int]:
-        """Read numbers from a line on, however many a line holds.
+        """Read a given number of values, which may be spread over several lines.
 
         Parameters
         ----------
         first
-            The line.
+            The first line.
         count
-            How many.
+            Number of values.
         width
-            Columns of a number; None where blanks stand between them.
+            Number of characters of a value. None if blanks separate the values.
 
         Returns
         -------
         values, next
-            And the line after them.
+            The values, and the line after them.
 
         Raises
         ------
         InputError
-            If the file ends before, a line contains something other than finite numbers, or the
-            last line holds more than there should be.
+            If the file ends too early, if a line contains anything but finite numbers, or if the
+            last line contains too many values.
         """
         parts: list[str] = []
         at = first
@@ -120,7 +122,8 @@ class File:
             raise error
         if len(parts) > count:
             raise self.refused(
-                at - 1, f"{len(parts)} values until here, and {count} should be all there are"
+                at - 1,
+                f"the file has {len(parts)} values up to this line, but {count} are announced",
             )
         return values, at
 
@@ -148,12 +151,12 @@ class File:
         return None
 
     def behind(self, at: int, count: int, width: int | None = None) -> None:
-        """See to it that no number follows the last that was announced.
+        """Check that no number follows the values that the header announces.
 
         Raises
         ------
         InputError
-            If one does.
+            If a number follows.
         """
         while at < len(self.lines) and not self.lines[at].strip():
             at += 1
@@ -163,4 +166,6 @@ class File:
             float(self._cut(at, width)[0])
         except ValueError:
             return
-        raise self.refused(at, f"a further value after the {count} that the header announces")
+        raise self.refused(
+            at, f"there is a further value after the {count} values that the header announces"
+        )

@@ -1,7 +1,7 @@
 """GeoNet's V1A and V2A files: each component has 16 lines of text, 4 of integers and 6 of reals.
 
-Columns have 8 characters, ten a line. Integers 34, 35 and 36 are the numbers of values of
-acceleration, velocity and displacement, real 26 is the step; accelerations are in mm/s².
+Columns have 8 characters, and a line has ten columns. Integers 34, 35 and 36 are the numbers of
+values of acceleration, velocity and displacement. Real 26 is the step. Accelerations are in mm/s².
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ _WIDTH = 8
 
 
 def recognises(file: File) -> bool:
-    """Whether the two first lines are those of an accelerogram at a site."""
+    """Return whether a file has this format: its first lines name an accelerogram and a site."""
     lines = file.lines
     return len(lines) > 2 and _begins(lines[0]) and lines[1].startswith("Site ")
 
 
 def read(file: File) -> list[Channel]:
-    """The components of a file."""
+    """Read the components of a file."""
     found = []
     at = 0
     while at < len(file.lines):
@@ -46,7 +46,7 @@ def _component(file: File, first: int) -> tuple[Channel, int]:
     reals, at = file.numbers(at, 60, _WIDTH)
     counts = [int(count) for count in integers[33:36]]
     if counts[0] < 1:
-        told = f"{counts[0]} values of acceleration; a number of at least 2 is accepted"
+        told = f"the header states {counts[0]} values of acceleration; at least 2 are accepted"
         raise file.refused(first + _TEXT + 3, told)
     values, at = file.numbers(at, counts[0], _WIDTH)
     for count in counts[1:]:

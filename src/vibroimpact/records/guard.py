@@ -1,4 +1,4 @@
-"""Bounds of what is read from files: sizes are known before anything is unpacked or reserved."""
+"""Largest sizes of files and tables, which are checked before data are decompressed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from vibroimpact.arguments import check_path
 from vibroimpact.errors import InputError
 
 MOST_BYTES = 2**28
-"""Of a file, packed or not."""
+"""Largest number of bytes of a file, compressed or decompressed."""
 MOST_COLUMNS = 10_000
 
 
@@ -19,7 +19,7 @@ def regular(path: Path | str, field: str) -> None:
     Raises
     ------
     InputError
-        If it exists, and cannot be used.
+        If the file exists, but is not a regular file or is too large.
     """
     file = check_path(path, field)
     if file.exists() and not file.is_file():
@@ -30,27 +30,27 @@ def regular(path: Path | str, field: str) -> None:
 
 
 def within(size: int, path: Path | str, field: str) -> None:
-    """Refuse more bytes than are read.
+    """Check a number of bytes.
 
     Raises
     ------
     InputError
-        If there are more.
+        If there are more than `MOST_BYTES`.
     """
     if size > MOST_BYTES:
         raise InputError(
-            f"{field}: {str(path)!r} holds more than {MOST_BYTES // 2**20} MiB of data; less is "
-            "accepted, such as a part of it or fewer samples"
+            f"{field}: {str(path)!r} holds more than {MOST_BYTES // 2**20} MiB of data; a smaller "
+            "file is accepted, such as a part of it or fewer samples"
         )
 
 
 def few_columns(count: int, path: Path | str, field: str) -> None:
-    """Refuse more columns than a table has.
+    """Check the number of columns of a table.
 
     Raises
     ------
     InputError
-        If there are more.
+        If there are more than `MOST_COLUMNS`.
     """
     if count > MOST_COLUMNS:
         raise InputError(
@@ -59,14 +59,14 @@ def few_columns(count: int, path: Path | str, field: str) -> None:
 
 
 def unpacked(data: bytes, path: Path | str, field: str, *, gzip: bool) -> bytes:
-    """Unpack data of gzip or zlib, and stop where they become too many.
+    """Decompress data of gzip or zlib, and stop if the result becomes too large.
 
     Raises
     ------
     InputError
-        If they do.
+        If the result has more than `MOST_BYTES`.
     zlib.error, EOFError
-        If they are damaged, or end too early.
+        If the data are damaged, or if they end too early.
     """
     found: list[bytes] = []
     size = 0
@@ -77,6 +77,6 @@ def unpacked(data: bytes, path: Path | str, field: str, *, gzip: bool) -> bytes:
         within(size, path, field)
         found.append(part)
         if not packed.eof:
-            raise EOFError("it ends too early")
+            raise EOFError("the file ends too early")
         data = packed.unused_data.lstrip(b"\0") if gzip else b""
     return b"".join(found)

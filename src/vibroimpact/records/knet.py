@@ -1,7 +1,7 @@
-"""K-NET's and KiK-net's ASCII files: 17 lines of header, then counts, eight a line.
+"""K-NET's and KiK-net's ASCII files: 17 lines of header, then counts, eight per line.
 
-The scale factor, such as ``3920(gal)/6182761``, makes gal of counts; what a sensor shows at rest
-stays in them.
+The scale factor, such as ``3920(gal)/6182761``, converts counts to gal. The offset of the sensor at
+rest is not subtracted.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from vibroimpact.records.file import File
 _HEADER = 17
 _SCALE = re.compile(r"(\d+\.?\d*)\(gal\)/(\d*[1-9]\d*\.?\d*)")
 _KIK = {"1": "N-S", "2": "E-W", "3": "U-D", "4": "N-S", "5": "E-W", "6": "U-D"}
-"""Directions of KiK-net: the first three in the borehole, the others at the surface."""
+"""Directions of KiK-net: 1 to 3 are in the borehole, and 4 to 6 at the surface."""
 
 
 def recognises(file: File) -> bool:
-    """Whether the first line is the time of origin and one of the header the scale."""
+    """Return whether a file has this format: its header has the origin time and the scale."""
     lines = file.lines
     return bool(lines) and lines[0].startswith("Origin Time") and bool(_find(file, "Scale Factor"))
 
@@ -43,7 +43,7 @@ def _entry(file: File, name: str, pattern: str) -> tuple[int, re.Match[str]]:
 
 
 def read(file: File) -> list[Channel]:
-    """The one component of a file."""
+    """Read the component of a file."""
     _, rate = _entry(file, "Sampling Freq(Hz)", r"(\d+\.?\d*)")
     _, lasts = _entry(file, "Duration Time(s)", r"(\d+\.?\d*)")
     _, scale = _entry(file, "Scale Factor", _SCALE.pattern)

@@ -1,7 +1,7 @@
 """LabVIEW's measurement files (``.lvm``): lines of ``key, value``, then columns of numbers.
 
-The header names the separator, the decimal mark and how many columns of times there are; that of
-each segment has a value for each channel: its unit, its first time and its step.
+The header states the separator, the decimal mark, and the number of columns of times. The header of
+each segment states the unit, the first time and the step of each channel.
 """
 
 from __future__ import annotations
@@ -27,28 +27,28 @@ class Signal(NamedTuple):
 
     name: str
     times: NDArray[np.float64]
-    """In s."""
+    """Times of the values (s), or their values on another axis."""
     step: float | None
-    """In s, where the header states it."""
+    """Step in s. None if the header does not state it."""
     values: NDArray[np.float64]
     axis: str = "time"
-    """What the times are, if not times."""
+    """Name of the axis, if it is not the time."""
     label: str | None = None
-    """The unit that the header states."""
+    """Unit of the values. None if the header does not state it."""
 
 
 def recognises(file: File) -> bool:
-    """Whether the first line names the format."""
+    """Return whether a file has this format: its first line names it."""
     return bool(file.lines) and file.lines[0].lower().startswith("labview measurement")
 
 
 def segments(file: File) -> list[list[Signal]]:
-    """The signals of each segment.
+    """Read the channels of each segment.
 
     Raises
     ------
     InputError
-        If a header does not end, or a line is not a row of numbers.
+        If a header has no end, or if a line is not a row of numbers.
     """
     about: dict[str, list[str]] = {}
     mark, decimal = "\t", "."
@@ -95,14 +95,16 @@ def _header(file: File, at: int, mark: str, about: dict[str, list[str]]) -> int:
             return at
         if key:
             about[key.lower()] = values
-    raise file.refused(first, "a header without an end; '***End_of_Header***' is expected")
+    raise file.refused(first, "the header has no end; '***End_of_Header***' is expected")
 
 
 def _segment(
     file: File, at: int, mark: str, decimal: str, about: dict[str, list[str]]
 ) -> tuple[list[Signal], int]:
     if at >= len(file.lines) or not _names(file.lines[at], mark):
-        raise file.refused(min(at, len(file.lines) - 1), "no column names; X_Value is expected")
+        raise file.refused(
+            min(at, len(file.lines) - 1), "there are no column names; X_Value is expected"
+        )
     names = _cells(file.lines[at], mark)
     above = at
     at += 1
@@ -165,10 +167,12 @@ def _number(file: File, at: int, cell: str, decimal: str) -> float:
 
 
 def read(file: File) -> list[Channel]:
-    """The channels of a file of one segment."""
+    """Read the channels of a file that has one segment."""
     found = segments(file)
     if len(found) != 1:
-        raise file.refused(0, f"{len(found)} segments; a file with one segment is accepted")
+        raise file.refused(
+            0, f"the file has {len(found)} segments; a file with one segment is accepted"
+        )
     channels = []
     for signal in found[0]:
         if signal.axis != "time":
@@ -183,7 +187,9 @@ def read(file: File) -> list[Channel]:
             if step is None and mean > 0.0 and np.ptp(even) <= _EVEN * mean:
                 step = mean
         if not np.isfinite(signal.values).all():
-            raise file.refused(0, f"{signal.name!r} has gaps; a record without gaps is accepted")
+            raise file.refused(
+                0, f"{signal.name!r} has missing values; a complete record is accepted"
+            )
         unit, other, of_name = units_of(signal.name, signal.label)
         channels.append(
             Channel(

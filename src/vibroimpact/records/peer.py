@@ -6,8 +6,8 @@ The fourth line states the number of values and the step, in one of three ways::
     NPTS=  15306, DT=    0.05 SEC
     4096    0.0100    NPTS, DT
 
-The third states the unit, as ``IN UNITS OF G`` or ``The units are (g)``, which is g where it does
-not; the second event, date, station and component, with commas between.
+The third line states the unit, as ``IN UNITS OF G`` or ``The units are (g)``. Without a statement,
+the unit is g. The second line states event, date, station and component, separated by commas.
 """
 
 from __future__ import annotations
@@ -35,12 +35,12 @@ def _announced(file: File, first: int = 0, last: int = _SEARCHED) -> int | None:
 
 
 def recognises(file: File) -> bool:
-    """Whether one of the first lines names NPTS."""
+    """Return whether a file has this format: one of its first lines contains NPTS."""
     return _announced(file) is not None
 
 
 def read(file: File) -> list[Channel]:
-    """The one component of a file."""
+    """Read the component of a file."""
     at = _announced(file)
     assert at is not None
     line = file.lines[at]
@@ -50,21 +50,24 @@ def read(file: File) -> list[Channel]:
     else:
         found, stepped = _COUNT.search(line), _STEP.search(line)
         if found is None:
-            raise file.refused(at, f"{line.strip()!r} has no number of values; NPTS= is accepted")
+            raise file.refused(
+                at, f"{line.strip()!r} states no number of values; NPTS= is accepted"
+            )
         count, step = int(found[1]), _float(stepped[1]) if stepped else None
     if count < 1:
-        raise file.refused(at, "0 values; at least 2 are accepted")
+        raise file.refused(at, "the header states 0 values; at least 2 are accepted")
     values, behind = file.numbers(at + 1, count)
     again = _announced(file, behind, len(file.lines))
     if again is not None:
-        raise file.refused(again, "a second header; one record per file is accepted")
+        raise file.refused(again, "a second header starts here; one record per file is accepted")
     file.behind(behind, count)
     above = file.lines[: at + 1]
     unit = next((unit for line in above if (unit := stated_unit(line))), None)
     if unit is None:
         # In brackets only where a description of the values stands: stations have brackets, too.
         unit = next((unit for line in above[-2:-1] if (unit := stated_acceleration(line))), None)
-    notes = () if unit else ("unit g, the usual unit of PEER files, because the file states none",)
+    assumed = "the unit g of most PEER files was assumed, because the file states no unit"
+    notes = () if unit else (assumed,)
     names = [part.strip() for part in file.lines[at - 2].split(",")] if at >= 2 else []
     component = names[-1] if len(names) > 2 else ""
     return [

@@ -1,4 +1,4 @@
-"""Which format a file has, by its content; and one of its components."""
+"""Detect the format of a record file from its content, and read one of its components."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ FORMATS: tuple[Format, ...] = (
     peer.FORMAT,
     columns.FORMAT,
 )
-"""In the order in which a file is tried; plain columns are what is left."""
+"""Formats in the order in which they are tried. The last one, columns, accepts any file."""
 
 
 class Found(NamedTuple):
@@ -34,7 +34,7 @@ class Found(NamedTuple):
     format: str
     channel: Channel
     others: tuple[str, ...]
-    """The components of the file, this one included."""
+    """Names of all components of the file."""
 
 
 def read_channel(
@@ -45,17 +45,17 @@ def read_channel(
     Parameters
     ----------
     path
-        The file, packed by gzip or not.
+        The file, which may be compressed with gzip.
     component
-        Its name in the file, such as ``"90"``, ``"Up"`` or ``"HNE"``, or its number from 1 on. None
-        where the file has one.
+        Name of the component in the file, such as ``"90"``, ``"Up"`` or ``"HNE"``, or its number,
+        starting from 1. Default: the only component of the file.
     decimal
-        The decimal mark of columns; None to find out.
+        Decimal mark of the numbers, if the file is a text table. Default: detected from the table.
 
     Raises
     ------
     InputError
-        If the file cannot be read, or has several components and none of them is chosen.
+        If the file cannot be read. Also if it has several components, and none of them is chosen.
     """
     file = File(path, decimal)
     form = next(form for form in FORMATS if form.recognises(file))

@@ -1,7 +1,7 @@
-"""SAC and miniSEED, read by obspy where it is installed.
+"""SAC and miniSEED files, which are read by obspy if it is installed.
 
-Neither says what its values are in: miniSEED holds whatever a digitiser gave, SAC has a kind of
-quantity, whose units by its manual are nm, which nobody follows.
+Neither format states the unit of its values. A miniSEED file contains the values of a digitiser. A
+SAC file states a quantity. According to the manual its unit is based on nm, but this is not usual.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.file import File
 
 _VERSION = slice(304, 308)
-"""Of a SAC file: 6, or 7 of the newest."""
+"""Place of the version of a SAC file, which is 6, or 7 for the newest files."""
 _HEAD = 48
-"""Bytes of the head of a record of miniSEED."""
+"""Number of bytes of the header of a miniSEED record."""
 _GAP = 1.5
-"""Steps from the last sample of a part to the first of the next from which on obspy fills a gap."""
+"""Number of steps between two parts from which on obspy inserts samples."""
 _KINDS = {6: "displacements", 7: "velocities", 50: "volts"}
-"""SAC's kinds of quantities that are not accelerations."""
+"""Quantities in SAC files that are not accelerations."""
 
 
 def is_sac(file: File) -> bool:
-    """Whether the version of the header is one of SAC, in either order of bytes."""
+    """Return whether a file has the version number of SAC, in either byte order."""
     version = file.data[_VERSION]
     return len(file.data) > 632 and any(struct.unpack(f"{o}i", version)[0] in (6, 7) for o in "<>")
 
 
 def is_miniseed(file: File) -> bool:
-    """Whether it begins with the header of a record of data."""
+    """Return whether a file starts with the header of a miniSEED record."""
     head = file.data[:8]
     numbered = head[:6].replace(b" ", b"0").isdigit() and head[6:7] in (b"D", b"R", b"Q", b"M")
     # Six blanks and an R begin many a text, which has no zeros.
@@ -141,13 +141,15 @@ def _scale(file: File, trace: Any) -> tuple[float, tuple[str, ...]]:
     if scale == 1.0:
         return 1.0, ()
     if (trace.data != np.round(trace.data)).any():
-        return 1.0, (f"the scale of the header, {scale:g}, is not used: the values are not counts",)
+        return 1.0, (
+            f"the scale in the header, {scale:g}, is not used because the values are not counts",
+        )
     if not 0.0 < abs(scale) < np.inf:
         raise InputError(
             f"record: {file.path!r}: its header states the scale {scale:g}; a number other than 0 "
             "is accepted"
         )
-    return scale, (f"values multiplied by {scale:g}, the scale of the header",)
+    return scale, (f"the values were multiplied by {scale:g}, the scale in the header",)
 
 
 def _channel(file: File, trace: Any) -> Channel:

@@ -1,7 +1,8 @@
 """The USGS's SMC files: 11 lines of text, 48 integers, 50 reals, comments, then values in cm/s².
 
-Integer 17 is the number of values, integer 16 that of the comments; real 2 is the samples a second.
-Values may touch one another, so that they are cut by width: that of the first.
+Integer 17 is the number of values, integer 16 is the number of comments, and real 2 is the number
+of samples per second. There may be no blanks between values. Therefore all values are read with the
+width of the first one.
 """
 
 from __future__ import annotations
@@ -19,23 +20,25 @@ _ABSENT = 1e38
 
 
 def recognises(file: File) -> bool:
-    """Whether the first line names the kind and the next ten are text."""
+    """Return whether a file has this format: its first line states the kind of accelerogram."""
     lines = file.lines
     return len(lines) > 1 and bool(_KIND.match(lines[0])) and lines[1].startswith("*")
 
 
 def read(file: File) -> list[Channel]:
-    """The one component of a file."""
+    """Read the component of a file."""
     file.line(_TEXT + _INTEGERS + _REALS)
     integers, at = file.numbers(_TEXT, 48, 10)
     reals, at = file.numbers(at, 50, 15)
     count, comments, rate = int(integers[16]), int(integers[15]), float(reals[1])
     if count < 1:
-        raise file.refused(_TEXT + 2, f"{count} values; a number of at least 2 is accepted")
+        raise file.refused(_TEXT + 2, f"the header states {count} values; at least 2 are accepted")
     for _ in range(max(comments, 0)):
         if not file.line(at).startswith("|"):
-            told = "this is not a comment; by the header, lines that begin with '|' are expected: "
-            told += str(comments)
+            told = (
+                f"the header states {comments} comments, but this line is not a comment; a line "
+                "that begins with '|' is accepted"
+            )
             raise file.refused(at, told)
         at += 1
     first = _FIRST.match(file.line(at))

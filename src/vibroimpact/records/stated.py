@@ -1,4 +1,4 @@
-"""Units as files state them: after the word "units", in brackets, or at the end of a name."""
+"""Units that files state: after the word "units", in brackets, or at the end of a name."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ _ENDS = {
     "mps": "m/s", "cmps": "cm/s", "mmps": "mm/s", "mms": "mm/s", "s": "s",
     "ms": "ms", "n": "N", "kn": "kN", "mv": "mV", "volt": "V", "volts": "V",
 }  # fmt: skip
-"""What a name may end in, such as ``u_mm``, and the unit that it is."""
+"""Units at the end of a name, such as mm in ``u_mm``, with their usual spelling."""
 _CASES = {
     one.lower(): one
     for one in ("Hz", "kHz", "N", "kN", "m", "cm", "mm", "um", "g", "mg", "s", "ms", "rad", "rpm",
                 "in", "inch", "ft", "hertz", "gal", "mgal")
 } | {"sec": "s", "secs": "s", "second": "s", "seconds": "s", "msec": "ms", "usec": "us",
      "sek": "s", "gals": "gal", "meter": "m", "meters": "m"}  # fmt: skip
-"""Units that are one and the same in capitals and small letters, as MN and mN are not."""
+"""Units that may be written in upper or lower case. MN and mN, for example, are different units."""
 
 _POWER = r"(?:(?:\^|\*\*)?-?[1-9]|[²³]|⁻[¹²³])?"
 _FACTOR = rf"[A-Za-zµμ%]+{_POWER}"
@@ -40,7 +40,7 @@ _SHOWN = 30
 
 
 def spelled(unit: str) -> str:
-    """A unit in the spelling that the package reads: cm/s^2 of ``CM/SEC/SEC``, kN of ``KN``."""
+    """Return a unit in the spelling of this package: cm/s^2 for ``CM/SEC/SEC``, kN for ``KN``."""
     clean = re.sub(r"[A-Za-z]+", lambda m: _CASES.get(m[0].lower(), m[0]), unit.strip())
     clean = re.sub(r"\s*/\s*", "/", clean)
     clean = re.sub(r"/s[/*]s\b|/\(s[*/]s\)|(?<=/s)\^?2$|(?<=/s)(?:\*\*2|²)$", _squared, clean)
@@ -53,9 +53,9 @@ def _squared(found: re.Match[str]) -> str:
 
 
 def stated_unit(line: str) -> str | None:
-    """The unit that a line states after the word "unit"; None if it states none.
+    """Return the unit that a line states after the word "unit", or None if there is none.
 
-    What cannot be read as a unit is returned as it stands, to be refused by whoever needs it.
+    A text that is not a unit is returned unchanged. The caller raises the error.
     """
     found = _AFTER.search(line.replace(" per ", "/"))
     if found is None:
@@ -66,7 +66,7 @@ def stated_unit(line: str) -> str | None:
 
 
 def stated_acceleration(line: str) -> str | None:
-    """The unit of an acceleration that stands in brackets, or after the word "in"."""
+    """Return a unit of acceleration that is in brackets or after the word "in", or None."""
     for found in (*_BRACKETS.finditer(line), *_IN.finditer(line)):
         if _ACCELERATIONS.fullmatch(unit := spelled(found[1])):
             return unit
@@ -74,12 +74,12 @@ def stated_acceleration(line: str) -> str | None:
 
 
 def is_acceleration(unit: str) -> bool:
-    """Whether a text is a usual unit of accelerations."""
+    """Return whether a text is a usual unit of acceleration."""
     return _ACCELERATIONS.fullmatch(spelled(unit)) is not None
 
 
 def parted(name: str) -> tuple[str, str | None]:
-    """A name, and the unit in brackets at its end."""
+    """Return a name without the unit in brackets at its end, and this unit or None."""
     name = name.strip().strip('"').strip()
     found = _AT_END.search(name)
     if not found:
@@ -88,7 +88,7 @@ def parted(name: str) -> tuple[str, str | None]:
 
 
 def ended(name: str) -> tuple[str, str | None]:
-    """The words of a name, joined by low lines, and the unit that it ends in: ``amplitude_g``."""
+    """Return a name without the unit at its end, as in ``amplitude_g``, and this unit or None."""
     words = words_of(name)
     if len(words) > 1 and words[-1] in _ENDS:
         return "_".join(words[:-1]), _ENDS[words[-1]]
@@ -96,7 +96,10 @@ def ended(name: str) -> tuple[str, str | None]:
 
 
 def ending(words: list[str], *, sure: bool) -> str | None:
-    """The unit that words end in; unless it is sure, not the g of ag nor the n of a count."""
+    """Return the unit at the end of words, or None.
+
+    Unless `sure` is true, the g of ``ag`` and the n of a number of items are not units.
+    """
     if len(words) < 2 or words[-1] not in _ENDS:
         return None
     a_word = words == ["a", "g"] or (words[-1] == "n" and "force" not in words)
@@ -104,7 +107,7 @@ def ending(words: list[str], *, sure: bool) -> str | None:
 
 
 def words_of(name: str) -> list[str]:
-    """The words of a name, in small letters."""
+    """Return the words of a name in lower case."""
     return [word for word in re.split(r"[^a-z0-9]+", plain(name).lower()) if word]
 
 
@@ -114,7 +117,7 @@ _PEAK = re.compile(
 
 
 def plain(name: str) -> str:
-    """A name in plain letters, its words apart, with short words for what takes several."""
+    """Return a name in ASCII letters with separated words, and with short forms of units."""
     joined = re.sub("[µμ]", "u", name.strip().replace("η", "eta").replace("ü", "acc"))
     joined = re.sub(r"(?:\^|\*\*)2$|²$", "2", joined)
     joined = re.sub(r"/ *s(?:ec)? */ *s(?:ec)?$", "/s2", joined, flags=re.IGNORECASE)
@@ -126,7 +129,7 @@ def plain(name: str) -> str:
 
 
 def unit_of(name: str) -> str | None:
-    """The unit of a column by its name: in brackets, or at its end."""
+    """Return the unit in the name of a column, in brackets or at its end, or None."""
     bare, unit = parted(name)
     if unit is not None:
         return spelled(unit)
@@ -135,17 +138,17 @@ def unit_of(name: str) -> str | None:
 
 
 class Units(NamedTuple):
-    """The units that a file states of a column, in more than one place."""
+    """The units of a column that a file states, which may be at several places."""
 
     unit: str | None
     other: str | None = None
-    """Stated elsewhere; an error where it is not the same."""
+    """Unit that is stated at another place. If it differs, an error is raised."""
     of_name: str | None = None
-    """What the name ends in (``acc_g``), where the unit is stated elsewhere."""
+    """Unit at the end of the name (``acc_g``), if another place states the unit."""
 
 
 def units_of(name: str, stated: str | None) -> Units:
-    """The units of a column: in brackets in its name, as stated elsewhere, and as its name ends."""
+    """Return the units of a column: in brackets, at another place, and at the end of its name."""
     elsewhere = spelled(stated) if stated and stated.strip() else None
     bracketed = parted(name)[1]
     if bracketed:
@@ -161,5 +164,5 @@ _LIKE = re.compile(
 
 
 def are_units(cells: list[str]) -> bool:
-    """Whether a line under the names of columns holds their units."""
+    """Return whether a line below the names of columns contains their units."""
     return any(cells) and all(_LIKE.fullmatch(cell) for cell in cells)

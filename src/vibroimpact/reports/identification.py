@@ -87,7 +87,7 @@ def fit_report(
         written.
     """
     if not isinstance(result, xr.Dataset) or "fitted_value" not in result:
-        raise InputError("result: this is not a fit; a dataset of identify is accepted")
+        raise InputError("result: this is not a fit; the result of identify is accepted")
     where = check_path(folder, "folder")
     if not where.is_dir():
         raise InputError(f"folder: {shown(folder)} does not exist; an existing folder is accepted")
@@ -273,7 +273,7 @@ def _tests(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:
             if curves
             else f"{noise:.3g} times the noise of each channel"
         )
-        shape = "correlated, more than noise" if float(one["residual_chance"]) < 1e-3 else "noise"
+        shape = "correlated (not only noise)" if float(one["residual_chance"]) < 1e-3 else "noise"
         rows.append((str(test), amplitude_of(result, str(test)), str(points), told, shape))
     return rows
 

@@ -165,7 +165,7 @@ def _check(rig: Rig, frequencies: Iterable[float], field: str) -> None:
     if undamped_frequency(oscillator) == 0.0:
         return
     bounded = oscillator.isolator.linear_and_bounded
-    held = ", whose bounded force is too small to hold it," if bounded and bounded[1] else ","
+    held = ", whose bounded force is too small to hold the mass," if bounded and bounded[1] else ","
     for i, frequency in enumerate(frequencies):
         if n := grows(rig, float(frequency), _RESONANT):
             which = "" if n == 1 else f" over {n}"

@@ -51,8 +51,8 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     -------
     xarray.Dataset
         The dim ``contact_number`` counts the contacts in the order in which they start. Velocities
-        are relative to the base. Forces on the mass are positive. Energy losses are the energies
-        dissipated in the dashpot of the bumper.
+        are relative to the base. Contact forces and impulses are positive for both stops. Energy
+        losses are the energies dissipated in the dashpot of the bumper.
 
         An impact on a rigid stop lasts 0 s. It has an impulse and an energy loss, but its force has
         no finite peak (NaN). If the mass rests on a rigid stop, the rest is a separate contact. A

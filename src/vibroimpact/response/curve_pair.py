@@ -124,7 +124,7 @@ def as_rigs(data: xr.Dataset) -> xr.Dataset:
     if set(data.get("eta_a", xr.DataArray()).dims) != {"direction", "frequency"}:
         raise InputError(
             f"data: a dataset with the dimensions {dict(data.sizes)} is not the sweep of one "
-            "rig; a dataset of sweep is accepted, or one rig of sweeps, such as data.isel(rig=0)"
+            "rig; the result of sweep is accepted, or one rig of sweeps, such as data.isel(rig=0)"
         )
     return data.expand_dims("rig")
 

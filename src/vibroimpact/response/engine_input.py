@@ -103,7 +103,7 @@ def as_state(start: State | xr.DataArray | xr.Dataset) -> State:
             values["contact"] = int(values["contact"])
         return State(**values)
     raise InputError(
-        f"start: {type(start).__name__} is not a state; a State, a dataset of simulate or its "
+        f"start: {type(start).__name__} is not a state; a State, the result of simulate or its "
         "final_state is accepted"
     )
 

@@ -108,7 +108,7 @@ def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
     held = isinstance(motion, xr.Dataset) and {"event_time", "velocity"} <= set(motion.variables)
     if not held or motion.sizes["time"] < ("cycle" not in motion) + 1:
         raise InputError(
-            "motion: this is not a recorded motion; a dataset of steady, or of simulate with "
+            "motion: this is not a recorded motion; the result of steady, or of simulate with "
             "samples, is accepted"
         )
     parameters = json.loads(motion.attrs["parameters"])

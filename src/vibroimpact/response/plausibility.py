@@ -33,7 +33,7 @@ _STIFF = 1000.0
 _NUDGE = 1e-6
 """Change of a stop's deformation that gives its stiffness, as a share of the deformation."""
 
-UNBOUNDED = "free flight has no bound"
+UNBOUNDED = "free flight is unbounded"
 """How a note begins that says what η is taken over instead."""
 STIFF = "slow to compute"
 """How a note begins that names a stop that vibrates much faster than the rig is shaken."""
@@ -67,7 +67,7 @@ def doubt_gaps(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int 
         known = np.abs(np.asarray(displacement, dtype=float))
         known = known[np.isfinite(known)]
         if len(known):
-            reach, whose = float(known.max()), "that was found"
+            reach, whose = float(known.max()), "that was computed"
     notes = [
         f"{pretty(gap, LENGTH)} is {gap / reach:.3g} times the largest displacement {whose}, "
         f"{pretty(float(f'{reach:.4g}'), LENGTH)}; is {pretty(gap / _FACTOR, LENGTH)} meant?"
@@ -89,9 +89,9 @@ def note_unbounded(rig: Rig) -> list[str]:
     natural = undamped_frequency(oscillator)
     size = 0.5 * reference_excursions(rig)[0]
     return [
-        f"{UNBOUNDED}: it grows without bound at {pretty(natural, FREQUENCY)} because the "
-        "isolator has almost no damping; η is divided by "
-        f"{pretty(float(f'{size:.4g}'), LENGTH)}, the value for a slow excitation of this size"
+        f"{UNBOUNDED} at {pretty(natural, FREQUENCY)}, because the isolator has almost no damping; "
+        f"η is divided by {pretty(float(f'{size:.4g}'), LENGTH)}, the value for a slow excitation "
+        "of this size"
     ]
 
 

@@ -149,9 +149,9 @@ def sweeps(
     phase
         Phase φ of the base acceleration A sin(ωt + φ) at the stroboscopic section, in rad.
     tolerance
-        Relative tolerance of a steady motion. A motion counts as steady when the distance of its
-        stroboscopic state from a periodic orbit is below this tolerance. The period of the orbit is
-        at most 16 forcing cycles.
+        Relative tolerance of a steady motion. A motion counts as steady when its state, recorded
+        once per forcing cycle, is within this tolerance of a periodic orbit. The period of the
+        orbit is at most 16 forcing cycles.
     max_cycles
         Largest number of forcing cycles to wait for a steady motion. If a motion is still
         approaching a periodic orbit, for example with light damping, the limit is increased up to
@@ -308,7 +308,7 @@ def advice(data: xr.Dataset) -> list[str]:
     """Return the advice for frequencies whose motion did not end well; empty if all did."""
     codes, counts = np.unique(data["status"].values, return_counts=True)
     return [
-        f"{count} of {data['status'].size} holds: {Status(code).advice}"
+        f"{count} of {data['status'].size} frequency steps: {Status(code).advice}"
         for code, count in zip(codes, counts, strict=True)
         if Status(code) is not Status.DONE
     ]

@@ -67,8 +67,8 @@ def _unmeasured(rows: NDArray[np.float64]) -> list[str]:
     if not unknown:
         return []
     return [
-        f"the extremes and energies are unknown: {unknown} of {len(rows)} phases of the motion "
-        "turn more often than can be followed"
+        "the extremes and energies are unknown, because the velocity changes sign too often in "
+        f"{unknown} of {len(rows)} intervals between contacts and detachments"
     ]
 
 

@@ -30,17 +30,17 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
     narrow = found.extent(thresholds.prominence) < thresholds.extent
     parts += [
         f"{side} hysteresis {_span(*_ends(found, item))}"
-        + (" (too narrow to count)" if side == "left" and narrow else "")
+        + (" (too narrow for S4)" if side == "left" and narrow else "")
         for side, item in sides
     ]
     if not found.right and (hidden := _hidden(found)):
-        parts.append(f"right hysteresis {hidden}, between two frequencies")
+        parts.append(f"right hysteresis {hidden}, between two frequencies of the sweep")
     parts += _irregular(found, thresholds)
     parts += [
         f"secondary resonance at {frequency:.3g} Hz (prominence {share:.0%})"
         for frequency, share in found.secondary_resonances(thresholds.prominence)
     ]
-    parts += [f"not regular where contact begins, {_span(*span)}" for span in found.onset]
+    parts += [f"non-regular motion where contact begins, {_span(*span)}" for span in found.onset]
     if not found.jumping:
         parts.append("no jumps")
     if math.isfinite(found.resonance):

@@ -88,9 +88,10 @@ def scenario_map(
     step
         Frequency step of the sweeps, as a share of the natural frequency.
     refine
-        Number of times that the map is refined to twice the density near the borders between
-        scenarios. No nodes are computed between nodes of the same scenario. Therefore regions
-        smaller than a square of the first grid may be missed.
+        Number of times that the map is refined near the borders between scenarios. Each time, the
+        spacing of the grid is halved there. No grid points are added between neighbouring points
+        with the same scenario. Therefore regions smaller than a square of the first grid may be
+        missed.
     thresholds
         Thresholds between the scenarios; see `Thresholds`.
     max_cycles

@@ -149,9 +149,9 @@ def grid(high: float, step: float) -> NDArray[np.float64]:
         )
     if count > MOST:
         raise InputError(
-            f"stiffness: with its stops the rig may resonate up to {high:.3g} times its natural "
-            f"frequency, which takes {count:.3g} frequencies; stops that need at most {MOST} are "
-            "accepted"
+            f"stiffness: the stops may raise the resonance to {high:.3g} times the natural "
+            f"frequency of the rig, so that the sweep has {count:.3g} frequencies; softer stops, "
+            f"with which it has at most {MOST}, are accepted"
         )
     values: NDArray[np.float64] = LOW + step * np.arange(math.ceil(count) + 1, dtype=np.float64)
     return values

@@ -73,8 +73,8 @@ def bifurcation_diagram(
 ) -> xr.Dataset:
     """Compute a bifurcation diagram: the steady motions at a series of values of a parameter.
 
-    The diagram shows only attractors (periodic or not) to which the initial states lead. To follow
-    unstable orbits as well, use `branch`.
+    The diagram shows only attractors (periodic or not) to which the initial states lead. To also
+    follow unstable orbits, use `branch`.
 
     Parameters
     ----------
@@ -97,9 +97,9 @@ def bifurcation_diagram(
         Further initial states, by name. From each of them a motion is started at every value.
     random
         Number of additional random initial states. The same states are used at every value. Their
-        displacements are at most 1.5 times the largest displacement of the other motions or 1.5
-        times the widest gap, whichever is larger. The largest velocity is this largest displacement
-        times the angular forcing frequency (the median, if the frequency is varied).
+        displacements are at most D, which is 1.5 times the largest displacement of the other
+        motions or 1.5 times the widest gap, whichever is larger. Their velocities are at most D
+        times the angular forcing frequency (its median, if the frequency is varied).
     seed
         Seed of the random initial states. The same seed gives the same initial states.
     section

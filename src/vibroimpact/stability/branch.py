@@ -192,5 +192,8 @@ def _why(trace: arclength.Trace[Station]) -> str:
     )
     if last > _GROWN * first and last > middle:
         times = last / first
-        return f"{trace.ended}; the motion is {times:.3g} times the first and still grows"
+        return (
+            f"{trace.ended}; the motion is {times:.3g} times as large as the first orbit and still "
+            "grows"
+        )
     return trace.ended

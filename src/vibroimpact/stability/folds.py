@@ -23,7 +23,7 @@ from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.impact_grazing import has_rigid_stop
 from vibroimpact.stability.orbit_curve import Branch, Station, near_other_contacts
 
-FREE = "it leaves the stops"
+FREE = "the orbit leaves the stops"
 """Why a branch in contact is not followed further."""
 _NEAR = 2.0**-16
 """Of a step, to the last orbit in contact: it is then shorter than 1e-6. Of what turns in between

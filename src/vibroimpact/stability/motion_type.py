@@ -147,13 +147,17 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
         return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
     if bounded and damping is not None and forgets(logarithms, damping):
         told = (
-            f"{grown}: as on a torus, but no torus exists when bumpers have no memory of the "
-            "previous cycle; the motion settles slowly"
+            f"{grown}: as in a quasi-periodic motion, but no quasi-periodic motion exists if the "
+            "bumpers have no memory of the previous cycle; the motion settles slowly"
         )
         return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
     if bounded and cycles >= ENOUGH:
         return Judgement(
-            "quasi-periodic", 0, mean, uncertainty, f"{grown}: no more than on a torus"
+            "quasi-periodic",
+            0,
+            mean,
+            uncertainty,
+            f"{grown}: no more than in a quasi-periodic motion",
         )
     return Judgement("undecided", 0, mean, uncertainty, f"{grown}: no clear trend")
 

@@ -149,7 +149,8 @@ class Branch:
         if self.rested.comes_again(here.orbit):
             return (
                 [],
-                f"beyond {here.orbit.value:.9g} the orbits come again at which the mass rests",
+                f"beyond {here.orbit.value:.9g}, the branch repeats the orbits in which the mass "
+                "comes to rest",
             )
         if self._returned(here, there):
             return [there], CLOSED
@@ -161,7 +162,7 @@ class Branch:
         if met is not None:
             # Beyond, the same orbits come again, half a period later.
             cycles = met.section.period
-            return [there], f"it is born at {met.value:.9g}, from the orbits of period {cycles}"
+            return [there], f"it meets the orbits of period {cycles} at {met.value:.9g}"
         return None
 
     def _pole(self, here: Station, there: Station) -> str | None:
@@ -180,9 +181,11 @@ class Branch:
             return None
         name = there.orbit.section.family.parameter.name
         damped = there.orbit.rig.oscillator.isolator.damping > 0.0
-        beyond = f"beyond {times:.1g} times the first" if damped else "without bound"
+        beyond = f"beyond {times:.1g} times the first orbit" if damped else "without bound"
         limit = (
-            "the dashpot of the isolator may limit it" if damped else f"{times:.1g} times the first"
+            "the dashpot of the isolator may limit it"
+            if damped
+            else f"{times:.1g} times the first orbit"
         )
         return f"the motion grows {beyond} near {name} = {value + left:.6g} ({limit})"
 
@@ -383,7 +386,7 @@ def _born_grazing(met: Orbit) -> str:
     """Why a branch ends that has shrunk onto a simpler orbit, which grazes."""
     period = met.section.period
     whose = "that are their own mirror image" if met.section.mirror else f"of period {period}"
-    return f"it is born at {met.value:.9g}, in a grazing of the orbits {whose}"
+    return f"it meets the orbits {whose} at {met.value:.9g}, where they graze"
 
 
 def near_other_contacts(last: Orbit, along: _Array, ahead: float) -> bool:

@@ -77,9 +77,9 @@ def resonance_diagram(
         Number of starting values of the parameter: values at which motions are simulated to find
         branches.
     random
-        Number of random initial states at each starting value of the parameter. By default, there
-        are 40 starting values. The random states are used to find isolated branches with stable
-        orbits.
+        Number of random initial states at each starting value of the parameter, that is, at each
+        value at which simulations search for branches. By default, there are 40 starting values.
+        The random states help to find isolated branches that have stable orbits.
     seed
         Seed of the random initial states. The same seed gives the same initial states.
     basins
@@ -157,8 +157,8 @@ def resonance_diagram(
     if not followed:
         between = f"{ends[0]:g} and {ends[1]:g} {fam.parameter.units}"
         raise InputError(
-            f"span: no periodic orbit was found between {between}; another range, or more starts, "
-            "is accepted"
+            f"span: no periodic orbit was found between {between}; another range, or a larger "
+            "number of starts, is accepted"
         )
     data = as_dataset(followed, fam, ends, "resonance_diagram")
     data.attrs["complete"] = int(complete)

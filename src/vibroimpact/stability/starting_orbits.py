@@ -197,7 +197,7 @@ def in_basins(
 def _value_of(fam: Family, span: tuple[float, float], one: xr.Dataset, field: str) -> float:
     """The value of the parameter at which basins were found."""
     if not isinstance(one, xr.Dataset) or "basin" not in one or "section_attractor" not in one:
-        raise InputError(f"{field}: it has no basins; a dataset of basins is accepted")
+        raise InputError(f"{field}: it has no basins; the result of basins is accepted")
     given = motion_parameters(one)
     rig = Rig(Oscillator.model_validate(given["oscillator"]), excitation_from(given))
     value = fam.parameter.read(rig)

@@ -26,7 +26,7 @@ class Distribution(Protocol):
 
 KINDS = (
     "normal:MEAN:DEVIATION[:LOW:HIGH], lognormal:MEDIAN:SIGMA, uniform:LOW:HIGH, "
-    "triangular:LOW:MODE:HIGH; or normal:SHARE, lognormal:SHARE, uniform:SHARE of the rig's value"
+    "triangular:LOW:MODE:HIGH, or around the rig's value normal:5%, lognormal:0.2, uniform:5%"
 )
 
 
@@ -57,7 +57,7 @@ def distribution(
         if not callable(getattr(given, "ppf", None)) or not hasattr(given, "args"):
             raise InputError(
                 f"{field}: {shown(given)} is not a distribution; a frozen distribution of "
-                f"scipy.stats or a text is accepted, {KINDS}"
+                f"scipy.stats or one of these texts is accepted: {KINDS}"
             )
         frozen: Distribution = given
         return frozen
@@ -65,7 +65,7 @@ def distribution(
     try:
         return _made(kind.lower(), texts, varied, own, field)
     except _Unknown:
-        raise InputError(f"{field}: {given!r}; {KINDS} are accepted") from None
+        raise InputError(f"{field}: {given!r}; one of these is accepted: {KINDS}") from None
 
 
 class _Unknown(Exception):  # noqa: N818 - turned into words

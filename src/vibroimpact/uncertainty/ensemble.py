@@ -154,8 +154,8 @@ def _part(data: Any, count: int, names: list[str]) -> xr.Dataset:
     for name in names:
         if name in data.variables:
             raise InputError(
-                f"distributions: {name!r} is a variable of the response itself; other parameters "
-                "are accepted with this response"
+                f"distributions: {name!r} is also the name of a variable of the response; other "
+                "parameters are accepted with this response"
             )
     return data.drop_vars("rig", errors="ignore").rename_dims(rig="sample")
 

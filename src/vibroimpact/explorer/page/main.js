@@ -168,7 +168,7 @@ for (const name of TABS) {
 id("frequency").addEventListener("change", (event) => send({ do: "choose", path: "frequency", direction: state.direction, frequency: event.target.value }));
 id("direction").addEventListener("change", (event) => send({ do: "choose", direction: event.target.value, frequency: state.frequency }));
 for (const button of document.querySelectorAll("[data-file]")) button.addEventListener("click", () => link.send({ do: "file", kind: button.dataset.file }));
-id("link").addEventListener("click", async () => say((await copy(location.href)) ? "The address is copied." : "Copy the address from the address bar."));
+id("link").addEventListener("click", async () => say((await copy(location.href)) ? "The address is copied." : "The address could not be copied. Copy it from the address bar."));
 id("svg").addEventListener("click", () => asPicture(id("panels"), state.name, "svg"));
 id("png").addEventListener("click", () => asPicture(id("panels"), state.name, "png"));
 addEventListener("keydown", (event) => {

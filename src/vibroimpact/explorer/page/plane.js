@@ -16,7 +16,7 @@ function edges(nodes, log) {
 
 export class Plane {
   constructor(parent, move) {
-    this.chart = new Chart(parent, { name: "Scenarios over stiffness ratio and gap ratio; the rig is the point", x: "stiffness ratio λ (–)", y: "gap ratio δ0 (–)", xlog: true });
+    this.chart = new Chart(parent, { name: "Scenarios over stiffness ratio and gap ratio. The point marks the rig.", x: "stiffness ratio λ (–)", y: "gap ratio δ0 (–)", xlog: true });
     this.chart.redraw = () => this.draw();
     this.move = move;
     this.gesture = 0;

@@ -1,5 +1,5 @@
-"""From a state to what is drawn: plain numbers and words that a page can be sent.
+"""The pictures of a state, as numbers and texts that are sent to a page.
 
-A picture is a function of a state. It computes with the functions that everyone uses, and takes its
-words from `vibroimpact.facts`, as the command line does.
+Each picture is a function of a state. It calls the public functions of the package. Its texts come
+from `vibroimpact.facts`, like those of the command line.
 """

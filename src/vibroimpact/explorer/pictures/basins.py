@@ -1,4 +1,4 @@
-"""Which starts lead to which motion at the chosen frequency, coarse first."""
+"""The basins of attraction at the selected frequency, first on a coarse grid."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from vibroimpact.explorer.state import State
 from vibroimpact.tasks.threads import Progress
 
 COARSE, FINE = 32, 128
-"""Starts along each axis."""
+"""Number of initial states along each axis."""
 _PATIENCE = 500
-"""Cycles after which a motion that has not settled counts as wandering."""
+"""Number of forcing cycles after which an unsettled motion is treated as not periodic."""
 
 
 def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
-    """Return the number of the motion that each start leads to, and what the motions are.
+    """Return the motions, and for each initial state the number of the motion that it leads to.
 
     Raises
     ------
     InputError
-        If the rig has no dissipation, so that every state has its own motion.
+        If the rig has no dissipation, because then every initial state has its own motion.
     """
     data = basins(
         state.rig, nodes=FINE if fine else COARSE, max_cycles=_PATIENCE, progress=progress

@@ -1,4 +1,4 @@
-"""The branch of orbits through the selected motion, stable or not."""
+"""The branch of stable and unstable periodic orbits through the selected motion."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from vibroimpact.stability.branch import branch
 from vibroimpact.tasks.threads import Progress
 
 _MOST = 2000
-"""Orbits to either side, after which a branch is given up."""
+"""Largest number of orbits in each direction along a branch."""
 
 
 def branches(state: State, data: xr.Dataset, progress: Progress) -> dict[str, Any]:
-    """Return the branch through the motion, in pieces that are stable or unstable.
+    """Return the branch through the selected motion, split into stable and unstable parts.
 
     Raises
     ------
     InputError
-        If the motion is none that repeats itself.
+        If the motion is not periodic.
     """
     shaken, section, period = at(state, data)
     low, high = state.span

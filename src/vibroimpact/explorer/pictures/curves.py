@@ -1,4 +1,4 @@
-"""The resonance curves, up and down, coarse or fine, with their jumps and hysteresis."""
+"""The resonance curves of both sweep directions, coarse or fine, with jumps and hysteresis."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from vibroimpact.response.sweep import advice, sweep
 from vibroimpact.tasks.threads import Progress
 
 COARSE = 46
-"""Frequencies while a knob is turned: as many as the published tests held."""
+"""Number of frequencies while a knob is turned, as in the published tests."""
 FINE = 181
-"""Four times as dense, with those of the coarse ones among them."""
+"""Number of frequencies of a fine sweep. Every fourth one is a frequency of the coarse sweep."""
 _PATIENCE, _WINDOW = 300, 100
 """Cycles that a coarse hold waits, and those it is measured over, where it does not settle."""
 
 
 def swept(state: State, fine: bool, progress: Progress | None = None) -> xr.Dataset:
-    """Sweep the rig over the span of the page."""
+    """Sweep the rig over the frequency range of the page."""
     count = FINE if fine else COARSE
     frequencies = beside_resonance(state.oscillator, np.linspace(*state.span, count))
     few: dict[str, Any] = {} if fine else {"max_cycles": _PATIENCE, "window": _WINDOW}

@@ -1,4 +1,4 @@
-"""The motion at the chosen frequency: what it is called, and how it looks."""
+"""The motion at the selected frequency: its type, its history, its spectrum and its impacts."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ _HIGHEST = 16.0
 
 
 def at(state: State, data: xr.Dataset) -> tuple[Harmonic, xr.DataArray, float]:
-    """Return the excitation of the selected motion, its state, and its period, from a sweep.
+    """Return the excitation, the state and the period of the selected motion, from a sweep.
 
-    It is that of the nearest frequency that was held, on the curve that was chosen.
+    They belong to the frequency of the sweep that is nearest to the selected frequency.
     """
     held = data.sel(direction=state.direction).sel(
         frequency=state.shaking.frequency, method="nearest"
@@ -41,7 +41,7 @@ def at(state: State, data: xr.Dataset) -> tuple[Harmonic, xr.DataArray, float]:
 
 
 def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
-    """Return the motion as the sweep has left it, for while a knob is turned."""
+    """Return the motion from the end of the sweep's simulation, while a knob is turned."""
     shaken, section, period = at(state, data)
     cycles = int(period) if 0 < period <= _MOST_CYCLES else _MOST_CYCLES
     motion = compute_history(Rig(state.oscillator, shaken), cycles, section, _SAMPLES)
@@ -49,7 +49,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 
 def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
-    """Return the motion named and measured, with the impacts (mm/s) of what is drawn."""
+    """Return the classified motion, with its spectrum, and the impacts (mm/s) that are drawn."""
     shaken, section, _ = at(state, data)
     motion = steady(
         Rig(state.oscillator, shaken), section, _SAMPLES, window=_WINDOW, exponent_cycles=_GROWTH

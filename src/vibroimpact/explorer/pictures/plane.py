@@ -1,4 +1,4 @@
-"""The (λ, δ0) plane with its scenarios, at the ξ and τ of the rig."""
+"""The map of scenarios over λ and δ0, at the ξ and the τ of the rig."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ STIFFNESS, GAP = (0.25, 250.0), (0.0, 1.2)
 
 
 class Plane(NamedTuple):
-    """What the map depends on: λ and δ0 are its axes."""
+    """The values on which the map depends, in addition to λ and δ0 on its axes."""
 
     damping_ratio: float
     relaxation_time: float
@@ -30,12 +30,13 @@ class Plane(NamedTuple):
 
 
 def plane(state: State) -> Plane:
-    """Return what the map of a rig depends on.
+    """Return the values on which the map of a rig depends.
 
     Raises
     ------
     InputError
-        If the rig has no λ, δ0, τ and ξ that are those of both sides.
+        If a stop of the rig is not a Kelvin-Voigt bumper, if both sides have different τ, or if a
+        constant force acts on the mass.
     """
     rig = state.oscillator
     scaled = to_dimensionless(state.rig)
@@ -56,7 +57,7 @@ def plane(state: State) -> Plane:
 
 
 def scenarios(where: Plane, fine: bool, progress: Progress) -> dict[str, Any]:
-    """Return the scenario at each node, denser at borders where it is `fine`."""
+    """Return the scenario at each node. If `fine`, the map is refined at the borders."""
     right, left = where.sides
 
     def each(value: float) -> tuple[float | None, float | None]:

@@ -19,7 +19,7 @@ from vibroimpact.tasks.threads import Progress
 
 
 def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
-    """Return what a coarse sweep shows, while a knob is turned."""
+    """Return the scenario of a coarse sweep, while a knob is turned."""
     used = Thresholds()
     found = evidence(Rig(state.oscillator, state.shaking), data, 0.5 * used.prominence)
     label = scenario(found, used).label
@@ -34,7 +34,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 
 def careful(state: State, progress: Progress) -> dict[str, Any]:
-    """Return what `vibroimpact.classify_scenario` finds, over its own frequencies."""
+    """Return the result of `vibroimpact.classify_scenario`, which selects its own frequencies."""
     found = told.facts(classify(state.rig, progress=progress))
     return {
         "picture": "scenario",

@@ -68,8 +68,8 @@ def force_of_strength(mass: float, strength: object) -> float:
         return number
     if number > 1.0:
         raise InputError(
-            f"strength: {shown(strength)} times the weight; a share of it up to 1 is accepted, "
-            'such as 0.05, or a force with its unit, such as "250 kN"'
+            f"strength: {shown(strength)} times the weight; a share of the weight up to 1, such as "
+            '0.05, or a force with its unit, such as "250 kN", is accepted'
         )
     return number * mass * GRAVITY
 
@@ -103,11 +103,11 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
     if not given:
         return table
     if mass is None:
-        raise InputError(f"{given[0]}: needs a mass; add a mass")
+        raise InputError(f"{given[0]}: requires the mass of the oscillator; add a valid mass")
     for p in own:
         if p.default is p.empty and p.name not in table:
             raise InputError(
-                f"{p.name}: missing, but {given[0]} needs it; {_ACCEPTS[p.name].words()}"
+                f"{p.name}: missing, but {given[0]} requires it; {_ACCEPTS[p.name].words()}"
             )
     values = {key: value for key, value in table.items() if key != "kind"}
     return getattr(law, name)(mass, **values)

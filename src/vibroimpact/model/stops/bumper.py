@@ -123,7 +123,7 @@ def returning(table: Mapping[str, Any], mass: float | None) -> Mapping[str, Any]
     if "damping" in table:
         raise InputError("restitution: given together with damping; one of the two is accepted")
     if mass is None:
-        raise InputError("restitution: needs a mass; add a mass")
+        raise InputError("restitution: requires the mass of the oscillator; add a valid mass")
     rest = {name: value for name, value in table.items() if name != "restitution"}
     if "stiffness" not in rest:
         return {**rest, "damping": 0.0}  # it is missed by who reads the table

@@ -75,7 +75,7 @@ def dissipation_number(restitution: float, relation: str) -> float:
     if relation in _DIVIDE and not restitution > 1e-300:
         others = " and ".join(repr(name) for name in RELATIONS if name not in _DIVIDE)
         raise InputError(
-            f"restitution: {restitution:g} needs an infinite dissipation with the relation "
+            f"restitution: {restitution:g} requires an infinite dissipation with the relation "
             f"{relation!r}; a restitution greater than 0 is accepted, or the relations {others}, "
             "which give a finite one"
         )

@@ -64,7 +64,7 @@ class JankowskiBumper(Named):
     def _damped_finitely(self) -> Self:
         if not self.damping_ratio < math.inf:
             raise InputError(
-                f"restitution: {self.restitution:g} needs an infinite damping; a larger "
+                f"restitution: {self.restitution:g} requires an infinite damping; a larger "
                 "restitution is accepted"
             )
         return self

@@ -37,8 +37,8 @@ def no_hysteresis(study: PublishedStudy) -> Finding:
     ranges = ", ".join(f"{r.direction} {r.low:g} to {r.high:g} Hz" for r in wild)
     return Finding(
         bool(wild) and not inside and quiet < 1e-6 and loud < UNSETTLED_APART,
-        f"no periodic motion: {ranges or 'nowhere'}; differences {at_most(quiet)} where periodic, "
-        f"{at_most(loud, '.1%')} elsewhere; {len(inside)} hystereses",
+        f"no periodic motion: {ranges or 'at no frequency'}; differences {at_most(quiet)} where "
+        f"periodic, {at_most(loud, '.1%')} elsewhere; {len(inside)} hystereses",
     )
 
 

@@ -186,7 +186,7 @@ def larger(study: PublishedStudy) -> Finding:
     count = int(more.any("frequency").sum())
     example = "B2-G1-A3"
     found = list(runs(data["frequency"].values, more.sel(rig=example).values))
-    told = ", ".join(span(*ends) for ends in found) or "nowhere"
+    told = ", ".join(span(*ends) for ends in found) or "at no frequency"
     return Finding(count > 0, f"in {count} of {len(CODES)} tests; {example}: {told}")
 
 
