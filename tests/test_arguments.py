@@ -242,7 +242,9 @@ SHAKING = vi.Harmonic(1.0, 1.0)
     ],
 )
 def test_what_is_no_mapping_is_one_line(field, call, wrong):
-    with pytest.raises(vi.InputError, match=rf"^{field}: .* is accepted$"):
+    with pytest.raises(
+        vi.InputError, match=rf"^{field}: .*; pass a dict of .* by .*, such as {{.*}}$"
+    ):
         call(wrong)
 
 

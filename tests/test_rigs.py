@@ -174,18 +174,24 @@ RECORD = vi.Record([0.1, 0.2], 0.01)
         (lambda: vi.sweeps([], GRID), r"^rigs: the list is empty"),
         (lambda: vi.sweeps(["B9-G1-A3"], GRID), r"^rigs\[0\]: .*bumper 'B9'"),
         (lambda: vi.Rig(SHAKEN, OSCILLATOR), r"^oscillator: a Harmonic is a shaking, which is"),
-        (lambda: vi.Rig(550.0, AMPLITUDE), r"^oscillator: 550.0 is not an Oscillator; Rig\("),
-        (lambda: vi.Rig(OSCILLATOR, OSCILLATOR), r"^shaking: .* is not an excitation; Rig\("),
+        (lambda: vi.Rig(550.0, AMPLITUDE), r"^oscillator: 550.0 is not an Oscillator; write Rig\("),
+        (lambda: vi.Rig(OSCILLATOR, OSCILLATOR), r"^shaking: .* is not an excitation; write Rig\("),
         (lambda: vi.Rig(OSCILLATOR, -1.0), r"^shaking: -1"),
         (lambda: vi.Rig(OSCILLATOR, "2 kg"), r"^shaking: '2 kg' is a mass"),
         (lambda: vi.Rig(OSCILLATOR, []), r"^shaking: the list is empty"),
         (lambda: vi.Rig(OSCILLATOR, RECORD, 2.0), r"^frequency: 2 Hz, but the shaking is a Record"),
         (
             lambda: vi.classify_scenario(vi.Rig(OSCILLATOR, [0.1, 0.2])),
-            r"^shaking: 2 amplitudes; a scenario is defined for one amplitude",
+            r"^shaking: 2 amplitudes, but a scenario is defined for one amplitude",
         ),
-        (lambda: vi.branch(CASE, span=(2.0, 1.0)), r"^span\[1\]: 1 is not greater than span\[0\]"),
-        (lambda: vi.branch(CASE, frequency=2.0, span=2.0), r"^span: 2.0; the lowest and the high"),
+        (
+            lambda: vi.branch(CASE, span=(2.0, 1.0)),
+            r"^span\[1\]: 1 Hz is not greater than span\[0\]",
+        ),
+        (
+            lambda: vi.branch(CASE, frequency=2.0, span=2.0),
+            r"^span: 2.0; pass the lowest and the high",
+        ),
     ],
 )
 def test_what_is_not_a_rig(call, message):

@@ -12,9 +12,9 @@ from vibroimpact.errors import InputError, shown, unknown
 
 LONGEST_PATH = 4096
 """Largest number of characters of a path in operating systems."""
-VALUES = "a mapping from names of parameters to values"
+VALUES = 'a dict of values by parameter, such as {"gap": ["5 mm", "8 mm"]}'
 """Description of values that are varied."""
-STARTS = 'a mapping from names to states, such as {"mine": State(0.01, 0.0)},'
+STARTS = 'a dict of initial states by name, such as {"mine": State(0.01, 0.0)}'
 """Description of initial states."""
 MOST_LISTED = 1_000_000
 """Largest number of items of a list that is not a record."""
@@ -32,11 +32,16 @@ def check_path(value: object, field: str) -> Path:
     if isinstance(value, os.PathLike):
         path = os.fspath(value)
     if not isinstance(path, str):
-        raise InputError(f"{field}: {shown(value)} is not a path; the path of a file is accepted")
-    if "\0" in path or len(path) > LONGEST_PATH or not _is_encodable(path):
+        raise InputError(f"{field}: {shown(value)} is not a path; pass the path as text")
+    if len(path) > LONGEST_PATH:
         raise InputError(
-            f"{field}: {shown(path)} cannot be a path; at most {LONGEST_PATH} characters without "
-            "control characters are accepted"
+            f"{field}: {shown(path)} has {len(path)} characters; pass a path of at most "
+            f"{LONGEST_PATH} characters"
+        )
+    if "\0" in path or not _is_encodable(path):
+        raise InputError(
+            f"{field}: {shown(path)} contains a character that no path may contain; remove this "
+            "character"
         )
     return Path(path)
 
@@ -59,7 +64,7 @@ def check_mapping(value: object, field: str, what: str) -> Mapping[str, Any]:
         If it is not a mapping, or if one of its keys is not a text.
     """
     if not isinstance(value, Mapping) or not all(isinstance(key, str) for key in value):
-        raise InputError(f"{field}: {shown(value)}; {what} is accepted")
+        raise InputError(f"{field}: {shown(value)}; pass {what}")
     return value
 
 
@@ -71,10 +76,14 @@ def check_texts(value: object, field: str) -> None:
     InputError
         If it is anything else.
     """
-    held = {} if value is None else check_mapping(value, field, "a mapping from texts to texts")
+    example = "mm" if field == "units" else "Ed"
+    what = f'a dict of texts, such as {{"displacement_excursion": "{example}"}}'
+    held = {} if value is None else check_mapping(value, field, what)
     for key, one in held.items():
         if not isinstance(one, str):
-            raise InputError(f"{field}[{key!r}]: {shown(one)} is not a text; a text is accepted")
+            raise InputError(
+                f"{field}[{key!r}]: {shown(one)} is not a text; pass a text, such as {example!r}"
+            )
 
 
 def check_variables(value: Any, names: Collection[str], field: str, what: str) -> None:
@@ -87,7 +96,7 @@ def check_variables(value: Any, names: Collection[str], field: str, what: str) -
     """
     held = getattr(value, "data_vars", None)
     if not isinstance(held, Mapping) or not all(name in value.variables for name in names):
-        raise InputError(f"{field}: {shown(value)} is not {what}; {what} is accepted")
+        raise InputError(f"{field}: {shown(value)}; pass {what}")
 
 
 def check_name(value: object, names: Collection[str], field: str) -> str:
@@ -113,8 +122,8 @@ def check_progress(value: Any) -> None:
     """
     if value is not None and (isinstance(value, type) or not callable(value)):
         raise InputError(
-            f"progress: {shown(value)}; None or a function of two numbers, the completed and the "
-            "total work, such as progress_bar(), is accepted"
+            f"progress: {shown(value)}; pass progress_bar(), a function of two numbers (the "
+            "completed and the total work), or None"
         )
 
 
@@ -140,10 +149,10 @@ def check_list(
         If it is not a list, if it is a text, or if it has more than `most` items.
     """
     if not is_list(value):
-        raise InputError(f"{field}: {shown(value)} is not a list; {what} is accepted")
+        raise InputError(f"{field}: {shown(value)} is not a list; pass {what}")
     items = tuple(itertools.islice(cast("Iterable[Any]", value), most + 1))
     if len(items) > most:
-        raise InputError(f"{field}: more than {most} items; at most {most} are accepted")
+        raise InputError(f"{field}: more than {most} items; pass at most {most}")
     return items
 
 
@@ -169,7 +178,7 @@ def check_flag(value: object, field: str) -> bool:
     """
     kind = getattr(getattr(value, "dtype", None), "kind", "")  # of a value of numpy
     if not isinstance(value, bool) and (kind != "b" or getattr(value, "ndim", 1)):
-        raise InputError(f"{field}: {shown(value)}; True or False is accepted")
+        raise InputError(f"{field}: {shown(value)}; pass True or False")
     return bool(value)
 
 

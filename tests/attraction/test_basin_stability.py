@@ -78,10 +78,13 @@ def test_points_tell_which_motion_goes_on():
         ({"seed": -1}, "seed: -1"),
         ({"values": [1.0]}, "parameter: missing"),
         ({"parameter": "frequency"}, "values: None"),
-        ({"parameter": "frequency", "values": []}, "values: missing"),
+        ({"parameter": "frequency", "values": []}, "values: the list is empty"),
         ({"parameter": "frequency", "values": ["1 mm"]}, "values[0]: "),
         ({"parameter": "colour", "values": [1.0]}, "parameter: "),
-        ({"velocity": (1.0, -1.0)}, "velocity: 1 is not below -1"),
+        (
+            {"velocity": (1.0, -1.0)},
+            "velocity: the first value, 1 m/s, is not below the second, -1 m/s",
+        ),
     ],
 )
 def test_what_is_refused(words, named):

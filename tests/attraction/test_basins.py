@@ -151,15 +151,21 @@ def test_bumpers_that_remember():
 def test_where_nothing_dies_out_it_is_said():
     spring = vi.Bumper(680e3, 0.0, 0.005)
     rig = vi.Oscillator(550.0, vi.Isolator(26e3, 0.0), spring, spring)
-    with pytest.raises(vi.InputError, match="has no dissipation"):
+    with pytest.raises(vi.InputError, match="loses no energy"):
         vi.basins(vi.Rig(rig, vi.Harmonic(0.5, HERTZ)), *WINDOW, nodes=10)
 
 
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        ({"displacement": (0.01, -0.01)}, "displacement: 0.01 is not below -0.01"),
-        ({"displacement": 0.01}, "displacement: 0.01; a pair"),
+        (
+            {"displacement": (0.01, -0.01)},
+            "displacement: the first value, 10 mm, is not below the second, -10 mm",
+        ),
+        (
+            {"displacement": 0.01},
+            "displacement: 0.01; pass the lowest and the highest value as a pair",
+        ),
         ({"velocity": ("1 m", "2 m")}, "velocity[0]"),
         ({"nodes": 1}, "nodes: 1"),
         ({"nodes": (3, 4, 5)}, "nodes: "),

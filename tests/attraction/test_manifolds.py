@@ -205,13 +205,18 @@ def test_crossings_of_lines_that_are_known():
         (
             vi.State(0.0026, -0.027),
             {},
-            "saddles[0]: this orbit is not a saddle, because its multipliers",
+            "saddles[0]: this orbit is not a saddle, because the absolute values of its "
+            "multipliers are",
         ),
-        (xr.Dataset(), {}, "saddles[0]: this is not an orbit"),
+        (xr.Dataset(), {}, "saddles[0]: this dataset is not an orbit"),
         (None, {"spacing": 0.0}, "spacing: "),
         (None, {"longest": -1.0}, "longest: "),
         (None, {"period": 0}, "period: 0"),
-        (None, {"displacement": (1.0, 0.0)}, "displacement: 1 is not below 0"),
+        (
+            None,
+            {"displacement": (1.0, 0.0)},
+            "displacement: the first value, 1 m, is not below the second, 0 m",
+        ),
     ],
 )
 def test_what_is_refused(saddles, words, named):
@@ -231,7 +236,7 @@ def test_an_orbit_at_another_phase_is_refused():
 def test_what_remembers_has_no_curves_in_the_plane():
     slow = vi.Bumper(680e3, 4e5, 0.005)
     rig = vi.Oscillator(550.0, CASE.oscillator.isolator, slow, slow)
-    with pytest.raises(vi.InputError, match="memory for more than a cycle"):
+    with pytest.raises(vi.InputError, match="a bumper needs more than one cycle to relax"):
         vi.manifolds(vi.Rig(rig, EXCITATION))
 
 
@@ -239,7 +244,7 @@ def test_a_saddle_that_presses_a_stop_with_a_restitution_is_refused_at_that_phas
     stop = vi.PowerBumper(stiffness=10e6, gap="5 mm", exponent=1.5, restitution=0.7)
     rig = CASE.oscillator.replace(right=stop, left=stop)
     shaking = vi.Harmonic("0.05 g", "2.5 Hz")
-    with pytest.raises(vi.InputError, match="a phase without contact"):
+    with pytest.raises(vi.InputError, match="a phase at which the mass touches no stop"):
         vi.manifolds(vi.Rig(rig, shaking))
     data = vi.manifolds(vi.Rig(rig, shaking.replace(phase=1.6)), longest=1.0)
     near = vi.State(

@@ -53,7 +53,7 @@ def test_json_and_another_parameter(run, tmp_path):
         (("--samples", "0"), "--samples: 0"),
         (("--parameter", "gap"), "--from: missing"),
         (("--parameter", "gap", "--from", "4mm", "--to", "6mm"), "--frequency: missing"),
-        (("--velocity", "1"), "--velocity: '1'; a range LOW:HIGH"),
+        (("--velocity", "1"), "--velocity: '1' is not a range; pass LOW:HIGH"),
     ],
 )
 def test_what_is_refused(run, tmp_path, words, named):

@@ -43,8 +43,11 @@ def test_json_and_options(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("--displacement", "12mm"), "--displacement: '12mm'; a range LOW:HIGH"),
-        (("--displacement", "12mm:3mm"), "--displacement: 0.012 is not below 0.003"),
+        (("--displacement", "12mm"), "--displacement: '12mm' is not a range; pass LOW:HIGH"),
+        (
+            ("--displacement", "12mm:3mm"),
+            "--displacement: the first value, 12 mm, is not below the second, 3 mm",
+        ),
         (("--velocity", "1m:2m"), "--velocity[0]: "),
         (("--nodes", "1"), "--nodes: 1"),
         (("--refine", "20"), "--refine: 20"),

@@ -68,7 +68,10 @@ def test_a_study_says_its_frequency(tmp_path, told):
         ((*GAPS, "--frequency", "0Hz"), "--frequency"),
         ((*GAPS, "--frequency", "1Hz", "--steps", "1"), "--steps: 1"),
         ((*GAPS, "--frequency", "1Hz", "--random", "-1"), "--random: -1"),
-        ((*GAPS, "--frequency", "1Hz", "--direction", "none"), "--direction: empty"),
+        (
+            (*GAPS, "--frequency", "1Hz", "--direction", "none"),
+            "--direction: neither a direction nor a start",
+        ),
         (("B2-G1-A3", "--parameter", "colour"), "--parameter: 'colour'"),
         (("B2-G1-A3", "--from", "3Hz", "--to", "2Hz"), "--to: 2"),
     ],

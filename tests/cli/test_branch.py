@@ -291,10 +291,13 @@ TO = ("--to", "20mm", "--frequency", "2Hz")
         pytest.param(
             ["--parameter", "gap", "--from", "10mm", *TO, "--period", "1"], "--from"
         ),  # without the rig's own gap
-        (["--parameter", "right-gap", "--no-right", "--from", "1mm", *TO], "no right bumper"),
+        (
+            ["--parameter", "right-gap", "--no-right", "--from", "1mm", *TO],
+            "applies to the right stop, but the rig has none",
+        ),
         (
             ["--parameter", "gap", "--left-gap", "9mm", "--from", "1mm", *TO],
-            "'gap' applies to both",
+            "the two bumpers have different values of gap",
         ),
         (["--longest", "0"], "longest: 0"),
         (["--longest", "1.5"], "--longest"),
@@ -332,7 +335,7 @@ def test_the_branch_of_another_motion(run, tmp_path):
     )
     shaken = ("--frequency", "0.81rad/s", "--json")
     span = ("--from", "0.8rad/s", "--to", "0.82rad/s")
-    told = "the orbit found has period 1 and is not the motion from rest, which has period 5"
+    told = "the computed orbit has period 1 and is not the motion from rest, which has period 5"
     code, out, errors = run("soft.toml", *shaken, *span, "--period", "1")
     assert json.loads(out)["branches"][0]["period"] == 1
     assert (code, told in errors) == (0, True)
@@ -350,7 +353,7 @@ def test_the_branch_of_another_motion(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("--start", "5mm"), "--start: '5mm'; a displacement and a velocity"),
+        (("--start", "5mm"), "--start: '5mm'; pass a displacement and a velocity"),
         (("--start", "5mm,1kg"), "--start: "),
         (("--period", "0"), "--period: 0"),
     ],
@@ -380,7 +383,7 @@ def test_an_isolator_without_stiffness(run, tmp_path):
         2,
         "",
         "vibroimpact: error: --to: missing; the isolator has no stiffness, so there is no "
-        "natural frequency and no default; a frequency greater than 0 is accepted\n",
+        "natural frequency and no default; pass a frequency greater than 0\n",
     )
 
 

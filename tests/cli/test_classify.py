@@ -56,7 +56,7 @@ def test_several_harmonics_are_refused(run, tmp_path):
     for words in (("saw",), ("saw", "--from", "1Hz")):
         code, out, errors = run(*words)
         assert (code, out) == (2, "")
-        assert "excitation: the harmonics of a Periodic cause resonances" in errors
+        assert "excitation: scenarios are not defined for a Periodic" in errors
         assert errors.count("\n") == 1
 
 
@@ -86,13 +86,13 @@ def test_changed_rig(run):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (["--touch", "5"], "--touch: 5.0; a number greater than 0 and at most 1 is accepted"),
+        (["--touch", "5"], "--touch: 5.0; pass a number greater than 0 and at most 1"),
         (["--extent", "0"], "--extent: 0.0"),
         (["--extent", "wide"], "--extent"),
-        (["--from", "6Hz", "--to", "5Hz"], "--from: 6 Hz is above --to, 5 Hz; a rising range"),
+        (["--from", "6Hz", "--to", "5Hz"], "--from: 6 Hz is above --to, 5 Hz; lower --from"),
         (
             ["--from", "1Hz", "--to", "1.02Hz", "--step", "0.01Hz"],
-            "--step: 3 values; at least 4 frequencies are accepted",
+            "--step: 3 values are too few for a resonance curve; pass at least 4 frequencies",
         ),
         (["--step", "0Hz"], "--step"),
         (["--gap", "15 kg"], "--gap"),

@@ -193,7 +193,7 @@ GAPS = ("--first", "1mm:20mm")
             ["--over", "gap,gap-ratio", *GAPS, "--second", "0.1:1", "--frequency", "2Hz"],
             "--over: ",
         ),
-        (["--first", "3Hz:4Hz", *SECOND], "--bifurcation: no fold was found along frequency"),
+        (["--first", "3Hz:4Hz", *SECOND], "--bifurcation: no fold was found for frequency"),
         (["--bifurcation", "neimark-sacker", "--first", "2Hz:3Hz", *SECOND], "no Neimark-Sacker"),
         (["--bifurcation", "hopf", *SECOND], "--bifurcation"),
         (["--no-right", "--no-left", *SECOND], "no bumper"),

@@ -254,10 +254,10 @@ def test_three_measured_records(run, tmp_path):
     ("words", "line"),
     [
         (("--vary", "length", "1:2"), "--vary: 'length'; one of "),
-        (("--vary", "gap", "2"), "--vary: '2' is not a range; LOW:HIGH"),
+        (("--vary", "gap", "2"), "--vary: '2' is not a range; pass LOW:HIGH"),
         (
             ("--vary", "gap", "0.2:0.1"),
-            "--vary: 200 mm is not below the upper end of the range, 100 mm",
+            "--vary: the lower end of the range, 200 mm, is not below the upper end, 100 mm",
         ),
         (("--vary", "gap", "1kg:2"), "--vary: '1kg'"),
         (("--vary", "yield-force", "1:2"), "yield_force: unknown key"),

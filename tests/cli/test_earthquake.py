@@ -109,8 +109,8 @@ def test_each_record_of_a_suite_has_its_own_component_and_scale(run, tmp_path, q
         given = [*words[:4], value] if option == "--component" else [*words, option, value]
         assert run(*given)[::2] == (
             2,
-            f"vibroimpact: error: {option}: '1,2,3' has 3 values for 2 records; one value for "
-            "all records, or one value per record, is accepted\n",
+            f"vibroimpact: error: {option}: '1,2,3' has 3 values for 2 records; pass one value for "
+            "all records, or 2 values\n",
         )
 
 
@@ -133,7 +133,7 @@ def test_a_study_with_its_record_and_one_without(run, tmp_path, quake):
     code, _, errors = run("B2-G1-A3")
     assert code == 2
     assert errors == (
-        "vibroimpact: error: RECORD: missing; the file of a record is accepted, or a study with a "
+        "vibroimpact: error: RECORD: missing; pass the file of a record, or a study that has a "
         "record as its excitation\n"
     )
 
@@ -155,7 +155,7 @@ def test_two_files_of_one_name_are_refused(run, tmp_path, quake):
     (tmp_path / "b" / quake).write_text((tmp_path / quake).read_text())
     code, out, errors = run("B2-G1-A3", quake, f"b/{quake}")
     assert (code, out) == (2, "")
-    assert errors.startswith(f"vibroimpact: error: RECORD: 'b/{quake}' has the same name as")
+    assert errors.startswith(f"vibroimpact: error: RECORD: 'b/{quake}' has the same file name as")
 
 
 def test_what_is_said_in_place_of_a_file_is_told(run, tmp_path):

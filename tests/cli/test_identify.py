@@ -160,8 +160,14 @@ def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_pa
     ("words", "told"),
     [
         (["--free", "gap", "--compare", "plastic"], "--compare"),
-        (["--free", "gap", "--bounds", "stiffness", "1:2"], "is not free"),
-        (["--free", "gap", "--bounds", "gap", "2"], "two values with a colon"),
+        (
+            ["--free", "gap", "--bounds", "stiffness", "1:2"],
+            "is not one of the free parameters, gap",
+        ),
+        (
+            ["--free", "gap", "--bounds", "gap", "2"],
+            "pass the lowest and the highest value with a colon",
+        ),
         (["--free", "nothing"], "free: 'nothing'"),
         (["--free", "bumper-stifness,gap"], "did you mean bumper_stiffness?"),
     ],

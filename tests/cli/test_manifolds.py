@@ -48,10 +48,11 @@ def test_without_borders_there_is_no_saddle(run):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("--saddle", "5mm"), "--saddle: '5mm'; a displacement and a velocity"),
+        (("--saddle", "5mm"), "--saddle: '5mm'; pass a displacement and a velocity"),
         (
             ("--saddle", "2.6mm,-27mm/s"),
-            "--saddle[0]: this orbit is not a saddle, because its multipliers",
+            "--saddle[0]: this orbit is not a saddle, because the absolute values of its "
+            "multipliers are",
         ),
         (("--spacing", "0"), "--spacing: "),
         (("--period", "0"), "--period: 0"),

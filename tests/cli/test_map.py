@@ -112,7 +112,7 @@ def test_another_map_in_the_same_place_is_refused(run):
     code, out, errors = run(*WORDS, "--refine", "1")
     assert (code, out) == (2, "")
     assert "--output: " in errors
-    assert "holds another map: refine differ" in errors
+    assert "contains a map with other values of refine" in errors
     assert run(*WORDS, "--refine", "1", "--name", "finer")[0] == 0
 
 
@@ -133,27 +133,39 @@ def test_ranges(text, expected):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (["--x", "gip", "0:1"], "--x: 'gip'; one of gap, amplitude, bumper-stiffness"),
-        (["--x", "gap", "0:1"], "--y: 'gap_ratio' is the same quantity as 'gap'"),
+        (
+            ["--x", "gip", "0:1"],
+            "--x: 'gip' is not an axis of a map; pass one of gap, amplitude, bumper-stiffness",
+        ),
+        (["--x", "gap", "0:1"], "--y: 'gap_ratio' varies the same quantity as 'gap'"),
         (["--x", "gap-ratio", "0:1"], "--y: 'gap_ratio' is also the parameter of x"),
         (
             ["--x", "stiffness-ratio", "1"],
-            "--x: '1' is not a range; LOW:HIGH[:log][:NUMBER] is accepted",
+            "--x: '1' is not a range; pass LOW:HIGH[:log][:NUMBER], such as",
         ),
-        (["--x", "stiffness-ratio", "1:2:lag"], "--x: 'lag' is not a number of values"),
-        (["--x", "stiffness-ratio", "1:2:1"], "--x: '1' is not a number of values"),
-        (["--x", "stiffness-ratio", "1:2:²"], "--x: '²' is not a number of values"),
+        (
+            ["--x", "stiffness-ratio", "1:2:lag"],
+            "--x: the number of values, 'lag', is not a whole number",
+        ),
+        (
+            ["--x", "stiffness-ratio", "1:2:1"],
+            "--x: the number of values, '1', is not a whole number",
+        ),
+        (
+            ["--x", "stiffness-ratio", "1:2:²"],
+            "--x: the number of values, '²', is not a whole number",
+        ),
         (
             ["--x", "stiffness-ratio", "2:1"],
-            "--x: 2 is not below the upper end of the range, 1",
+            "--x: the lower end of the range, 2, is not below the upper end, 1",
         ),
         (["--x", "stiffness-ratio", "0:1"], "--x"),
-        (["--x", "damping-ratio", "0.1:0.9"], "a damping ratio of 0.9"),
+        (["--x", "damping-ratio", "0.1:0.9"], "at a damping ratio of 0.9"),
         (["--x", "stiffness-ratio", "1:2", "--refine", "-1"], "--refine: -1"),
-        (["--x", "stiffness-ratio", "1:2:999999", "--refine", "4"], "nodes; at most"),
+        (["--x", "stiffness-ratio", "1:2:999999", "--refine", "4"], "more than the maximum of"),
         (["--x", "stiffness-ratio", "1:2", "--step", "0"], "--step"),
         (["--x", "stiffness-ratio", "1:2", "--extent", "7"], "--extent: 7.0"),
-        (["B2-Ginf-A3"], "CASE|STUDY.toml: there is no bumper"),
+        (["B2-Ginf-A3"], "CASE|STUDY.toml: there is no stop"),
     ],
 )
 def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):

@@ -178,7 +178,7 @@ def test_files_load_by_group(two):
         )
         for name in data.variables:
             assert data[name].attrs.get("long_name"), name
-    with pytest.raises(vi.InputError, match=r"forward_branch, backward_branch are accepted"):
+    with pytest.raises(vi.InputError, match=r"pass one of forward_branch, backward_branch"):
         vi.load(path)
     # It is a motion to go on from.
     assert motion["name"] == "backward branch"
@@ -369,12 +369,12 @@ def test_a_motion_that_is_given_up(run, tmp_path):
         (["--frequency", ""], "--frequency"),
         (["--frequency", "2Hz,,3Hz"], "--frequency"),
         (["--frequency", "2Hz,-3Hz"], "--frequency"),
-        (["--frequency", "2Hz,2.0Hz"], "names a frequency twice"),
+        (["--frequency", "2Hz,2.0Hz"], "have the same first six digits; remove one"),
         (
             ["--frequency", "2Hz,2.0000001Hz"],
-            "names a frequency twice",
+            "have the same first six digits; remove one",
         ),  # files and columns are one
-        (["--frequency", "1Hz,2Hz,3Hz,4Hz,5Hz,6Hz,7Hz"], "7 frequencies; at most 6"),
+        (["--frequency", "1Hz,2Hz,3Hz,4Hz,5Hz,6Hz,7Hz"], "7 frequencies; pass at most 6"),
         (["--frequency", "2Hz", "--branch", "sideways"], "sideways"),
         (["--frequency", "0.1Hz", "--branch", "forward"], "--branch: no forward sweep reaches 0.1"),
         (["--frequency", "20Hz", "--branch", "backward"], "--branch: no backward sweep reaches 20"),

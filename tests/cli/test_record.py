@@ -95,13 +95,13 @@ def test_a_study_takes_a_component(tmp_path, run):
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        (["--damping", "0.05,1.2"], "damping: 1.2; damping ratios from 0 to less than 1"),
+        (["--damping", "0.05,1.2"], "damping: 1.2; pass damping ratios from 0 to less than 1"),
         (["--damping", "x"], "--damping: 'x' does not start with a number"),
         (["--periods", "1"], "--periods: 1; a whole number of at least 2"),
         (["--shortest", "0"], "--shortest: '0' is not greater than 0"),
         (
             ["--shortest", "2s", "--longest", "1s"],
-            "--longest: 1s is not longer than --shortest, 2s; a longer",
+            "--longest: 1s is not longer than --shortest, 2s; raise --longest",
         ),
         (["--unit", "kg"], "--unit: '1 kg' is a mass"),
         (["--step", "-1s"], "--step: '-1s' is not greater than 0"),

@@ -95,7 +95,7 @@ def test_options_of_bumpers_pass_rigid_stops_by():
     [
         (
             {"bumper_damping": "5"},
-            "--bumper-damping: no stop of this rig has a damping; the option",
+            "--bumper-damping: no stop of this rig has a damping; remove this option",
         ),
         ({"left_stiffness": "5"}, "--left-stiffness: the left stop is RigidStop"),
     ],
@@ -122,8 +122,11 @@ def test_gravity():
         ({"bumper_stiffness": "0"}, "--bumper-stiffness: '0' is not greater than 0"),
         ({"amplitude": "0g"}, "--amplitude: '0g' is not greater than 0"),
         ({"amplitude": "5 kg"}, "--amplitude: '5 kg' is a mass"),
-        ({"left_gap": "1mm", "no_left": True}, "--left-gap: given with --no-left"),
-        ({"gap": "1mm", "no_left": True, "no_right": True}, "--gap: given with --no-right and"),
+        ({"left_gap": "1mm", "no_left": True}, "--left-gap: given together with --no-left"),
+        (
+            {"gap": "1mm", "no_left": True, "no_right": True},
+            "--gap: given together with --no-right and",
+        ),
     ],
 )
 def test_what_cannot_be_used(options, message):
@@ -226,9 +229,18 @@ def test_a_weight_stands_for_a_mass():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"isolator_period": "2s", "stiffness": "1"}, "--isolator-period: given with --stiffness"),
-        ({"damping_ratio": "0.1", "damping": "1"}, "--damping-ratio: given with --damping; one"),
-        ({"weight": "1 N", "mass": "1"}, "--weight: given with --mass; one of the two is accepted"),
+        (
+            {"isolator_period": "2s", "stiffness": "1"},
+            "--isolator-period: given together with --stiffness",
+        ),
+        (
+            {"damping_ratio": "0.1", "damping": "1"},
+            "--damping-ratio: given together with --damping; remove one",
+        ),
+        (
+            {"weight": "1 N", "mass": "1"},
+            "--weight: given together with --mass; remove one of the two options",
+        ),
         ({"isolator_period": "2 Hz"}, "--isolator-period: '2 Hz' is a frequency; a time"),
         ({"damping_ratio": "-1"}, "--damping-ratio: '-1' is less than 0"),
         ({"weight": "5 t"}, "--weight: '5 t' is a mass; a force greater than 0"),

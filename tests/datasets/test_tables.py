@@ -74,7 +74,10 @@ def test_other_datasets():
 
 
 def test_rows_that_are_not_there(motion):
-    with pytest.raises(vi.InputError, match=r"^rows: 'point' .*; time, event are accepted$"):
+    with pytest.raises(
+        vi.InputError,
+        match=r"^rows: 'point' is not a dimension of this dataset; pass one of time, event$",
+    ):
         vi.to_table(motion, rows="point")
     with pytest.raises(vi.InputError, match=r"^dataset: 3 is not a dataset"):
         vi.to_table(3)
@@ -106,11 +109,13 @@ def test_csv_holds_every_number_to_its_last_bit(tmp_path):
 
 @pytest.mark.parametrize("name", ["x.xlsx", "x", "x.mat", "x.csv.gz"])
 def test_other_endings_are_refused(motion, tmp_path, name):
-    with pytest.raises(vi.InputError, match=r"^path: .*; .nc \(NetCDF\) or .csv \(a table\)"):
+    with pytest.raises(
+        vi.InputError, match=r"^path: .*; use the ending .nc \(NetCDF\) or .csv \(table\)"
+    ):
         vi.save(motion, tmp_path / name)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_several_datasets_are_no_table(motion, tmp_path):
-    with pytest.raises(vi.InputError, match=r"^path: .*several datasets"):
+    with pytest.raises(vi.InputError, match=r"^path: .*not a dict of datasets"):
         vi.save({"a": motion, "b": motion}, tmp_path / "x.csv")

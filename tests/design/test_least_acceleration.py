@@ -100,16 +100,22 @@ def test_it_is_repeatable() -> None:
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        ({"ranges": {}}, "ranges: {}; the lowest"),
-        ({"ranges": {"gap": 3.0}}, r"ranges\['gap'\]: 3.0; a pair"),
-        ({"ranges": {"gap": (2.0, 1.0)}}, r"ranges\['gap'\]: 1 is not above 2"),
+        ({"ranges": {}}, "ranges: {}; pass the lowest"),
+        (
+            {"ranges": {"gap": 3.0}},
+            r"ranges\['gap'\]: 3.0; pass the lowest and the highest value as a pair",
+        ),
+        (
+            {"ranges": {"gap": (2.0, 1.0)}},
+            r"ranges\['gap'\]: the second value, 1 m, is not above the first, 2 m",
+        ),
         ({"ranges": {"length": (1.0, 2.0)}}, "vary: 'length'"),
         ({"gap": "3 kg"}, r"gaps\[0\]: '3 kg'"),
         ({"limits": {"speed": 1.0}}, "limits: 'speed'; one of peak_displacement, "),
         ({"limits": {"peak_force": "3 m"}}, r"limits\['peak_force'\]: '3 m'"),
         (
             {"limits": {"peak_displacement": 1e-4}},
-            r"limits\['peak_displacement'\]: no design that was tried meets this limit of 0.0001 m",
+            r"limits\['peak_displacement'\]: no design that was tried meets this limit of 0.1 mm",
         ),
         ({"oscillator": RIG.without_bumpers()}, "ranges: missing; .* has no stop"),
     ],

@@ -67,9 +67,11 @@ def test_the_base_may_stop_at_once() -> None:
 
 def test_wrong_input() -> None:
     rig = RIGS["bumpers"]
-    with pytest.raises(vi.InputError, match=r"^motion: it is periodically forced; a motion"):
+    with pytest.raises(
+        vi.InputError, match=r"^motion: its excitation is periodic, not a record; pass"
+    ):
         vi.floor_record(vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 1.0)), 3))
-    with pytest.raises(vi.InputError, match=r"^motion: 3 samples; at least 4"):
+    with pytest.raises(vi.InputError, match=r"^motion: 3 samples, but at least 4"):
         vi.floor_record(vi.simulate(vi.Rig(rig, RECORD.cut(0.0, 0.04))))
     with pytest.raises(vi.InputError, match=r"^motion: this is not a recorded motion"):
         vi.floor_record(vi.simulate(vi.Rig(rig, RECORD), samples=0))

@@ -142,15 +142,19 @@ def test_without_overlap_there_is_no_curve() -> None:
     below, above = np.array([0.5, 0.6, 2.0]), np.array([0.5, 3.0, 2.0])
     scales = np.array([1.0, 2.0, 3.0])
     none = suite(np.array([below, below, below]), scales)
-    finer = r"^limit: 1.0; at fewer than two levels, .*; finer levels between 2 and 3 are needed"
+    finer = r"^limit: 1.0; at fewer than two scales, .*, so pass finer scales between 2 and 3 to demands"
     with pytest.raises(vi.InputError, match=finer):
         vi.fragility(none, "peak_displacement", 1.0)
     one = suite(np.array([below, above, below]), scales)
     with pytest.raises(vi.InputError, match=finer.replace("2 and 3", "1 and 3")):
         vi.fragility(one, "peak_displacement", 1.0)
-    with pytest.raises(vi.InputError, match=r"no record is above the limit at any level; higher"):
+    with pytest.raises(
+        vi.InputError, match=r"no record is above the limit at any scale, so pass higher"
+    ):
         vi.fragility(one, "peak_displacement", 10.0)
-    with pytest.raises(vi.InputError, match=r"all records are above the limit at every level; lo"):
+    with pytest.raises(
+        vi.InputError, match=r"all records are above the limit at every scale, so pass lo"
+    ):
         vi.fragility(one, "peak_displacement", 0.1)
     counted = one.assign(impact_count=one["peak_displacement"] * 0.0)
     counted["impact_count"].attrs["units"] = "1"
@@ -169,10 +173,12 @@ def test_without_overlap_there_is_no_curve() -> None:
     lone = suite(np.array([first, early, last, last]), scales)
     with pytest.warns(
         RuntimeWarning,
-        match=r"^fragility: there is no interval, because .*: lower and higher l",
+        match=r"^fragility: there is no interval, because .*: lower and higher s",
     ):
         found = vi.fragility(lone, "peak_displacement", 1.0)
-    assert found.attrs["unbounded"].endswith("needed for an interval: lower and higher levels")
+    assert found.attrs["unbounded"].endswith(
+        "to get an interval, pass to demands: lower and higher scales"
+    )
     assert found["median_capacity_bound"].values.tolist() == [0.0, np.inf]
     assert found["dispersion_bound"].values.tolist() == [0.0, np.inf]
     assert found["fitted_probability_bound"].values.tolist() == [[0.0] * 4, [1.0] * 4]
@@ -185,8 +191,8 @@ def test_what_would_bound_an_interval_is_told_by_curve() -> None:
         told = vi.fragility(data, "peak_displacement", 1.0).attrs["unbounded"]
     assert told == (
         "there is no interval, because fewer than two records begin to exceed the limit within "
-        "the levels; needed for an interval: for gap 200 mm higher levels; for gap 300 mm lower "
-        "levels; for gap 400 mm lower and higher levels"
+        "the scales; to get an interval, pass to demands: higher scales for gap 200 mm; lower "
+        "scales for gap 300 mm; lower and higher scales for gap 400 mm"
     )
     rng = np.random.default_rng(5)
     sound = vi.fragility(lognormal(rng, 20, SCALES, BETA), "peak_displacement", 1.0)
@@ -211,12 +217,12 @@ def test_which_of_several_have_no_curve_is_told() -> None:
     with pytest.warns(RuntimeWarning, match=r"^fragility: no curve for gap 200 mm: ") as told:
         found = vi.fragility(data, "peak_displacement", 1.0)
     assert len(told) == 1
-    none = "at fewer than two levels, some records are above the limit and others are not; "
+    none = "at fewer than two scales, some records are above the limit and others are not, "
     reasons = {
-        0.2: none + "finer levels between 1 and 3 are needed",
-        0.4: "no record is above the limit at any level; higher levels are needed",
-        0.5: "all records are above the limit at every level; lower levels are needed",
-        0.6: none + "finer levels between 2 and 3 are needed",
+        0.2: none + "so pass finer scales between 1 and 3 to demands",
+        0.4: "no record is above the limit at any scale, so pass higher scales to demands",
+        0.5: "all records are above the limit at every scale, so pass lower scales to demands",
+        0.6: none + "so pass finer scales between 2 and 3 to demands",
     }
     assert found.attrs["undetermined"] == "; ".join(
         f"no curve for gap {1e3 * gap:g} mm: {why}" for gap, why in reasons.items()
@@ -244,13 +250,15 @@ def test_which_of_several_have_no_curve_is_told() -> None:
 def test_a_share_that_does_not_rise_has_no_curve() -> None:
     scales = np.array([1.0, 2.0, 3.0])
     falls = suite(np.array([[2.0, 2.0, 0.5], [2.0, 0.5, 0.5], [2.0, 0.5, 2.0]]), scales)
-    with pytest.raises(vi.InputError, match=r"that are above the limit does not rise with the lev"):
+    with pytest.raises(vi.InputError, match=r"that are above the limit does not rise with the sca"):
         vi.fragility(falls, "peak_displacement", 1.0)
 
 
 def test_wrong_input() -> None:
     data = lognormal(np.random.default_rng(1), 5, SCALES, BETA)
-    with pytest.raises(vi.InputError, match=r"^demands: 2 records; at least 3"):
+    with pytest.raises(
+        vi.InputError, match=r"^demands: a fragility curve requires at least 3 records, not 2"
+    ):
         vi.fragility(data.isel(record=[0, 1]), "peak_displacement", 1.0)
     with pytest.raises(vi.InputError, match=r"^confidence: 1.5"):
         vi.fragility(data, "peak_displacement", 1.0, confidence=1.5)
@@ -263,5 +271,7 @@ def test_of_impact_itself_no_limit_is_asked() -> None:
     curve = vi.fragility(data, "impact_count")
     assert curve.identical(vi.fragility(data, "impact_count", 0))
     np.testing.assert_array_equal(curve["exceeding"], (data["impact_count"] > 0).sum("record"))
-    with pytest.raises(vi.InputError, match=r"^limit: missing; a limit of peak_acceleration"):
+    with pytest.raises(
+        vi.InputError, match=r"^limit: missing; pass the limit of peak_acceleration"
+    ):
         vi.fragility(data, "peak_acceleration")

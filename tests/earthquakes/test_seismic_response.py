@@ -222,7 +222,7 @@ def test_what_is_given_up_is_told() -> None:
     [
         (
             {"shaking": vi.Harmonic(1.0, 1.0)},
-            r"shaking: .* is not a Record; Rig\(oscillator, record\)",
+            r"shaking: .* is not a Record; pass Rig\(oscillator, record\)",
         ),
         ({"tail": -1.0}, "tail: -1"),
         ({"max_events": 0}, "max_events: 0"),

@@ -78,9 +78,9 @@ def test_one_side_alone():
         ("mass", "-3", "greater than 0"),
         ("amplitude", "0", "greater than 0"),
         ("stops.nonsense", "1", "nonsense"),
-        ("__class__", "1", "unknown"),
-        ("right.gap.real", "1", "unknown"),
-        ("isolator.kind", "friction", "unknown"),
+        ("__class__", "1", "not a parameter of this rig"),
+        ("right.gap.real", "1", "not a parameter of this rig"),
+        ("isolator.kind", "friction", "not a parameter of this rig"),
         ("stops.stiffness_ratio", "soft", "does not start with a number"),
     ],
 )

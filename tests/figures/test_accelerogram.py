@@ -51,7 +51,7 @@ def test_two_components_and_one_damping():
 
 def test_what_is_refused():
     spectrum = vi.response_spectrum(RECORD, PERIODS)
-    with pytest.raises(vi.InputError, match=r"^record: ndarray; a Record is accepted"):
+    with pytest.raises(vi.InputError, match=r"^record: an object of type ndarray; pass a Record"):
         accelerogram(RECORD.acceleration)
     with pytest.raises(vi.InputError, match=r"^axes: 1 given; 2 are accepted"):
         accelerogram(RECORD, spectrum, [response_spectra(spectrum)])

@@ -29,7 +29,7 @@ def test_incremental_curves() -> None:
         incremental_curves(data.isel(scale=[0]))
     several = data.expand_dims(gap=[0.01, 0.02]).transpose("record", "scale", "gap")
     with pytest.raises(
-        vi.InputError, match=r"^demands: the dataset also extends over gap; .*isel\(gap=0\)"
+        vi.InputError, match=r"^demands: the dataset has several rigs, over gap; .*isel\(gap=0\)"
     ):
         incremental_curves(several)
 
@@ -45,7 +45,7 @@ def test_fragility_curves() -> None:
     assert len(ax.collections) == 1
     _, band, share = (text.get_text() for text in ax.get_legend().get_texts())
     assert (band, share) == ("its 90 % band", "share of the records")
-    with pytest.raises(vi.InputError, match=r"^fragility: this is not a fragility result"):
+    with pytest.raises(vi.InputError, match=r"^fragility: this dataset has no fragility curve"):
         fragility_curves(data)
 
 
@@ -88,7 +88,7 @@ def test_a_curve_of_too_few_records_within_the_levels_has_no_band() -> None:
     ax = fragility_curves(found)
     assert len(ax.collections) == 0
     words = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert words[0].endswith("(no band: too few records reach the limit within the levels)")
+    assert words[0].endswith("(no band: too few records reach the limit within the scales)")
     assert words[1:] == ["share of the records"]
     many = lognormal(np.random.default_rng(1), 20, scales, 0.9)
     sound = vi.fragility(many, "peak_displacement", 2.0)
@@ -97,7 +97,7 @@ def test_a_curve_of_too_few_records_within_the_levels_has_no_band() -> None:
     ax = fragility_curves(both)
     assert len(ax.collections) == 1
     words = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert [text.endswith("within the levels)") for text in words] == [True, False]
+    assert [text.endswith("within the scales)") for text in words] == [True, False]
 
 
 def test_what_has_no_curve_says_which_levels_would_give_one() -> None:
@@ -113,24 +113,28 @@ def test_what_has_no_curve_says_which_levels_would_give_one() -> None:
         found = vi.fragility(data.transpose("record", "scale", "gap"), "peak_displacement", 2.0)
     ax = fragility_curves(found)
     words = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert words[0] == "gap 100 mm: no curve, finer levels needed"
+    assert words[0] == "gap 100 mm: no curve, finer scales needed"
     assert words[1].startswith("gap 200 mm: $\\theta$ = ")
     assert words[2:] == [
-        "gap 300 mm: no curve, higher levels needed",
-        "gap 400 mm: no curve, lower levels needed",
+        "gap 300 mm: no curve, higher scales needed",
+        "gap 400 mm: no curve, lower scales needed",
     ]
     # A line and a band of one, and the shares of all.
     assert len(ax.collections) == 1
     assert sum(len(line.get_xdata()) == 400 for line in ax.lines) == 1
     assert sum(len(line.get_xdata()) == 4 for line in ax.lines) == 4
     (text,) = fragility_curves(found.isel(gap=0)).get_legend().get_texts()
-    assert text.get_text() == "share of the records: no curve, finer levels needed"
+    assert text.get_text() == "share of the records: no curve, finer scales needed"
 
 
 def test_what_are_no_axes_is_refused() -> None:
     data = lognormal(np.random.default_rng(1), 12, SCALES, 0.4)
-    with pytest.raises(vi.InputError, match=r"^ax: 'peak_force'; .* a peak, use quantity='peak_f"):
+    with pytest.raises(
+        vi.InputError, match=r"^ax: 'peak_force' .* another peak, pass quantity='peak_f"
+    ):
         incremental_curves(data, "peak_force")
     found = vi.fragility(data, "peak_displacement", 1.0)
-    with pytest.raises(vi.InputError, match=r"^ax: 3; axes of matplotlib, or None, are accepted"):
+    with pytest.raises(
+        vi.InputError, match=r"^ax: 3 is not an Axes of matplotlib; an Axes or None is accepted"
+    ):
         fragility_curves(found, 3)

@@ -283,5 +283,7 @@ def test_refused(data) -> None:
         pareto_front(data.drop_vars("pareto"))
     with pytest.raises(vi.InputError, match=r"^quantities: 'speed'"):
         design_chart(data, quantities=("speed",))
-    with pytest.raises(vi.InputError, match=r"^data: its dimensions are .*; one or two parameters"):
+    with pytest.raises(
+        vi.InputError, match=r"^data: its dimensions are .*, but the chart requires one or two"
+    ):
         design_chart(data.isel(gap=[0]))

@@ -90,7 +90,7 @@ def test_lines_of_a_curve():
         (lambda: resonance_bands(drawn(), quantities=["colour"]), "quantity: 'colour'"),
         (lambda: resonance_bands(drawn(), shares=(0.6, 0.9)), "shares: "),
         (lambda: sensitivity_bars(drawn()), "data: it has no sensitivity indices"),
-        (lambda: sensitivity_bars(indices().expand_dims("rig")), "data: the indices have the dim"),
+        (lambda: sensitivity_bars(indices().expand_dims("rig")), "data: the indices depend on"),
     ],
 )
 def test_refused(draw, told):

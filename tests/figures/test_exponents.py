@@ -35,10 +35,10 @@ def test_of_a_bifurcation_diagram_and_over_the_frequency():
     ("data", "told"),
     [
         (lambda: vi.sweep("B2-G1-A3", [1.0]), "data: it has no exponents"),
-        (lambda: vi.lyapunov_exponents("B2-G1-A3", [1.0], 32), "belong to a single value"),
+        (lambda: vi.lyapunov_exponents("B2-G1-A3", [1.0], 32), "there is one set of exponents"),
         (
             lambda: vi.lyapunov_exponents("B2-G1-A3", [1.0, 2.0], 32, vary={"gap": [1e-3, 2e-3]}),
-            "over frequency, gap",
+            "depend on frequency, gap",
         ),
     ],
 )

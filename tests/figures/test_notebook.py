@@ -75,7 +75,9 @@ def test_a_page_is_drawn_on_given_axes_column_by_column():
     page = figures.motion_page(columns, made)
     assert page.shape == (5, 2)
     assert [ax.get_title() for ax in page[0]] == ["2 Hz\nperiod 1", "again\nperiod 1"]
-    with pytest.raises(vi.InputError, match=r"axes: 5 given; 10 are accepted"):
+    with pytest.raises(
+        vi.InputError, match=r"axes: 5 given; 10 are accepted, 5 for each of the 2 columns"
+    ):
         figures.motion_page(columns, made[:, 0])
 
 

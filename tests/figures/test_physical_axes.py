@@ -82,7 +82,8 @@ def test_a_rigid_stop_has_impulses_and_free_flight_is_shifted_by_a_force() -> No
 def test_without_contact_there_is_no_panel_of_forces() -> None:
     assert len(resonance_curves(swept(BUILDING.without_bumpers()), physical=True)) == 2
     with pytest.raises(
-        vi.InputError, match="no peak_acceleration; compute it again with this version"
+        vi.InputError,
+        match="no peak_acceleration, which older versions did not compute; run the sweep again",
     ):
         resonance_curves(swept(BUILDING).drop_vars("peak_acceleration"), physical=True)
 

@@ -72,7 +72,7 @@ class TestFamily:
         other = resonance_family(part, markers={CODES[0]: 1, CODES[1]: 0})
         first, second = (of(one, code, "forward").get_marker() for code in CODES[:2])
         assert [of(other, code, "forward").get_marker() for code in CODES[:2]] == [second, first]
-        with pytest.raises(vi.InputError, match=r"^markers: 'B9' is not a rig"):
+        with pytest.raises(vi.InputError, match=r"^markers: 'B9' is not a rig of data"):
             resonance_family(part, markers={"B9": 0})
 
     def test_parted_at_jumps_with_arrows(self):
@@ -107,8 +107,12 @@ class TestFamily:
         ("options", "told"),
         [
             ({"quantity": "eta"}, "quantity: 'eta'; one of eta_a, eta_d"),
-            ({"labels": {"B1": "x"}}, "labels: 'B1' is not a rig; B2-G1-A3, B2-G3-A3"),
-            ({"colours": {"B1": "red"}}, "colours: 'B1' is not a rig"),
+            (
+                {"labels": {"B1": "x"}},
+                "labels: 'B1' is not a rig of data; the names of its rigs are accepted: B2-G1-A3, "
+                "B2-G3-A3",
+            ),
+            ({"colours": {"B1": "red"}}, "colours: 'B1' is not a rig of data"),
         ],
     )
     def test_refusals(self, options, told):
@@ -136,6 +140,8 @@ class TestMarks:
     def test_refuses_what_is_not_on_the_axis(self, value):
         ax = Figure().subplots()
         ax.set_xlim(0.5, 5.0)
-        with pytest.raises(vi.InputError, match=r"frequencies\['I'\]: .* 0.5 to 5 Hz is accepted"):
+        with pytest.raises(
+            vi.InputError, match=r"frequencies\['I'\]: .* from 0.5 to 5 Hz is accepted"
+        ):
             frequency_marks(ax, {"I": value})
         assert not ax.lines

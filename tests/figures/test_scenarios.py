@@ -118,7 +118,7 @@ def test_features():
 
 
 def test_what_cannot_be_drawn_is_refused():
-    with pytest.raises(vi.InputError, match="data: this is not a map"):
+    with pytest.raises(vi.InputError, match="data: this is not a map of scenarios; pass"):
         scenario_map(xr.Dataset())
     with pytest.raises(vi.InputError, match="border: its parameters are not stiffness_ratio and"):
         scenario_map(made(), border=xr.Dataset())
@@ -126,7 +126,9 @@ def test_what_cannot_be_drawn_is_refused():
         feature_map(made(), "nothing")
     with pytest.raises(vi.InputError, match="found: 'B5-G1-A1' is not a laboratory test"):
         scenario_cases({"B5-G1-A1": "S2"})
-    with pytest.raises(vi.InputError, match=r"found\[B1-G1-A1\]: 'S9'; one of S0"):
+    with pytest.raises(
+        vi.InputError, match=r"found\[B1-G1-A1\]: 'S9' is not a scenario; use one of S0"
+    ):
         scenario_cases({"B1-G1-A1": "S9"})
 
 

@@ -115,7 +115,7 @@ def test_a_logarithmic_axis():
 @pytest.mark.parametrize(
     ("data", "options", "told"),
     [
-        (lambda: branch(), {}, "data: this is a dataset of branches, which figures.branch_"),
+        (lambda: branch(), {}, "data: this is a dataset of branches; draw it with figures.br"),
         (lambda: xr.Dataset(), {}, "data: this is not a bifurcation diagram"),
         (lambda: diagram(), {"quantity": "contact_start_phase"}, "quantity: "),
         (lambda: diagram(), {"branches": diagram().assign_attrs(parameter="mass")}, "branches: "),

@@ -185,7 +185,7 @@ def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
     [
         ({"free": "stifness"}, "free: 'stifness'"),
         ({"free": ""}, "free: ''"),
-        ({"free": {"gap": (0.02, 0.01)}}, "low 0.02 is not below high 0.01"),
+        ({"free": {"gap": (0.02, 0.01)}}, "low, 0.02 m, is not below high, 0.01 m"),
         ({"free": {"gap": "3 kg"}}, "is a mass"),
         ({"each": ["damping"]}, "each: 'damping' is not free"),
         ({"priors": {"damping": (1, 2)}}, "priors: 'damping' is not free"),
@@ -207,7 +207,7 @@ def test_millimetres_taken_as_metres_are_noticed():
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude)
     data["displacement_excursion"] = 1e3 * data.displacement_excursion
-    with pytest.raises(vi.InputError, match="units wrong"):
+    with pytest.raises(vi.InputError, match="is the unit wrong"):
         vi.identify(case.oscillator, data, "gap")
 
 

@@ -173,7 +173,7 @@ def test_several_tests_go_by_their_names(tmp_path):
     with h5py.File(path, "w") as file:
         for name in ("run_01", "run_02"):
             file[f"{name}/time"], file[f"{name}/rel_disp_mm"] = TIME, 1e3 * U
-    with pytest.raises(vi.InputError, match="'run_01', 'run_02' are accepted"):
+    with pytest.raises(vi.InputError, match="pass one of 'run_01', 'run_02'"):
         vi.read_measurement(path)
     assert vi.read_measurement(path, group="run_02").displacement.values == pytest.approx(U)
 

@@ -215,7 +215,7 @@ def test_numbers_and_letters_beside_the_vectors_of_hdf5(tmp_path):
 
 
 def test_a_folder_is_no_file(tmp_path):
-    with pytest.raises(vi.InputError, match="is a folder; a file of a test is accepted"):
+    with pytest.raises(vi.InputError, match="is a folder; pass the path of a file"):
         vi.read_measurement(tmp_path)
 
 
@@ -245,26 +245,34 @@ def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
     [
         ("f,Ed\n1,2\n3,4\n2,3\n5,6\n", "direction='forward'"),
         ("f,Ed\n1,2\n2,x\n3,4\n4,5\n", "line 3, column 'Ed': 'x' is not a number"),
-        ("b,c\n1,2\n", "'b' is not understood, 'c' is not understood; a frequency with"),
+        (
+            "b,c\n1,2\n",
+            "'b' is not understood, 'c' is not understood; the frequency or the time, and",
+        ),
         ("b,c\n1,2\n", "columns={'frequency': 'b', 'displacement_excursion': 'c'}"),
-        ("f,ch 3\n1,2\n", "'f' is read as frequency, 'ch 3' is not understood; what was measured"),
         (
             "f,ch 3\n1,2\n",
-            "columns={'displacement_excursion': 'ch 3'} (command line: --columns "
-            "displacement-excursion 'ch 3')",
+            "'f' is read as frequency, 'ch 3' is not understood; the measured quantity",
         ),
-        ("f,u (mm)\n1,2\n", "'u' is read as displacement; what was measured at each frequency"),
+        (
+            "f,ch 3\n1,2\n",
+            "columns={'displacement_excursion': 'ch 3'} (--columns displacement-excursion 'ch 3')",
+        ),
+        ("f,u (mm)\n1,2\n", "'u' is read as displacement; the measured quantity is missing"),
         ("f,u (mm)\n1,2\n", "columns={'displacement_excursion': 'u'}"),
-        ("drive,Ed\n1,2\n", "such as columns={'frequency': 'drive'}"),
-        ("time,ch 3\n1,2\n", "such as columns={'displacement': 'ch 3'}"),
-        ("u,a\n1,2\n", "a time, or a sampling rate fs, is required, such as columns={'time'"),
+        ("drive,Ed\n1,2\n", "as in columns={'frequency': 'drive'}"),
+        ("time,ch 3\n1,2\n", "as in columns={'displacement': 'ch 3'}"),
+        (
+            "u,a\n1,2\n",
+            "the time, or a sampling rate fs, is missing, so name the column as in columns={'time'",
+        ),
         ("f,Ea (mV)\n1,2\n", "'1 mV' is not an acceleration"),
         ("", "is empty"),
         ("1,2\n2,3\n", "does not name its 2 columns"),
         ("f,Ed (kg)\n1,2\n", "is a mass"),
         ("f,Ed,dir\n1,2,sideways\n", "the direction 'sideways'"),
         ("f,Ed\n1,2\n2,3,4\n", "line 3: 3 values"),
-        ("f,Ed\n1,nan\n", "no value at any frequency"),
+        ("f,Ed\n1,nan\n", "no row has both a frequency greater than 0 and a measured value"),
         ("time,u\n1,2\n1,3\n", "occurs twice"),
     ],
 )

@@ -53,7 +53,7 @@ def test_a_formula_has_the_value_that_it_says(formula, numbers, u, v, force) -> 
 @pytest.mark.parametrize(
     ("formula", "numbers", "message"),
     [
-        ("k*x", {"k": 1}, "formula: column 3: 'x' has no value; u, v, k are accepted, or x=..."),
+        ("k*x", {"k": 1}, "formula: column 3: 'x' has no value; u, v, k are accepted, or pass x"),
         ("k*u", {"k": "26 kg"}, "formula: column 1: k: '26 kg' is a mass; a stiffness"),
         ("k*u + k3*u**3", {"k": "1 N/m", "k3": "1 N/m^2"},
          "formula: column 7: k3: '1 N/m^2' is a pressure; a stiffness in N/m³"),
@@ -61,13 +61,13 @@ def test_a_formula_has_the_value_that_it_says(formula, numbers, u, v, force) -> 
          "number without a unit is accepted"),
         ("k*u**a", {"k": 1, "a": "1 m"}, "formula: column 6: a: '1 m' is a length; "
          "a dimensionless number"),
-        ("k*u", {"k": 1, "q": 2}, "q: the formula 'k*u' does not contain this number; it contains"),
+        ("k*u", {"k": 1, "q": 2}, "q: the formula 'k*u' does not contain this number; remove q"),
         ("k*d", {"k": 1},
-         "formula: column 3: 'd' is used for a stop, but this law has no gap; 'u' is accepted"),
+         "formula: column 3: 'd' is used for a stop, but this law has no gap; write 'u'"),
         ("2", {}, "formula: column 1: '2' contains neither u nor v"),
         ("k*u +", {"k": 1}, "formula: column "),
         ("", {}, "formula: column 1: it cannot be read"),
-        ("k^u", {"k": 1}, "formula: column 1: 'k^u': ^ is not a power here; ** is accepted"),
+        ("k^u", {"k": 1}, "formula: column 1: 'k^u': ^ is not a power here; write **"),
         ("k*u**u", {"k": 1}, "formula: column 6: the exponent 'u' varies; a number is accepted"),
         ("k*u**40", {"k": 1}, "formula: column 6: the exponent is 40; from -31 to 31 is accepted"),
         ("k/u", {"k": 1}, "formula: column 3: the divisor 'u' is 0 at rest; a divisor that is"),
@@ -85,7 +85,7 @@ def test_a_formula_has_the_value_that_it_says(formula, numbers, u, v, force) -> 
          "formula: column 3: max is not accepted: it has no Taylor series"),
         ("k*abs(u - a)", {"k": 1, "a": 1}, "formula: column 3: the absolute value of 'u - a'"),
         ("-k*u + q*u**3", {"k": "2 N/m", "q": 1},
-         "formula: its stiffness at rest is -2 N/m; at least 0"),
+         "formula: its stiffness at rest is -2 N/m; change its numbers"),
         ("__import__('os').system('true')", {}, "formula: column 1: "),
         ("(lambda: u)()", {}, "formula: column 1: '(lambda: u)()' cannot be read"),
         ("u.real", {}, "formula: column 1: u.real is not a formula; + - * / ** ( ) and functions"),
@@ -98,7 +98,7 @@ def test_a_formula_has_the_value_that_it_says(formula, numbers, u, v, force) -> 
         (7, {}, "formula: 7 is not a text; a text such as 'k*u' is accepted"),
         ("u" + "+u" * 200, {}, "formula: it has 401 characters; at most 300 are accepted"),
         ("(" * 140 + "u" + ")" * 140, {}, "formula"),
-        ("k*u", {"k": "nothing"}, "k: 'nothing' does not start with a number; a number"),
+        ("k*u", {"k": "nothing"}, "k: 'nothing' does not start with a number; pass a number"),
         ("k*u", {"k": "3 K"}, "k: '3 K' has a unit that is not accepted"),
         ("k*u", {"k": math.nan}, "k: nan is not finite"),
         ("k*u", {"exp": 1}, "'exp' cannot be the name of a number in a formula"),
@@ -190,7 +190,7 @@ def test_the_model_and_the_engine_have_the_same_room() -> None:
     assert LARGEST == LARGEST_EXPONENT
     assert set(FUNCTIONS) - {"abs"} <= set(SYMBOLS)
     nine = {f"f{i}": i + 0.5 for i in range(5)} | {f"b{i}": i + 0.25 for i in range(4)}
-    with pytest.raises(InputError, match="formula: it has 9 numbers; at most 8 are accepted"):
+    with pytest.raises(InputError, match="formula: it has 9 numbers; shorten it to at most 8, not"):
         Law("+".join(f"f{i}*sinh(b{i % 4}*u)" for i in range(5)), **nine)
-    with pytest.raises(InputError, match="operations; at most 50 are accepted"):
+    with pytest.raises(InputError, match="operations; shorten it to at most 50, not"):
         Law("+".join(["k*sin(b*u)*(b*u)**2"] * 6), k=1, b=1)

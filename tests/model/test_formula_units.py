@@ -107,7 +107,7 @@ def test_stops_whose_numbers_have_other_units_have_no_common_number() -> None:
     right = vi.Law("q*d + p*d**3", gap=0.01, q=1e5, p=1e5)
     left = vi.Law("p*d + q*d**3", gap=0.01, q=1e5, p=1e5)
     rig = RIG.with_parts(RIG.oscillator.replace(right=right, left=left))
-    with pytest.raises(vi.InputError, match=r"their units are N/m and N/m.*'right_q' or 'left_q'"):
+    with pytest.raises(vi.InputError, match=r"units of q, N/m and N/m.*'right_q' or 'left_q'"):
         vi.branch(rig, parameter="bumper_q", span=(1e5, 2e5), frequency="1.2 Hz")
 
 

@@ -237,7 +237,7 @@ class TestCampaign:
         assert all(case == laboratory.case(case.code) for case in laboratory.campaign())
 
     def test_identified_parameters_do_not_cover_it(self):
-        with pytest.raises(InputError, match="no identified parameters"):
+        with pytest.raises(InputError, match="'identified' exists only for"):
             laboratory.campaign("identified")
 
 

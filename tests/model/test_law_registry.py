@@ -76,7 +76,7 @@ def test_only_an_unusual_kind_is_written():
         ),
         (
             {"right": {"restitution": 0.8, **BUMPER}},
-            "rig.right.restitution: given together with damping; one of the two is accepted",
+            "rig.right.restitution: this bumper also has a damping; remove one of the two",
         ),
         (
             {"right": {**BUMPER, "gap": "3 kg"}},
@@ -92,7 +92,8 @@ def test_mistakes_are_named_by_their_path(table, message):
 
 def test_a_table_of_another_kind_is_refused():
     with pytest.raises(
-        InputError, match=r"kind: 'kelvin-voigt' is not the kind of this law; 'rigid' is accepted"
+        InputError,
+        match=r"kind: 'kelvin-voigt' is not the kind of a RigidStop; 'rigid' is accepted",
     ):
         RigidStop.model_validate({**WALL, "kind": "kelvin-voigt"})
 

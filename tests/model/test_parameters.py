@@ -87,7 +87,7 @@ def test_sides_that_differ():
         with pytest.raises(vi.InputError, match="use 'right_damping' or 'left_damping'"):
             parameter(name).read(vi.Rig(uneven, SHAKEN))
     assert parameter("left_damping").read(vi.Rig(uneven, SHAKEN)) == 1.0
-    with pytest.raises(vi.InputError, match="there is no bumper"):
+    with pytest.raises(vi.InputError, match="applies to the bumpers, but the rig has none"):
         parameter("relaxation_time").read(vi.Rig(RIG.without_bumpers(), SHAKEN))
 
 
@@ -100,7 +100,9 @@ def test_a_rig_without_it_is_refused_in_one_line(name):
 
 def test_what_is_given_in_another_way_or_is_a_whole_number_is_not_varied():
     elastic = RIG.replace(right=HERTZ.replace(dissipation=None), left=None)
-    with pytest.raises(vi.InputError, match="has no dissipation that can be varied; its exponent"):
+    with pytest.raises(
+        vi.InputError, match="has no dissipation that can be varied; vary its exponent"
+    ):
         parameter("dissipation").read(vi.Rig(elastic, SHAKEN))
     with pytest.raises(vi.InputError, match="one of frequency"):
         parameter("exponent")
@@ -122,7 +124,9 @@ def test_a_unit_may_depend_on_an_exponent():
 @pytest.mark.parametrize("name", ["stiffness_ratio", "relaxation_time", "gap_ratio"])
 def test_ratios_are_those_of_linear_laws(name):
     bent = RIG.replace(isolator=ISOLATORS["cubic"])
-    with pytest.raises(vi.InputError, match=r"^isolator: its law, polynomial, has no"):
+    with pytest.raises(
+        vi.InputError, match=r"^isolator: its law, polynomial, is not linear, so it has no"
+    ):
         parameter(name).read(vi.Rig(bent, SHAKEN))
 
 

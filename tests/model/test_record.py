@@ -59,14 +59,18 @@ def test_it_tells_what_it_is_in_one_line():
 @pytest.mark.parametrize(
     ("samples", "step", "line"),
     [
-        ([1.0, math.nan, 2.0], 0.1, r"acceleration\[1\]: nan is not finite; finite samples"),
+        (
+            [1.0, math.nan, 2.0],
+            0.1,
+            r"acceleration\[1\]: nan is not finite; replace it by a finite",
+        ),
         ([1.0, 2.0, -math.inf], 0.1, r"acceleration\[2\]: -inf is not finite"),
-        ([1.0], 0.1, r"acceleration: 1 given; one sequence of at least 2 samples in m/s²"),
-        ([], 0.1, r"acceleration: 0 given; one sequence of at least 2 samples"),
+        ([1.0], 0.1, r"acceleration: 1 given; pass one sequence of at least 2 samples in m/s²"),
+        ([], 0.1, r"acceleration: 0 given; pass one sequence of at least 2 samples"),
         (
             [[1.0, 2.0], [3.0, 4.0]],
             0.1,
-            r"acceleration: shape \(2, 2\); one sequence of at least 2",
+            r"acceleration: shape \(2, 2\); pass one sequence of at least 2",
         ),
         (5.0, 0.1, r"acceleration: .*at least 2 samples"),
         ("a.csv", 0.1, r"acceleration: 'a.csv' is not a list of numbers"),
@@ -136,7 +140,7 @@ ROUGH = r"displacement\[\d+\]: the displacement jumps or is too rough"
             np.random.default_rng(1).normal(size=401),
             r"displacement\[\d+\]: the displacement jumps or is too",
         ),
-        (np.sin(TIME)[:7], r"displacement: 7 given; one sequence of at least 8 samples in m"),
+        (np.sin(TIME)[:7], r"displacement: 7 given; pass one sequence of at least 8 samples in m"),
         (np.where(TIME == 1.0, np.nan, TIME), r"displacement\[100\]: nan is not finite"),
     ],
 )

@@ -100,7 +100,7 @@ def test_a_table_may_have_it_in_place_of_the_damping():
     [
         (
             {"damping": 3},
-            "right.restitution: given together with damping; one of the two is accepted",
+            "right.restitution: this bumper also has a damping; remove one of the two",
         ),
         ({"restitution": 1.6}, "right.restitution: 1.6 is greater than 1"),
         ({"stiffness": "2 MN"}, "right.stiffness: '2 MN' is a force"),

@@ -42,7 +42,7 @@ def test_a_contact_from_a_dataset_is_taken(contact):
 
 @pytest.mark.parametrize("contact", [3, -2, 0.5, True, False, np.True_, "1", math.nan, [1]])
 def test_a_contact_is_a_side(contact):
-    with pytest.raises(InputError, match=r"^contact: .* 1 \(right\) or 2 \(both\) is accepted"):
+    with pytest.raises(InputError, match=r"^contact: .* 1 \(right stop\) or 2 \(both stops\)$"):
         State(contact=contact)
 
 

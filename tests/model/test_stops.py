@@ -60,8 +60,8 @@ def test_a_power_bumper_of_every_way():
         (
             "power",
             {"dissipation": None, "restitution": 0.5, "relation": "hertz"},
-            "relation: 'hertz' is unknown; 'exact', 'hunt-crossley', 'lankarani-nikravesh', "
-            "'flores' or 'gonthier' is accepted",
+            "relation: 'hertz' is unknown; use 'exact', 'hunt-crossley', 'lankarani-nikravesh', "
+            "'flores' or 'gonthier'",
         ),
         ("power", {"relation": "flores"}, "relation: 'flores' is given without a restitution"),
         ("power", {"dissipation": None, "restitution": 1.1}, "restitution: 1.1 is greater than 1"),
@@ -69,7 +69,7 @@ def test_a_power_bumper_of_every_way():
         (
             "power",
             {"dissipation": None, "restitution": 0},
-            "restitution: 0 requires an infinite dissipation with the relation 'exact'; a resti",
+            "restitution: 0 gives an infinite dissipation with the relation 'exact'; use a resti",
         ),
         ("power", {"dissipation": -1}, "dissipation: -1 is less than 0; a dissipation factor"),
         (

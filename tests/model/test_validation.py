@@ -66,7 +66,7 @@ class TestEveryObject:
     def test_cannot_be_changed(self, thing):
         name = next(iter(type(thing).model_fields))
         before = getattr(thing, name)
-        with pytest.raises(InputError, match=f"{name}: .* is immutable; .replace"):
+        with pytest.raises(InputError, match=f"{name}: .* is immutable; use .replace"):
             setattr(thing, name, before)
         with pytest.raises(InputError, match="immutable"):
             thing.something_new = 1
@@ -145,17 +145,18 @@ def test_nested_tables_become_objects():
         ),
         (
             table(right="510 kN/m"),
-            "rig.right: '510 kN/m' is not a table; a table with stiffness, damping "
-            "and gap is accepted",
+            "rig.right: '510 kN/m' is not a table; pass a table of stiffness, damping and gap "
+            "(in Python: Bumper(...))",
         ),
         (
             table(isolator=None),
-            "rig.isolator: None is not a table; a table with stiffness, damping and "
-            "damping_exponent is accepted",
+            "rig.isolator: None is not a table; pass a table of stiffness, damping and "
+            "damping_exponent (in Python: Isolator(...))",
         ),
         (
             {"mass": 1},
-            "rig.isolator: missing; mass, isolator, right, left and force are accepted",
+            "rig.isolator: missing; add this key (keys of this table: mass, isolator, right, left "
+            "and force)",
         ),
     ],
 )

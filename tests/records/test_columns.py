@@ -52,17 +52,17 @@ def test_units(tmp_path):
     ("text", "step", "unit", "line"),
     [
         ("1\nnan\n2\n", 0.1, "m/s^2", r"record: .*, line 2: nan is not finite"),
-        ("1\n", 0.1, "m/s^2", r".*acceleration: 1 given; at least 2"),
+        ("1\n", 0.1, "m/s^2", r".*acceleration: 1 given; pass one sequence of at least 2"),
         ("", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("words only\n", 0.1, "m/s^2", r"record: .* has no numbers"),
-        ("1\n2\n", None, "m/s^2", r"step: missing, and .* has no times"),
+        ("1\n2\n", None, "m/s^2", r"step: missing, but .* has no times"),
         ("1\n2\n", 0.0, "m/s^2", r"step: 0.0 is not greater than 0"),
         ("1\n2\nend\n", 0.1, "m/s^2", r"record: .*, line 3: 'end' is not a row of numbers"),
         (
             "1,2,3\n4,5,6\n7,8,9\n",
             None,
             "m/s^2",
-            r"component: missing, and .* has 2 components; '1', '2', or",
+            r"component: missing, but .* has 2 components; pass '1', '2', or",
         ),
         ("1,2\n3\n", None, "m/s^2", r"record: .*, line 2: the row has 1 number, but the rows"),
         ("1,2\n3,4\n5\n", None, "m/s^2", r"record: .*, line 3: the row has 1 number, but the rows"),
@@ -144,7 +144,9 @@ def test_a_comma_that_may_mean_two_things(tmp_path):
     with pytest.raises(vi.InputError, match=r"the comma of '1,000' may be .* pass decimal=','"):
         vi.Record.read(path)
     assert vi.Record.read(path, decimal=",").peak == 2.5
-    with pytest.raises(vi.InputError, match=r"^decimal: ';'; '\.' or ',' is accepted"):
+    with pytest.raises(
+        vi.InputError, match=r"^decimal: ';' is not a decimal mark; pass '\.' or ','"
+    ):
         vi.Record.read(path, decimal=";")
 
 

@@ -36,7 +36,7 @@ def test_a_packed_file_that_becomes_too_large_is_refused_before_it_is_unpacked(t
     path = tmp_path / "bomb.gz"
     part = gzip.compress(bytes(2**24))
     path.write_bytes(part * 17)
-    with pytest.raises(vi.InputError, match="holds more than 256 MiB of data"):
+    with pytest.raises(vi.InputError, match="has more than 256 MiB of data"):
         vi.Record.read(path)
     assert path.stat().st_size < 2**19
 
@@ -55,14 +55,14 @@ def traces(path: Path, *parts: tuple[str, str, float, np.ndarray], form: str = "
 def test_two_stations_are_told_apart(tmp_path):
     values = np.sin(0.1 * np.arange(500))
     path = traces(tmp_path / "a", ("AAA", "HNE", 0, values), ("BBB", "HNE", 0, 2.0 * values))
-    with pytest.raises(vi.InputError, match=r"has 2 components; 'XX\.AAA HNE', 'XX\.BBB HNE'"):
+    with pytest.raises(vi.InputError, match=r"has 2 components; pass 'XX\.AAA HNE', 'XX\.BBB HNE'"):
         vi.Record.read(path, unit="m/s^2")
     assert vi.Record.read(path, "XX.BBB HNE", unit="m/s^2").peak == pytest.approx(2.0, rel=1e-3)
 
 
 def test_an_overlap_is_no_gap(tmp_path):
     values = np.sin(0.1 * np.arange(500))
-    for at, told in ((3.0, "has parts that overlap and differ"), (7.0, "has gaps")):
+    for at, told in ((3.0, "has overlapping parts that differ"), (7.0, "has gaps")):
         path = traces(tmp_path / "a", ("AAA", "HNE", 0, values), ("AAA", "HNE", at, -1.0 - values))
         with pytest.raises(vi.InputError, match=told):
             vi.Record.read(path, unit="m/s^2")

@@ -117,8 +117,8 @@ def test_one_of_several_components(written, layout):
     with pytest.raises(vi.InputError) as refused:
         vi.Record.read(path)
     listed = ", ".join(map(repr, names))
-    accepted = f"{listed}, or a number from 1 to 3, is accepted"
-    assert str(refused.value) == f"component: missing, and {path!r} has 3 components; {accepted}"
+    accepted = f"pass {listed}, or a number from 1 to 3"
+    assert str(refused.value) == f"component: missing, but {path!r} has 3 components; {accepted}"
     for wrong in ("90", "4", "", "0"):
         with pytest.raises(vi.InputError) as refused:
             vi.Record.read(path, wrong)
@@ -141,11 +141,11 @@ def replaced(lines: list[str], old: str, new: str) -> list[str]:
 
 DAMAGED = {
     "peer, truncated": (peer()[:-1], 5, "the file ends after 5 of 10 values"),
-    "peer, more than announced": ([*peer(each=3), "1.0"], 9, "a further value after the 10"),
+    "peer, more than announced": ([*peer(each=3), "1.0"], 9, "there are values after the 10 that"),
     "peer, fewer announced": (
         peer("NPTS= 8, DT= .01 SEC"),
         6,
-        "the file has 10 values up to this line, but 8 are announced",
+        "the file has 10 values up to this line, but its header announces 8",
     ),
     "peer, more announced": (peer("NPTS= 12, DT= .01 SEC"), 6, "the file ends after 10 of 12"),
     "peer, two headers": (peer() + peer(), 10, "a second header"),
@@ -160,13 +160,17 @@ DAMAGED = {
     "smc, no comments": (replaced(smc(), "| made", "  made"), 28, "this line is not a comment"),
     "cosmos, truncated": (cosmos()[:-2], 46, "the file ends after 8 of 10 values"),
     "cosmos, in the header": (cosmos()[:30], 30, "the file ends after"),
-    "cosmos, too many": (replaced(cosmos(), "   10  accel", "    8  accel"), 47, "a further value"),
+    "cosmos, too many": (
+        replaced(cosmos(), "   10  accel", "    8  accel"),
+        47,
+        "values after the 8 that",
+    ),
     "cosmos, two headers": (cosmos()[:-1] + cosmos(), 48, "does not end the data of the channel"),
     "csmip, truncated": (csmip()[:-5], 13, "the file ends after 8 of 10"),
     "csmip, too few": (
         replaced(csmip(), "   10 POINTS OF ACC", "    8 POINTS OF ACC"),
         11,
-        "a further",
+        "there are values after the",
     ),
     "csmip, letters": (replaced(csmip(), "-3.5000", "-3.5O00"), 10, "'-3.5O00' is not a number"),
     "csmip, two headers": (csmip()[:8] + csmip(), 9, "a second header"),
@@ -176,7 +180,7 @@ DAMAGED = {
     "geonet, a second header": (geonet()[:27] + geonet(), 28, "is not a number"),
     "knet, truncated": (knet()[:-1], 18, "the file ends after 8 of 10"),
     "knet, no scale": (knet(scale="none"), 14, "'none' is not a Scale Factor"),
-    "knet, too long": (knet() + knet()[-1:], 20, "a further value after the 10"),
+    "knet, too long": (knet() + knet()[-1:], 20, "there are values after the 10 that"),
     "esm, truncated": (esm()[:-2], 19, "the file ends after 8 of 10"),
     "esm, two headers": (esm() + esm(), 22, "a second header"),
     "esm, count": (replaced(esm(), "NDATA: 10", "NDATA: ten"), 7, "NDATA: 'ten' is not a number"),
@@ -218,8 +222,8 @@ def test_no_step_is_told_with_the_line_where_it_should_stand(written, name):
     path = written(lines)
     with pytest.raises(vi.InputError) as refused:
         vi.Record.read(path)
-    none = f'has no step in {where}; the time between two samples is accepted, such as "10 ms"'
-    assert str(refused.value) == f"step: missing, and {path!r} {none}"
+    none = f'has no step in {where}; pass the time between two samples, such as "10 ms"'
+    assert str(refused.value) == f"step: missing, but {path!r} {none}"
     assert vi.Record.read(path, step="20 ms").step == 0.02
 
 
@@ -237,7 +241,9 @@ def test_what_the_file_says_can_be_overridden(written):
         vi.Record.read(path, unit="N")
     with pytest.raises(vi.InputError, match=r"^record: .*: unit: '1 cm/s' is a velocity"):
         vi.Record.read(written(cosmos(unit="cm/sec(05)")))
-    with pytest.raises(vi.InputError, match=r"^unit: missing, and the values in .* are counts; "):
+    with pytest.raises(
+        vi.InputError, match=r"^unit: missing, and the values in .* are counts, not acc"
+    ):
         vi.Record.read(written(cosmos(unit="counts(50)")))
 
 
@@ -304,7 +310,9 @@ def test_sac_in_either_order_of_bytes_and_miniseed(tmp_path):
         assert (record.about.station, record.about.component) == ("XX.NWH", "HNE")
     trace.stats.sac = {"idep": 7}
     trace.write(str(tmp_path / "velocity.sac"), format="SAC")
-    with pytest.raises(vi.InputError, match=r"unit: missing, and the values in .* are velocities"):
+    with pytest.raises(
+        vi.InputError, match=r"unit: missing, and the values in .* are velocities, not acc"
+    ):
         vi.Record.read(tmp_path / "velocity.sac")
 
     other = obspy.Trace(2 * values, {**head, "channel": "HNN"})

@@ -43,7 +43,9 @@ def test_segments_are_tests(tmp_path):
     lines = [line.replace("North", "Acceleration") for line in lvm()]
     again = lines[7:]
     path = written(tmp_path, [*lines, *again])
-    with pytest.raises(vi.InputError, match="holds 2 tests, and none is chosen; '1', '2' are"):
+    with pytest.raises(
+        vi.InputError, match="holds 2 tests, and none is chosen; pass one of '1', '2'"
+    ):
         vi.read_measurement(path)
     assert len(vi.read_measurement(path, group="2")["time"]) == 10
     with pytest.raises(

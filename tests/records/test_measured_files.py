@@ -172,7 +172,7 @@ def test_counts_need_a_unit():
     pytest.importorskip("obspy")
     path = measured("records/mseed/NP.2825..HNE.mseed")
     with pytest.raises(
-        vi.InputError, match=r"unit: missing, and the values in .* are counts; .*--scale"
+        vi.InputError, match=r"unit: missing, and the values in .* are counts, not acc.*--scale"
     ):
         vi.Record.read(path)
     record = vi.Record.read(path, unit="m/s^2").scaled(1 / 214748)

@@ -189,7 +189,7 @@ ROWS = "".join(f"{0.01 * n:.2f},{n % 7 - 3}\n" for n in range(40))
         ("t (s),a (g)\ns,cm/s^2\n", "states two units, 'g' and 'cm/s^2'"),
         ("# units: cm/s^2\nt (s),a (g)\n", "states two units, 'g' and 'cm/s^2'"),
         ("units: cm/s^2\nunits: g\n", "states two units, 'g' and 'cm/s^2'"),
-        ("t (ms),a (g)\ns,g\n", "its times are in 'ms' and in 's'; one unit is accepted, or step="),
+        ("t (ms),a (g)\ns,g\n", "its times are in 'ms' and in 's'; use one unit, or pass step="),
     ],
 )
 def test_two_units_that_differ_are_refused(tmp_path, head, said):

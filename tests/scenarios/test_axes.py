@@ -104,9 +104,9 @@ def test_logarithmic_axes_are_refined_geometrically():
         (("gip", [1, 2]), "'gip'; one of gap, amplitude"),
         (("gap", "1:2"), "is not a list"),
         (("gap", [0.01, 0.02], "cubic"), "is not an axis"),
-        (("gap_ratio", [0.0, 1.0], "log"), r"x\[0\]: 0 on a logarithmic axis"),
-        (("gap", [0.01]), "1 values given; at least two are accepted"),
-        (("gap", [0.01, 0.01]), r"x\[1\]: 0.01 follows 0.01; rising values are accepted"),
+        (("gap_ratio", [0.0, 1.0], "log"), r"x\[0\]: 0 is not possible on a logarithmic axis"),
+        (("gap", [0.01]), "the list has one value; pass at least two values"),
+        (("gap", [0.01, 0.01]), r"x\[1\]: 10 mm follows 10 mm; sort the values in increasing"),
         (("gap", [-0.01, 0.01]), r"x\[0\]"),
         (("stiffness_ratio", [0.0, 1.0]), r"x\[0\]"),
         (("gap", [0.01, "2 kg"]), r"x\[1\].*is a mass"),
@@ -124,14 +124,14 @@ def test_text_with_units():
 
 def test_axes_that_do_not_go_together():
     gap, ratio = axis(("gap", [0, 1]), "x"), axis(("gap_ratio", [0, 1]), "y")
-    with pytest.raises(vi.InputError, match=r"^y: 'gap_ratio' is the same quantity as 'gap'"):
+    with pytest.raises(vi.InputError, match=r"^y: 'gap_ratio' varies the same quantity as 'gap'"):
         check_pair(gap, ratio)
     with pytest.raises(vi.InputError, match=r"^y: 'gap' is also the parameter of x"):
         check_pair(gap, gap)
 
 
 def test_a_base_without_bumpers_is_refused():
-    with pytest.raises(vi.InputError, match="rig: there is no bumper"):
+    with pytest.raises(vi.InputError, match="rig: there is no stop"):
         Base(vi.Rig(CASE.oscillator.without_bumpers(), SINE)).rig({"gap": 1e-3})
 
 

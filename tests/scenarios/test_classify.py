@@ -47,7 +47,7 @@ def test_a_range_without_the_resonance_names_nothing(low, high):
 @pytest.mark.parametrize("given", [{"extent": 1}, 3])
 def test_thresholds_that_are_none_are_refused(given):
     rig = vi.from_dimensionless(25.9, 0.5, 0.01, 0.15)
-    with pytest.raises(vi.InputError, match=r"thresholds: .* a Thresholds, or None, is accepted"):
+    with pytest.raises(vi.InputError, match=r"thresholds: .* is not a Thresholds; .*, or None$"):
         classify(rig, thresholds=given)
 
 

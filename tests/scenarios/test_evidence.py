@@ -93,7 +93,7 @@ def test_a_pair_of_a_rig_that_is_not_symmetric_is_none():
 
 def test_one_direction_is_not_enough():
     data = made(*primary())
-    with pytest.raises(vi.InputError, match="both forward and backward are required"):
+    with pytest.raises(vi.InputError, match="sweep in both directions, 'forward' and 'backward'"):
         evidence(RIG, data.isel(direction=[0]), 0.01)
     with pytest.raises(vi.InputError, match="is not the sweep of one rig"):
         evidence(RIG, data.isel(direction=0), 0.01)

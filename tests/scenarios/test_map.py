@@ -154,7 +154,7 @@ def test_a_process_that_was_killed(tmp_path):
         ({"rig": 3}, "rig: 3 is not a rig"),
         (
             {"rig": vi.Rig(vi.Oscillator(1.0, vi.Isolator(1.0, 0.3)), 1.0)},
-            "rig: there is no bumper",
+            "rig: there is no stop",
         ),
     ],
 )

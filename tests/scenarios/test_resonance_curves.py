@@ -55,5 +55,5 @@ def test_the_end_of_a_hold_is_where_the_mass_goes_on():
 def test_one_direction_tells_no_hysteresis():
     rig = one_sine(vi.from_dimensionless(20.0, 0.3, 0.01, 0.15), "rig")
     data = vi.sweep(rig, [0.5, 1.0], "forward")
-    with pytest.raises(InputError, match="both forward and backward are required"):
+    with pytest.raises(InputError, match="sweep in both directions, 'forward' and 'backward'"):
         list(each_curves(as_rigs(data)))

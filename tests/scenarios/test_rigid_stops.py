@@ -59,7 +59,9 @@ def test_nodes_change_what_each_stop_has() -> None:
 @pytest.mark.parametrize("name", ["bumper_stiffness", "proportional_stiffness", "relaxation_time"])
 def test_a_rigid_stop_has_no_stiffness_to_map_over(name: str) -> None:
     axes = (name, [1.0, 2.0]), ("gap_ratio", [0.5, 1.0])
-    with pytest.raises(vi.InputError, match=f"^rig: '{name}' applies to bumpers, but every stop"):
+    with pytest.raises(
+        vi.InputError, match=f"^rig: '{name}' applies to bumpers, but this rig has none"
+    ):
         vi.scenario_map(vi.Rig(between(0.5), 1.0), *axes)
 
 

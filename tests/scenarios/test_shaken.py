@@ -126,14 +126,14 @@ def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
         (
             CASE.oscillator,
             vi.Periodic(1.0, [0.3, 0.1]),
-            "shaking: the harmonics of a Periodic cause",
+            "shaking: scenarios are not defined for a Periodic",
         ),
-        (CASE.oscillator, [0.3, 0.4], "shaking: 2 amplitudes; a scenario is defined for one"),
+        (CASE.oscillator, [0.3, 0.4], "shaking: 2 amplitudes, but a scenario is defined for one"),
         (CASE.oscillator, 0.0, "shaking: 0"),
         (
             CASE.oscillator.replace(isolator=vi.Isolator(0.0, 1.0)),
             0.3,
-            "isolator.stiffness: 0, so there is no natural frequency",
+            "isolator.stiffness: 0, but a scenario requires a natural frequency",
         ),
     ],
 )

@@ -158,10 +158,16 @@ def test_refused(wrong, told):
 @pytest.mark.parametrize(
     ("changed", "told"),
     [
-        ({"span": (1.0, 2.0)}, r"basins\[0\]: these basins belong to frequency 0.3; a value"),
-        ({"rig": vi.Rig(ONE_STOP, 1.5)}, r"basins\[0\]: these basins belong to another rig"),
-        ({"phase": 1.0}, r"basins\[0\]: these basins belong to another rig, shaking or"),
-        ({"basins": [xr.Dataset()]}, r"basins\[0\]: it has no basins"),
+        (
+            {"span": (1.0, 2.0)},
+            r"basins\[0\]: these basins were computed at frequency = 0.3 Hz, outside",
+        ),
+        (
+            {"rig": vi.Rig(ONE_STOP, 1.5)},
+            r"basins\[0\]: these basins were computed for another rig",
+        ),
+        ({"phase": 1.0}, r"basins\[0\]: these basins were computed for another rig, shaking or"),
+        ({"basins": [xr.Dataset()]}, r"basins\[0\]: this is not a result of basins"),
     ],
 )
 def test_basins_that_are_refused(changed, told):

@@ -258,7 +258,7 @@ def test_workers_that_come_late_are_waited_for(monkeypatch):
 def test_a_closed_client_is_refused():
     with _local(0, processes=False) as (_, client):
         pass
-    with pytest.raises(vi.InputError, match="where: the client is closed"):
+    with pytest.raises(vi.InputError, match="where: this client is closed"):
         vi.sweeps(["B2-G1-A3"], GRID, where=client)
     with pytest.raises(LostError, match="connection to the cluster was lost"):
         each(lambda item, _: item, range(3), threads=Cluster(client))
@@ -276,5 +276,5 @@ def test_workers_that_join_later_take_part():
 
 
 def test_threads_and_a_cluster_exclude_one_another(cluster):
-    with pytest.raises(vi.InputError, match="threads: 2; on a cluster, each worker sets"):
+    with pytest.raises(vi.InputError, match="threads: 2, but on a cluster each worker sets"):
         vi.sweeps(["B2-G1-A3"], GRID, threads=2, where=cluster)

@@ -30,8 +30,8 @@ ACCEPTED = "'threads', 'processes', a dask Client, or the address of a scheduler
 @pytest.mark.parametrize(
     ("where", "said"),
     [
-        ("treads", f"where: 'treads'; {ACCEPTED}"),
-        (3, f"where: 3; {ACCEPTED}"),
+        ("treads", f"where: 'treads' is unknown; pass {ACCEPTED}"),
+        (3, f"where: 3 is unknown; pass {ACCEPTED}"),
         ("tcp://127.0.0.1:9", "where: no scheduler answers at tcp://127.0.0.1:9"),
     ],
 )

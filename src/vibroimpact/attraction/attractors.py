@@ -84,9 +84,9 @@ def _check_loses(motion: xr.Dataset, stage: Stage, state: _Array) -> None:
     lost = float(motion["effective_damping"]) / stage.excitation.frequency
     if abs(lost) < _LOSES:
         raise InputError(
-            f"oscillator: the motion from {state[2]:.6g} m and {state[3]:.6g} m/s has no "
-            "dissipation, so every state near it has its own motion and there are no basins; an "
-            "isolator with damping is accepted"
+            f"oscillator: the motion from {state[2]:.6g} m and {state[3]:.6g} m/s loses no energy, "
+            "so neighbouring states do not lead to a common motion and there are no basins; give "
+            "the isolator damping"
         )
 
 

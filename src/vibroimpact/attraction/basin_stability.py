@@ -184,13 +184,16 @@ def _values(
 ) -> tuple[Parameter | None, list[float]]:
     if name is None:
         if values is not None:
-            raise InputError("parameter: missing; give the name of the parameter that is varied")
+            raise InputError(
+                "parameter: missing, although values are given; pass the name of the parameter "
+                'that has these values, such as "gap"'
+            )
         return None, [0.0]
     varied = parameter(name, of=rig.periodic.of).of(rig.oscillator)
     listed = check_list(values, "values", MOST_VALUES, f"a list of values of {varied.name}")
     given = [to_si(one, varied.quantity, f"values[{i}]") for i, one in enumerate(listed)]
     if not given:
-        raise InputError(f"values: missing; give values of {varied.name}")
+        raise InputError(f"values: the list is empty; pass at least one value of {varied.name}")
     return varied, given
 
 
@@ -204,9 +207,12 @@ def _drawn(stage: Stage, ranges: Window, count: int, seed: int) -> _Array:
     low, high = walls(stage)
     begin, end = max(ranges[0][0], low), min(ranges[0][1], high)
     if not begin < end:
+        right = ranges[0][1] > low
+        side, stop = ("right", high) if right else ("left", low)
+        needed = "a lower end to the left" if right else "an upper end to the right"
         raise InputError(
-            f"displacement: {ranges[0][0]:g} to {ranges[0][1]:g} m lies beyond a rigid stop; a "
-            "range between the stops is accepted"
+            f"displacement: {ranges[0][0]:g} to {ranges[0][1]:g} m lies beyond the rigid {side} "
+            f"stop at {stop:g} m; choose {needed} of this stop"
         )
     share = np.random.default_rng(seed).random((count, 2))
     points = np.zeros((count, 5))

@@ -26,6 +26,7 @@ from vibroimpact.model import Oscillator, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
@@ -139,12 +140,12 @@ def basins(
     refine = whole(refine, "refine", 0)
     first = _nodes(nodes)
     if refine > MOST_REFINED:
-        raise InputError(f"refine: {refine}; a whole number of at most {MOST_REFINED} is accepted")
+        raise InputError(f"refine: {refine}; pass a whole number from 0 to {MOST_REFINED}")
     plan = Nodes((((first[1] - 1) << refine) + 1, ((first[0] - 1) << refine) + 1), refine)
     if plan.shape[0] * plan.shape[1] > MOST_NODES:
         raise InputError(
-            f"nodes: {plan.shape[1]} × {plan.shape[0]} after refinement; at most {MOST_NODES} "
-            "in total are accepted"
+            f"nodes: {plan.shape[1]} × {plan.shape[0]} after refinement; lower nodes or refine "
+            f"until there are at most {MOST_NODES} in total"
         )
     others = _others(rig.oscillator, right_bumper, left_bumper, isolator)
     stage = Stage(rig, max_events)
@@ -175,7 +176,10 @@ def basins(
 def _nodes(given: int | tuple[int, int]) -> tuple[int, int]:
     pair = given if isinstance(given, tuple | list) else (given, given)
     if len(pair) != 2:
-        raise InputError(f"nodes: {shown(given)}; one number, or one per axis, is accepted")
+        raise InputError(
+            f"nodes: {shown(given)}; pass one number for both axes, or a pair of numbers for "
+            "displacement and velocity, such as (200, 100)"
+        )
     return whole(pair[0], "nodes", 2), whole(pair[1], "nodes", 2)
 
 
@@ -188,11 +192,14 @@ def span_of(
     is_ordered = is_list(given) and hasattr(given, "__len__") and not isinstance(given, Set)
     if not is_ordered or getattr(given, "ndim", 1) != 1 or len(given) != 2:
         raise InputError(
-            f"{field}: {shown(given)}; a pair of the lowest and the highest value is accepted"
+            f"{field}: {shown(given)}; pass the lowest and the highest value as a pair (low, high)"
         )
     low, high = (to_si(one, quantity, f"{field}[{i}]") for i, one in enumerate(given))
     if not low < high:
-        raise InputError(f"{field}: {low:g} is not below {high:g}; a rising pair is accepted")
+        raise InputError(
+            f"{field}: the first value, {pretty(low, quantity)}, is not below the second, "
+            f"{pretty(high, quantity)}; pass the lower value first"
+        )
     return low, high
 
 
@@ -205,14 +212,14 @@ def _others(
         -to_si(left, LENGTH, "left_bumper", maximum=0.0),
         to_si(isolator, LENGTH, "isolator"),
     ]
-    for name, value, stop in (
-        ("right_bumper", values[0], oscillator.right),
-        ("left_bumper", values[1], oscillator.left),
+    for side, value, stop in (
+        ("right", values[0], oscillator.right),
+        ("left", -values[1], oscillator.left),
     ):
         if value and not hasattr(stop, "damping"):
             raise InputError(
-                f"{name}: {value:g} m, but this side has no bumper that keeps a deformation; 0 "
-                "is accepted"
+                f"{side}_bumper: {value:g} m, but the {side} side has no bumper that keeps a "
+                f"deformation; pass 0, or leave {side}_bumper out"
             )
     return np.array(values)
 

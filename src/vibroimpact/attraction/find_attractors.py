@@ -140,7 +140,7 @@ class Search:
         if len(self.known) == MOST:
             raise InputError(
                 f"oscillator: more than {MOST} motions were found, so perhaps every state has "
-                "its own motion; use more damping, a smaller range of states or a larger "
+                "its own motion; add damping, narrow the range of initial states, or raise "
                 f"{MORE_CYCLES}"
             )
         self.known.append(met)

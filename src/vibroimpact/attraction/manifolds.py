@@ -16,7 +16,7 @@ from vibroimpact.attraction.crossings import crossings
 from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.saddles import Saddle, border_saddles, given_saddle, saddle_points
-from vibroimpact.attraction.section_coordinates import forgets
+from vibroimpact.attraction.section_coordinates import remembered
 from vibroimpact.attraction.stable_manifold import stable_curve
 from vibroimpact.attraction.state_window import window
 from vibroimpact.attraction.unstable_manifold import unstable_curve
@@ -77,11 +77,11 @@ def manifolds(
     period
         Period of the saddle orbits that are passed as states, in forcing cycles.
     spacing
-        Largest distance between neighbouring points of a curve. To compute it, displacement and
-        velocity are each divided by the width of their range.
+        Largest distance between neighbouring points of a curve. The distance is dimensionless:
+        displacement and velocity are each divided by the width of their range.
     longest
-        Length at which a curve ends. To compute it, displacement and velocity are each divided by
-        the width of their range.
+        Largest length of a curve. The length is dimensionless: displacement and velocity are each
+        divided by the width of their range.
     max_cycles, max_events, threads
         As in `basins`.
     progress
@@ -124,11 +124,15 @@ def manifolds(
     spacing = share(spacing, "spacing")
     longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)
     stage = Stage(rig, max_events)
-    if not forgets(stage):
+    *bumpers, isolator = remembered(stage)[2:]
+    if isolator or any(bumpers):
+        why, change = "the isolator is hysteretic", "use an isolator without hysteresis"
+        if not isolator:
+            why = "a bumper needs more than one cycle to relax"
+            change = "raise the stiffness of the bumpers, or lower their damping or the frequency"
         raise InputError(
-            "oscillator: a bumper or the isolator keeps its memory for more than a cycle, so the "
-            "stable and unstable manifolds of saddles do not lie in a plane; bumpers that relax "
-            "within a cycle, and an isolator without memory, are accepted"
+            f"oscillator: {why}, so the manifolds of saddles do not lie in the plane of "
+            f"displacement and velocity; {change}"
         )
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")

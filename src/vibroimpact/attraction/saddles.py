@@ -76,9 +76,9 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
         saddle = abs(values[0]) > 1.0 > abs(values[1]) and not np.iscomplex(values).any()
         if status or not saddle:
             raise InputError(
-                f"{where}: this orbit is not a saddle, because its multipliers are {values[0]:.4g} "
-                f"and {values[1]:.4g}; an orbit with one multiplier above 1 in absolute value and "
-                "one below is accepted"
+                f"{where}: this orbit is not a saddle, because the absolute values of its "
+                f"multipliers are {abs(values[0]):.4g} and {abs(values[1]):.4g}; pass an orbit "
+                "with one of them above 1 and the other below 1"
             )
         real, ways = values.real, vectors.real
         found.append(Saddle(here, point[:2].copy(), real[0], ways[:, 0], real[1], ways[:, 1]))
@@ -101,8 +101,8 @@ def check_flies(stage: Stage, orbit: Orbit) -> None:
             raise InputError(
                 f"excitation.phase: at {stage.excitation.phase:.6g} rad, the saddle at "
                 f"{point[0]:.6g} m presses a stop whose force depends on the impact speed, so "
-                "its stable and unstable manifolds do not lie in a plane; a phase without contact "
-                "is accepted"
+                "its manifolds do not lie in a plane; choose a phase at which the mass touches no "
+                "stop"
             )
         _, _, point = evaluated(one, point, orbit.facts[0])
 
@@ -121,15 +121,16 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
     if isinstance(orbit, xr.Dataset):
         if "monodromy" not in orbit or "final_state" not in orbit:
             raise InputError(
-                f"{where}: this is not an orbit; a State, or a dataset that `orbit` returns, is "
-                "accepted"
+                f"{where}: this dataset is not an orbit; pass the result of orbit, or a State near "
+                "the saddle"
             )
         period = int(orbit["period"])
         phase = float(orbit["final_state"].sel(component="phase"))
         if abs(np.sin(0.5 * (phase - stage.excitation.phase))) > 1e-9:
             raise InputError(
                 f"{where}: the phase of this orbit is {phase:.6g} rad, but the phase of the "
-                f"excitation is {stage.excitation.phase:.6g} rad; equal phases are accepted"
+                f"excitation is {stage.excitation.phase:.6g} rad; compute the orbit again with the "
+                "phase of the excitation"
             )
     found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
     check_flies(stage, found)

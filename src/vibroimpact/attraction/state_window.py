@@ -50,8 +50,8 @@ def window(search: Search) -> Window:
     size = _FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops), 0.0)
     if not size > 0.0:
         raise InputError(
-            "displacement: missing, and the motion from rest is zero, so there is no default; a "
-            "range is accepted"
+            "displacement: there is no default range, because the mass does not move from rest; "
+            "pass ranges of displacement and velocity"
         )
     low, high = walls(stage)
     fast = size * excitation.angular_frequency

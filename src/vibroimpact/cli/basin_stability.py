@@ -10,7 +10,7 @@ from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import ANY_STATES, StateOptions
 
 
-@calls("basin_stability", "Shares", samples="states", steps="values")
+@calls("basin_stability", "Parameter and samples", samples="states", steps="values")
 def basin_stability(
     rig: opt.RigName,
     /,
@@ -27,15 +27,20 @@ def basin_stability(
     where: opt.Where = "threads",
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Compute the share of random states that lead to each steady motion, along a parameter.
+    """Compute which share of random initial states leads to each steady motion.
 
-    This share is the basin stability of the motion. The command numbers the motions. To find a
-    motion again at the next value of the parameter, it starts simulations there from the states of
-    the motion. If they lead to a nearby motion, that motion gets the same number. If the parameter
-    is the frequency, --frequency has no effect.
+    This share is called the basin stability of the motion. It is computed at several values of one
+    parameter. The motions are numbered, and each motion keeps its number along the parameter. To
+    find a motion again at the next value, the command starts simulations at this value from states
+    of the motion. If they lead to a nearby motion, this motion gets the same number.
 
-    The command prints the range of the parameter in which each motion exists, with its shares. It
-    writes NAME-PARAMETER-basin-stability.nc and NAME-PARAMETER-basin-stability.png.
+    The forcing frequency (--frequency) has no effect if the parameter is the frequency.
+
+    The command prints the range of the parameter in which each motion exists, with its smallest and
+    largest share. It writes these files (--name sets NAME):
+
+    - NAME-PARAMETER-basin-stability.nc: the shares and the motions
+    - NAME-PARAMETER-basin-stability.png: the shares over the parameter
 
     For example:
 
@@ -45,7 +50,7 @@ def basin_stability(
     Parameters
     ----------
     steps
-        Number of values of the parameter, including both ends.
+        Number of values of the parameter, including both ends of the range.
     """
     import numpy as np
 

@@ -25,9 +25,14 @@ def basins(
     """Compute the basins of attraction: which initial states lead to which steady motion.
 
     The initial states form a grid of displacements and velocities at one forcing frequency. You
-    need not know the steady motions in advance. The command prints each motion with the share of
-    the states that lead to it. It also prints entropies, which measure how strongly the basins are
-    intermingled. It writes NAME-FREQUENCY-basins.nc and NAME-FREQUENCY-basins.png.
+    need not know the steady motions in advance.
+
+    The command prints each motion with the share of the states that lead to it. It also prints
+    entropies, which measure how strongly the basins are intermingled. It writes these files (--name
+    sets NAME):
+
+    - NAME-FREQUENCY-basins.nc: the basins and the motions
+    - NAME-FREQUENCY-basins.png: the basins in the plane of displacement and velocity
 
     For example:
 
@@ -38,7 +43,7 @@ def basins(
     Parameters
     ----------
     nodes
-        Number of initial states along each axis.
+        Number of initial states along each axis of the grid.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results

@@ -49,12 +49,15 @@ def bifurcation(
     """Compute a bifurcation diagram: the steady motions at a series of values of a parameter.
 
     At each value, the motion is simulated until it is steady. Its final state is the initial state
-    at the next value. The order of the values is rising, falling or both (--direction). Motions may
-    also start from random states (--random). For each motion, the diagram shows the points of a
-    Poincaré section, the period and the largest Lyapunov exponent.
+    at the next value. By default, this is done for rising and for falling values (--direction).
+    Further motions may start from random states at each value (--random). For each motion, the
+    diagram shows the points of a Poincaré section, the period and the largest Lyapunov exponent.
 
     The command prints the ranges of the parameter in which the type of the motion does not change.
-    It writes NAME-PARAMETER-diagram.nc and NAME-PARAMETER-diagram.png.
+    It writes these files (--name sets NAME):
+
+    - NAME-PARAMETER-diagram.nc: the section points, periods and exponents
+    - NAME-PARAMETER-diagram.png: the bifurcation diagram
 
     For example:
 
@@ -67,20 +70,21 @@ def bifurcation(
     log
         Space the values of the parameter evenly on a logarithmic axis.
     frequency
-        Forcing frequency, such as 2Hz, if another parameter is varied. Default: the frequency in
-        the study (table [simulate]).
+        Forcing frequency, such as 2Hz. It has no effect if the frequency is varied. Default: the
+        frequency in the study file (table [simulate]). If there is none, the option is required.
     direction
         Order of the values: up (rising), down (falling), both, or none. With none, motions start
         only from random states (--random).
     quantity
-        Quantity on the vertical axis of the figure. A displacement or velocity is recorded once per
-        forcing cycle, and an impact-velocity or impact-phase at the start of each contact.
+        Quantity on the vertical axis of the figure. The displacement and the velocity are recorded
+        once per forcing cycle. The impact velocity and the impact phase are recorded at the start
+        of each contact.
     phase
-        Forcing phase at which displacement and velocity are recorded, such as 90deg. Default: the
-        phase in the study, or 0.
+        Phase of the forcing at which displacement and velocity are recorded, such as 90deg.
+        Default: the phase in the study file, or 0.
     branches
-        Also follow the branches of periodic orbits (see vibroimpact branch), and mark their
-        bifurcations in the figure.
+        Also follow the branches of stable and unstable periodic orbits, as vibroimpact branch does,
+        and mark their bifurcations in the figure.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results

@@ -43,19 +43,23 @@ def branch(
 ) -> int:
     """Follow the branches of periodic orbits along a parameter, through folds and grazings.
 
-    The branches start from:
+    A branch is a curve of stable and unstable periodic orbits over the parameter. It turns back at
+    a fold. At a grazing, the orbit just touches a bumper. The branches start from:
 
     - the steady motions of sweeps up and down the range of the parameter
     - the steady motions that random initial states lead to
     - the motion without contact
     - each symmetry breaking and each period doubling on the branches
 
-    With --start or --period, only one branch is followed. It starts from the orbit near the state
-    --start. Without --start, it starts from the steady motion that is reached from rest.
+    With --start or --period, the command follows only one branch. This branch starts from the
+    periodic orbit near the state --start or, without --start, from the steady motion that is
+    reached from rest.
 
-    The command prints the bifurcations. It writes NAME-PARAMETER-branches.nc and
-    NAME-PARAMETER-branches.png. If the parameter is the frequency, the figure also shows a stepped
-    sweep.
+    The command prints the bifurcations. It writes these files (--name sets NAME):
+
+    - NAME-PARAMETER-branches.nc: the orbits and the bifurcations of all branches
+    - NAME-PARAMETER-branches.png: the branches. If the parameter is the frequency, the figure also
+      shows a simulated sweep.
 
     For example:
 
@@ -66,23 +70,30 @@ def branch(
     Parameters
     ----------
     frequency
-        Forcing frequency, such as 2Hz. It is used if another parameter is varied, and with --start
-        or --period. Default: the frequency in the study (table [simulate]).
+        Forcing frequency, such as 2Hz, if another parameter is varied. With --start or --period, it
+        is the frequency of the first orbit. Default: the frequency in the study file (table
+        [simulate]). If there is none, the option is required in these two cases.
     quantity
-        Quantity on the vertical axis of the figure. eta_d and eta_a are the normalised excursions
-        (maximum minus minimum) of displacement and acceleration.
+        Quantity on the vertical axis of the figure. An excursion is the maximum minus the minimum.
+        eta_d and eta_a are the excursions of displacement and acceleration, each divided by its
+        largest value without bumpers. The eccentricity is the mean of the largest and the smallest
+        displacement.
     physical
         Draw the largest displacement (mm) instead of eta_d, and the largest acceleration (g)
         instead of eta_a.
+    random
+        Number of random initial states at each of the 40 values of the parameter at which motions
+        are simulated. They help to find isolated branches, that is, branches with stable orbits
+        that are not connected to the other branches.
     basins
         Number of values of the parameter at which basins of attraction are computed. The basins
         help to find isolated branches to which only few initial states lead.
     begin
-        Displacement and velocity near the first orbit of one branch, such as 5mm,100mm/s. Default:
-        all branches are followed.
+        State (displacement and velocity) near a periodic orbit, such as 5mm,100mm/s. Only the
+        branch of this orbit is followed. Default: all branches are followed.
     period
-        Period of the first orbit of one branch, in forcing cycles. Default: the period of the
-        motion that is reached from rest, or 1 with --start.
+        Period of the orbits of one branch, in forcing cycles. Only this branch is followed.
+        Default: 1 with --start, otherwise the period of the motion that is reached from rest.
     """
     import numpy as np
 

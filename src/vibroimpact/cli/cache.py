@@ -14,8 +14,8 @@ def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = Fal
 
     vibroimpact compiles its numerical code on first use. The compiled code is stored in the cache
     folder of the user, or in the folder that the environment variable VIBROIMPACT_CACHE_DIR names.
-    Each version of vibroimpact has its own folder there. You can remove the code at any time. Code
-    that another process is compiling or loading is kept.
+    Each version of vibroimpact has its own subfolder. You can remove the code at any time. Code
+    that another process is compiling or loading is not removed.
 
     For example:
 

@@ -27,23 +27,32 @@ def classify(
     threads: opt.Threads = None,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Classify the resonance curves of a rig by their scenario, S0 to S6, with the evidence.
+    """Classify the resonance curves of a rig into one of seven classes (scenarios S0 to S6).
 
-    The command sweeps the frequency forward and backward. It prints the scenario, and the features
-    of the curves that determine the scenario. It writes NAME-scenario.nc (the curves) and
-    NAME-scenario.png.
+    The command sweeps the frequency forward (rising) and backward (falling). It prints the scenario
+    and the evidence, that is, the features of the two resonance curves that determine the scenario.
     The scenarios are:
 
     - S0: the mass touches no bumper
-    - S1: the mass grazes a bumper
+    - S1: the mass grazes a bumper, that is, it reaches the bumper and hardly deforms it
     - S2: the primary resonance has a right hysteresis
     - S3: as S2, and there is a secondary resonance
-    - S4: secondary resonances have a left hysteresis or are not regular, such as
-      chaotic or subharmonic ones
+    - S4: secondary resonances have a left hysteresis or are not regular
     - S5: the curves are smooth, and the bumpers touch the mass at rest
-    - S6: the curves are bent to the right, without jumps
+    - S6: the primary resonance is bent to the right, without jumps
 
     All other curves are unclassified.
+
+    The primary resonance is the main resonance, and secondary resonances lie at lower frequencies.
+    In a right hysteresis, the forward sweep gives the larger motions. In a left hysteresis, the
+    backward sweep gives the larger motions. A resonance is regular if its motion repeats after one
+    forcing cycle and, for a symmetric rig, is its own mirror image. Chaotic and subharmonic
+    resonances are not regular.
+
+    The command writes these files (--name sets NAME):
+
+    - NAME-scenario.nc: the data of the resonance curves
+    - NAME-scenario.png: the resonance curves
 
     For example:
 
@@ -56,7 +65,7 @@ def classify(
     start
         Lowest frequency, such as 0.3Hz. Default: 0.4 × the natural frequency.
     stop
-        Highest frequency, such as 5Hz. Default: a frequency above the highest possible primary
+        Highest frequency, such as 5Hz. Default: an upper bound of the frequency of the primary
         resonance.
     step
         Step between frequencies, such as 0.01Hz. Default: 0.01 × the natural frequency.

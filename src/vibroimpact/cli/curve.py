@@ -48,9 +48,12 @@ def curve(
     """Follow bifurcations as curves in the plane of two parameters, through cusps.
 
     The command first finds the bifurcations of one kind along the first parameter. It then follows
-    each bifurcation as a curve over both parameters. It prints the ends and the cusps of each
-    curve. It writes NAME-BIFURCATION-FIRST-SECOND.nc, with one NetCDF group per curve, and
-    NAME-BIFURCATION-FIRST-SECOND.png.
+    each bifurcation as a curve over both parameters. It prints the ends of each curve, and its
+    cusps, which are points where the curve turns back on itself. It writes these files (--name sets
+    NAME):
+
+    - NAME-BIFURCATION-FIRST-SECOND.nc: the curves, with one NetCDF group per curve
+    - NAME-BIFURCATION-FIRST-SECOND.png: the curves in the plane of the two parameters
 
     For example:
 
@@ -60,19 +63,23 @@ def curve(
     Parameters
     ----------
     bifurcation
-        Kind of bifurcation that is followed.
+        Kind of bifurcation that is followed. At a fold, a branch of periodic orbits turns back. At
+        a grazing, an orbit just touches a bumper.
     over
-        Names of the two parameters, separated by a comma. For the names, see --parameter of
-        vibroimpact branch. The command first finds the bifurcations along the first parameter.
+        Names of the first and the second parameter, separated by a comma. For all names, see
+        --parameter of vibroimpact branch.
     first
-        Range of the first parameter, LOW:HIGH. Default, if it is the frequency: as for --from and
-        --to of vibroimpact branch. For another parameter the range is required.
+        Range of the first parameter, LOW:HIGH, such as 0.5Hz:4Hz. Only the frequency has a default:
+        the range in the study file (table [sweep]). If the file states none, the default is from
+        0.27 to 4.5 × the natural frequency. For laboratory cases it is from 0.3 to 5 Hz.
     second
-        Range of the second parameter, LOW:HIGH, such as 1mm:20mm. Default, if it is the frequency:
-        as for --from and --to of vibroimpact branch. For another parameter the range is required.
+        Range of the second parameter, LOW:HIGH, such as 1mm:20mm. It is required, unless this
+        parameter is the frequency, which has the same default as in --first. The range must contain
+        the rig's own value of the parameter.
     frequency
-        Forcing frequency, such as 2Hz, if the frequency is not the first parameter. Default: the
-        frequency in the study (table [simulate]).
+        Forcing frequency at which the bifurcations along the first parameter are found, such as
+        2Hz. It has no effect if the first parameter is the frequency. Default: the frequency in the
+        study file (table [simulate]). If there is none, the option is required.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
@@ -84,8 +91,8 @@ def curve(
     names = [name.strip().replace("-", "_") for name in over.split(",")]
     if len(names) != 2:
         raise InputError(
-            f"--over: {over!r} is not a pair; two names with a comma between them are accepted, "
-            "such as frequency,gap"
+            f"--over: {over!r} is not a pair of parameters; pass two names with a comma between "
+            "them, such as frequency,gap"
         )
     kind, pair = _KINDS[bifurcation], (names[0], names[1])
     shaken = rig_at(what, frequency, along=names[0])
@@ -104,5 +111,6 @@ def _range(what: Subject, option: str, name: str, text: str | None) -> tuple[flo
         return option_range(what, name, None, None, (option, option), "--over")
     low, colon, high = (text or "").partition(":")
     if not (low and colon and high):
-        raise InputError(f"{option}: {text!r}; a range is accepted, such as 1mm:20mm")
+        wrong = "missing" if text is None else f"{text!r} is not a range"
+        raise InputError(f"{option}: {wrong}; pass the lowest and the highest {name} as LOW:HIGH")
     return option_range(what, name, low, high, (option, option), "--over")

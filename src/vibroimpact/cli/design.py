@@ -39,13 +39,15 @@ def design(
     where: opt.Where = "threads",
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Compute the gap at which a rig hits no stop, and compare designs of its gaps and stops.
+    """Compute the smallest gap at which a rig hits no stop, and compare designs of gaps and stops.
 
-    The rig is shaken by earthquake records, or by a sine whose frequency is swept up and down. For
-    each design, the command computes the largest displacement, acceleration and contact force. It
-    writes:
+    A design is a combination of values of one or two parameters (--vary). The rig is shaken by
+    earthquake records, or by a sine whose frequency is swept up and down. For each design, the
+    command computes the largest displacement, acceleration and contact force. It writes these files
+    (--name sets NAME):
 
-    - NAME-design.nc and NAME-design.csv: the results of all designs, with a row for each design
+    - NAME-design.nc and NAME-design.csv: the results of all designs. In the CSV file, each row is a
+      design.
     - NAME-design.png: the results over the one or two parameters that are varied
     - NAME-pareto.png: the Pareto front of displacement and acceleration. It contains each design
       for which no other design is better in both quantities.
@@ -63,32 +65,38 @@ def design(
     Parameters
     ----------
     records
-        Files of earthquake records; for the formats, see vibroimpact record. Default: the records
-        in the study, or sines with the amplitude of the rig's shaking.
+        Files of earthquake records. For the formats, see vibroimpact record. Default: the records
+        in the study file. If it has none, the rig is shaken by sines with the amplitude of the rig
+        (--amplitude).
     vary
-        Parameter that is varied and its range, NAME LOW:HIGH[:log][:VALUES]. The option may be
-        used once or twice. VALUES is the number of values; without it, there are 15 values.
-        Examples of names: gap, bumper-stiffness (at constant damping), stiffness-at-restitution
-        (stiffness of the bumpers at constant coefficient of restitution), bumper-damping,
-        isolator-period, damping-ratio, yield-force. Default: the parameters in the study (table
-        [design]). If the study has none, the gap is varied, up to slightly above the gap at which
-        the rig hits no stop. If all stops are linear bumpers, their stiffness is varied, too.
+        Parameter that is varied and its range, NAME LOW:HIGH, such as gap 100mm:500mm. The option
+        may be used once or twice. The range has 15 evenly spaced values. To change the number or
+        the spacing, write LOW:HIGH:NUMBER, LOW:HIGH:log or LOW:HIGH:log:NUMBER (log: logarithmic
+        spacing). Examples of names: gap, bumper-stiffness (at constant damping),
+        stiffness-at-restitution (stiffness of the bumpers at constant coefficient of restitution),
+        bumper-damping, isolator-period, damping-ratio, yield-force. Default: the parameters in the
+        study file (table [design]). If the file states none, the gap is varied, up to slightly
+        above the gap at which the rig hits no stop. If all stops are linear bumpers, their
+        stiffness is varied, too.
     best
-        Also search for the bumper that gives the smallest acceleration of the mass. The search
-        keeps the gap of the rig.
+        Also search for the bumper that gives the smallest acceleration of the mass. The search does
+        not change the gap of the rig.
     limit
         Quantity and the value that it must not exceed, such as peak-force 5MN. The quantities are
-        peak-force, penetration and peak-displacement. The option may be repeated. These limits are
-        added to the limits in the study (table [design]). Default: only the limits in the study.
+        peak-force, penetration (into a stop) and peak-displacement. The option may be repeated.
+        These limits are added to the limits in the study file (table [design]). Default: only the
+        limits in the study file.
     fractile
-        Share of the records whose response is below the reported value, from 0 to 1. Default: the
-        value in the study (table [design]), or 1, which gives the largest response to any record.
+        Fractile of the response over the records: the share of the records, from 0 to 1, whose
+        response is below the reported value. With 1, the largest response is reported. Default: the
+        value in the study file (table [design]), or 1.
     start
-        Lowest frequency of the sines. Default: the value in the study (table [sweep]), or a
-        frequency below the primary resonance of each design.
+        Lowest frequency of the sines, such as 0.2Hz. Pass both --from and --to, or neither.
+        Default: the value in the study file (table [sweep]), or a frequency below the primary
+        resonance of each design.
     to
-        Highest frequency of the sines. Default: the value in the study (table [sweep]), or a
-        frequency above the primary resonance of each design.
+        Highest frequency of the sines, such as 2Hz. Default: the value in the study file (table
+        [sweep]), or a frequency above the primary resonance of each design.
     """
     from vibroimpact.cli.frequency_grid import sine_span
     from vibroimpact.cli.output import progress_bar

@@ -36,13 +36,13 @@ def earthquake(
 ) -> int:
     """Shake a rig with earthquake records, and report whether and how hard it hits its stops.
 
-    The command writes:
+    The motion starts from rest. The command writes these files (--name sets NAME):
 
-    - NAME-earthquake.csv: a table with a row for each record
+    - NAME-earthquake.csv: a table of the results, with a row for each record
     - NAME-RECORD-earthquake.png: a page of figures for each record
-    - NAME-RECORD-earthquake.nc: a file for each record, with four NetCDF groups: response, motion,
-      ground and floor. The groups ground and floor contain the response spectra of the ground and
-      of the mass.
+    - NAME-RECORD-earthquake.nc: a file for each record, with four NetCDF groups: response (peak
+      values and energies), motion (time history), ground (response spectrum of the record) and
+      floor (response spectrum of the acceleration of the mass)
 
     For example:
 
@@ -53,13 +53,15 @@ def earthquake(
     Parameters
     ----------
     records
-        Files of records; for the formats, see vibroimpact record. Default: the record in the study.
+        Files of earthquake records. For the formats, see vibroimpact record. Default: the records
+        in the study file.
     tail
         Duration of free vibration after each record, such as 10s. Default: two natural periods of
         the mass, computed with the smallest stiffness of the isolator's force law.
     samples
-        Number of samples per time step of a record, in the figures and the files. This number
-        affects the response spectrum of the mass. It does not affect the peaks of the response.
+        Number of samples of the motion per time step of a record, in the figures and the files. It
+        affects the response spectrum of the mass. It does not affect the reported largest
+        displacements, accelerations and forces.
     """
     from rich.text import Text as Line
 

@@ -37,15 +37,19 @@ def ensemble(
     where: opt.Where = "threads",
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Draw random rigs from the distributions of their parameters, and sweep each of them.
+    """Draw random rigs from distributions of their parameters, and sweep the frequency of each rig.
 
-    For each peak, such as the largest displacement over all frequencies, the command prints the
-    values that 5 %, 50 % and 95 % of the rigs do not exceed. It writes:
+    A peak is the largest value of a quantity, such as the displacement, over all frequencies. For
+    each peak, the command prints the values that 5 %, 50 % and 95 % of the rigs do not exceed. It
+    writes these files (--name sets NAME):
 
     - NAME-ensemble.nc: the sweeps of all rigs, with the parameters of each rig
-    - NAME-ensemble.png: the median of the resonance curves, and the band from 5 % to 95 %
-    - NAME-sensitivity-PEAK.nc and NAME-sensitivity-PEAK.png: with --sensitivity, the Sobol indices
-      of each peak
+    - NAME-ensemble.png: the median of the resonance curves, and the band between their 5 % and
+      95 % quantiles
+    - NAME-sensitivity-PEAK.nc and NAME-sensitivity-PEAK.png, with --sensitivity: the Sobol indices
+      of each peak. Each parameter has two indices, which are shares of the variance of the peak.
+      The parameter causes the first share alone. The second share also includes its interactions
+      with other parameters.
 
     For example:
 
@@ -55,28 +59,45 @@ def ensemble(
     Parameters
     ----------
     uncertain
-        Parameter and its distribution. The option may be repeated. Examples: gap
-        normal:7.5mm:0.5mm, damping lognormal:0.2, stiffness uniform:5%. Other distributions are
-        triangular:LOW:MODE:HIGH and normal:MEAN:DEVIATION:LOW:HIGH. If you pass only one number,
-        as in uniform:5%, the distribution is centred on the value of the parameter in the rig. The
-        number is then the spread as a share of this value. For the names of parameters, see
-        --parameter of vibroimpact branch. Default: the distributions in the study (table
+        Parameter and its distribution, such as gap normal:7.5mm:0.5mm. The option may be repeated.
+        For the names of parameters, see --parameter of vibroimpact branch. The distributions are
+        normal:MEAN:DEVIATION, normal:MEAN:DEVIATION:LOW:HIGH (truncated to the range from LOW to
+        HIGH), uniform:LOW:HIGH, triangular:LOW:MODE:HIGH and lognormal:MEDIAN:SIGMA. SIGMA is the
+        standard deviation of the natural logarithm of the parameter. Three short forms use the
+        value of the rig: normal:5% (the mean is this value, and the standard deviation is 5 % of
+        it), uniform:5% (from 5 % below to 5 % above this value) and lognormal:0.2 (the median is
+        this value, and SIGMA is 0.2). Default: the distributions in the study file (table
         [ensemble]).
+    draws
+        Number of random rigs. For the method sobol it must be a power of 2. Default: the number in
+        the study file (table [ensemble]), or 128.
+    method
+        Sampling method: sobol (scrambled Sobol sequence), latin (Latin hypercube) or random.
+        Default: the method in the study file (table [ensemble]), or sobol.
+    seed
+        Seed of the random rigs. The same seed gives the same rigs. Default: the seed in the study
+        file (table [ensemble]), or 0.
     sensitivity
-        Also compute which parameter contributes most to the variance of the peaks (Sobol indices).
+        Also compute which parameter contributes most to the variance of each peak (Sobol indices).
     start
-        Lowest frequency, such as 0.3Hz. Default: as for vibroimpact sweep.
+        Lowest frequency, such as 0.3Hz. Default: the value in the study file (table [sweep]). If
+        the file states none, the default is 0.45 × the natural frequency. For laboratory cases it
+        is 0.5 Hz.
     stop
-        Highest frequency, such as 5Hz. Default: as for vibroimpact sweep.
+        Highest frequency, such as 5Hz. Default: the value in the study file (table [sweep]). If the
+        file states none, the default is 4.5 × the natural frequency. For laboratory cases it is
+        5 Hz.
     step
-        Step between frequencies, such as 0.05Hz. Default: four times the step of vibroimpact
-        sweep.
+        Step between frequencies, such as 0.05Hz. Default: the value in the study file (table
+        [sweep]). If the file states none, the default is about 0.04 × the natural frequency. For
+        laboratory cases it is 0.04 Hz.
     frequencies
-        List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step.
+        List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step. Default:
+        the list in the study file (table [sweep]), if it has one.
     physical
         Draw the largest acceleration (g) and displacement (mm) instead of the normalised excursions
-        η_a and η_d. An excursion is the maximum minus the minimum. It is normalised by the largest
-        excursion of the same rig without stops.
+        η_a (acceleration) and η_d (displacement). An excursion is the maximum minus the minimum. It
+        is normalised by the largest excursion of the same rig without stops.
     """
     from vibroimpact.cli.frequency_grid import default_range, list_frequencies
     from vibroimpact.cli.output import progress_bar

@@ -21,11 +21,12 @@ def explore(
     host: str = "127.0.0.1",
     changes: opt.RigOptions = opt.AS_DESCRIBED,
 ) -> int:
-    """Change parameters in a browser, and see how the resonance curves, motion and scenario change.
+    """Change parameters in a browser, and see how the resonance curves and the motion change.
 
-    The command starts a server, prints the address of its page, and opens the page in a browser. By
-    default, only this machine can open the page. To stop the server, press Ctrl-C. On first use,
-    vibroimpact compiles its numerical code, which takes a minute.
+    The page also shows the scenario, which is a class of resonance curves (see vibroimpact
+    classify). The command starts a server, prints the address of its page, and opens the page in a
+    browser. By default, only this machine can open the page. To stop the server, press Ctrl-C. On
+    first use, vibroimpact compiles its numerical code, which takes a minute.
 
     For example:
 
@@ -36,15 +37,17 @@ def explore(
     Parameters
     ----------
     rig
-        The rig: the code of a laboratory case, or the path of a study file. For the parts of a
-        code, see vibroimpact sweep. Default: B2-G1-A3.
+        The rig with which the page starts: a mass on an isolator between two bumpers (deformable
+        stops), with its shaking. Pass the code of a laboratory case, which is a rig of the
+        published tests, or the path of a study file (TOML), which describes your own rig. For the
+        parts of a code, see vibroimpact sweep. Default: B2-G1-A3.
     port
-        Port of the server. If it is 0, any free port is used.
+        Port of the server, a whole number. With 0, any free port is used.
     browser
         Open the page in a browser. This is the default.
     host
-        Address on which the server listens. If you pass another address than the default, other
-        machines can connect if they know the token in the printed address.
+        Address on which the server listens. With another address than the default, other machines
+        can connect if they know the token (a secret key) in the printed address.
     """
     from vibroimpact.explorer import require_websockets
 
@@ -58,7 +61,7 @@ def explore(
     from vibroimpact.model.rig import Rig
 
     if not 0 <= port <= 65535:
-        raise InputError(f"--port: {port}; a whole number from 0 to 65535 is accepted")
+        raise InputError(f"--port: {port}; pass a whole number from 0 to 65535")
     what = subject(rig, changes)
     table = what.sweep_table
     span = (table.start, table.to) if table.start and table.to else None

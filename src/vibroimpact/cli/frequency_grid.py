@@ -32,7 +32,7 @@ Span: TypeAlias = tuple[float | None, float | None]
 
 NO_DEFAULT = (
     "missing; the isolator has no stiffness, so there is no natural frequency and no default; "
-    "a frequency greater than 0 is accepted"
+    "pass a frequency greater than 0"
 )
 
 
@@ -100,13 +100,14 @@ def frequency_grid(start: float, stop: float, step: float) -> tuple[float, ...]:
     """
     if start > stop:
         raise InputError(
-            f"--from: {start:g} Hz is above --to, {stop:g} Hz; a rising range is accepted"
+            f"--from: {start:g} Hz is above --to, {stop:g} Hz; lower --from or raise --to"
         )
     first, last, width = (Decimal(repr(value)) for value in (start, stop, step))
     whole = int((last - first) / width)
     if whole >= MOST:
         raise InputError(
-            f"--step: {step:g} Hz makes {whole + 1} frequencies; at most {MOST} are accepted"
+            f"--step: {step:g} Hz makes {whole + 1} frequencies, but at most {MOST} are accepted; "
+            "raise --step, or narrow the range from --from to --to"
         )
     grid = [float(first + k * width) for k in range(whole + 1)]
     # Units such as rad/s give long decimal numbers. Their last digit may miss the end.
@@ -150,7 +151,9 @@ def list_frequencies(
     if listed is not None:
         for option, text in given.items():
             if text is not None:
-                raise InputError(f"{option}: given with --frequencies; one of the two is accepted")
+                raise InputError(
+                    f"{option}: given together with --frequencies; remove one of the two options"
+                )
         return tuple(part.strip() for part in listed.split(",")) if listed.strip() else ()
     if all(text is None for text in given.values()) and table and table.frequencies is not None:
         return tuple(table.frequencies)
@@ -181,9 +184,7 @@ def sine_span(
     if low is None and high is None:
         return None
     if low is None or high is None:
-        which = "--from" if low is None else "--to"
-        raise InputError(
-            f"{which}: missing, but the other end of the range is given; both ends, or neither, "
-            "are accepted"
-        )
+        which, other = ("--from", "--to") if low is None else ("--to", "--from")
+        given = f"{other} is given" if start or to else f"the study gives {other[2:]!r}"
+        raise InputError(f"{which}: missing, although {given}; pass {which} too")
     return low, high

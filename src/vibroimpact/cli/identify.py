@@ -36,15 +36,20 @@ def identify(
     threads: opt.Threads = None,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Identify parameters of a rig from measured stepped-sine curves or time histories.
+    """Identify parameters of a rig from measured resonance curves or time histories.
 
-    The command prints the fitted values with their confidence intervals, the parameters that the
-    data do not determine, signs of an inadequate model, and the most informative next test. It
-    writes:
+    The command fits the parameters to the data of one or several tests. It prints:
+
+    - the fitted values with their confidence intervals
+    - the parameters that the data do not determine
+    - signs that the model is inadequate
+    - the next test that would be most informative
+
+    It writes these files (--name sets NAME):
 
     - NAME-fit.html and NAME-fit.md: the report, with figures
     - NAME-fit.nc: all numbers
-    - NAME-fit.toml: the fitted rig as a study file, which every other command accepts
+    - NAME-fit.toml: the fitted rig as a study file, which other commands accept as the rig
 
     For example:
 
@@ -55,43 +60,51 @@ def identify(
     Parameters
     ----------
     data
-        Files of the tests, as CSV, MAT, HDF5, UFF58, TDMS or NetCDF.
+        Files with the measured data, one file per test, as CSV, MAT, HDF5, UFF58, TDMS or NetCDF.
     rig
-        The tested rig: a case code or a study file. Its values are the starting values of the free
+        The tested rig: the code of a laboratory case (a rig of the published tests), such as
+        B2-G1-A3, or the path of a study file. Its values are the starting values of the free
         parameters.
     free
-        Parameters that are fitted, separated by commas, such as
-        stiffness,damping,bumper-stiffness,gap.
+        Names of the parameters that are fitted (free parameters), separated by commas, such as
+        stiffness,damping,bumper-stiffness,gap. For all names, see --parameter of vibroimpact
+        branch.
     each
-        Free parameters that are fitted separately for each test, separated by commas. All other
-        free parameters have the same value in all tests. Default: none.
+        Free parameters that are fitted separately for each test, separated by commas, such as gap.
+        All other free parameters have the same value in all tests. Default: none.
     bounds
         Bounds of a free parameter, NAME LOW:HIGH, such as gap 5mm:10mm. The option may be repeated.
         Default: none.
     tie
-        Parameter that is kept equal to another parameter, such as left-gap right-gap. The option
-        may be repeated. Default: none.
+        Parameter, and the other parameter to which it is kept equal, such as left-gap right-gap.
+        The option may be repeated. Default: none.
     prior
-        Mean and standard deviation of the normal prior of a free parameter, NAME MEAN:DEVIATION,
-        such as gap 7.5mm:0.2mm. The option may be repeated. Default: none.
+        Prior knowledge of a free parameter: mean and standard deviation of a normal distribution,
+        NAME MEAN:DEVIATION, such as gap 7.5mm:0.2mm. The option may be repeated. Default: none.
     columns
-        Variable and the column of the file that contains it, such as displacement-excursion
-        'channel 3'. The option may be repeated. Default: the names of the columns are interpreted.
+        Variable, and the name of the column of the file that contains it, such as
+        displacement-excursion 'channel 3'. The option may be repeated. An excursion is the maximum
+        minus the minimum. Variables of resonance curves: frequency, displacement-excursion,
+        acceleration-excursion, displacement-max, displacement-min, acceleration-max,
+        acceleration-min. Variables of time histories: time, displacement, velocity, acceleration,
+        base-acceleration, base-displacement, mass-displacement, contact-force. Default: the
+        variables are detected from the names of the columns.
     units
-        Variable or column and its unit, such as displacement-excursion mm. The option may be
+        Variable or column, and its unit, such as displacement-excursion mm. The option may be
         repeated. Default: the units in the file.
     group
-        Name of the test that is read, if a file contains several. Default: the only test in the
-        file.
+        Name of the test that is read, if a file contains several tests. Default: the only test in
+        the file.
     decimal
-        Decimal mark of the numbers, if the file is a text table. Default: detected from the table.
+        Decimal mark of the numbers in the file, if the file is a text table. Default: detected from
+        the table.
     steady
         Treat the time histories as records of steady motions. Each history is then compared with
         the steady motion that the rig reaches from the measured state, and no initial states are
         fitted.
     compare
-        Other models that are also fitted: hertz (Hertzian contacts), softening (a softening
-        isolator) or hertz,softening. Default: none.
+        Other models that are fitted for comparison: hertz (Hertzian contacts), softening (a
+        softening isolator) or hertz,softening (both models). Default: none.
     """
     from vibroimpact.cli.measured import pair, shaking_of_tests, with_amplitude
     from vibroimpact.cli.output import progress_bar, tell
@@ -101,7 +114,7 @@ def identify(
     from vibroimpact.reports.fit_summary import fit_summary
 
     if not data:
-        raise InputError("DATA: missing; the file of a test is accepted")
+        raise InputError("DATA: missing; pass the file of a test, such as test.csv")
     reading: dict[str, Any] = {
         "columns": opt.by_name("--columns", columns),
         "units": opt.by_name("--units", units),
@@ -118,8 +131,8 @@ def identify(
     }
     if strange := set(limits) - set(names):
         raise InputError(
-            f"--bounds: {sorted(strange)[0]!r} is not free; a parameter of --free, {free}, is "
-            "accepted"
+            f"--bounds: {sorted(strange)[0]!r} is not one of the free parameters, {free}; add it "
+            "to --free, or remove its bounds"
         )
     with results(what, output) as written:
         fits = fit_models(

@@ -28,14 +28,19 @@ def manifolds(
     threads: opt.Threads = None,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Compute the stable and unstable manifolds of saddle orbits, and draw them over the basins.
+    """Compute the stable and unstable manifolds of saddle orbits (unstable periodic orbits).
 
-    The manifolds are curves in the plane of displacement and velocity. A motion that starts on the
-    stable manifold of a saddle orbit leads to this orbit. Stable manifolds are the borders of
-    basins. A motion that starts next to a saddle orbit moves away along its unstable manifold.
+    A saddle orbit is an unstable periodic orbit from which disturbances grow in one direction and
+    decay in another. Its manifolds are curves in the plane of displacement and velocity. A motion
+    that starts on the stable manifold leads to the saddle orbit. The borders between basins of
+    attraction are such stable manifolds. A motion that starts next to the saddle orbit moves away
+    along the unstable manifold.
 
-    The command prints the saddle orbits, and the points at which manifolds cross. It writes
-    NAME-FREQUENCY-manifolds.nc and NAME-FREQUENCY-manifolds.png.
+    The command prints the saddle orbits, and the points at which manifolds cross. It writes these
+    files (--name sets NAME):
+
+    - NAME-FREQUENCY-manifolds.nc: the manifolds and the saddle orbits
+    - NAME-FREQUENCY-manifolds.png: the manifolds over the basins of attraction
 
     For example:
 
@@ -47,11 +52,19 @@ def manifolds(
     ----------
     saddle
         Displacement and velocity near a saddle orbit, such as 5mm,2mm/s. The option may be
-        repeated. Default: at most four saddles, which are found along the borders between basins.
+        repeated. Default: at most four saddle orbits, which are found along the borders between
+        basins.
     period
-        Period of the orbits near --saddle, in forcing cycles.
+        Period of the saddle orbits near --saddle, in forcing cycles.
+    spacing
+        Largest distance between neighbouring points of a curve. The distance is dimensionless: the
+        displacement and the velocity are divided by the widths of the ranges --displacement and
+        --velocity.
+    longest
+        Largest length of a curve. The length is dimensionless, as in --spacing.
     nodes
-        Number of initial states along each axis, for the basins in the figure.
+        Number of initial states along each axis of the grid on which the basins in the figure are
+        computed. Default: 300.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results

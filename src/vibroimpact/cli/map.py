@@ -33,14 +33,30 @@ def scenario_map(
     where: Annotated[str | None, Parameter(group=opt.COMPUTATION)] = None,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Compute a map of the scenarios of a rig over two of its parameters.
+    """Compute a map of scenarios (classes of resonance curves) over two parameters of a rig.
 
-    A scenario is a class of resonance curves; see vibroimpact classify. All other parameters are
-    those of the rig (default: the published rig B3-A3).
+    All other parameters are constant. At each point of the map, the frequency is swept forward
+    (rising) and backward (falling). The scenarios are:
 
-    The map is written to NAME-X-Y-map.zarr block by block. If the command is stopped, run the same
-    command again to complete the map. The command prints the share of the map that each scenario
-    occupies. It draws the map as NAME-X-Y-map.png.
+    - S0: the mass touches no bumper
+    - S1: the mass grazes a bumper, that is, it reaches the bumper and hardly deforms it
+    - S2: the primary resonance has a right hysteresis
+    - S3: as S2, and there is a secondary resonance
+    - S4: secondary resonances have a left hysteresis or are not regular
+    - S5: the curves are smooth, and the bumpers touch the mass at rest
+    - S6: the primary resonance is bent to the right, without jumps
+
+    All other curves are unclassified. The primary resonance is the main resonance, and secondary
+    resonances lie at lower frequencies. In a right hysteresis, the forward sweep gives the larger
+    motions. In a left hysteresis, the backward sweep gives the larger motions. A resonance is
+    regular if its motion repeats after one forcing cycle and, for a symmetric rig, is its own
+    mirror image.
+
+    The command prints the share of the map that each scenario occupies. If the command is stopped,
+    run the same command again to complete the map. It writes these files (--name sets NAME):
+
+    - NAME-X-Y-map.zarr: the map
+    - NAME-X-Y-map.png: the figure of the map
 
     For example:
 
@@ -51,25 +67,30 @@ def scenario_map(
     Parameters
     ----------
     rig
-        The rig: the code of a laboratory case, or the path of a study file. A single sine must
-        shake the rig. Default: a rig with damping-ratio 0.15, relaxation-time 0.01, stiffness-ratio
-        25.9 and gap-ratio 0.5 on both sides, as in the published tests.
+        The rig: a mass on an isolator between two bumpers (deformable stops), shaken by one sine.
+        Pass the code of a laboratory case, which is a rig of the published tests, or the path of a
+        study file (TOML), which describes your own rig. For the parts of a code, see vibroimpact
+        sweep. Default: B3-10mm-A3.
     x
-        Parameter of the horizontal axis and its range, NAME LOW:HIGH[:log][:NODES]. NODES is the
-        number of grid points along the axis; without it, there are 21. Physical parameters: gap,
-        amplitude, bumper-stiffness, proportional-stiffness (bumper stiffness at a constant ratio of
-        damping to stiffness), isolator-period. Dimensionless parameters: stiffness-ratio,
-        gap-ratio, relaxation-time, damping-ratio, restitution. Default: stiffness-ratio
-        0.5:100:log.
+        Parameter of the horizontal axis and its range, NAME LOW:HIGH, such as gap 2mm:20mm. The
+        range has 21 evenly spaced values. To change the number or the spacing, write
+        LOW:HIGH:NUMBER, LOW:HIGH:log or LOW:HIGH:log:NUMBER (log: logarithmic spacing). Physical
+        parameters: gap, amplitude, bumper-stiffness (at constant damping), proportional-stiffness
+        (bumper stiffness at a constant ratio of damping to stiffness), isolator-period.
+        Dimensionless parameters: stiffness-ratio (bumper stiffness divided by isolator stiffness),
+        gap-ratio (gap divided by the largest displacement without bumpers), relaxation-time
+        (natural angular frequency of the rig × bumper damping / bumper stiffness), damping-ratio
+        (of the isolator), restitution (coefficient of restitution of a stop). Default:
+        stiffness-ratio 0.5:100:log.
     y
         Parameter of the vertical axis and its range, as for --x. Default: gap-ratio 0:1.
     border
-        Also draw the exact border between rigs with jumps and rigs without jumps. This is the
-        default.
+        Also draw the exact border between rigs whose resonance curves jump and rigs whose curves do
+        not. This is the default.
     where
-        Where the computation runs: threads, processes, or the address of a dask scheduler, such as
-        tcp://10.0.0.1:8786. The choice does not affect the result. Default: processes if the first
-        grid has at least 500 points, and threads otherwise.
+        Where the computation runs: threads or processes (on this machine), or the address of the
+        scheduler of a dask cluster, such as tcp://10.0.0.1:8786. The choice does not affect the
+        result. Default: processes if the first grid has at least 500 points, and threads otherwise.
     """
     from rich.text import Text
 

@@ -37,5 +37,10 @@ def pair(text: str, option: str) -> tuple[str, str]:
     """
     low, mark, high = text.partition(":")
     if not mark:
-        raise InputError(f"{option}: {text!r}; two values with a colon between them are accepted")
+        what, example = "the lowest and the highest value", "5mm:8mm"
+        if option == "--prior":
+            what, example = "a mean and a standard deviation", "7mm:1mm"
+        raise InputError(
+            f"{option}: {text!r}; pass {what} with a colon between them, such as {example}"
+        )
     return low, high

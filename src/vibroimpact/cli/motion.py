@@ -34,7 +34,7 @@ def motion(
     """Find the steady motions at a frequency, classify them, and draw them on one page.
 
     For each motion, the command prints its type (periodic, quasi-periodic, chaotic or undecided)
-    with the evidence, its extremes and its contacts. It writes:
+    with the evidence, its extremes and its contacts. It writes these files (--name sets NAME):
 
     - NAME-FREQUENCY-motion.nc: the samples, contacts, spectrum and Poincaré section of each motion,
       with one NetCDF group per motion
@@ -50,13 +50,18 @@ def motion(
     ----------
     frequency
         Forcing frequency, such as 0.58Hz, or several frequencies, such as 0.58Hz,0.8Hz,2.6Hz.
-        Default: the frequency in the study (table [simulate]).
+        Default: the frequency in the study file (table [simulate]). If there is none, the option is
+        required.
     branch
-        Motions that are shown: the motion that a forward sweep reaches (forward), the motion that
-        a backward sweep reaches (backward), or all motions that are reached from sweeps, from rest
-        and from random states (all). Default: all.
+        Motions that are found: the motion that a forward (rising) frequency sweep reaches
+        (forward), the motion that a backward (falling) sweep reaches (backward), or all motions
+        that are reached from sweeps, from rest and from random states (all). Default: all.
+    random
+        Number of random initial states, which are used with --branch all. Their displacements and
+        velocities are at most 1.5 times the largest values in the motions from all other initial
+        states.
     samples
-        Number of samples per forcing cycle. It affects only the recorded time history.
+        Number of samples per forcing cycle. It affects only the time history in the files.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
@@ -76,10 +81,12 @@ def motion(
             hertz: {name: data for name, data in motions.items() if data.sizes["time"]}
             for hertz, motions in found.items()
         }
-        if not all(drawn.values()):
-            raise InputError(
-                "--frequency: no motion was found; another rig or frequency is accepted"
-            )
+        for hertz, motions in drawn.items():
+            if not motions:
+                raise InputError(
+                    f"--frequency: no steady motion was found at {hertz:.10g} Hz; change the "
+                    "frequency or the rig"
+                )
         groups = {
             f"{hertz:.10g}Hz {name}" if len(found) > 1 else name: data
             for hertz, motions in drawn.items()
@@ -97,11 +104,9 @@ def _rigs(what: Subject, frequency: str | None) -> dict[float, Rig]:
     rigs = {one.harmonic.frequency: one for one in (rig_at(what, text) for text in texts)}
     if len({f"{hertz:.6g}" for hertz in rigs}) < len(texts):
         raise InputError(
-            f"--frequency: {frequency!r} names a frequency twice; frequencies that differ in "
-            "their first six digits are accepted"
+            f"--frequency: two frequencies in {frequency!r} have the same first six digits; remove "
+            "one of the two"
         )
     if len(rigs) > MOST_COLUMNS:
-        raise InputError(
-            f"--frequency: {len(rigs)} frequencies; at most {MOST_COLUMNS} are accepted"
-        )
+        raise InputError(f"--frequency: {len(rigs)} frequencies; pass at most {MOST_COLUMNS}")
     return rigs

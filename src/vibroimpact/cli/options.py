@@ -14,7 +14,9 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     from vibroimpact.scenarios.thresholds import Thresholds
 
-RIG = Group("Rig (default of each option: the value of the case or study)", sort_key=2)
+RIG = Group(
+    "Rig (default of each option: the value in the laboratory case or study file)", sort_key=2
+)
 COMPUTATION = Group("Computation", sort_key=3)
 THRESHOLDS = Group("Thresholds", sort_key=3)
 OUTPUT = Group("Output", sort_key=4)
@@ -30,11 +32,14 @@ RigName: TypeAlias = Annotated[
     Parameter(
         name="CASE|STUDY.toml",
         help=(
-            "The rig: the code of a laboratory case, or the path of a study file. A code is "
-            "BUMPER-GAP-ACCELERATION. BUMPER is B1 to B4, or a stiffness. GAP is G1 to G4, a total "
-            "gap (half of it is on each side), or Ginf for a rig without bumpers. "
-            "ACCELERATION is A1 to A3, or a peak acceleration. Examples: B2-G1-A3, B3-10mm-A3, "
-            "510kN/m-G1-0.05g."
+            "The rig: a mass on an isolator between two bumpers (deformable stops), with its "
+            "shaking. Pass the code of a laboratory case, which is a rig of the published tests, "
+            "or the path of a study file (TOML), which describes your own rig. A code is "
+            "BUMPER-GAP-ACCELERATION, such as B2-G1-A3, B3-10mm-A3 or 510kN/m-G1-0.05g. BUMPER is "
+            "B1, B2, B3 or B4 (100, 510, 680 or 2300 kN/m), or a stiffness. GAP is the sum of the "
+            "two equal gaps: G1, G2, G3 or G4 (15, 20, 25 or 30 mm), or a length. Ginf means no "
+            "bumpers. ACCELERATION is the peak acceleration of the base: A1, A2 or A3 (0.03, 0.04 "
+            "or 0.05 g), or a value between 0.03g and 0.05g."
         ),
     ),
 ]
@@ -65,8 +70,8 @@ Frequency: TypeAlias = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="Forcing frequency, such as 2Hz. Default: "
-        "the frequency in the study (table [simulate]).",
+        help="Forcing frequency, such as 2Hz. Default: the frequency in the study file (table "
+        "[simulate]). If there is none, the option is required, unless a record shakes the rig.",
     ),
 ]
 Threads: TypeAlias = Annotated[
@@ -77,8 +82,9 @@ Where: TypeAlias = Annotated[
     str,
     Parameter(
         group=COMPUTATION,
-        help="Where the computation runs: threads, processes, or the address of a dask scheduler, "
-        "such as tcp://10.0.0.1:8786. The choice does not affect the result.",
+        help="Where the computation runs: threads or processes (on this machine), or the address "
+        "of the scheduler of a dask cluster, such as tcp://10.0.0.1:8786. The choice does not "
+        "affect the result.",
     ),
 ]
 Physical: TypeAlias = Annotated[bool, Parameter(group=OUTPUT, negative="")]
@@ -91,7 +97,7 @@ Json: TypeAlias = Annotated[
         group=OUTPUT,
         negative="",
         show_default=False,
-        help="Print only the summary, as JSON for other programs.",
+        help="Print the summary as JSON, for other programs, and nothing else.",
     ),
 ]
 
@@ -110,7 +116,7 @@ def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
     for name, value in pairs:
         key = name.replace("-", "_")
         if key in found:
-            raise InputError(f"{option}: {name!r} is given twice; each name is accepted once")
+            raise InputError(f"{option}: {name!r} is given twice; remove one of the two")
         found[key] = value
     return found
 
@@ -128,31 +134,33 @@ class RigOptions:
     parameters: Annotated[
         Literal["table", "identified", "refined"] | None, Parameter(group=RIG)
     ] = None
-    """Parameter set of a laboratory case. table: the values in the table of the paper on these
-    cases, for all cases. identified: fitted values, only for B2-G1-A3 and B2-G2-A2.
-    refined: the same as table, but with a softening isolator, for all cases. Default: table."""
+    """Parameter set of a laboratory case. table: the values in Table 1 and Section 7 of the paper
+    on the tests (by Stefani, De Angelis and Andreaus), for all cases. identified: the values that
+    Section 5 of the paper identifies from single tests, only for B2-G1-A3 and B2-G2-A2. refined:
+    the same as table, but with an isolator that softens as the displacement grows, for all cases.
+    Default: the set in the study file, or table."""
     amplitude: _OfRig = None
     """Amplitude of the shaking. Its unit selects the quantity: peak acceleration of the base (0.05g
     or 0.49m/s^2), peak displacement of the base (5mm), or peak force on the mass (120N)."""
     mass: _OfRig = None
     """Mass, such as 550kg or 5000t."""
     weight: _OfRig = None
-    """Weight of the mass, such as 50MN. Replaces --mass."""
+    """Weight of the mass, such as 50MN. Use it instead of --mass."""
     stiffness: _OfRig = None
     """Stiffness of the isolator, such as 26.8kN/m."""
     damping: _OfRig = None
     """Damping of the isolator, such as '1.1 kN s/m'."""
     isolator_period: _OfRig = None
-    """Natural period of the mass on the isolator, such as 2.5s. Replaces --stiffness. The damping
-    ratio does not change."""
+    """Natural period of the mass on the isolator, such as 2.5s. Use it instead of --stiffness. The
+    damping ratio does not change, unless --damping or --damping-ratio changes it."""
     damping_ratio: _OfRig = None
-    """Damping ratio of the isolator, such as 0.15. Replaces --damping."""
+    """Damping ratio of the isolator, such as 0.15. Use it instead of --damping."""
     bumper_stiffness: _OfRig = None
     """Stiffness of both bumpers, such as 510kN/m."""
     bumper_damping: _OfRig = None
     """Damping of both bumpers, such as '0.9 kN s/m'."""
     gap: _OfRig = None
-    """Gap on each side, such as 7.5mm. It is half the total gap of a case code."""
+    """Gap on each side, such as 7.5mm. It is half of GAP, the total gap in a case code."""
     right_stiffness: _OfRig = None
     """Stiffness of the right bumper, such as 510kN/m."""
     right_damping: _OfRig = None
@@ -182,17 +190,21 @@ class ThresholdOptions:
     """Options for the thresholds between scenarios."""
 
     prominence: _Threshold = None
-    """Least prominence of a secondary resonance in the curve of η_a, the normalised excursion of
-    the acceleration, as a share of the height of the resonance. A less prominent resonance is
-    ignored. Default: 0.02."""
+    """Smallest prominence of a secondary resonance that counts, as a share of the height of its
+    peak. The prominence is the height of the peak above the neighbouring parts of the acceleration
+    curve. Default: 0.02."""
     extent: _Threshold = None
-    """Least total width of secondary left hystereses and non-regular resonances in scenario S4, as
-    a share of the natural frequency. Default: 0.08, the frequency step of the published tests."""
+    """Limit of scenario S4 for the total width of all left hystereses and non-regular resonances
+    below the primary resonance, as a share of the natural frequency. If the width is smaller, the
+    scenario is not S4. Default: 0.08, the frequency step of the published tests."""
     touch: _Threshold = None
-    """A contact counts as grazing only if the gap is at most this share smaller than the largest
-    displacement without stops (default: 0.1)."""
+    """Limit of grazing (scenario S1) for the gap ratio, which is the gap divided by the largest
+    displacement without bumpers. A contact counts as grazing only if 1 minus the gap ratio is at
+    most this limit. Default: 0.1."""
     deformation: _Threshold = None
-    """Largest penetration of a grazing contact, as a share of the gap (default: 0.1)."""
+    """Limit of grazing (scenario S1) for the penetration, that is, the deformation of the bumper. A
+    contact counts as grazing only if its penetration divided by the gap is at most this limit.
+    Default: 0.1."""
 
     def thresholds(self) -> Thresholds:
         """Return the thresholds. A threshold without an option has its default."""
@@ -208,9 +220,10 @@ class OutputOptions:
     """Options for the files, and for the printed summary."""
 
     output: OutputFolder = "out"
-    """Folder for the files, which is created if it does not exist (default: out)."""
+    """Folder for the written files (default: out). A missing folder is created."""
     name: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """NAME, with which the names of all files begin (default: the name of the rig or record)."""
+    """Text with which all file names begin (NAME above). Default: the name of the rig or, for
+    vibroimpact record, of the record."""
     figure: Annotated[Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, show_default=False)] = (
         "png"
     )

@@ -66,7 +66,7 @@ def output_folder(text: str) -> Iterator[Folder]:
         _remove_empty(made)
         raise InputError(
             f"--output: {text!r} cannot be written to ({reason}); "
-            "a folder that you may write to is accepted"
+            "pass a folder that you may write to"
         ) from None
     try:
         yield Folder(folder, frozenset(_files(folder)))

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _CLAIMS = "claims"
 
 
-@calls(None, "Study")
+@calls(None, "Parts")
 def paper(
     *,
     only: opt.Text = None,
@@ -26,18 +26,24 @@ def paper(
     figure: Annotated[Literal["png", "svg"], Parameter(group=opt.OUTPUT)] = "png",
     json: opt.Json = False,
 ) -> int:
-    """Compute the published study again, and compare its statements with the results.
+    """Recompute the results of the paper on the published tests, and check its statements.
 
-    The command writes report.md and report.html. They contain all figures and tables that the model
-    can compute, and the testable statements of the paper. The images are in the folder "figures"
-    next to the reports.
+    The paper is "Scenarios in the experimental response of a vibro-impact single-degree-of-freedom
+    system and numerical simulations" by Stefani, De Angelis and Andreaus.
 
-    For each statement, the report gives the computed quantity, the numbers on which the verdict is
-    based, and the verdict: reproduced, not reproduced, or not testable without the data of the
-    experiment. If a statement is not reproduced, the command does not fail. The report counts the
-    statements separately by kind, because they are not equally strong tests. The computation could
-    have refuted some statements. Others must hold because of the classification rules, the inputs
-    or the equations.
+    The report contains all figures and tables of the paper that the model can compute. The command
+    also checks statements of the paper about the response of the tested rigs. For each statement,
+    the report gives the computed values and a verdict: reproduced, not reproduced, or not testable
+    without the measured data. If a statement is not reproduced, the command does not fail.
+
+    The report also counts the verdicts by kind of statement, because not all kinds are equally
+    strong tests of the model. The computation could have refuted some statements. Other statements
+    must hold because of the classification rules, the inputs or the equations.
+
+    The command writes these files:
+
+    - report.md and report.html: the report with all figures, tables and statements
+    - figures: a folder with the images of the report
 
     For example:
 
@@ -48,11 +54,11 @@ def paper(
     Parameters
     ----------
     only
-        Parts to compute, separated by commas. A part is the key of a figure or table, such as fig15
-        or table1, or the word "claims" for the statements. The report is then named after these
-        parts, such as fig15.md and fig15.html. Default: all parts.
+        Parts of the paper that are computed, separated by commas. A part is a figure or table, such
+        as fig15 or table1, or the word "claims" for all statements. The report is then named after
+        these parts, such as fig15.md and fig15.html. Default: all parts.
     output
-        Folder for the files, which is created if it does not exist (default: out/paper).
+        Folder for the written files (default: out/paper). A missing folder is created.
     figure
         File format of the figures.
     """
@@ -99,5 +105,8 @@ def chosen(
     keys = [key.strip() for key in only.split(",")]
     for key in keys:
         if key not in known:
-            raise InputError(f"--only: {key!r} is unknown; {', '.join(known)} are accepted")
+            raise InputError(
+                f"--only: {key!r} is unknown; pass one or more of {', '.join(known)}, separated by "
+                "commas"
+            )
     return tuple(item for item in items if item.key in keys), claims if _CLAIMS in keys else ()

@@ -37,8 +37,8 @@ Least: TypeAlias = Annotated[
         allow_leading_hyphen=True,
         help=(
             "Lowest value of the parameter, such as 0.9Hz or 3mm. Only the frequency has a "
-            "default: the value in the study (table [sweep]). If there is none, the default is "
-            "0.27 × the natural frequency, or 0.3 Hz for laboratory cases."
+            "default: the value in the study file (table [sweep]). If the file states none, the "
+            "default is 0.27 × the natural frequency. For laboratory cases it is 0.3 Hz."
         ),
     ),
 ]
@@ -49,8 +49,8 @@ Largest: TypeAlias = Annotated[
         allow_leading_hyphen=True,
         help=(
             "Highest value of the parameter, such as 1.3Hz or 7mm. Only the frequency has a "
-            "default: the value in the study (table [sweep]). If there is none, the default is "
-            "4.5 × the natural frequency, or 5 Hz for laboratory cases."
+            "default: the value in the study file (table [sweep]). If the file states none, the "
+            "default is 4.5 × the natural frequency. For laboratory cases it is 5 Hz."
         ),
     ),
 ]
@@ -91,11 +91,12 @@ def option_range(
 
     varied = parameter(name, field, what.repeated.of).of(what.oscillator)
     defaults = default_span(what) if name == "frequency" else (None, None)
-    missing = f"missing, and the range of {name} has no default; a value of {name} is accepted"
-    ends = []
+    ends: list[float] = []
     for option, text, default in zip(options, (low, high), defaults, strict=True):
         end = default if text is None else text
         if end is None:
+            which = "highest" if ends else "lowest"
+            missing = f"missing, and {name} has no default range; pass the {which} {name}"
             raise InputError(f"{option}: {NO_DEFAULT if name == 'frequency' else missing}")
         if name == "frequency":
             ends.append(to_si(end, varied.quantity, option, above=0.0))
@@ -104,7 +105,7 @@ def option_range(
             ends.append(to_si(end, varied.quantity, option, minimum=least, maximum=most))
     if not ends[0] < ends[1]:
         raise InputError(
-            f"{options[1]}: {pretty(ends[1], varied.quantity)} is not greater than the lower end "
-            f"of the range, {pretty(ends[0], varied.quantity)}; a rising range is accepted"
+            f"{options[1]}: {pretty(ends[1], varied.quantity)} is not above the lower end of the "
+            f"range, {pretty(ends[0], varied.quantity)}; raise the upper end"
         )
     return ends[0], ends[1]

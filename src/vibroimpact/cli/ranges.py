@@ -42,8 +42,8 @@ def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[
     rest = parts[3:] if logarithmic else parts[2:]
     if len(parts) < 2 or len(rest) > 1 or not all(parts):
         raise InputError(
-            f"{option}: {text!r} is not a range; LOW:HIGH[:log][:NUMBER] is accepted, such as "
-            "0.5:100:log"
+            f"{option}: {text!r} is not a range; pass LOW:HIGH[:log][:NUMBER], such as 0.5:100 or "
+            "0.5:100:log:21"
         )
     above = None if varied.zero and not logarithmic else 0.0
     least = 0.0 if above is None else None
@@ -53,18 +53,19 @@ def spread(option: str, varied: Parameter, text: str, nodes: int) -> tuple[list[
     )
     if not low < high:
         raise InputError(
-            f"{option}: {pretty(low, varied.quantity)} is not below the upper end of the range, "
-            f"{pretty(high, varied.quantity)}; a rising range is accepted"
+            f"{option}: the lower end of the range, {pretty(low, varied.quantity)}, is not below "
+            f"the upper end, {pretty(high, varied.quantity)}; write the lower end first"
         )
     if rest:
         if not (rest[0].isascii() and rest[0].isdecimal()) or int(rest[0]) < 2:
+            log = "" if logarithmic else ", or log for a logarithmic range"
             raise InputError(
-                f"{option}: {rest[0]!r} is not a number of values; a whole number of at least 2 is "
-                "accepted"
+                f"{option}: the number of values, {rest[0]!r}, is not a whole number of at least "
+                f"2; pass such a number{log}"
             )
         nodes = int(rest[0])
     if nodes > MOST:
-        raise InputError(f"{option}: {nodes} values; at most {MOST} are accepted")
+        raise InputError(f"{option}: {nodes} values; pass at most {MOST}")
     shares = [i / (nodes - 1) for i in range(nodes)]
     if logarithmic:
         ratio = math.log(high / low)
@@ -87,7 +88,7 @@ def map_axis(option: str, name: str, text: str, of: Of) -> tuple[str, list[float
     key = name.strip().replace("-", "_")
     if key not in NAMES:
         known = ", ".join(name.replace("_", "-") for name in NAMES)
-        raise InputError(f"{option}: {name!r}; one of {known} is accepted")
+        raise InputError(f"{option}: {name!r} is not an axis of a map; pass one of {known}")
     return key, *spread(option, parameter(key, option, of), text, _NODES)
 
 

@@ -13,7 +13,7 @@ from vibroimpact.cli.function_options import calls
 from vibroimpact.cli.records import AS_STATED, READING, RecordOptions, record_name
 from vibroimpact.errors import InputError
 
-_CHANGES = Parameter(group=Group("Changes (in this order)", sort_key=2))
+_CHANGES = Parameter(group=Group("Changes to the record (applied in this order)", sort_key=2))
 
 
 @calls("response_spectrum", "Response spectrum", sort_key=3)
@@ -35,12 +35,14 @@ def record(
     reading: RecordOptions = AS_STATED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Read a record, print its properties, and draw it with its response spectrum.
+    """Read an earthquake record, print its properties, and draw it with its response spectrum.
 
     A record is a measured ground acceleration. The accepted formats are PEER AT2, COSMOS, CSMIP,
     SMC, GeoNet, K-NET, ESM, and columns of numbers. SAC and miniSEED are accepted if obspy is
-    installed. The command writes NAME-record.nc, with the NetCDF groups record and spectrum, and
-    NAME-record.png.
+    installed. The command writes these files (--name sets NAME):
+
+    - NAME-record.nc: the record and its response spectrum (NetCDF groups record and spectrum)
+    - NAME-record.png: a figure of the record and its response spectrum
 
     For example:
 
@@ -53,9 +55,10 @@ def record(
     file
         File of the record. It may be compressed with gzip.
     station
-        Name of the station. Default: the name in the file.
+        Name of the station in the results. Default: the name in the file.
     label
-        Name of the component. Default: the name in the file.
+        Name of the component (direction) in the results. To choose a component, use --component.
+        Default: the name in the file.
     start
         Start time, such as 5s. Earlier samples are dropped. Default: the start of the file.
     end
@@ -69,13 +72,13 @@ def record(
         Peak acceleration to which the record is scaled, such as 0.3g. Default: the record is not
         scaled to a peak.
     damping
-        Damping ratios of the spectrum, such as 0,0.02,0.05.
+        Damping ratios for which the spectrum is computed, separated by commas, such as 0,0.02,0.05.
     shortest
         Shortest natural period of the spectrum, such as 20ms.
     longest
         Longest natural period of the spectrum, such as 5s.
     periods
-        Number of natural periods. They are evenly spaced on a logarithmic axis.
+        Number of natural periods of the spectrum. They are evenly spaced on a logarithmic axis.
     """
     import numpy as np
 
@@ -94,8 +97,8 @@ def record(
     last = to_si(longest, TIME, "--longest", above=0.0)
     if not first < last:
         raise InputError(
-            f"--longest: {longest} is not longer than --shortest, {shortest}; a longer period is "
-            "accepted"
+            f"--longest: {longest} is not longer than --shortest, {shortest}; raise --longest or "
+            "lower --shortest"
         )
     natural_periods = np.geomspace(first, last, whole(periods, "periods", 2))
     found = vi.Record.read(

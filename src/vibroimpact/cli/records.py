@@ -15,23 +15,23 @@ if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
     from vibroimpact.model import Record
 
-READING = Group("Reading of records (default of each option: what the files state)", sort_key=1)
+READING = Group("Reading of records (default of each option: what the file states)", sort_key=1)
 
 Scale: TypeAlias = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="Factor by which the records are multiplied: one factor for all records, or one per "
-        "record, separated by commas, such as 0.2,0.5. Default: 1.",
+        help="Factor by which each record is multiplied. Pass one factor for all records, or one "
+        "per record, separated by commas, such as 0.2,0.5. Default: 1.",
     ),
 ]
 Peak: TypeAlias = Annotated[
     str | None,
     Parameter(
         allow_leading_hyphen=True,
-        help="Peak acceleration to which the records are scaled, such as 0.3g: one peak for all "
-        "records, or one per record, separated by commas. Default: the records are not scaled to a "
-        "peak.",
+        help="Peak acceleration to which each record is scaled, such as 0.3g. Pass one peak for "
+        "all records, or one per record, separated by commas. Default: the records are not scaled "
+        "to a peak.",
     ),
 ]
 
@@ -44,19 +44,19 @@ class RecordOptions:
     """Options that replace statements in the files of records."""
 
     component: _Stated = None
-    """Component that is read, if the file has several. Pass its name in the file (such as HNE, Up
-    or 90) or its position, starting from 1. Pass one component for all records, or one per record,
-    such as 90,Up."""
+    """Component (direction) that is read, if the file has several. Pass its name in the file, such
+    as HNE, Up or 90, or its position in the file, starting from 1. For several records, pass one
+    component for all, or one per record, such as 90,Up."""
     unit: _Stated = None
     """Unit of the values, such as g or cm/s^2. If it is a unit of length, such as mm, the values
-    are displacements and are differentiated twice. Pass one unit for all records, or one per
-    record."""
+    are displacements and are differentiated twice. For several records, pass one unit for all, or
+    one per record."""
     step: Annotated[_Stated, Parameter(allow_leading_hyphen=True)] = None
-    """Time between samples, such as 10ms. It replaces the step or the times in the file. Pass one
-    step for all records, or one per record."""
+    """Time between samples, such as 10ms. It replaces the step or the times in the file. For
+    several records, pass one step for all, or one per record."""
     decimal: Annotated[Literal[".", ","] | None, Parameter(group=READING)] = None
-    """Decimal mark of the numbers, if the file is a text table. Default: detected from the
-    table."""
+    """Decimal mark of the numbers in the file, if the file is a text table. Default: detected from
+    the table."""
 
     def arguments(self) -> dict[str, Any]:
         """Return the options as arguments of `Record.read`, without the component."""
@@ -81,8 +81,8 @@ class RecordOptions:
             name = record_name(file, component)
             if name in found:
                 raise InputError(
-                    f"RECORD: {file!r} has the same name as another record; files with different "
-                    "names are accepted"
+                    f"RECORD: {file!r} has the same file name as another record; rename one of the "
+                    "two files"
                 )
             found[name] = Record.read(file, component, unit=unit, step=step, decimal=self.decimal)
         return found
@@ -101,8 +101,8 @@ def one_or_each(option: str, text: str | None, count: int) -> list[str | None]:
         parts = [part.strip() for part in text.split(",")]
     if len(parts) not in (1, count):
         raise InputError(
-            f"{option}: {text!r} has {len(parts)} values for {count} records; one value for all "
-            "records, or one value per record, is accepted"
+            f"{option}: {text!r} has {len(parts)} values for {count} records; pass one value for "
+            f"all records, or {count} values"
         )
     return parts if len(parts) == count else parts * count
 
@@ -151,7 +151,7 @@ def record_of_study(what: Subject) -> dict[str, Record]:
 
     if not isinstance(what.shaking, Record):
         raise InputError(
-            "RECORD: missing; the file of a record is accepted, or a study with a record as its "
+            "RECORD: missing; pass the file of a record, or a study that has a record as its "
             "excitation"
         )
     about = what.shaking.about

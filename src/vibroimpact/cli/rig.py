@@ -65,9 +65,9 @@ class Subject(NamedTuple):
         """
         if isinstance(self.shaking, Record):
             raise InputError(
-                "excitation.record: a record has no period, and this command needs a periodic "
-                "excitation; excitation.amplitude is accepted instead (for records, use "
-                "vibroimpact simulate or vibroimpact earthquake)"
+                "excitation.record: this command needs a periodic excitation, not a record; "
+                "replace excitation.record by excitation.amplitude in the study, or use "
+                "vibroimpact simulate or vibroimpact earthquake"
             )
         return self.shaking
 
@@ -156,9 +156,8 @@ def subject(
     shaking = otherwise if shaking is None else shaking
     if shaking is None:
         raise InputError(
-            f"study {text!r}: excitation.amplitude: missing; an acceleration greater than 0, "
-            'such as "0.05 g", a displacement or a force is accepted, in the study or as '
-            "--amplitude"
+            f"study {text!r}: excitation.amplitude: missing; set it in the study, or pass "
+            "--amplitude: an acceleration greater than 0, such as 0.05g, a displacement or a force"
         )
     made = changes(options, rig_of, oscillator)
     what = Subject(
@@ -198,7 +197,7 @@ def _named(text: str, options: RigOptions) -> _Named:
         beside = path.with_name(f"{path.name}.toml") if path.name else path
         if beside.is_file():
             return _of_study(str(beside), read_study(beside), options)
-        raise InputError(f"{error}; the path of a study file, NAME.toml, is accepted too") from None
+        raise InputError(f"{error}; or pass a study file, NAME.toml") from None
 
 
 def _shaken_by(case: Case) -> Harmonic:
@@ -218,8 +217,8 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
     parameters = options.parameters or study.parameters
     if parameters is not None and study.case is None:
         raise InputError(
-            f"--parameters: {parameters!r}, but {path!r} describes its own oscillator; "
-            "only a laboratory case has parameter sets"
+            f"--parameters: {parameters!r}, but {path!r} describes its own oscillator, and only "
+            "laboratory cases have parameter sets; remove --parameters"
         )
     described = study.rig(Path(path), parameters)
     title, oscillator, shaking = described.name or "", described.oscillator, described.shaking
@@ -251,27 +250,28 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
     if shared and not targets:
         option = _SHARED[shared[0]]
         raise InputError(
-            f"{_flag(option)}: given with --no-right and --no-left, which leave no bumper; leave "
-            "out one of these three options"
+            f"{_flag(option)}: given together with --no-right and --no-left, which remove both "
+            "stops; remove one of these three options"
         )
     for field in shared:
         if not any(_has(getattr(oscillator, side), field) for side in targets):
             raise InputError(
-                f"{_flag(_SHARED[field])}: no stop of this rig has a {field}; the option is "
-                f"accepted if the stop on at least one side has a {field}"
+                f"{_flag(_SHARED[field])}: no stop of this rig has a {field}; remove this option, "
+                f"or use a rig whose stops have a {field}"
             )
     for side in removed:
         own = [field for field in _SHARED if getattr(options, f"{side}_{field}") is not None]
         if removed[side] and own:
             raise InputError(
-                f"{_flag(f'{side}_{own[0]}')}: given with --no-{side}; one of the two is accepted"
+                f"{_flag(f'{side}_{own[0]}')}: given together with --no-{side}; remove one of the "
+                "two options"
             )
         bumper: Stop | None = None if removed[side] else getattr(oscillator, side)
         for field in own:
             if not _has(bumper, field):
                 raise InputError(
                     f"{_flag(f'{side}_{field}')}: the {side} stop is {bumper}, which has no "
-                    f"{field}; the option is accepted for a stop with a {field}"
+                    f"{field}; remove this option"
                 )
         values = {
             field: _value(bumper or _ANY_BUMPER, field, option, options)
@@ -308,8 +308,8 @@ def _isolator(oscillator: Oscillator, options: RigOptions) -> AnyIsolator:
             continue
         if field not in type(isolator).model_fields:
             raise InputError(
-                f"{_flag(option)}: the isolator is {isolator}, which has no {field}; the option "
-                f"is accepted for an isolator with a {field}"
+                f"{_flag(option)}: the isolator is {isolator}, which has no {field}; remove this "
+                "option"
             )
         if option == field:
             values[field] = _value(isolator, field, field, options)
@@ -331,7 +331,9 @@ def _isolator(oscillator: Oscillator, options: RigOptions) -> AnyIsolator:
 def _one_of_two(one: str, other: str, options: RigOptions) -> None:
     """Raise an error if two options state the same quantity."""
     if getattr(options, one) is not None and getattr(options, other) is not None:
-        raise InputError(f"{_flag(one)}: given with {_flag(other)}; one of the two is accepted")
+        raise InputError(
+            f"{_flag(one)}: given together with {_flag(other)}; remove one of the two options"
+        )
 
 
 def _has(stop: Stop | None, field: str) -> bool:
@@ -342,9 +344,10 @@ def _has(stop: Stop | None, field: str) -> bool:
 def _new_bumper(side: str, values: dict[str, float]) -> Bumper:
     missing = [field for field in _SHARED if field not in values]
     if missing:
+        flags = [f"--{side}-{field}" for field in missing]
         raise InputError(
-            f"{_flag(f'{side}_{missing[0]}')}: missing; the rig has no {side} bumper, and a new "
-            "one needs a stiffness, a damping and a gap"
+            f"{flags[0]}: missing; the rig has no {side} stop, and a new one also needs "
+            f"{' and '.join(flags)}"
         )
     return Bumper(**values)
 

@@ -33,9 +33,11 @@ def simulate(
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
-    """Simulate one motion at a fixed frequency, or through a record, and draw its time history.
+    """Simulate one motion, at one frequency or under an earthquake record, and draw its history.
 
-    The command prints the final state and the number of contacts per cycle. It writes:
+    If a record in the study file shakes the rig, the motion lasts as long as the record. The
+    command prints the final state and the number of contacts per forcing cycle. It writes these
+    files (--name sets NAME; for a record, FREQUENCY is left out):
 
     - NAME-FREQUENCY-history.nc: all samples, and each contact and detachment at its exact time
     - NAME-FREQUENCY-history.png: the time history
@@ -50,19 +52,23 @@ def simulate(
     Parameters
     ----------
     cycles
-        Number of forcing cycles. Default: the number in the study (table [simulate]), or 100.
+        Number of forcing cycles that are simulated. Default: the number in the study file (table
+        [simulate]), or 100.
     samples
         Number of samples per forcing cycle, or per time step of a record. It does not affect the
-        computed motion. Default: 256 per forcing cycle, or 1 per time step of a record.
+        computed motion. Default: the number in the study file (table [simulate]). If the file
+        states none, the default is 256 per forcing cycle, or 1 per time step of a record.
     displacement
-        Initial displacement, such as 5mm. Default: the static equilibrium.
+        Initial displacement, such as 5mm. Default: the value in the study file (table [simulate]),
+        or the static equilibrium.
     velocity
-        Initial velocity, such as 100mm/s (default: 0).
+        Initial velocity, such as 100mm/s. Default: the value in the study file (table [simulate]),
+        or 0.
     tail
         Duration of free vibration after a record, such as 10s. Default: the duration in the study
-        (table [simulate]), or 0.
+        file (table [simulate]), or 0.
     shown
-        Number of forcing cycles in the figure. The last cycles are shown.
+        Number of forcing cycles in the figure, counted back from the end of the motion.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
@@ -82,8 +88,8 @@ def simulate(
     of_record = isinstance(what.shaking, Record)
     if of_record and frequency is not None:
         raise InputError(
-            f"--frequency: {frequency}, but a record shakes this rig, and a record has no "
-            "frequency; leave the option out"
+            f"--frequency: {frequency}, but this rig is shaken by a record, which has no forcing "
+            "frequency; remove --frequency"
         )
     shaken = what.rig if of_record else rig_at(what, frequency)
     if cycles is None and not of_record:
@@ -99,7 +105,7 @@ def simulate(
                 progress=progress,
             )
         if not data.sizes["time"]:
-            raise InputError(f"no motion was found ({data.attrs['message']})")
+            raise InputError(f"the motion could not be simulated: {data.attrs['message']}")
         if of_record:
             written.write(data, "history", figures.record_history)
         else:

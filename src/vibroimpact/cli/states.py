@@ -27,16 +27,17 @@ class StateOptions:
     """Options for the initial states."""
 
     frequency: _OfStates = None
-    """Forcing frequency, such as 0.7Hz. Default: the frequency in the study (table [simulate])."""
+    """Forcing frequency, such as 0.7Hz. Default: the frequency in the study file (table
+    [simulate]). If there is none, the option is required."""
     phase: _OfStates = None
-    """Forcing phase at which motions start, such as 90deg. Default: the phase in the study, or
-    0."""
+    """Phase of the forcing at the initial states, such as 90deg. Default: the phase in the study
+    file, or 0."""
     displacement: _OfStates = None
-    """Range of initial displacements, LOW:HIGH, such as -20mm:20mm. Default: a range around the
-    steady motions."""
+    """Range of initial displacements, LOW:HIGH, such as -20mm:20mm. Default: a range that contains
+    all steady motions."""
     velocity: _OfStates = None
-    """Range of initial velocities, LOW:HIGH, such as -0.1m/s:0.1m/s. Default: a range around the
-    steady motions."""
+    """Range of initial velocities, LOW:HIGH, such as -0.1m/s:0.1m/s. Default: a range that contains
+    all steady motions."""
 
     def window(self) -> tuple[Range, Range]:
         """Return the ranges of displacement and velocity. A range without an option is None."""
@@ -71,9 +72,7 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
     elif along == "frequency" or studied is not None:
         hertz = studied or 1.0
     else:
-        raise InputError(
-            "--frequency: missing; a frequency greater than 0 is accepted, such as 2Hz"
-        )
+        raise InputError("--frequency: missing; pass the forcing frequency, such as 2Hz")
     start = what.phase if phase is None else to_si(phase, ANGLE, "--phase")
     return Rig(what.oscillator, what.at(hertz, start))
 
@@ -92,7 +91,8 @@ def state(option: str, text: str, phase: float | None = None) -> State:
     parts = text.split(",")
     if len(parts) != 2:
         raise InputError(
-            f"{option}: {text!r}; a displacement and a velocity are accepted, such as 5mm,100mm/s"
+            f"{option}: {text!r}; pass a displacement and a velocity with a comma between them, "
+            "such as 5mm,100mm/s"
         )
     u, v = (
         to_si(part.strip(), quantity, option)
@@ -107,5 +107,6 @@ def _range(option: str, text: str | None) -> Range:
         return None
     low, colon, high = (part.strip() for part in text.partition(":"))
     if not (low and colon and high) or ":" in high:
-        raise InputError(f"{option}: {text!r}; a range LOW:HIGH is accepted, such as -20mm:20mm")
+        example = "-20mm:20mm" if option == "--displacement" else "-100mm/s:100mm/s"
+        raise InputError(f"{option}: {text!r} is not a range; pass LOW:HIGH, such as {example}")
     return low, high

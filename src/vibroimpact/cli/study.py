@@ -59,8 +59,8 @@ class _SweepTable(Model):
     def _one_way(self) -> Self:
         if self.frequencies is not None and not (self.start is self.to is self.step is None):
             raise InputError(
-                "the list 'frequencies' is given together with 'from', 'to' or 'step'; either the "
-                "list or the range is accepted"
+                "the list 'frequencies' is given together with 'from', 'to' or 'step'; remove "
+                "either the list or the range"
             )
         return self
 

@@ -33,7 +33,7 @@ def sweep(
 
     At each frequency, the motion is simulated until it is steady. The motion at the next frequency
     starts from the final state and phase of this motion, as in a stepped-sine test. The command
-    prints resonances, jumps and hysteresis. It writes:
+    prints resonances, jumps and hysteresis. It writes these files (--name sets NAME):
 
     - NAME-sweep.nc: all data
     - NAME-sweep.png: the resonance curves
@@ -49,25 +49,36 @@ def sweep(
     Parameters
     ----------
     start
-        Lowest frequency, such as 0.3Hz. Default: the value in the study (table [sweep]), or 0.45 ×
-        the natural frequency; 0.5 Hz for laboratory cases.
+        Lowest frequency, such as 0.3Hz. Default: the value in the study file (table [sweep]). If
+        the file states none, the default is 0.45 × the natural frequency. For laboratory cases it
+        is 0.5 Hz.
     stop
-        Highest frequency, such as 4Hz. Default: the value in the study (table [sweep]), or 4.5 ×
-        the natural frequency; 5 Hz for laboratory cases.
+        Highest frequency, such as 4Hz. Default: the value in the study file (table [sweep]). If the
+        file states none, the default is 4.5 × the natural frequency. For laboratory cases it is
+        5 Hz.
     step
-        Step between frequencies, such as 0.01Hz. The published tests had steps of 0.1 Hz. Default:
-        the value in the study (table [sweep]), or about a hundredth of the natural frequency; 0.01
-        Hz for laboratory cases.
+        Step between frequencies, such as 0.01Hz. Default: the value in the study file (table
+        [sweep]). If the file states none, the default is about a hundredth of the natural
+        frequency. For laboratory cases it is 0.01 Hz, a tenth of the step in the published tests.
     frequencies
-        List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step.
+        List of frequencies, such as 0.5Hz,0.7Hz,1.1Hz. Replaces --from, --to and --step. Default:
+        the list in the study file (table [sweep]), if it has one.
     direction
-        Order of the frequencies: forward (rising), backward (falling) or both. Default: the value
-        in the study (table [sweep]), or both.
+        Order of the frequencies: forward (rising), backward (falling) or both. Default: the order
+        in the study file (table [sweep]), or both.
+    tolerance
+        Relative tolerance of a steady motion. A motion counts as steady when its state, recorded
+        once per forcing cycle, is within this tolerance of a periodic orbit whose period is at most
+        16 forcing cycles. Default: the value in the study file (table [sweep]), or 1e-12.
+    max_cycles
+        Largest number of forcing cycles to wait for a steady motion. If a motion is still
+        approaching a periodic orbit by then, for example with light damping, the limit is increased
+        up to 50-fold. Default: the number in the study file (table [sweep]), or 2000.
     physical
         Draw the largest acceleration (g), displacement (mm) and contact force instead of the
-        normalised excursions η_a and η_d. An excursion is the maximum minus the minimum. It is
-        normalised by the largest excursion of the same rig without stops. If the motion without
-        stops is unbounded, the largest values are always drawn.
+        normalised excursions η_a (acceleration) and η_d (displacement). An excursion is the maximum
+        minus the minimum. It is normalised by the largest excursion of the same rig without stops.
+        If the motion without stops is unbounded, the largest values are always drawn.
     """
     from rich.console import Group
 

@@ -51,7 +51,7 @@ def write_whole(path: Path | str, content: bytes | str) -> Path:
     except OSError as error:
         raise InputError(
             f"output: {str(target)!r} cannot be written ({error.strerror or error}); "
-            "a file in an existing folder that you may write to is accepted"
+            "choose an existing folder that you may write to"
         ) from None
     return target
 
@@ -77,28 +77,30 @@ def save(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path | str) -> Pa
     """
     ending = check_path(path, "path").suffix.lower()
     if ending not in (".nc", ".csv"):
+        wrong = f"has the ending {ending!r}" if ending else "has no ending"
         raise InputError(
-            f"path: {str(path)!r} ends in {ending or 'nothing'!r}; .nc (NetCDF) or .csv (a table) "
-            "is accepted"
+            f"path: {str(path)!r} {wrong}; use the ending .nc (NetCDF) or .csv (table)"
         )
+    if not isinstance(dataset, xr.Dataset):
+        check_mapping(dataset, "dataset", "a dataset, or a dict of datasets by name")
     if ending == ".csv":
         if not isinstance(dataset, xr.Dataset):
             raise InputError(
-                f"path: {str(path)!r} would hold several datasets; write one table per dataset, "
-                "or use .nc"
+                f"path: {str(path)!r} can hold only one dataset, not a dict of datasets; save each "
+                "dataset to its own .csv file, or use the ending .nc"
             )
         return write_whole(path, as_text(dataset))
     if isinstance(dataset, xr.Dataset):
         return write_whole(path, _sealed(dataset))
-    check_mapping(dataset, "dataset", "a dataset, or a mapping of names to datasets")
+
     for name, one in dataset.items():
-        check_variables(one, (), f"dataset[{name!r}]", "a dataset")
+        check_variables(one, (), f"dataset[{name!r}]", "a dataset, such as the result of sweep")
     names = {name: name.replace(" ", "_").replace("/", "_") for name in dataset}
-    if len(set(names.values())) < len(names):
+    written = list(names.values())
+    if equal := [repr(name) for name, new in names.items() if written.count(new) > 1]:
         raise InputError(
-            f"dataset: the names {', '.join(map(repr, names))} are not distinct in the file, "
-            "where '_' replaces blanks and slashes; names that also differ in other characters are "
-            "accepted"
+            f"dataset: the names {', '.join(equal)} become equal in the file, because '_' replaces "
+            "blanks and slashes there; rename one of these datasets"
         )
     tree = xr.DataTree.from_dict({names[name]: data for name, data in dataset.items()})
     tree.attrs["vibroimpact_version"] = __version__
@@ -156,11 +158,11 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
     file_path = check_path(path, "file")
     if file_path.is_dir():
         raise InputError(
-            f"file: {str(path)!r} is a folder; to read the store of a map or of demands, call the "
-            "function that wrote it with the same argument `store`; here, a NetCDF file is accepted"
+            f"file: {str(path)!r} is a folder; pass a NetCDF file, or, to read the store of a map "
+            "or of demands, call scenario_map or demands again with the same store"
         )
     if not file_path.is_file():
-        raise InputError(f"file: {str(path)!r} does not exist; a NetCDF file is accepted")
+        raise InputError(f"file: {str(path)!r} does not exist; pass the path of a NetCDF file")
     try:
         content, is_sealed = _unsealed(Path(path).read_bytes())
         file = io.BytesIO(content)
@@ -172,15 +174,17 @@ def load(path: Path | str, group: str | None = None) -> xr.Dataset:
         reason = (str(error).splitlines() or [type(error).__name__])[0]
         raise InputError(
             f"file: {str(path)!r} is damaged or not a NetCDF file ({reason}); "
-            "a file written by vibroimpact is accepted"
+            "pass a complete file that vibroimpact wrote"
         ) from None
     if not (isinstance(group, str) and group in groups) and (groups or group is not None):
-        given = "it holds several datasets" if group is None else f"it has no group {shown(group)}"
-        accepted = f"{', '.join(groups)} are accepted" if groups else "None is accepted"
-        raise InputError(f"group: {shown(group)} of {str(path)!r}: {given}; {accepted}")
+        known = f"pass one of {', '.join(groups)}" if groups else "leave group out"
+        if group is None:
+            raise InputError(f"group: missing, but {str(path)!r} has several groups; {known}")
+        raise InputError(f"group: {str(path)!r} has no group {shown(group)}; {known}")
     if "vibroimpact_version" not in data.attrs:
         raise InputError(
-            f"file: {str(path)!r} was not written by vibroimpact; a file that it wrote is accepted"
+            f"file: {str(path)!r} was not written by vibroimpact; use xarray.open_dataset to read "
+            "files of other programs"
         )
     if not is_sealed:
         warn_of_input(

@@ -41,8 +41,8 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
     """
     if not isinstance(dataset, xr.Dataset):
         raise InputError(
-            f"dataset: {shown(dataset)} is not a dataset; the result of a function such as sweep "
-            "is accepted"
+            f"dataset: {shown(dataset)} is not a dataset; pass the result of a function such as "
+            "sweep"
         )
     along = [variable.dims for variable in dataset.data_vars.values() if variable.dims]
     main = [tuple(dim for dim in dims if dim not in _COLUMNS) for dims in along]
@@ -52,8 +52,8 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
     if not is_name or not any(set(dims) <= set(given) for given in along):
         known = dict.fromkeys(str(dim) for given in main for dim in given)
         raise InputError(
-            f"rows: {shown(rows)} is not a dimension of this dataset; {', '.join(known)} are "
-            "accepted"
+            f"rows: {shown(rows)} is not a dimension of this dataset; pass one of "
+            f"{', '.join(known)}"
         )
     parts: dict[str, xr.DataArray] = {}
     for name, variable in dataset.data_vars.items():

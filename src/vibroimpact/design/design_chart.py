@@ -19,7 +19,7 @@ from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Bumper, Oscillator
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.executors import THREADS, placed
@@ -155,7 +155,7 @@ def _designs(oscillator: Oscillator, vary: Any) -> Runs:
     """
     if not isinstance(vary, Mapping) or not vary:
         raise InputError(
-            f"vary: {vary!r}; values of at least one parameter are accepted, such as "
+            f"vary: {shown(vary)}; pass the values of at least one parameter, such as "
             '{"gap": ["200 mm", "300 mm"]}'
         )
     return runs(oscillator, None, vary)
@@ -194,7 +194,7 @@ def warn(status: NDArray[Any], who: str) -> None:
     for code in np.unique(status[status != Status.DONE]):
         count = int((status == code).sum())
         warnings.warn(
-            f"{who}: the computation was given up for {count} of {status.size} designs: "
+            f"{who}: {count} of {status.size} designs could not be computed: "
             f"{Status(int(code)).advice}",
             RuntimeWarning,
             stacklevel=3,

@@ -10,13 +10,14 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.arguments import is_pair
 from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.design.worst_sine import Sines
 from vibroimpact.earthquakes.peak_demands import Shaken, peaks
 from vibroimpact.earthquakes.run_plan import digest, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, share
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
@@ -202,7 +203,10 @@ def design_rig(
         records = found.shaking
     if records is not None:
         if frequency_span is not None:
-            raise InputError("frequency_span: not accepted with records, only with a sine")
+            raise InputError(
+                "frequency_span: the shaking is a record, which has no forcing frequency; remove "
+                "frequency_span"
+            )
         return found.oscillator, ByRecords(
             suite(records),
             to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),
@@ -217,11 +221,10 @@ def design_rig(
 def _range(frequencies: Any) -> tuple[float | None, float | None]:
     if frequencies is None:
         return None, None
-    if isinstance(frequencies, str) or len(frequencies) != 2:
+    if not is_pair(frequencies):
         raise InputError(
-            f"frequency_span: {frequencies!r}; the lowest and the highest frequency, as "
-            '("0.2 Hz", "3 Hz"), '
-            "are accepted"
+            f"frequency_span: {shown(frequencies)}; pass the lowest and the highest frequency, "
+            'such as ("0.2 Hz", "3 Hz")'
         )
     low, high = (
         to_si(one, FREQUENCY, f"frequency_span[{i}]", above=0.0)
@@ -229,6 +232,7 @@ def _range(frequencies: Any) -> tuple[float | None, float | None]:
     )
     if not low < high:
         raise InputError(
-            f"frequency_span[1]: {high:g} Hz is not above {low:g} Hz; a rising pair is accepted"
+            f"frequency_span[1]: {high:g} Hz is not above the first frequency, {low:g} Hz; pass "
+            "the lower frequency first"
         )
     return low, high

@@ -18,7 +18,7 @@ from vibroimpact.design.limits import QUANTITIES, limits_of
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, warn_of_input
+from vibroimpact.errors import InputError, shown, warn_of_input
 from vibroimpact.model import Bumper, Oscillator
 from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import PARAMETERS
@@ -234,22 +234,24 @@ def _space(rig: Oscillator, ranges: Any) -> _Space:
     given = _bumper_ranges(rig) if ranges is None else ranges
     if not isinstance(given, Mapping) or not given:
         raise InputError(
-            f"ranges: {given!r}; the lowest and the highest value of at least one parameter are "
-            'accepted, such as {"bumper_stiffness": ("1 MN/m", "1 GN/m")}'
+            f"ranges: {shown(given)}; pass the lowest and the highest value of at least one "
+            'parameter, such as {"bumper_stiffness": ("1 MN/m", "1 GN/m")}'
         )
     for name, ends in given.items():
         if isinstance(ends, str) or not isinstance(ends, Sequence) or len(ends) != 2:
             raise InputError(
-                f"ranges[{name!r}]: {ends!r}; a pair of the lowest and the highest "
-                "value is accepted"
+                f"ranges[{name!r}]: {shown(ends)}; pass the lowest and the highest value as a pair "
+                "(low, high)"
             )
     plan: Runs = runs(rig, None, given)
     low, high = (np.array([one.values[i] for one in plan.varied]) for i in (0, 1))
     for one in plan.varied:
         if not one.values[0] < one.values[1]:
+            quantity = PARAMETERS[one.name].of(rig).quantity
+            first, last = (pretty(float(value), quantity) for value in one.values[:2])
             raise InputError(
-                f"ranges[{one.name!r}]: {one.values[1]:g} is not above {one.values[0]:g}; a rising "
-                "pair is accepted"
+                f"ranges[{one.name!r}]: the second value, {last}, is not above the first, "
+                f"{first}; pass the lower value first"
             )
     wide = (low > 0.0) & (high >= _WIDE * np.maximum(low, 0.0))
     return _Space(rig, tuple(one.name for one in plan.varied), low, high, wide)
@@ -259,14 +261,16 @@ def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
     """Return the default ranges of a bumper for this isolator."""
     if not rig.stops or not all(isinstance(stop, Bumper) for stop in rig.stops):
         raise InputError(
-            "ranges: missing; by default the search varies the stiffness and damping of linear "
-            "bumpers, but this rig has "
-            + ("no stop" if not rig.stops else "a stop of another kind")
-            + "; give the ranges of parameters of this rig"
+            "ranges: missing; by default the search for the best design varies linear bumpers, but "
+            + ("this rig has no stop" if not rig.stops else "a stop of this rig is of another kind")
+            + "; in Python, pass the ranges of other parameters"
         )
     spring = rig.isolator.initial_stiffness
     if spring == 0.0:
-        raise InputError("ranges: missing; an isolator without a spring has no default ranges")
+        raise InputError(
+            "ranges: missing; for an isolator without a spring there are no default ranges; in "
+            "Python, pass the ranges of the parameters"
+        )
     critical = 2.0 * math.sqrt(spring * rig.mass)
     return {
         "bumper_stiffness": (_STIFFNESSES[0] * spring, _STIFFNESSES[1] * spring),
@@ -287,8 +291,8 @@ def _slack(best: Mapping[str, float], limits: Mapping[str, float]) -> Iterator[s
             reached, allowed = (
                 pretty(float(f"{value:.4g}"), quantity) for value in (best[name], limit)
             )
-            limit = name.replace("_", " ")
-            yield f"the design stays below the limit of {limit}: {reached} of {allowed}"
+            words = name.replace("_", " ")
+            yield f"the design stays below the limit of {words}: {reached} of {allowed}"
 
 
 def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
@@ -309,13 +313,14 @@ def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
 def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:
     if not math.isfinite(best["peak_acceleration"]):
         raise InputError(
-            f"ranges: no design could be computed ({Status(int(best['status'])).advice})"
+            f"ranges: no design could be computed: {Status(int(best['status'])).advice}"
         )
     for name, limit in limits.items():
         if best[name] > limit:
+            quantity = QUANTITIES[VARIABLES[name].units]
             raise InputError(
-                f"limits[{name!r}]: no design that was tried meets this limit of {limit:g} "
-                f"{VARIABLES[name].units} together with all other limits; the best design has "
-                f"{best[name]:g} {VARIABLES[name].units}; a wider limit, or wider ranges, are "
-                "accepted"
+                f"limits[{name!r}]: no design that was tried meets this limit of "
+                f"{pretty(limit, quantity)} and all other limits (the best design has "
+                f"{pretty(best[name], quantity, 3)}); raise the limits or widen the ranges of the "
+                "parameters"
             )

@@ -16,6 +16,7 @@ from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
 
 QUANTITIES = {"m": LENGTH, "m s-2": ACCELERATION, "N": FORCE}
 """Of a peak, by its unit."""
+_EXAMPLE = 'a dict of limits by name, such as {"peak_force": "2 MN"}'
 
 
 def limits_of(limits: Any) -> dict[str, float]:
@@ -28,7 +29,7 @@ def limits_of(limits: Any) -> dict[str, float]:
     """
     accepted = [name for name in PEAKS if name != "peak_acceleration"]
     found = {}
-    given = check_mapping({} if limits is None else limits, "limits", "a mapping of limits by name")
+    given = check_mapping({} if limits is None else limits, "limits", _EXAMPLE)
     for name, value in given.items():
         key = name.replace("-", "_")
         if key not in accepted:

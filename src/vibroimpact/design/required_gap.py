@@ -78,8 +78,8 @@ def required_gap(
         found = _swept(free, what.sines, workers, progress)
     if not np.isfinite(found["required_gap"]):
         raise InputError(
-            "shaking: without stops the motion of the mass is unbounded; an isolator that bounds "
-            "it is accepted"
+            "shaking: without stops the motion of the mass grows without bound, so no gap is wide "
+            "enough; give the isolator more damping or stiffness, or reduce the shaking"
         )
     parameters = {"oscillator": oscillator_parameters(oscillator), **what.parameters()}
     return describe(found, "vibroimpact.required_gap", parameters, what.notes())
@@ -140,5 +140,5 @@ def _sides(right: float, left: float, **others: Any) -> xr.Dataset:
 def _refuse(status: int) -> None:
     if status not in (Status.DONE, Status.NOT_FINITE, Status.REVERSED):
         raise InputError(
-            f"shaking: the motion without stops could not be computed ({Status(status).advice})"
+            f"shaking: the motion without stops could not be computed: {Status(status).advice}"
         )

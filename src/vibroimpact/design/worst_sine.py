@@ -93,8 +93,8 @@ class Sines(NamedTuple):
         if count > MOST:
             raise InputError(
                 f"step: {step:g} of the natural frequency of {natural:.3g} Hz makes {count:g} "
-                f"frequencies from {low:.3g} to {high:.3g} Hz; at most {MOST} are accepted; use "
-                "a narrower range or a larger step"
+                f"frequencies from {low:.3g} to {high:.3g} Hz, but at most {MOST} are accepted; "
+                "narrow the frequency range or raise step"
             )
         found: _Array = np.linspace(low, max(high, low), count)
         return found

@@ -263,10 +263,15 @@ def _levels(scales: Any, scaled: Measure) -> _Array:
         [to_si(value, scaled.quantity, f"scales[{i}]", above=0.0) for i, value in enumerate(scales)]
     )
     if not len(levels):
-        raise InputError("scales: missing; one or more are accepted")
+        raise InputError("scales: the list is empty; pass at least one scale")
     for i in np.flatnonzero(np.diff(levels) <= 0.0):
+        last, this = (
+            text if isinstance(text, str) else f"{level:g} {scaled.quantity.symbol}".rstrip()
+            for text, level in zip(scales[i : i + 2], levels[i : i + 2], strict=True)
+        )
         raise InputError(
-            f"scales[{i + 1}]: {levels[i + 1]:g} follows {levels[i]:g}; rising scales are accepted"
+            f"scales[{i + 1}]: {this} is not above the scale before it, {last}; pass the scales in "
+            "rising order"
         )
     return levels
 
@@ -276,7 +281,7 @@ def _warn(status: NDArray[Any]) -> None:
     for code in np.unique(status[status != Status.DONE]):
         count = int((status == code).sum())
         warnings.warn(
-            f"demands: the computation was given up for {count} of {status.size} runs: "
+            f"demands: {count} of {status.size} runs could not be computed: "
             f"{Status(int(code)).advice}",
             RuntimeWarning,
             stacklevel=3,

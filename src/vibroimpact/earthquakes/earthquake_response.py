@@ -52,7 +52,7 @@ def earthquake_response(
     after = free_tail(rig) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
     motion = compute_history(rig, None, None, samples, after, progress=progress)
     if int(motion["status"]) != Status.DONE:
-        raise InputError(f"the computation of the motion was given up ({motion.attrs['message']})")
+        raise InputError(f"the motion could not be computed: {motion.attrs['message']}")
     return {
         "response": seismic_response(rig, tail=after, progress=progress),
         "motion": motion,

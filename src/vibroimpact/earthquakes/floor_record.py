@@ -42,12 +42,15 @@ def floor_record(motion: xr.Dataset) -> Record:
     origin = any_recorded(motion)
     if not isinstance(origin.excitation, Record):
         raise InputError(
-            "motion: it is periodically forced; a motion that was simulated with a Record is "
-            "accepted (fourier_spectrum computes the harmonics of a periodically forced motion)"
+            "motion: its excitation is periodic, not a record; pass the result of simulate for a "
+            "Record, or use fourier_spectrum for the harmonics of this motion"
         )
     time = motion["time"].values
     if len(time) < 4:
-        raise InputError(f"motion: {len(time)} samples; at least 4 are accepted")
+        raise InputError(
+            f"motion: {len(time)} samples, but at least 4 are required; pass a larger samples to "
+            "simulate"
+        )
     step = float(time[1])
     if time[-1] - time[-2] < (1.0 - _GRID) * step:  # what is left of the tail
         time = time[:-1]

@@ -21,7 +21,9 @@ from vibroimpact.model.units import pretty
 _Array = NDArray[np.float64]
 
 _TOLD = 5
-"""Largest number of curves without an interval, or without a fit, that a message lists by name."""
+"""Largest number of curves without an interval, or without a fit, that a warning lists by name."""
+_IN_ERROR = 2
+"""The same for an error, which is one short line."""
 
 
 class Fit(NamedTuple):
@@ -94,8 +96,8 @@ def fragility(
     level = share(confidence, "confidence")
     if values.sizes["record"] < 3:
         raise InputError(
-            f"demands: {values.sizes['record']} records; at least 3 are accepted for a curve with "
-            "its uncertainty"
+            f"demands: a fragility curve requires at least 3 records, not "
+            f"{values.sizes['record']}; compute demands for more records"
         )
     order = ("record", "scale", *_others(values))
     above = (values > least).transpose(*order).values
@@ -119,7 +121,7 @@ def fragility(
                 found[name][(..., *at)] = value
     none = np.isnan(found["median_capacity"])
     what = "above the limit" if limit is not None else f"above 0 in {quantity}"
-    undetermined = _undetermined(none, values, above, what)
+    undetermined = _undetermined(none, values, above, what, _IN_ERROR if none.all() else _TOLD)
     if none.all():
         beginning = "demands:" if limit is None else f"limit: {limit!r};"
         raise InputError(f"{beginning} {undetermined}")
@@ -156,7 +158,7 @@ def fragility(
 
 
 def _undetermined(
-    none: NDArray[np.bool_], values: xr.DataArray, above: NDArray[np.bool_], what: str
+    none: NDArray[np.bool_], values: xr.DataArray, above: NDArray[np.bool_], what: str, most: int
 ) -> str:
     """Describe which rigs have no curve, and which levels would give one; "" if all have one."""
     told = []
@@ -164,35 +166,35 @@ def _undetermined(
         why = _why(above[(slice(None), slice(None), *at)], values["scale"], what)
         whose = _whose(values, at)
         told.append(f"no curve {whose}: {why}" if whose else why)
-    return _listed(told)
+    return _listed(told, most)
 
 
 def _why(above: NDArray[np.bool_], scale: xr.DataArray, what: str) -> str:
     """Explain why a rig has no curve, and which levels would give one."""
     match lacking(above.mean(axis=0)):
-        case "higher levels":
-            return f"no record is {what} at any level; higher levels are needed"
-        case "lower levels":
-            return f"all records are {what} at every level; lower levels are needed"
-        case "finer levels":
+        case "higher scales":
+            return f"no record is {what} at any scale, so pass higher scales to demands"
+        case "lower scales":
+            return f"all records are {what} at every scale, so pass lower scales to demands"
+        case "finer scales":
             return (
-                f"at fewer than two levels, some records are {what} and others are not; "
-                f"{_finer(above, scale)} are needed"
+                f"at fewer than two scales, some records are {what} and others are not, "
+                f"so pass {_finer(above, scale)} to demands"
             )
     return (
-        f"the share of the records that are {what} does not rise with the level; levels at which "
-        "it rises are needed"
+        f"the share of the records that are {what} does not rise with the scale, so pass other "
+        "scales to demands"
     )
 
 
 def lacking(shares: _Array) -> str:
     """Return which levels would determine a curve, from the share that exceeds at each level."""
     if not shares.any():
-        return "higher levels"
+        return "higher scales"
     if (shares == 1.0).all():
-        return "lower levels"
+        return "lower scales"
     separate = np.flatnonzero(shares < 1.0)[-1] <= np.flatnonzero(shares > 0.0)[0]
-    return "finer levels" if separate else "other levels"
+    return "finer scales" if separate else "other scales"
 
 
 def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
@@ -205,9 +207,9 @@ def _finer(above: NDArray[np.bool_], scale: xr.DataArray) -> str:
         word for word, there in (("lower", none.any()), ("higher", every.any())) if not there
     )
     if low == high:
-        return f"{beyond} levels"
-    finer = f"finer levels between {pretty(low, quantity)} and {pretty(high, quantity)}"
-    return f"{finer}, and {beyond} levels" if beyond else finer
+        return f"{beyond} scales"
+    finer = f"finer scales between {pretty(low, quantity)} and {pretty(high, quantity)}"
+    return f"{finer}, and {beyond} scales" if beyond else finer
 
 
 def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -> str:
@@ -217,19 +219,19 @@ def _unbounded(bounds: _Array, values: xr.DataArray, above: NDArray[np.bool_]) -
         one = above[(slice(None), slice(None), *at)]
         begin = begin_to_exceed(one.sum(axis=0), len(one))
         beyond = (word for word, n in (("lower", begin[0]), ("higher", begin[-1])) if n > 0.0)
-        told.append(f"{_whose(values, at)} {' and '.join(beyond)} levels".lstrip())
+        told.append(f"{' and '.join(beyond)} scales {_whose(values, at)}".rstrip())
     if not told:
         return ""
     return (
         "there is no interval, because fewer than two records begin to exceed the limit within "
-        f"the levels; needed for an interval: {_listed(told)}"
+        f"the scales; to get an interval, pass to demands: {_listed(told)}"
     )
 
 
-def _listed(told: list[str]) -> str:
-    left = len(told) - _TOLD
+def _listed(told: list[str], most: int = _TOLD) -> str:
+    left = len(told) - most
     more = [f"and {left} more curve{'s' if left > 1 else ''}"] if left > 0 else []
-    return "; ".join([*told[:_TOLD], *more])
+    return "; ".join([*told[:most], *more])
 
 
 def _whose(values: xr.DataArray, at: NDArray[np.int64]) -> str:

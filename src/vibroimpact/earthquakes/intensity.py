@@ -50,8 +50,8 @@ class Measure(NamedTuple):
         found = self.of(records)
         for i in np.flatnonzero(found == 0.0):
             raise InputError(
-                f"records[{i}]: it is 0 throughout, so no factor can give it a {self.name}; a "
-                "record with samples other than 0 is accepted"
+                f"records[{i}]: all samples are 0, so the record cannot be scaled to a "
+                f"{self.name}; remove this record"
             )
         return found, levels / found[:, np.newaxis]
 
@@ -70,8 +70,8 @@ def measure(given: Any) -> Measure:
         return Measure("peak ground acceleration", ACCELERATION)
     if not isinstance(given, tuple | list) or len(given) != 2:
         raise InputError(
-            f'intensity: {shown(given)}; "factor", "PGA", or a natural period and a damping ratio '
-            "of the spectral acceleration, such as (1.0, 0.05), are accepted"
+            f'intensity: {shown(given)}; pass "factor", "PGA", or the natural period (s) and the '
+            "damping ratio of a spectral acceleration, such as (1.0, 0.05)"
         )
     period = to_si(given[0], TIME, "intensity[0]", above=0.0)
     damping = to_si(given[1], DIMENSIONLESS, "intensity[1]", minimum=0.0)

@@ -75,7 +75,7 @@ def runs(rig: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None)
     given = dict(check_mapping({} if vary is None else vary, "vary", VALUES))
     if gaps is not None:
         if "gap" in given:
-            raise InputError("gaps: given together with vary['gap']; one of the two is accepted")
+            raise InputError("gaps: given together with vary['gap']; remove one of the two")
         given = {"gap": gaps, **given}
     one = next(iter(rigs.values()))
     every = tuple(
@@ -118,10 +118,11 @@ def suite(records: Any) -> dict[str, Record]:
     for name, one in found.items():
         if not isinstance(one, Record):
             raise InputError(
-                f"records[{name!r}]: {shown(one)} is not a record; a Record is accepted"
+                f"records[{name!r}]: {shown(one)} is not a record; pass a Record, such as the "
+                "result of Record.read"
             )
     if not found:
-        raise InputError("records: missing; one or several records are accepted")
+        raise InputError("records: missing; pass at least one Record")
     return found
 
 

@@ -73,7 +73,7 @@ def fractiles(
         for i, share in enumerate(check_list(shares, "shares", 1000, "a list of shares"))
     ]
     if not chosen:
-        raise InputError("shares: missing; one or more from 0 to 1 are accepted")
+        raise InputError("shares: the list is empty; pass at least one share from 0 to 1")
     found = quantiles(values.values, chosen, values.dims.index(over))
     dims = ("fractile", *(dim for dim in values.dims if dim != over))
     data = xr.Dataset({quantity: (dims, found)}, {"fractile": chosen, **_coords(values)})
@@ -96,14 +96,15 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
     """Return a variable of an ensemble, infinite where a motion exceeded all limits."""
     names = [str(name) for name, one in data.data_vars.items() if "sample" in one.dims]
     if quantity not in names:
-        raise InputError(f"quantity: {shown(quantity)}; one of {', '.join(names)} is accepted")
+        raise InputError(f"quantity: {shown(quantity)}; pass one of {', '.join(names)}")
     values: xr.DataArray = data[quantity]
     if "status" in data and data["status"].dims == values.dims:
         values = values.where(~np.isin(data["status"].values, UNSTABLE), math.inf)
     unknown = int(values.isnull().sum())
     if unknown:
         warnings.warn(
-            f"fractiles: unknown values of {quantity} are left out: {unknown} of {values.size}",
+            f"fractiles: {unknown} of {values.size} values of {quantity} are unknown and were left "
+            "out",
             RuntimeWarning,
             stacklevel=3,
         )
@@ -159,7 +160,7 @@ def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> f
         if expected is DIMENSIONLESS:
             return 0.0
         raise InputError(
-            f"limit: missing; a limit of {quantity} is accepted, such as {expected.example!r}"
+            f"limit: missing; pass the limit of {quantity}, such as {expected.example!r}"
         )
     return to_si(limit, expected, "limit")
 
@@ -175,7 +176,7 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
     """
     held = isinstance(demands, xr.Dataset) and {"record", "scale"} <= set(demands.dims)
     if not held or "status" not in demands:
-        raise InputError(f"demands: {shown(demands)}; the result of demands is accepted")
+        raise InputError(f"demands: {shown(demands)}; pass the result of the function demands")
     peaks = [
         str(name)
         for name, one in demands.data_vars.items()
@@ -185,8 +186,8 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
     status = demands["status"].values
     for code in np.unique(status[(status != Status.DONE) & ~np.isin(status, UNSTABLE)]):
         raise InputError(
-            f"demands: the values of {int((status == code).sum())} of {status.size} runs are "
-            f"unknown, because their computation was given up: {Status(int(code)).advice}"
+            f"demands: {int((status == code).sum())} of {status.size} runs could not be computed: "
+            f"{Status(int(code)).advice}"
         )
     found: xr.DataArray = demands[quantity].where(~np.isin(status, UNSTABLE), math.inf)
     return found

@@ -32,6 +32,6 @@ def require_websockets() -> None:
     """
     if find_spec("websockets") is None:
         raise InputError(
-            "explore: the package websockets is not installed; pip install 'vibroimpact[explore]' "
-            "installs it"
+            "explore: the package websockets is not installed; run pip install "
+            "'vibroimpact[explore]'"
         )

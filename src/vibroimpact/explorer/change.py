@@ -57,7 +57,7 @@ def moved(state: State, path: str, value: float | str) -> State:
     sides = SIDES if part == "stops" else (part,)
     present = [side for side in sides if side in SIDES and getattr(rig, side) is not None]
     if not present:
-        raise InputError(f"knob: {shown(path)} is unknown; a name that the page offers is accepted")
+        raise InputError(f"knob: {shown(path)} is not a parameter of this rig; reload the page")
     for side in present:
         rig = _stop_moved(state, rig, side, name, value)
     return state._replace(oscillator=rig)
@@ -73,7 +73,9 @@ def _stop_moved(
         alone = PARAMETERS[name].vary(Rig(one_sided(rig, side), state.shaking), number)
         return rig.replace(**{side: getattr(alone.oscillator, side)})
     if name not in type(stop).model_fields:
-        raise InputError(f"knob: {shown(name)} is unknown; a name that the page offers is accepted")
+        raise InputError(
+            f"knob: {shown(name)} is not a parameter of the {side} stop; reload the page"
+        )
     return rig.replace(**{side: stop.replace(**{name: value})})
 
 
@@ -99,9 +101,7 @@ def with_law(state: State, part: str, kind: str) -> State:
         return state._replace(oscillator=rig.replace(isolator=isolator_of(kind, state)))
     sides = SIDES if part == "stops" else (part,)
     if not set(sides) <= set(SIDES):
-        raise InputError(
-            f"part: {shown(part)} is unknown; isolator, stops, right and left are accepted"
-        )
+        raise InputError(f"part: {shown(part)} is unknown; use isolator, stops, right or left")
     changed = {side: stop_of(kind, state, side) for side in sides}
     return state._replace(oscillator=rig.replace(**changed))
 
@@ -128,9 +128,7 @@ def chosen(state: State, direction: str, frequency: float | str) -> State:
         If the direction is unknown, or if the frequency is outside the range of the sweeps.
     """
     if direction not in ("forward", "backward"):
-        raise InputError(
-            f"direction: {shown(direction)} is unknown; 'forward' and 'backward' are accepted"
-        )
+        raise InputError(f"direction: {shown(direction)} is unknown; use 'forward' or 'backward'")
     low, high = state.span
     hertz = to_si(frequency, FREQUENCY, "frequency", minimum=low, maximum=high)
     return state._replace(
@@ -157,7 +155,7 @@ def looked(state: State, how: Mapping[str, bool]) -> State:
             (shown_now.add if wanted else shown_now.discard)(name)
         else:
             raise InputError(
-                f"picture: {shown(name)} is unknown; a name that the page offers is accepted"
+                f"picture: {shown(name)} is unknown; use one of {', '.join(ON_DEMAND)}"
             )
     return state._replace(shown=frozenset(shown_now))
 
@@ -171,6 +169,9 @@ def placed(state: State, stiffness_ratio: float, gap_ratio: float) -> State:
         If the rig has no stiffness ratio λ or no gap ratio δ0, or if a ratio is not finite.
     """
     if not (math.isfinite(stiffness_ratio) and math.isfinite(gap_ratio)):
-        raise InputError("point: the ratios are not finite numbers; a point of the map is accepted")
+        raise InputError(
+            f"point: the stiffness ratio {stiffness_ratio:g} or the gap ratio {gap_ratio:g} is not "
+            "finite; click a point of the map"
+        )
     there = moved(state, "stops.stiffness_ratio", stiffness_ratio)
     return moved(there, "stops.gap_ratio", gap_ratio)

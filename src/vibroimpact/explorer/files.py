@@ -42,7 +42,7 @@ def made(kind: str, state: State, swept: Callable[[], xr.Dataset]) -> dict[str, 
         "csv": ("-sweep.csv", "text/csv", lambda: to_table(swept()).to_csv().encode()),
     }
     if kind not in ways:
-        raise InputError(f"file: {shown(kind)} is unknown; one of {', '.join(ways)} is accepted")
+        raise InputError(f"file: {shown(kind)} is unknown; use one of {', '.join(ways)}")
     ending, mime, write = ways[kind]
     return {
         "file": file_stem(state.name) + ending,

@@ -83,9 +83,7 @@ def isolator_of(kind: str, state: State) -> AnyIsolator:
         "exponential": lambda: ExponentialIsolator(2.4 * k, 0.83 * k, 3.5 / u, 0.3 * c),
     }
     if kind not in made:
-        raise InputError(
-            f"isolator.kind: {shown(kind)} is unknown; one of {', '.join(made)} is accepted"
-        )
+        raise InputError(f"isolator.kind: {shown(kind)} is unknown; use one of {', '.join(made)}")
     return made[kind]()
 
 
@@ -119,6 +117,6 @@ def stop_of(kind: str, state: State, side: str) -> Stop | None:
     }
     if kind not in made:
         raise InputError(
-            f"{side}.kind: {shown(kind)} is unknown; one of {', '.join(made)} is accepted"
+            f"{side}.kind: {shown(kind)} is unknown; use one of {', '.join((NONE, *made))}"
         )
     return made[kind]()

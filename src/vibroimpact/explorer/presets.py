@@ -42,9 +42,7 @@ def preset(name: str) -> State:
     if name in (case.code for case in laboratory.campaign()):
         case = laboratory.case(name)
         return begin(case, name, (case.frequencies[0], case.frequencies[-1]))
-    raise InputError(
-        f"preset: {shown(name)} is unknown; a name in the list of the page is accepted"
-    )
+    raise InputError(f"preset: {shown(name)} is unknown; choose a name in the list of the page")
 
 
 def _building() -> Rig:

@@ -58,8 +58,8 @@ async def serving(
         server, where = await start(first, host, port, token)
     except OSError as error:
         raise InputError(
-            f"host, port: {host} {port} cannot be used ({error.strerror or error}); a free port "
-            "of this machine is accepted, and port 0 selects a free port"
+            f"host, port: {host} {port} cannot be used ({error.strerror or error}); pass an "
+            "address of this machine, and a free port or 0 for any free port"
         ) from None
     async with server:
         ready(where)
@@ -112,7 +112,9 @@ def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
         If the rig is not shaken by one sine, or if the websocket library is not installed.
     """
     if isinstance(height, bool) or not isinstance(height, int) or height < 1:
-        raise InputError(f"height: {height!r} is not valid; a whole number of pixels is accepted")
+        raise InputError(
+            f"height: {height!r} is not valid; pass a whole number of pixels, such as 700"
+        )
     try:
         state = preset(rig) if isinstance(rig, str) else begin(rig)
     except InputError:

@@ -29,7 +29,7 @@ Message = dict[str, Any]
 MOST_SECONDS = 60.0
 """For one picture; the work that a page can ask for is bounded."""
 _NO_NUMBER = (
-    "value: with this value, some numbers of the rig are not finite; a moderate value is accepted"
+    "value: with this value, some numbers of the rig are not finite; choose a less extreme value"
 )
 _PATIENCE = 0.25
 """Seconds that a coarse picture is waited for though another is asked for."""
@@ -149,7 +149,7 @@ class Session:
             point = (_number(message, "x"), _number(message, "y"))
             gesture = str(message.get("gesture") or "")[:40]
             return history.to(change.placed(now, *point), gesture)
-        raise InputError(f"message: {shown(do)} is unknown; an action of the page is accepted")
+        raise InputError(f"message: the action {shown(do)} is unknown; reload the page")
 
     def stages(self) -> Iterator[Stage]:
         """Yield the pictures of the present state that are to be computed, quick ones first."""
@@ -357,7 +357,9 @@ def _without_frequency(state: State) -> Hashable:
 def _text(message: Message, key: str) -> str:
     value = message.get(key)
     if not isinstance(value, str) or len(value) > 200:
-        raise InputError(f"{key}: {shown(value)} is not valid; a text is accepted")
+        raise InputError(
+            f"{key}: {shown(value)} is not valid; use a text of at most 200 characters"
+        )
     return value
 
 
@@ -371,5 +373,5 @@ def _value(message: Message, key: str) -> float | str:
 def _number(message: Message, key: str) -> float:
     value = _value(message, key)
     if isinstance(value, str):
-        raise InputError(f"{key}: {shown(value)} is not valid; a number is accepted")
+        raise InputError(f"{key}: {shown(value)} is not valid; use a number")
     return value

@@ -56,14 +56,14 @@ def from_address(text: object) -> State:
     """
     if not isinstance(text, str) or not 0 < len(text) <= MOST:
         raise InputError(
-            f"address: {shown(text)} is not valid; an address that this page wrote is accepted"
+            f"address: {shown(text)} is not valid; copy the whole address of the page again"
         )
     try:
         padded = text + "=" * (-len(text) % 4)
         table = json.loads(base64.b64decode(padded, altchars=b"-_", validate=True))
     except (binascii.Error, UnicodeDecodeError, ValueError, RecursionError):
         raise InputError(
-            "address: it cannot be read; an address that this page wrote is accepted"
+            "address: it cannot be read; copy the whole address of the page again"
         ) from None
     return _from_table(table)
 
@@ -74,12 +74,14 @@ def _from_table(table: Any) -> State:
         "together", "physical", "shown",
     }  # fmt: skip
     if not isinstance(table, dict) or set(table) != fields:
-        raise InputError("address: it is not complete; an address that this page wrote is accepted")
+        raise InputError(
+            "address: some of its values are missing; copy the whole address of the page again"
+        )
     name, of, direction, span = (table[key] for key in ("name", "of", "direction", "span"))
     if not isinstance(name, str) or len(name) > _LONGEST_NAME or not name.isprintable():
         raise InputError(
-            f"address: the name {shown(name)} is not valid; a text of at most {_LONGEST_NAME} "
-            "printable characters is accepted"
+            f"address: the name {shown(name)} is not valid; use a text of at most {_LONGEST_NAME} "
+            "printable characters"
         )
     if direction not in get_args(Direction):
         raise InputError(f"address: the direction is {unknown(direction, get_args(Direction))}")
@@ -87,20 +89,23 @@ def _from_table(table: Any) -> State:
         raise InputError(f"address: the quantity of the shaking is {unknown(of, QUANTITIES)}")
     if not (isinstance(span, list) and len(span) == 2):
         raise InputError(
-            f"address: the span {shown(span)} is not valid; two frequencies are accepted"
+            f"address: the range of frequencies {shown(span)} is not valid; use two frequencies "
+            "(Hz), such as [0.5, 5]"
         )
     oscillator = Oscillator.model_validate(table["oscillator"], where="oscillator")
     size, _ = sized(table["amplitude"], of, "amplitude", positive=True)
     low, high = (to_si(end, FREQUENCY, "span", above=0.0) for end in span)
     hertz = to_si(table["frequency"], FREQUENCY, "frequency", minimum=low, maximum=high)
     if not low < high:
-        raise InputError("address: the span is empty; a rising range of frequencies is accepted")
+        raise InputError(
+            f"address: the range from {low:g} to {high:g} Hz is empty; use a lower first frequency"
+        )
     shaken = Harmonic(size, hertz, table["phase"], of)
     one_sine(Rig(oscillator, shaken), "amplitude")
     state = State(name, oscillator, shaken, (low, high), direction)
     listed = table["shown"]
     if not isinstance(listed, list) or not all(isinstance(item, str) for item in listed):
-        raise InputError("address: the entry 'shown' is not valid; a list of pictures is accepted")
+        raise InputError("address: the entry 'shown' is not valid; use a list of pictures")
     state = looked(state, {**dict.fromkeys(listed, True), "physical": table["physical"] is True})
     if table["together"] is True and oscillator.right == oscillator.left:
         return joined(state, True)

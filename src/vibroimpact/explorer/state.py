@@ -73,7 +73,8 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     low, high = span or (_short(LOWEST * natural), _short(HIGHEST * natural))
     if not 0.0 < low < high:
         raise InputError(
-            f"span: {low:g} to {high:g} Hz is not valid; a rising range above 0 is accepted"
+            f"span: {low:g} to {high:g} Hz is not valid; pass a lowest frequency above 0, then a "
+            "higher one"
         )
     chosen = min(max(_short(_CHOSEN * natural), low), high)
     return State(

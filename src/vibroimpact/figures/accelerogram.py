@@ -46,7 +46,7 @@ def accelerogram(
         If ``record`` is not a record, or if the number of axes is wrong.
     """
     if not isinstance(record, Record):
-        raise InputError(f"record: {type(record).__name__}; a Record is accepted")
+        raise InputError(f"record: an object of type {type(record).__name__}; pass a Record")
     count = 1 if spectrum is None else 2
     what = "the record" if spectrum is None else "the record and its spectrum"
     given = panels(axes, count, what, (7.2, 2.8 * count + 0.4), title, sharex=False)

@@ -69,7 +69,7 @@ def basin_portrait(
         If ``data`` has no basins, or if ``manifolds`` has no curves.
     """
     if "basin" not in data or data["basin"].ndim != 2:
-        raise InputError("data: it has no basins; the result of basins is accepted")
+        raise InputError("data: it has no basins; pass the result of basins")
     ax = axes_or_new(ax, (6.6, 6.4), title)
     u, v = 1e3 * data["displacement"].values, data["velocity"].values
     half = 0.5 * (u[1] - u[0]), 0.5 * (v[1] - v[0])
@@ -189,7 +189,7 @@ def _mark(ax: Axes, one: xr.Dataset, number: int) -> None:
 def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
     """Draw stable and unstable curves with a white outline, and their saddles and crossings."""
     if "curve_kind" not in data:
-        raise InputError("manifolds: it has no curves; the result of manifolds is accepted")
+        raise InputError("manifolds: it has no curves; pass the result of manifolds")
     handles = []
     looks = {"stable": ("-", 1.3, "black"), "unstable": ((0, (3, 1.2)), 1.1, "#7a0019")}
     for kind, (dashes, width, colour) in looks.items():

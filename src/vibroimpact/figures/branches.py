@@ -82,24 +82,20 @@ def branch_diagram(
         although the parameter is not the frequency.
     """
     if "parameter" not in data.attrs or "branch" not in data:
-        another = (
-            "a bifurcation diagram, which figures.section_diagram draws"
-            if "start" in data.dims
-            else "not a branch"
-        )
-        raise InputError(
-            f"data: this is {another}; the result of branch or resonance_diagram is accepted"
-        )
+        wrong = "not a branch;"
+        if "start" in data.dims:
+            wrong = "a bifurcation diagram; draw it with figures.section_diagram, or"
+        raise InputError(f"data: this is {wrong} pass the result of branch or resonance_diagram")
     if quantity not in QUANTITIES:
-        raise InputError(f"quantity: {quantity!r}; one of {', '.join(QUANTITIES)} is accepted")
+        raise InputError(f"quantity: {quantity!r}; pass one of {', '.join(QUANTITIES)}")
     name = data.attrs["parameter"]
     if sweep is not None and name != "frequency":
         raise InputError(
-            f"sweep: the branches are along {name!r}; with a sweep, branches along 'frequency' are "
-            "accepted"
+            f"sweep: the branches are along {name!r}, not along 'frequency'; pass branches along "
+            "'frequency', or leave sweep out"
         )
     if sweep is not None and "direction" not in sweep.coords:
-        raise InputError("sweep: this is not a sweep; the result of the function sweep is accepted")
+        raise InputError("sweep: this is not a sweep; pass the result of the function sweep")
     factor, label = axis_label(data[quantity], quantity)
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])

@@ -42,11 +42,11 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
     for code, scenario in found.items():
         if code not in known:
             raise InputError(
-                f"found: {code!r} is not a laboratory test; B1-G1-A1 to B4-G4-A3 are accepted"
+                f"found: {code!r} is not a laboratory test; use codes from B1-G1-A1 to B4-G4-A3"
             )
         if scenario not in SCENARIOS:
             raise InputError(
-                f"found[{code}]: {scenario!r}; one of {', '.join(SCENARIOS)} is accepted"
+                f"found[{code}]: {scenario!r} is not a scenario; use one of {', '.join(SCENARIOS)}"
             )
     bumpers, gaps = list(laboratory.BUMPERS), list(laboratory.GAPS)
     axes = Panels(new_axes(1, len(laboratory.ACCELERATIONS), (9.6, 4.0), sharey=True)[0])

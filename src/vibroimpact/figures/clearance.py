@@ -59,10 +59,10 @@ def clearances(
     curves = shown(given_motions, cycles_shown(given_motions, cycles, 2))
     if not any(curve.gaps for curve in curves):
         raise InputError(
-            "motions: their rigs have no bumper; a motion of a rig with a bumper is accepted"
+            "motions: none of their rigs has a stop; pass a motion of a rig with a stop"
         )
     if zoom is not None and not 0.0 < zoom < math.inf:
-        raise InputError(f"zoom: {zoom!r}; a number of cycles greater than 0 is accepted")
+        raise InputError(f"zoom: {zoom!r}; pass a number of cycles greater than 0")
     what = "the whole and the magnified part"
     given = panels(axes, 2, what, (7.2, 5.4), title, sharex=False)
     whole, near = given

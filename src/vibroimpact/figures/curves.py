@@ -52,12 +52,13 @@ def bifurcation_curves(
     else:
         names, given = [""], [curves]
     if not given or any("other_parameter" not in data.attrs for data in given):
-        raise InputError("curves: empty; at least one result of bifurcation_curve is accepted")
+        wrong = "one of them is not a bifurcation curve" if given else "empty"
+        raise InputError(f"curves: {wrong}; pass results of bifurcation_curve")
     pairs = {(data.attrs["parameter"], data.attrs["other_parameter"]) for data in given}
     if len(pairs) > 1:
         raise InputError(
-            f"curves: they have different pairs of parameters, {sorted(pairs)}; curves of one pair "
-            "of parameters are accepted"
+            f"curves: their pairs of parameters differ, {sorted(pairs)}; pass only curves of one "
+            "pair"
         )
     ((first, second),) = pairs
     ax = axes_or_new(ax, (6.4, 4.8), title)

@@ -63,7 +63,7 @@ def incremental_curves(
     """
     if isinstance(ax, str):
         raise InputError(
-            f"ax: {ax!r}; axes of matplotlib are accepted; to name a peak, use quantity={ax!r}"
+            f"ax: {ax!r} is not a matplotlib Axes; to draw another peak, pass quantity={ax!r}"
         )
     values = known(demands, quantity)
     _one_rig(values, "demands")
@@ -123,7 +123,8 @@ def fragility_curves(
     """
     if not isinstance(fragility, xr.Dataset) or "fitted_probability" not in fragility:
         raise InputError(
-            "fragility: this is not a fragility result; the result of fragility is accepted"
+            "fragility: this dataset has no fragility curve; pass the result of the function "
+            "fragility"
         )
     from scipy.special import ndtr, ndtri
 
@@ -131,7 +132,8 @@ def fragility_curves(
     if len(others) > 1 or fragility["median_capacity"].size > len(_LOOKS):
         raise InputError(
             f"fragility: the dataset has {fragility['median_capacity'].size} curves over "
-            f"{', '.join(others)}; at most {len(_LOOKS)} curves over one dimension are accepted"
+            f"{', '.join(others)}; select at most {len(_LOOKS)} curves over one dimension, such as "
+            f"fragility.isel({others[0]}={'0' if len(others) > 1 else f'slice({len(_LOOKS)})'})"
         )
     ax = axes_or_new(ax, (5.6, 4.0), title)
     unit, symbol = _level_unit(fragility)
@@ -164,7 +166,7 @@ def fragility_curves(
             words = f"{whole}: {words}"
         bounded = not np.isinf(one["median_capacity_bound"].values).any()
         if not bounded:
-            words += " (no band: too few records reach the limit within the levels)"
+            words += " (no band: too few records reach the limit within the scales)"
         ax.plot(
             fine,
             ndtr((np.log(fine) - np.log(median)) / spread),
@@ -208,11 +210,11 @@ def _one_rig(values: xr.DataArray, what: str) -> None:
     others = [str(dim) for dim in values.dims if dim not in ("record", "scale")]
     if others:
         raise InputError(
-            f"{what}: the dataset also extends over {', '.join(others)}; curves of one rig are "
-            f"accepted, such as demands.isel({others[0]}=0)"
+            f"{what}: the dataset has several rigs, over {', '.join(others)}; select one of them, "
+            f"such as {what}.isel({', '.join(f'{dim}=0' for dim in others)})"
         )
     if values.sizes["scale"] < 2:
-        raise InputError(f"{what}: it has one scale; at least two are accepted")
+        raise InputError(f"{what}: it has one scale; call demands with at least two scales")
 
 
 def _value(data: xr.Dataset, dim: str, value: object) -> str:

@@ -77,13 +77,11 @@ def design_chart(
     dims = _dims(data)
     for name in quantities:
         if name not in _QUANTITIES:
-            raise InputError(
-                f"quantities: {name!r}; one or more of {', '.join(_QUANTITIES)} are accepted"
-            )
+            raise InputError(f"quantities: {name!r}; pass one or more of {', '.join(_QUANTITIES)}")
     if len(dims) > 2 or min(data.sizes[dim] for dim in dims) < 2:
         raise InputError(
-            f"data: its dimensions are {dict(data.sizes)}; one or two parameters with at least two "
-            "values each are accepted; select them with data.isel"
+            f"data: its dimensions are {dict(data.sizes)}, but the chart requires one or two, with "
+            "at least two values each; select fewer dimensions with data.isel, or add values"
         )
     count = len(quantities)
     drawn = panels(axes, count, "one per quantity", (4.9 * count, 4.6), title, beside=True)
@@ -120,7 +118,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     best = data["pareto"].values.ravel().astype(bool)
     finite = np.isfinite(u) & np.isfinite(a)
     if not finite.any():
-        raise InputError("data: no design was completed; at least one is required")
+        raise InputError("data: no design has finite peaks; compute other designs to draw them")
     ax = axes_or_new(ax, (6.4, 4.8), title)
     hits = data["hitting"].values.ravel() > 0.0
     beyond = _beyond(data).ravel()

@@ -155,8 +155,8 @@ def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
     for i, (name, spectrum) in enumerate(spectra.items()):
         if "spectral_acceleration" not in spectrum or spectrum["spectral_acceleration"].ndim != 1:
             raise InputError(
-                f"spectra[{name!r}]: this is not a response spectrum of one damping ratio; the "
-                "result of response_spectrum with several periods is accepted"
+                f"spectra[{name!r}]: this is not a response spectrum over the period; pass the "
+                "result of response_spectrum for several periods and one damping ratio"
             )
         ax.plot(
             spectrum["natural_period"].values,

@@ -58,11 +58,11 @@ def resonance_bands(
     if not {"sample", "direction", "frequency"} <= set(data.dims):
         raise InputError(
             f"data: a dataset with the dimensions {dict(data.sizes)} is not an ensemble of sweeps; "
-            "the result of ensemble is accepted"
+            "pass the result of ensemble with sweeps as its response"
         )
     low, high = shares
     if not 0.0 <= low < 0.5 < high <= 1.0:
-        raise InputError(f"shares: {shares}; one share below and one above 0.5 are accepted")
+        raise InputError(f"shares: {shares}; pass one share below and one above 0.5")
     count = len(quantities)
     drawn = panels(axes, count, "one panel per quantity", (7.2, 1.4 + 2.5 * count), title)
     frequency = data["frequency"].values
@@ -140,14 +140,12 @@ def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | N
         If ``data`` is not a dataset of `sensitivity`, or holds more than one curve.
     """
     if "total_order" not in data:
-        raise InputError(
-            "data: it has no sensitivity indices; the result of sensitivity is accepted"
-        )
+        raise InputError("data: it has no sensitivity indices; pass the result of sensitivity")
     others = [dim for dim in data["total_order"].dims if dim != "uncertain_parameter"]
     if len(others) > 1:
         raise InputError(
-            f"data: the indices have the dimensions {', '.join(map(str, others))}; at most one of "
-            "them is accepted, so select along the others, such as data.isel(direction=0)"
+            f"data: the indices depend on {', '.join(map(str, others))}, but only one of these can "
+            f"be drawn; select a value of the others, such as data.isel({others[0]}=0)"
         )
     ax = axes_or_new(ax, (6.4, 3.8), title)
     if others:

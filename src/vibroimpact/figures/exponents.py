@@ -37,17 +37,19 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
         If the dataset has no exponents, or if they do not depend on exactly one parameter.
     """
     if "exponents" not in data or "exponent" not in data["exponents"].dims:
-        raise InputError("data: it has no exponents; the result of lyapunov_exponents is accepted")
+        raise InputError("data: it has no exponents; pass the result of lyapunov_exponents")
     found = data[["exponents", "exponents_uncertainty"]]
     if "rig" not in found.dims:
         found = found.expand_dims("rig")
     over = [str(dim) for dim in found["exponents"].dims if dim not in ("rig", "exponent")]
     wide = [dim for dim in over if found.sizes[dim] > 1]
     if len(wide) != 1:
-        what = f"extend over {', '.join(wide)}" if wide else "belong to a single value"
         raise InputError(
-            f"data: the exponents {what}; exponents over exactly one parameter are accepted, such "
-            "as those of data.isel(frequency=0)"
+            f"data: the exponents depend on {', '.join(wide)}, but only one of these can be drawn; "
+            f"select a value of the others, such as data.isel({wide[0]}=0)"
+            if wide
+            else "data: there is one set of exponents; compute them for several values of one "
+            "parameter"
         )
     (name,) = wide
     found = found.squeeze([dim for dim in over if dim != name], drop=True)

@@ -119,7 +119,9 @@ def resonance_family(
         a label, a colour or a marker belongs to an unknown rig.
     """
     if not isinstance(data, xr.Dataset) or not {"rig", "direction", "frequency"} <= set(data.dims):
-        raise InputError("data: these are not sweeps of rigs; the result of sweeps is accepted")
+        raise InputError(
+            "data: these are not sweeps of rigs; pass the result of vibroimpact.sweeps"
+        )
     if quantity not in get_args(Quantity):
         accepted = ", ".join(get_args(Quantity))
         raise InputError(f"quantity: {quantity!r}; one of {accepted} is accepted")
@@ -127,7 +129,10 @@ def resonance_family(
     for field, given in (("labels", labels), ("colours", colours), ("markers", markers)):
         for name in given or {}:
             if name not in names:
-                raise InputError(f"{field}: {name!r} is not a rig; {', '.join(names)} are accepted")
+                raise InputError(
+                    f"{field}: {name!r} is not a rig of data; the names of its rigs are accepted: "
+                    f"{', '.join(names)}"
+                )
     ax = axes_or_new(ax, (8.4, 5.0), title)
     factor, label, flight, normalised = _QUANTITIES[quantity]
     frequency = data["frequency"].values

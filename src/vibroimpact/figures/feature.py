@@ -44,7 +44,7 @@ def feature_map(
         If the dataset is not a map, or if it does not contain the feature.
     """
     if "scenario" not in data or data["scenario"].ndim != 2:
-        raise InputError("data: this is not a map; the result of scenario_map is accepted")
+        raise InputError("data: this is not a map of scenarios; pass the result of scenario_map")
     known = [str(n) for n in data.data_vars if n not in ("scenario", "level")]
     if name not in known:
         raise InputError(f"name: {name!r}; one of {', '.join(known)} is accepted")

@@ -99,7 +99,9 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
     """
     _check(result)
     if "profile_rise" not in result:
-        raise InputError("result: it has no profiles; a fit with profiles=True is accepted")
+        raise InputError(
+            "result: this fit has no profiles; pass the result of identify with profiles=True"
+        )
     keys = [str(key) for key in result["parameter"].values]
     columns = min(_COLUMNS, len(keys))
     rows = -(-len(keys) // columns)
@@ -158,9 +160,16 @@ def fit_history(
     _check(result)
     histories = [str(t) for t, k in zip(result["test"].values, result["test_kind"].values,
                                         strict=True) if k == "history"]  # fmt: skip
-    name = test if test is not None else next(iter(histories), None)
+    if not histories:
+        raise InputError(
+            "test: this fit has no time history; pass the result of identify with at least one"
+        )
+    name = test if test is not None else histories[0]
     if name not in histories:
-        raise InputError(f"test: {test!r} is not a history of this fit; {histories} are accepted")
+        raise InputError(
+            f"test: {test!r} is not a time history of this fit; one of "
+            f"{', '.join(map(repr, histories))} is accepted"
+        )
     mine = result.isel(point=np.flatnonzero(result["point_test"].values == name))
     variables = list(dict.fromkeys(str(v) for v in mine["point_variable"].values))
     given = panels(axes, len(variables), "one panel per channel",
@@ -181,4 +190,4 @@ def fit_history(
 
 def _check(result: xr.Dataset) -> None:
     if "fit_residual" not in result:
-        raise InputError("result: this is not a fit; the result of identify is accepted")
+        raise InputError("result: this is not a fit; pass the result of identify")

@@ -53,18 +53,19 @@ def spectrum_lines(
     if quantity not in _LABELS:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
     if not 0.0 < highest < math.inf:
-        raise InputError(f"highest: {highest!r}; an order greater than 0 is accepted")
+        raise InputError(f"highest: {highest!r}; a finite order greater than 0 is accepted")
     # A dataset is a mapping, too.
     if isinstance(spectra, Mapping) and not isinstance(spectra, xr.Dataset):
         given = dict(spectra)
     else:
         given = {"motion": spectra}
     if not given:
-        raise InputError("spectra: empty; at least one spectrum is accepted")
-    for data in given.values():
+        raise InputError("spectra: empty; pass at least one result of fourier_spectrum")
+    for name, data in given.items():
         if not isinstance(data, xr.Dataset) or "order" not in data.coords:
+            which = f"{name!r}" if len(given) > 1 else "this"
             raise InputError(
-                "spectra: this is not a spectrum; the result of fourier_spectrum is accepted"
+                f"spectra: {which} is not a spectrum; pass the result of fourier_spectrum"
             )
     factor, label = _LABELS[quantity]
     ax = axes_or_new(ax, (5.6, 3.6), title)

@@ -89,8 +89,8 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
     shown = [panel for kind in _KINDS if (panel := _panel(data, kind)) is not None]
     if not shown:
         raise InputError(
-            "data: it has neither excursions, maxima, minima nor η; at least one of these is "
-            "required"
+            "data: no excursion, maximum, minimum or η of the displacement or the acceleration; "
+            "pass measured curves with at least one of them"
         )
     found = measured_features(data)
     what = " and ".join(panel.name for panel in shown)

@@ -85,15 +85,18 @@ def motion_page(
         five axes per column.
     """
     if isinstance(columns, xr.Dataset) or not columns:
+        what = "a dataset without a heading" if isinstance(columns, xr.Dataset) else "empty"
         raise InputError(
-            "columns: missing; a mapping of headings to motions, with at least one, is accepted"
+            f"columns: {what}; pass a mapping from headings to motions with at least one entry, "
+            'such as {"2 Hz": motion}'
         )
     count = len(columns)
     if axes is not None:
         made = np.asarray(axes, dtype=object)
         if made.size != ROWS * count:
             raise InputError(
-                f"axes: {made.size} given; {ROWS * count} are accepted, {ROWS} for each column"
+                f"axes: {made.size} given; {ROWS * count} are accepted, {ROWS} for each of the "
+                f"{count} columns"
             )
         grid = made.reshape(ROWS, count).view(Grid)
         handles = _columns(grid, columns, cycles, highest)

@@ -63,7 +63,9 @@ def named(
     else:
         given = {"motion": motions}
     if not given:
-        raise InputError("motions: empty; at least one motion is accepted")
+        raise InputError(
+            "motions: empty; pass at least one motion, the result of steady or simulate"
+        )
     for motion in given.values():
         if not _seen(motion):
             (any_recorded if records else recorded)(motion)
@@ -83,7 +85,7 @@ def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: in
     """
     if cycles is not None:
         if not 0.0 < cycles < math.inf:
-            raise InputError(f"cycles: {cycles!r}; a number greater than 0 is accepted")
+            raise InputError(f"cycles: {cycles!r}; a finite number greater than 0 is accepted")
         return cycles
     periods = [
         round(origin.cycles)
@@ -144,7 +146,9 @@ def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axe
     if isinstance(ax, Axes):
         return ax
     if ax is not None:
-        raise InputError(f"ax: {errors.shown(ax)}; axes of matplotlib, or None, are accepted")
+        raise InputError(
+            f"ax: {errors.shown(ax)} is not an Axes of matplotlib; an Axes or None is accepted"
+        )
     made: Axes = new_axes(1, 1, size)[0, 0]
     if title:
         # Above the legend, which is above the axes.

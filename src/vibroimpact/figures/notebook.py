@@ -41,8 +41,8 @@ class Drawing(Figure):
         if missing:
             signs = "".join(chr(int(code)) for code in dict.fromkeys(missing))
             warnings.warn(
-                f"figure: its font lacks {signs}, so boxes are drawn; set font.family of a "
-                "matplotlibrc to a font with these characters",
+                f"figure: the font lacks the characters {signs}, so boxes are drawn instead; set "
+                "font.family in matplotlibrc to a font that has these characters",
                 InputWarning,
                 stacklevel=2,
             )

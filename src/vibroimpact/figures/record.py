@@ -96,8 +96,8 @@ def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:
     parameters = json.loads(getattr(motion, "attrs", {}).get("parameters", "{}"))
     if "record" not in parameters or "displacement" not in motion:
         raise InputError(
-            "motion: this is not the response to a record; the result of simulate with a Record "
-            "and samples is accepted (time_history draws other motions)"
+            "motion: this is not the response to a record; pass the result of simulate with a "
+            "Record and samples, or use time_history, which draws other motions"
         )
     oscillator = parameters["oscillator"]
     return {side: oscillator[side] for side in _SIDES if oscillator.get(side)}

@@ -114,7 +114,8 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
     """
     if "peak_acceleration" not in data:
         raise InputError(
-            "physical: this sweep has no peak_acceleration; compute it again with this version"
+            "physical: this sweep has no peak_acceleration, which older versions did not compute; "
+            "run the sweep again"
         )
     rig = _rig(data)
     spike = _spikes(data)

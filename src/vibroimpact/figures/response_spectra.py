@@ -60,15 +60,18 @@ def response_spectra(
     dims = getattr(spectrum, "sizes", {})
     if not isinstance(spectrum, xr.Dataset) or dims.get("natural_period", 0) < 2:
         raise InputError(
-            "spectrum: this is not a response spectrum over natural periods; the result of "
-            "response_spectrum with at least two periods is accepted"
+            "spectrum: this is not a response spectrum over natural periods; pass the result of "
+            "response_spectrum with at least two periods"
         )
     factor, label = _LABELS[quantity]
     others = [dim for dim in ("orientation", "damping_ratio") if dim in dims]
     curves = spectrum[quantity].stack(curve=others) if others else spectrum[quantity]
     every = [curves.isel(curve=i) for i in range(curves.sizes["curve"])] if others else [curves]
     if len(every) > _MOST:
-        raise InputError(f"spectrum: {len(every)} curves; at most {_MOST} are accepted")
+        raise InputError(
+            f"spectrum: {len(every)} curves; at most {_MOST} can be distinguished, so select fewer "
+            f"values of {' or '.join(others)}"
+        )
     ax = axes_or_new(ax, (5.6, 3.6), title)
     dampings = dims.get("damping_ratio", 1)
     for i, curve in enumerate(every):

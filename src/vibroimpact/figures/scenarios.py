@@ -67,12 +67,12 @@ def scenario_map(
         If the dataset is not a map, or if the border belongs to another map.
     """
     if "scenario" not in data or data["scenario"].ndim != 2:
-        raise InputError("data: this is not a map; the result of scenario_map is accepted")
+        raise InputError("data: this is not a map of scenarios; pass the result of scenario_map")
     second, first = (str(name) for name in data["scenario"].dims)
     if border is not None and not {first, second} <= set(border.variables):
         raise InputError(
-            f"border: its parameters are not {first} and {second}; the border of the same map is "
-            "accepted"
+            f"border: its parameters are not {first} and {second}, which are those of the map; "
+            "pass the result of jump_border for this map"
         )
     ax = axes_or_new(ax, (7.2, 6.4), title)
     fx, fy = axis_unit(data[first])[0], axis_unit(data[second])[0]

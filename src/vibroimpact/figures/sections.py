@@ -72,11 +72,11 @@ def section_diagram(
     held = [name for name in _LABELS if name in data]
     if "start" not in data.dims or not held:
         another = (
-            "a dataset of branches, which figures.branch_diagram draws"
+            "a dataset of branches; draw it with figures.branch_diagram, or"
             if "branch" in data
-            else "not a bifurcation diagram"
+            else "not a bifurcation diagram;"
         )
-        raise InputError(f"data: this is {another}; the result of bifurcation_diagram is accepted")
+        raise InputError(f"data: this is {another} pass the result of bifurcation_diagram")
     if quantity is None:
         quantity = "contact_start_velocity" if "contact_side" in data else held[0]
     if quantity not in held:
@@ -84,8 +84,8 @@ def section_diagram(
     name = data.attrs["parameter"]
     if branches is not None and branches.attrs.get("parameter") != name:
         raise InputError(
-            f"branches: they are along {branches.attrs.get('parameter')!r}; "
-            f"branches along {name!r} are accepted"
+            f"branches: their parameter is {branches.attrs.get('parameter')!r}, but that of data "
+            f"is {name!r}; pass branches along {name!r}"
         )
     drawn = panels(axes, 3, "section, periods and exponents", (7.2, 6.4), title, _HEIGHTS)
     top, middle, bottom = drawn

@@ -210,11 +210,12 @@ def save_figure(drawn: Any, path: Path | str) -> Path:
     }
     if kind not in blank:
         raise InputError(
-            f"figure: {str(path)!r}; a name that ends in {', '.join(FORMATS)} is accepted"
+            f"figure: {str(path)!r} does not end in {', '.join(f'.{one}' for one in FORMATS)}; "
+            "use one of these endings, which select the format"
         )
     first = drawn if isinstance(drawn, Figure) else next(iter(np.ravel(drawn)), None)
     if not isinstance(first, Artist) or (figure := first.get_figure(root=True)) is None:
-        raise InputError(f"figure: {drawn!r} is not a figure; axes or a figure are accepted")
+        raise InputError(f"figure: {drawn!r} is not a figure; pass a Figure or Axes of matplotlib")
     # SVG marks its parts with random names unless it is given a seed.
     with matplotlib.rc_context({"svg.hashsalt": "vibroimpact", "svg.fonttype": "none"}):
         picture = io.BytesIO()

@@ -47,20 +47,20 @@ def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
         If there are fewer than two fits, if one of the datasets is not a fit, or if the fits belong
         to different data.
     """
-    check_mapping(fits, "fits", "a mapping of names to fits")
+    check_mapping(fits, "fits", "a dict of results of identify by name")
     if len(fits) < 2:
-        raise InputError(f"fits: {len(fits)} given; at least two models are accepted")
-    first = next(iter(fits.values()))
+        raise InputError(f"fits: {len(fits)} given; pass the fits of at least two models")
+    reference, first = next(iter(fits.items()))
     for name, fit in fits.items():
         needed = ("akaike", "measured_value")
-        check_variables(fit, needed, f"fits[{name!r}]", "a dataset of identify")
+        check_variables(fit, needed, f"fits[{name!r}]", "the result of identify")
         same = fit.sizes["point"] == first.sizes["point"] and np.array_equal(
             fit["measured_value"].values, first["measured_value"].values, equal_nan=True
         )
         if not same:
             raise InputError(
-                f"fits[{name!r}]: this model was fitted to other data than the first model; models "
-                "fitted to the same data are accepted"
+                f"fits[{name!r}]: this model was fitted to other data than {reference!r}; fit both "
+                "models to the same data"
             )
     order = sorted(fits, key=lambda name: float(fits[name]["akaike"]))
     akaike = np.array([float(fits[n]["akaike"]) for n in order])
@@ -173,7 +173,10 @@ def hertzian(oscillator: Oscillator, depth: float) -> Oscillator:
             lost = stop.damping / (stop.stiffness * depth)
             sides[side] = PowerBumper(made, stop.gap, 1.5, dissipation=lost)
     if not sides:
-        raise InputError("oscillator: it has no linear bumper; at least one is required")
+        raise InputError(
+            "oscillator: it has no linear bumper, which the model 'hertz' replaces; remove 'hertz' "
+            "from compare"
+        )
     return oscillator.replace(**sides)
 
 
@@ -187,7 +190,10 @@ def softening(oscillator: Oscillator) -> Oscillator:
     """
     isolator = oscillator.isolator
     if not isinstance(isolator, Isolator):
-        raise InputError(f"oscillator: its isolator is {isolator}; a linear isolator is accepted")
+        raise InputError(
+            f"oscillator: its isolator is {isolator}, but the model 'softening' replaces a linear "
+            "one; remove 'softening' from compare"
+        )
     return oscillator.replace(
         isolator=PolynomialIsolator(isolator.stiffness, isolator.damping, cubic=0.0, quintic=0.0)
     )

@@ -115,14 +115,12 @@ class CurveTest:
             reference = free.get(name.split("_")[0])
             if reference is None or not np.isfinite(reference) or size == 0.0:
                 continue
-            unit = "mm" if name.startswith("displacement") else "m/s^2"
-            other = "metres" if name.startswith("displacement") else "g"
+            unit, si = ("mm", "m") if name.startswith("displacement") else ("m/s^2", "m/s²")
             if size > 100.0 * reference or (size < 1e-4 * reference):
                 raise InputError(
-                    f"data: {name} of {self.name!r} is up to {size:.3g}, but up to "
-                    f"{reference:.3g} in free flight of the rig (SI units); are the units wrong "
-                    f"({unit} read as {other})? If so, use units={{{name!r}: {unit!r}}} of "
-                    "read_measurement"
+                    f"data: {name} of {self.name!r} reaches {size:.3g} {si}, but that of the rig "
+                    f"without stops {reference:.3g} {si}; is the unit wrong? If the file is in "
+                    f"{unit}, pass units={{{name!r}: {unit!r}}} to read_measurement (--units)"
                 )
 
     @property

@@ -75,7 +75,7 @@ def _named(data: Any) -> dict[str, Any]:
             name = in_one_line(name) or f"test {i}"
             named[name if name not in named else f"{name} {i}"] = one
     if not named:
-        raise InputError("data: missing; at least one test is accepted")
+        raise InputError("data: missing; pass at least one test, as a file or a dataset")
     return named
 
 
@@ -84,14 +84,14 @@ def _of(given: Any, name: str, names: list[str], field: str) -> Any:
     if isinstance(given, Mapping):
         if name not in given:
             raise InputError(
-                f"{field}: missing for {name!r}; a value for each test ({', '.join(names)}) is "
-                "accepted"
+                f"{field}: missing for the test {name!r}; pass a value for each test: "
+                f"{', '.join(names)}"
             )
         return given[name]
     if isinstance(given, list):
         if len(given) != len(names):
             raise InputError(
-                f"{field}: {len(given)} given for {len(names)} tests; one per test is accepted"
+                f"{field}: {len(given)} values for {len(names)} tests; pass one value per test"
             )
         return given[names.index(name)]
     return given
@@ -112,14 +112,14 @@ def _shaken_rig(rig: Rig, data: xr.Dataset, where: str) -> tuple[Rig, str]:
         return Rig(rig.oscillator, Harmonic(1.0, 1.0)), source
     if chosen is None:
         raise InputError(
-            f"rig: this is an Oscillator alone, and {where} does not state the excitation; the "
-            "peak base "
-            'acceleration is accepted, such as Rig(oscillator, "0.05 g")'
+            f"rig: this is an Oscillator alone, and {where} does not state the excitation; pass "
+            'the peak base acceleration, such as Rig(oscillator, "0.05 g")'
         )
     shaken, sizes = as_periodic(chosen, "shaking")
     if sizes is not None or not isinstance(shaken, Harmonic | Periodic):
         raise InputError(
-            "shaking: a list of amplitudes is not accepted; use one rig per test, by name"
+            "shaking: a list of amplitudes is not accepted; pass one rig per test, such as "
+            'rig={"test 1": rig_1, "test 2": rig_2}'
         )
     return Rig(rig.oscillator, shaken), source
 

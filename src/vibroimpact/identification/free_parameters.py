@@ -96,19 +96,20 @@ def frees(
     if not isinstance(given, Mapping):
         given = dict.fromkeys(_names(given, "free"))
     if not given:
-        raise InputError("free: empty; the name of at least one parameter is accepted")
+        raise InputError("free: empty; pass the name of at least one parameter, such as 'gap'")
     wanted = {_name(name): value for name, value in given.items()}
     own = {_name(name, "each") for name in _names(each, "each")}
     if not isinstance(priors, Mapping | None):
         raise InputError(
-            f"priors: {shown(priors)}; a mapping from names to (mean, standard deviation) is "
-            "accepted"
+            f"priors: {shown(priors)}; a mapping from names of parameters to pairs (mean, standard "
+            "deviation) is accepted"
         )
     known = {_name(name, "priors"): value for name, value in (priors or {}).items()}
     for field, names in (("each", own), ("priors", set(known))):
         if strange := names - set(wanted):
             raise InputError(
-                f"{field}: {sorted(strange)[0]!r} is not free; {', '.join(wanted)} are accepted"
+                f"{field}: {sorted(strange)[0]!r} is not free; add it to free, or use one of the "
+                f"free parameters: {', '.join(wanted)}"
             )
     found = []
     for name, value in wanted.items():
@@ -128,7 +129,8 @@ def _names(given: Any, field: str) -> list[str]:
     names = list(given) if isinstance(given, Iterable) else [given]
     if not all(isinstance(name, str) for name in names):
         raise InputError(
-            f"{field}: {shown(given)}; a list of names, or a text with commas, is accepted"
+            f"{field}: {shown(given)}; a list of names, or a text such as 'gap, stiffness', is "
+            "accepted"
         )
     return names
 
@@ -175,17 +177,19 @@ def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: 
         positive = read.get("start", now) > 0.0
         low, high = read.get("low", 0.0 if positive else low), read.get("high", high)
         high = high if positive or "high" in read else 0.0
+    unit = f" {quantity.symbol}" if quantity.symbol else ""
     if not low < high:
         raise InputError(
-            f"{field}: low {low:g} is not below high {high:g}; a rising pair is accepted"
+            f"{field}: low, {low:g}{unit}, is not below high, {high:g}{unit}; pass a smaller low "
+            "or a larger high"
         )
     inside = low <= now <= high
     middle = math.sqrt(low * high) if low > 0.0 else 0.5 * (low + high)
     start = read.get("start", now if inside else middle)
     if not low <= start <= high:
         raise InputError(
-            f"{field}: the start {start:g} lies outside {low:g} to {high:g}; a start within this "
-            "range is accepted"
+            f"{field}: the start, {start:g}{unit}, is not in the range from {low:g} to "
+            f"{high:g}{unit}; pass a start in this range, or change low or high"
         )
     size = size_of(quantity, rig, swing)
     small = abs(start) < NEAR_ZERO * size
@@ -229,7 +233,7 @@ def _prior(name: str, prior: Any, quantity: Quantity) -> tuple[float, float]:
     field = f"priors[{name!r}]"
     pair = list(prior) if isinstance(prior, Iterable) and not isinstance(prior, str) else []
     if len(pair) != 2:
-        raise InputError(f"{field}: {shown(prior)}; (mean, standard deviation) is accepted")
+        raise InputError(f"{field}: {shown(prior)}; a pair (mean, standard deviation) is accepted")
     mean, deviation = pair
     size = to_si(deviation, quantity, f"{field}[1]", above=0.0)
     return to_si(mean, quantity, f"{field}[0]"), size

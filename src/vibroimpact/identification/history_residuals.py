@@ -94,7 +94,7 @@ class HistoryTest:
         if not self.names:
             raise InputError(
                 f"data: {name!r} has neither displacement nor velocity nor acceleration of the "
-                "mass at 8 times or more; at least one of them is required"
+                "mass at 8 times or more; pass a time history with at least one of them"
             )
         self.measured = {c: data[c].values for c in self.names}
         spread = {c: float(np.nanstd(v)) or 1.0 for c, v in self.measured.items()}
@@ -129,14 +129,16 @@ class HistoryTest:
         shaken = rig.periodic
         if isinstance(shaken, Periodic):
             raise InputError(
-                "amplitude: several harmonics are not accepted; use one sine, or a measured base"
+                "amplitude: several harmonics are not accepted; pass a rig with one sine, or an "
+                "Oscillator alone if the base acceleration was measured"
             )
         base = self.data["base_acceleration"].values if not self.free_phase else None
         moved = self.measured[self.names[0]]
         sine = forcing_sine(self.time, base, moved, self.data.attrs.get("frequency"))
         if sine is None:
             raise InputError(
-                f"data: the mass does not move in {self.name!r}; a history with motion is accepted"
+                f"data: the mass does not move in {self.name!r}; pass a time history in which it "
+                "moves"
             )
         if base is None:
             found = shaken.replace(frequency=sine.frequency)

@@ -108,9 +108,9 @@ def identify(
         Number of samples of the posterior distribution, for a fit to curves. They are drawn by
         emcee, which ``vibroimpact[posterior]`` installs.
     window
-        Number of forcing cycles in each segment of a time history. The initial state of each
-        segment is fitted together with the parameters. Use more cycles for a regular motion, and
-        fewer cycles for a chaotic motion. Default: 5.
+        Number of forcing cycles per segment. A time history is split into segments, and the initial
+        state of each segment is fitted together with the parameters. Use more cycles for a regular
+        motion, and fewer cycles for a chaotic motion. Default: 5.
     steady
         Whether the time histories are records of steady motions. If so, each history is compared
         with the steady motion that the rig reaches from the measured state, and no initial states
@@ -226,14 +226,17 @@ def fitted_rig(result: xr.Dataset, test: str | None = None) -> Rig:
     InputError
         If the dataset is not a fit, or if it does not contain the test.
     """
-    check_variables(result, ["fitted_value"], "result", "a dataset of identify")
+    check_variables(result, ["fitted_value"], "result", "the result of identify")
     rigs = json.loads(result.attrs["rigs"])
     if (
         test is None
         and len(rigs) > 1
         and len({json.dumps(r["oscillator"]) for r in rigs.values()}) > 1
     ):
-        raise InputError(f"test: missing, and their rigs differ; one of {list(rigs)} is accepted")
+        raise InputError(
+            "test: missing, but the tests have different rigs; one of "
+            f"{', '.join(map(repr, rigs))} is accepted"
+        )
     name = next(iter(rigs)) if test is None else test
     check_name(name, rigs, "test")
     rig = results.rig_of(rigs[name])

@@ -95,7 +95,7 @@ def next_test(
     InputError
         If the dataset is not a fit, or if a candidate is invalid.
     """
-    check_variables(result, ["covariance"], "result", "a dataset of identify")
+    check_variables(result, ["covariance"], "result", "the result of identify")
     rigs = json.loads(result.attrs["rigs"])
     name = next(iter(rigs)) if test is None else test
     check_name(name, rigs, "test")

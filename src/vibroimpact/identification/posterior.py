@@ -32,13 +32,13 @@ def posterior(
         import emcee
     except ImportError:
         raise InputError(
-            "posterior: emcee is not installed; pip install 'vibroimpact[posterior]' installs it"
+            "posterior: emcee is not installed; run pip install 'vibroimpact[posterior]'"
         ) from None
     count = len(problem.free)
     if len(x) > count:
         raise InputError(
-            f"posterior: {len(x) - count} initial values of time histories are also unknown, too "
-            "many for emcee; use curves, or draws= for a bootstrap"
+            f"posterior: not available for time histories, whose {len(x) - count} initial values "
+            "are also unknown; fit resonance curves only, or pass draws for a bootstrap instead"
         )
     factor = moments(problem.tail).deviance
 

@@ -65,7 +65,8 @@ def curves(
             points.setdefault(key, []).append(float(values[i]))
     if not points:
         raise InputError(
-            f"measurement: {table.path!r} has no value at any frequency; at least one is accepted"
+            f"measurement: {table.path!r}: no row has both a frequency greater than 0 and a "
+            "measured value; pass a file with at least one such row"
         )
     if empty:
         facts.append(f"missing values: {empty}")
@@ -122,9 +123,9 @@ def _directions(
         return ["forward" if i <= top else "backward" for i in range(len(at))]
     if len(turns):
         raise InputError(
-            f"measurement: {table.path!r}: no column states the direction of the sweep, and its "
-            "frequencies neither rise, nor fall, nor first rise and then fall; a column "
-            "'direction' with forward and backward is accepted, or direction='forward'"
+            f"measurement: {table.path!r}: the sweep direction is unknown, because the frequencies "
+            "rise and fall several times; add a column 'direction' with forward or backward in "
+            "each row, or pass direction='forward' if it applies to all rows"
         )
     notes.append("no column states the sweep direction, so forward was assumed")
     return ["forward"] * len(at)

@@ -40,8 +40,8 @@ def read(path: Path) -> list[Columns]:
             return
         if item.external or item.is_virtual:
             raise InputError(
-                f"measurement: {str(path)!r}, {name!r}: its data are in other files; data in the "
-                "file itself are accepted"
+                f"measurement: {str(path)!r}, {name!r}: its data are in other files; copy the data "
+                "into this file"
             )
         size += int(item.size or 0) * item.dtype.itemsize
         within(size, path, "measurement")

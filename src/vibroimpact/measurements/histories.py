@@ -46,11 +46,12 @@ def history(table: Columns, known: Known, notes: list[str], facts: list[str]) ->
         if found.variable in HISTORIES and np.isfinite(values[usable]).any()
     }
     if not channels:
+        named = [
+            table.columns[i].name for i, (found, _) in known.items() if found.variable != "time"
+        ]
         raise InputError(
-            f"measurement: {table.path!r} has no known channel over time; displacement, "
-            f"acceleration or base acceleration is accepted, or columns={'displacement': NAME} "
-            "with "
-            f"one of {', '.join(repr(column.name) for column in table.columns)}"
+            f"measurement: {table.path!r}: no row has both a time and a value of "
+            f"{' or '.join(map(repr, named))}; pass a file with at least one such row"
         )
     if (lost := int((~usable).sum())) > 0:
         notes.append(f"rows without a time were left out: {lost}")
@@ -61,7 +62,7 @@ def history(table: Columns, known: Known, notes: list[str], facts: list[str]) ->
     if len(twice):
         raise InputError(
             f"measurement: {table.path!r}, {table.row(int(order[twice[0] + 1]))}: the time "
-            f"{time[order[twice[0]]]:g} s occurs twice; distinct times are accepted"
+            f"{time[order[twice[0]]]:g} s occurs twice; correct the time, or remove one of the rows"
         )
     data = xr.Dataset(coords={"time": time[order]})
     for name, values in channels.items():

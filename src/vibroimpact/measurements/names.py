@@ -210,6 +210,6 @@ def direction_of(word: object, path: str, where: str) -> Direction:
     if text in _BACKWARD | {"b", "-1", "-1.0", "0", "0.0", "2", "2.0"}:
         return "backward"
     raise InputError(
-        f"measurement: {path!r}, {where}: the direction {text!r} is unknown; forward and "
-        "backward, up and down, or 1 and -1 are accepted"
+        f"measurement: {path!r}, {where}: the direction {text!r} is unknown; use forward or "
+        "backward, up or down, or 1 or -1"
     )

@@ -101,9 +101,9 @@ def read_measurement(
     for field, given in (("columns", columns), ("units", units)):
         check_texts(given, field)
     if file.is_dir():
-        raise InputError(f"measurement: {str(path)!r} is a folder; a file of a test is accepted")
+        raise InputError(f"measurement: {str(path)!r} is a folder; pass the path of a file")
     if not file.exists():
-        raise InputError(f"measurement: {str(path)!r} does not exist; a file of a test is accepted")
+        raise InputError(f"measurement: {str(path)!r} does not exist; check the path of the file")
     regular(file, "measurement")
     if file.suffix.lower() == ".nc":
         return _checked(load(file)).assign_attrs(_stated(amplitude, frequency))
@@ -200,8 +200,8 @@ def _checked(data: xr.Dataset) -> xr.Dataset:
         kind = "history"
     else:
         raise InputError(
-            "measurement: the dataset holds neither curves (direction, frequency) nor a history "
-            "(time); the result of sweep, simulate or read_measurement is accepted"
+            "measurement: the dataset contains neither resonance curves nor a time history; pass "
+            "the result of sweep, simulate or read_measurement"
         )
     return data.assign_attrs(kind=kind, notes="")
 
@@ -219,8 +219,8 @@ def as_measured(data: object, where: str = "data") -> xr.Dataset:
     if isinstance(data, xr.Dataset):
         return _checked(data)
     raise InputError(
-        f"{where}: {type(data).__name__} is not a measurement; the result of read_measurement, "
-        "or the path of a file, is accepted"
+        f"{where}: an object of type {type(data).__name__} is not a measurement; pass the result "
+        "of read_measurement, or the path of a file"
     )
 
 
@@ -247,7 +247,7 @@ def _chosen(
     """Return the requested test, or the only test that has a time or a frequency."""
     if not tables:
         raise InputError(
-            f"measurement: {path!r} contains no columns of numbers; at least one is required"
+            f"measurement: {path!r} contains no column of numbers; pass a file with measured values"
         )
     names = [table.said.get("group") or str(i + 1) for i, table in enumerate(tables)]
     if group is None and len(tables) == 1:
@@ -261,8 +261,8 @@ def _chosen(
         return tables[names.index(group)]
     given = f"{shown(group)} is none of them" if group is not None else "none is chosen"
     raise InputError(
-        f"group: {path!r} holds {len(tables)} tests, and {given}; "
-        f"{', '.join(map(repr, names))} are accepted"
+        f"group: {path!r} holds {len(tables)} tests, and {given}; pass one of "
+        f"{', '.join(map(repr, names))}"
     )
 
 
@@ -296,8 +296,8 @@ def _known(
     for key in units:
         if key not in accepted and key not in names:
             raise InputError(
-                f"units: {key!r} is neither a variable nor a column of {table.path!r}; "
-                f"{', '.join(names)} are accepted"
+                f"units: {key!r} is neither a variable nor a column of {table.path!r}; use one of "
+                f"its columns: {', '.join(names)}"
             )
     found: dict[int, tuple[Meaning, Array]] = {}
     left = []
@@ -317,15 +317,15 @@ def _known(
         if column.doubt and unit is None:
             raise InputError(
                 f"measurement: {table.path!r}, column {column.name!r}: the file states "
-                f"{column.doubt}; units={{{column.name!r}: UNIT}} (--units), with the unit of the "
-                "values as they stand in the file, is accepted"
+                f"{column.doubt}; pass the unit that the values in the file have, as "
+                f"units={{{column.name!r}: UNIT}} (--units)"
             )
         values, told = in_si(column, said, unit, table.path)
         for row in np.flatnonzero(np.isinf(values))[:1]:
             raise InputError(
                 f"measurement: {table.path!r}, {table.row(int(row))}, column {column.name!r}: "
-                f"{values[row]} is not finite; a number, or nothing for a missing value, is "
-                "accepted"
+                f"{values[row]} is not finite; correct it, or leave the cell empty if the value is "
+                "missing"
             )
         if told:
             notes.append(told)
@@ -340,16 +340,16 @@ def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: li
     variables = set(read.values())
     moving = [name for name, found in read.items() if found in HISTORIES]
     if variables & set(CURVES):
-        missing, wanted, listed = "a frequency", ["frequency"], ["frequency"]
+        missing, wanted, listed = "the frequency is", ["frequency"], []
     elif "frequency" in variables:
-        missing, listed = "what was measured at each frequency", list(CURVES)
+        missing, listed = "the measured quantity is", list(CURVES)
         wanted = ["displacement_excursion"]
     elif "time" in variables:
-        missing, wanted, listed = "what was measured over time", ["displacement"], list(HISTORIES)
+        missing, wanted, listed = "the measured quantity is", ["displacement"], list(HISTORIES)
     elif moving:
-        missing, wanted, listed = "a time, or a sampling rate fs,", ["time"], list(AXES)
+        missing, wanted, listed = "the time, or a sampling rate fs, is", ["time"], []
     else:
-        missing = "a frequency with excursions or η, or a time with displacements or accelerations,"
+        missing = "the frequency or the time, and the measured quantity, are"
         wanted, listed = ["frequency", "displacement_excursion"], []
     spare = [*left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
     told = [f"{name!r} is read as {found}" for name, found in read.items()]
@@ -357,10 +357,10 @@ def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: li
     pairs = list(zip(wanted, spare, strict=False))
     said = ", ".join(f"{key!r}: {name!r}" for key, name in pairs)
     typed = " ".join(f"--columns {key.replace('_', '-')} {name!r}" for key, name in pairs)
-    accepted = f"; the names are {', '.join(listed)}" if listed else ""
+    accepted = f"; accepted quantities: {', '.join(listed)}" if listed else ""
     return (
-        f": {', '.join(told)}; {missing} is required, such as columns={{{said}}} (command line: "
-        f"{typed}){accepted}"
+        f": {', '.join(told)}; {missing} missing, so name the column"
+        f"{'s' if len(pairs) > 1 else ''} as in columns={{{said}}} ({typed}){accepted}"
     )
 
 

@@ -102,7 +102,7 @@ def one_step(said: Mapping[str, str], unit: str | None = None) -> float:
         if abs(other - step) > _SAME * step:
             raise InputError(
                 f"{name}: {said[name]!r:.40} and {first} = {said[first]!r:.40} are two different "
-                "time steps; one is accepted"
+                f"time steps; correct or remove {name} or {first}"
             )
     return step
 

@@ -156,8 +156,8 @@ def library(name: str, extra: str, path: Path) -> Any:
         return importlib.import_module(name)
     except ImportError:
         raise InputError(
-            f"measurement: {str(path)!r} is read by {name}, which is not installed; "
-            f"pip install 'vibroimpact[{extra}]' installs it"
+            f"measurement: {str(path)!r} is read by {name}, which is not installed; run "
+            f"pip install 'vibroimpact[{extra}]'"
         ) from None
 
 
@@ -165,6 +165,6 @@ def damaged(path: Path, kind: str, error: Exception) -> InputError:
     """Return the error for an unreadable file, with the shortened message of its library."""
     reason = (str(error).splitlines() or [""])[0][:120] or type(error).__name__
     return InputError(
-        f"measurement: {str(path)!r} is damaged or not a {kind} file ({reason}); a complete file "
-        "is accepted"
+        f"measurement: {str(path)!r} is damaged or not a {kind} file ({reason}); copy or export "
+        "the file again"
     )

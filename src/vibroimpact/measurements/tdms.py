@@ -87,8 +87,8 @@ def _whole(path: Path) -> None:
                 at += _LEAD + int(struct.unpack_from("<Q", head, 12)[0])
             if len(head) < _LEAD or at > size:
                 raise InputError(
-                    f"measurement: {str(path)!r} ends within a segment, so it is incomplete; a "
-                    "complete file is accepted"
+                    f"measurement: {str(path)!r} ends within a segment, so it is incomplete; copy "
+                    "or export the file again"
                 )
 
 

@@ -55,7 +55,7 @@ def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
             kept.append((number, line))
     if not kept:
         raise InputError(
-            f"measurement: {str(path)!r} is empty; a table with column names is accepted"
+            f"measurement: {str(path)!r} is empty; pass a file with column names and numbers"
         )
     texts = [line for _, line in kept]
     found = decimal or decimal_mark(texts, f"measurement: {str(path)!r}")
@@ -67,7 +67,7 @@ def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
     first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, decimal)), None)
     if first is None:
         raise InputError(
-            f"measurement: {str(path)!r} has no numbers; a table of numbers is accepted"
+            f"measurement: {str(path)!r} has no row of numbers; pass a file with a table of numbers"
         )
     head = [cells for _, cells in rows[:first]]
     for cells in head:
@@ -80,15 +80,15 @@ def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
         units = [cell.strip("[]() ") for cell in named.pop()]
     if not named:
         raise InputError(
-            f"measurement: {str(path)!r} does not name its {width} columns; a first line such as "
-            "'frequency (Hz), direction, displacement excursion (mm)' is accepted"
+            f"measurement: {str(path)!r} does not name its {width} columns; add a first line such "
+            "as 'frequency (Hz), direction, displacement excursion (mm)'"
         )
     body = rows[first:]
     for number, cells in body:
         if len(cells) != width:
             raise InputError(
                 f"measurement: {str(path)!r}, line {number}: {len(cells)} values, but the first "
-                f"row of numbers has {width}; the same number of values in every row is accepted"
+                f"row of numbers has {width}; write the same number of values in every row"
             )
     columns = []
     for j, name in enumerate(named[-1]):
@@ -177,5 +177,5 @@ def _values(
     i = words[0]
     raise InputError(
         f"measurement: {path!r}, line {lines[i]}, column {name!r}: {cells[i][:40]!r} is not a "
-        "number; a number, or nothing for a missing value, is accepted"
+        "number; correct it, or leave the cell empty if the value is missing"
     )

@@ -103,8 +103,8 @@ def _whole(path: Path) -> None:
 
 def _cut(path: Path) -> InputError:
     return InputError(
-        f"measurement: {str(path)!r} ends within a set, so it is incomplete; a complete file is "
-        "accepted"
+        f"measurement: {str(path)!r} ends within a dataset, so it is incomplete; copy or export "
+        "the file again"
     )
 
 

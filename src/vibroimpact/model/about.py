@@ -67,8 +67,8 @@ def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
         if found.step is None:
             none = f"has no step in {found.where}" if found.where else "has no times"
             raise InputError(
-                f"step: missing, and {path!r} {none}; the time between two samples is accepted, "
-                'such as "10 ms"'
+                f"step: missing, but {path!r} {none}; pass the time between two samples, such as "
+                '"10 ms"'
             )
         return found.step
     spacing = to_si(step, TIME, "step", above=0.0)
@@ -89,9 +89,9 @@ def _unit(
     if taken is None:
         if found.unclear:
             raise InputError(
-                f"unit: missing, and the values in {path!r} are {found.unclear}; a unit of "
-                'acceleration, such as "m/s^2", is accepted; then scale the values with '
-                "Record.scaled or --scale"
+                f"unit: missing, and the values in {path!r} are {found.unclear}, not "
+                'accelerations; pass unit="m/s^2" (--unit), and convert the values with the '
+                "factor of Record.scaled (--scale)"
             )
         taken = "m/s^2"
         notes.append(NO_UNIT)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 
 from vibroimpact.errors import InputError, meant
 from vibroimpact.model.excitation import Harmonic
@@ -33,9 +33,10 @@ def number(part: Model, name: str, whose: str = "stops have") -> float:
     value = getattr(part, name) if name in type(part).model_fields else None
     if value is None or isinstance(value, str | int):
         numbers = [key for key, held in dict(part).items() if isinstance(held, float)]
-        own = f"its {' or '.join(numbers)} is accepted, or " if numbers else "use "
+        own = f"vary its {' or '.join(numbers)}, or " if numbers else ""
         raise InputError(
-            f"parameter: {part} has no {name} that can be varied; {own}a rig whose {whose} a {name}"
+            f"parameter: {part} has no {name} that can be varied; {own}use a rig whose {whose} "
+            f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
         )
     return float(value)
 
@@ -48,7 +49,7 @@ def quantity(part: Model, name: str, whose: str = "stops have") -> Quantity:
     return accepts.quantity
 
 
-def shared(parameter: str, name: str, values: set[float], kinds: set[Quantity]) -> float:
+def shared(name: str, values: set[float], kinds: set[Quantity]) -> float:
     """Return the value that both bumpers have in common.
 
     Raises
@@ -56,17 +57,20 @@ def shared(parameter: str, name: str, values: set[float], kinds: set[Quantity]) 
     InputError
         If there is no bumper, or if the values or the units of the bumpers differ.
     """
+    if not values:
+        raise InputError(
+            f"parameter: the rig has no bumper whose {name} can be varied; use a rig with a bumper"
+        )
     if len(values) != 1 or len(kinds) != 1:
+        symbols = sorted(kind.symbol for kind in kinds)
         told = (
-            "there is no bumper"
-            if not values
-            else f"their values are {sorted(values)}"
+            f"values of {name}, {' and '.join(map(str, sorted(values)))} {symbols[0]}".rstrip()
             if len(kinds) == 1
-            else f"their units are {' and '.join(sorted(kind.symbol for kind in kinds))}"
+            else f"units of {name}, {' and '.join(symbols)}"
         )
         raise InputError(
-            f"parameter: {parameter!r} applies to both bumpers, but {told}; use 'right_{name}' "
-            f"or 'left_{name}', or a rig with equal values"
+            f"parameter: the two bumpers have different {told}; use 'right_{name}' or "
+            f"'left_{name}', or a rig with equal bumpers"
         )
     return float(next(iter(values)))
 
@@ -80,7 +84,6 @@ def bumpers(name: str) -> tuple[Read, Vary]:
             stop for stop in oscillator.stops if name in type(stop).model_fields
         ] or oscillator.stops
         return shared(
-            name,
             name,
             {number(stop, name) for stop in stops},
             {quantity(stop, name) for stop in stops},
@@ -105,8 +108,8 @@ def one_bumper(side: str, name: str) -> tuple[Read, Vary]:
         found: Stop | None = getattr(rig, side)
         if found is None:
             raise InputError(
-                f"parameter: this rig has no {side} bumper; a parameter of an existing bumper is "
-                "accepted"
+                f"parameter: '{side}_{name}' applies to the {side} stop, but the rig has none; use "
+                f"a rig with a {side} stop"
             )
         return found
 
@@ -155,7 +158,6 @@ def formula_number(
     def read(rig: Rig) -> float:
         laws = laws_of(rig).values()
         return shared(
-            f"{whose}_{name}",
             name,
             {dict(law.numbers)[name] for law in laws},
             {law.quantities.get(name, DIMENSIONLESS) for law in laws},
@@ -186,23 +188,33 @@ def formulas(
     given = {field: law for field, law in laws.items() if isinstance(law, Law)}
     found = {field: law for field, law in given.items() if name in dict(law.numbers)}
     if not found:
-        names = {one: None for law in given.values() for one, _ in law.numbers}
+        names = list(
+            dict.fromkeys(f"{whose}_{one}" for law in given.values() for one, _ in law.numbers)
+        )
+        owner = {"isolator": "isolator", "bumper": "stop"}.get(whose, f"{whose} stop")
+        law = next((one for one in laws.values() if one is not None), None)
         if names:
-            accepted = " or ".join(repr(f"{whose}_{one}") for one in names) + " is accepted"
+            why = f"the formula of the {owner} has no number {name!r}"
+        elif law is None:
+            why = f"the rig has no {owner}"
         else:
-            part, law = next(iter(laws.items()))
-            stop = "" if part == "isolator" else " stop"
-            accepted = (
-                f"the rig has no {part} stop"
-                if law is None
-                else f"the {part}{stop} is of the class {type(law).__name__}, not a formula"
-            )
-        owner = {"isolator": "isolator", "bumper": "stops"}.get(whose, f"{whose} stop")
+            why = f"the {owner} is of the class {type(law).__name__}, not a formula"
+            names = _fields(law, whose, list(registered()))
+        one_of = " or ".join(map(repr, names))
+        accepted = f"{one_of} is accepted" if names else f"use a rig with a {owner}"
+        hint = meant(f"{whose}_{name}", registered())
         raise InputError(
-            f"parameter: '{whose}_{name}' is not a parameter of this rig, and no formula of the "
-            f"{owner} has a number {name!r}; {meant(f'{whose}_{name}', registered())}{accepted}"
+            f"parameter: '{whose}_{name}' is not a parameter of this rig, because {why}; "
+            f"{hint}{accepted[0].upper() + accepted[1:] if hint else accepted}"
         )
     return found
+
+
+def _fields(part: Model, whose: str, registered: Collection[str]) -> list[str]:
+    """Return the parameters of an isolator or a stop that is not defined by a formula."""
+    held = [key for key, value in dict(part).items() if isinstance(value, float)]
+    named = [f"{whose}_{key}" if f"{whose}_{key}" in registered else key for key in held]
+    return [one for one in named if one in registered]
 
 
 def forcing(name: str) -> tuple[Read, Vary]:
@@ -292,7 +304,7 @@ def scale_of(rig: Rig) -> float:
     if not isinstance(shaken, Harmonic):
         raise InputError(
             "gap_ratio: gaps are scaled by the peak displacement without stops under one sine, "
-            "but several harmonics shake the mass; a Harmonic, or a gap in metres, is accepted"
+            "but several harmonics shake the mass; use a Harmonic, or pass the gap in metres"
         )
     return float(shaken.acceleration(oscillator.mass, oscillator.angular_frequency))
 
@@ -317,15 +329,16 @@ def relaxation_time() -> tuple[Read, Vary]:
         oscillator = rig.oscillator
         oscillator.check_linear("'relaxation_time'")
         times = [number(stop, "damping") / number(stop, "stiffness") for stop in oscillator.stops]
-        if not times or not math.isclose(min(times), max(times), rel_tol=1e-12):
-            told = (
-                "there is no bumper"
-                if not times
-                else f"their ratios of damping to stiffness are {sorted(times)} s"
-            )
+        if not times:
             raise InputError(
-                f"parameter: 'relaxation_time' applies to both bumpers, but {told}; "
-                "use 'right_damping' or 'left_damping', or a rig with equal values"
+                "parameter: 'relaxation_time' applies to the bumpers, but the rig has none; use a "
+                "rig with a bumper"
+            )
+        if not math.isclose(min(times), max(times), rel_tol=1e-12):
+            raise InputError(
+                "parameter: 'relaxation_time' applies to both bumpers, but their ratios of damping "
+                f"to stiffness are {' and '.join(f'{one:g}' for one in sorted(times))} s; use "
+                "'right_damping' or 'left_damping', or a rig with equal ratios"
             )
         return oscillator.angular_frequency * times[0]
 

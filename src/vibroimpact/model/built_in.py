@@ -20,7 +20,7 @@ def as_isolator(law: AnyIsolator) -> AnyIsolator:
         return law
     if law.is_stop:
         raise InputError(
-            "gap: an isolator has no gap; a formula of u and v without a gap is accepted"
+            "gap: an isolator has no gap; remove gap, and write the formula with u and v"
         )
     parts = law.parts
     if parts.rest:
@@ -44,7 +44,9 @@ def as_stop(law: Stop | None) -> Stop | None:
     if not isinstance(law, Law):
         return law
     if law.gap is None:
-        raise InputError("gap: missing; the law of a stop requires a gap, such as '7.5 mm'")
+        raise InputError(
+            "gap: missing; the law of a stop requires a gap, so pass one such as '7.5 mm'"
+        )
     parts = law.parts
     if not parts.rest:
         return Bumper(parts.stiffness, parts.damping, law.gap)

@@ -13,7 +13,7 @@ MOST_SAMPLES = 20_000_000
 """Largest number of samples of a time history, about 3 GB."""
 
 
-def check_samples(cycles: float, samples: int, field: str) -> None:
+def check_samples(cycles: float, samples: int, field: str, what: str = "cycles") -> None:
     """Raise an error if a time history has more samples than fit in the memory.
 
     Raises
@@ -23,8 +23,8 @@ def check_samples(cycles: float, samples: int, field: str) -> None:
     """
     if cycles * samples > MOST_SAMPLES:
         raise InputError(
-            f"{field}: {cycles:g} cycles of {samples} samples are more than {MOST_SAMPLES} "
-            "samples in total; fewer cycles or fewer samples per cycle are accepted"
+            f"{field}: {cycles:g} {what} of {samples} samples are too many; reduce {field}, so "
+            f"that there are at most {MOST_SAMPLES} samples in total"
         )
 
 

@@ -126,8 +126,8 @@ def _by_root(oscillator: Oscillator) -> float:
                 raise InputError(
                     "isolator: it softens, and its largest force, "
                     f"{pretty(isolator.strongest, FORCE)} at {pretty(isolator.reach, LENGTH)}, "
-                    f"does not balance the force of {pretty(abs(push), FORCE)} on the mass; a "
-                    "smaller constant force or preload is accepted"
+                    f"does not balance the force of {pretty(abs(push), FORCE)} on the mass; reduce "
+                    "the constant force or the preload of the stops"
                 )
             return end
         way = min(2.0 * way, most)

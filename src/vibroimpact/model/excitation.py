@@ -203,12 +203,12 @@ class Periodic(_Repeated):
         if len(turned) != len(values):
             raise InputError(
                 f"phases: {len(turned)} given for {len(values)} "
-                f"amplitude{'' if len(values) == 1 else 's'}; one phase per amplitude, or no "
-                "phases, are accepted"
+                f"amplitude{'' if len(values) == 1 else 's'}; pass one phase per amplitude, or no "
+                "phases"
             )
         if not any(values):
             raise InputError(
-                f"amplitudes: {values} are all 0; at least one greater than 0 is required"
+                f"amplitudes: {values} are all 0; pass at least one that is greater than 0"
             )
         return {**data, "amplitudes": tuple(values), "phases": tuple(turned), "of": of}
 
@@ -270,7 +270,7 @@ def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[floa
         If it is invalid, or its unit does not fit the quantity.
     """
     if of is not None and not (isinstance(of, str) and of in QUANTITIES):
-        raise InputError(f"of: {shown(of)}; {', '.join(map(repr, QUANTITIES))} is accepted")
+        raise InputError(f"of: {shown(of)}; one of {', '.join(map(repr, QUANTITIES))} is accepted")
     allowed = QUANTITIES if of is None else {of: QUANTITIES[of]}
     least = {"above": 0.0} if positive else {"minimum": 0.0}
     number, quantity = one_of(value, list(allowed.values()), field, **least)

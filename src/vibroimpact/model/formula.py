@@ -51,6 +51,11 @@ _REFUSED = {
     "log": "it is not finite at rest; powers and exp are accepted",
 }
 
+_ELSEWHERE = {
+    "d": "'d' is used for a stop, but this law has no gap; write 'u', or pass the gap of the stop",
+    "u": "'u' is used for an isolator, but this law has a gap; write 'd', or remove the gap",
+}
+
 _WRITTEN = {
     (0.0, 0.0, 0.0): "a number without a unit",
     LENGTH: "a length",
@@ -119,28 +124,27 @@ def read_formula(
     if len(text) > _LONGEST:
         raise InputError(f"formula: it has {len(text)} characters; at most {_LONGEST} are accepted")
     try:
-        tree = ast.parse(text.strip(), mode="eval").body
+        tree = ast.parse(text := text.strip(), mode="eval").body
     except SyntaxError as error:
-        column = error.offset if error.offset and error.offset > 0 else len(text.strip()) + 1
-        refuse_at(column, f"it cannot be read ({error.msg})")
+        column = error.offset if error.offset and error.offset > 0 else len(text) + 1
+        refuse_at(column, f"it cannot be read ({error.msg}); correct the formula at this place")
     except (ValueError, RecursionError, MemoryError):
         raise InputError(
             f"formula: {shown(text)} cannot be read; a formula such as 'k*u + k3*u**3' is accepted"
         ) from None
-    reader = Reader(text.strip(), numbers, variables)
+    reader = Reader(text, numbers, variables)
     made = reader.read(tree)
-    unused = [name for name in numbers if name not in reader.used]
-    if unused:
+    if unused := [name for name in numbers if name not in reader.used]:
         raise InputError(
-            f"{unused[0]}: the formula {text.strip()!r} does not contain this number; it contains "
-            f"{', '.join((*variables, *reader.used))}"
+            f"{unused[0]}: the formula {text!r} does not contain this number; remove {unused[0]}, "
+            "or add it to the formula"
         )
     unit = reader.dimension(made)
     if unit is not None and not _same(unit, FORCE):
-        refuse_at(1, f"the formula is {_words(unit)}, not a force")
+        refuse_at(1, f"the formula is {_words(unit)}, not a force; correct the units")
     if made.kind == "number":
-        refuse_at(1, f"{text.strip()!r} contains neither {variables[0]} nor {variables[1]}")
-    return Formula(text.strip(), variables, made)
+        refuse_at(1, f"{text!r} contains neither {' nor '.join(variables)}; add one of them")
+    return Formula(text, variables, made)
 
 
 def refuse_at(column: int, problem: str) -> NoReturn:
@@ -194,7 +198,7 @@ class Reader:
         if isinstance(part, ast.Constant):
             value = part.value
             if isinstance(value, bool) or not isinstance(value, int | float):
-                refuse_at(at, f"{shown(value)} is not a number")
+                refuse_at(at, f"{shown(value)} is not a number; a number such as 2.5 is accepted")
             if not abs(value) < 1e300:
                 refuse_at(at, f"{text} is not a finite number")
             return Node("number", (), at, text, float(value))
@@ -212,7 +216,7 @@ class Reader:
                 return self.power(*both, at, text)
             return self.made(sign, both, at, text)
         if isinstance(part, ast.BinOp) and isinstance(part.op, ast.BitXor):
-            refuse_at(at, f"{text!r}: ^ is not a power here; ** is accepted")
+            refuse_at(at, f"{text!r}: ^ is not a power here; write **")
         if isinstance(part, ast.Call):
             return self.called(part, at, text)
         refuse_at(
@@ -225,16 +229,12 @@ class Reader:
             return Node("variable", (), at, name)
         if name not in self.numbers:
             known = (*self.variables, *self.numbers)
-            if name == "d":
-                refuse_at(at, "'d' is used for a stop, but this law has no gap; 'u' is accepted")
-            if name == "u":
-                refuse_at(
-                    at, "'u' is used for an isolator, but this law has a gap; 'd' is accepted"
-                )
+            if name in _ELSEWHERE:
+                refuse_at(at, _ELSEWHERE[name])
             refuse_at(
                 at,
                 f"{name!r} has no value; {meant(name, known)}{', '.join(known)} are accepted, or "
-                f"{name}=... as another argument",
+                f"pass {name}=... as another argument",
             )
         if name not in self.used:
             self.used.append(name)

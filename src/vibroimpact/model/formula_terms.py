@@ -233,7 +233,7 @@ def operations(
     ):
         if count > most:
             raise InputError(
-                f"formula: it has {count} {what}; at most {most} are accepted, not counting the "
+                f"formula: it has {count} {what}; shorten it to at most {most}, not counting the "
                 "terms in u, u**3, u**5 and v"
             )
     return found, numbers

@@ -57,9 +57,9 @@ FREQUENCIES: tuple[float, ...] = tuple(round(0.1 * k, 10) for k in range(5, 51))
 
 _NO_GAP_LIMIT = ("GINF", "G∞", "INF", "∞", "FREE")
 _ACCEPTED = (
-    "bumper-gap-acceleration is accepted, such as B2-G1-A3: a bumper B1 to B4 or a stiffness "
-    "(510kN/m); a total gap G1 to G4, a length (10mm) or Ginf (no bumpers); a table "
-    "acceleration A1 to A3 or a value from 0.03g to 0.05g"
+    "bumper-gap-acceleration is accepted, such as B2-G1-A3; bumper: B1 to B4, or a stiffness such "
+    "as 510kN/m; total gap: G1 to G4, a length such as 10mm, or Ginf (no bumpers); acceleration: "
+    "A1 to A3, or from 0.03g to 0.05g"
 )
 
 
@@ -225,8 +225,8 @@ def case(code: str, parameters: Parameters = "table") -> Case:
         names = f"{bumper_name}-{gap_name}-{acceleration_name}"
         if names not in IDENTIFIED:
             raise InputError(
-                f"parameters: case {shown(code)} has no identified parameters; they exist for "
-                f"{' and '.join(IDENTIFIED)}, and parameters 'table' for every case"
+                f"parameters: 'identified' exists only for the cases {' and '.join(IDENTIFIED)}, "
+                f"and not for {shown(code)}; use 'table'"
             )
         fitted = IDENTIFIED[names]
         isolator = Isolator(fitted.stiffness, fitted.damping)
@@ -340,8 +340,8 @@ def _isolator_stiffness(code: str, text: str, amplitude: float) -> float:
             share = (amplitude - low) / (high - low)
             return (1.0 - share) * k_low + share * k_high
     raise InputError(
-        f"case {shown(code)}: acceleration {shown(text)} is outside the tested range, where the "
-        "isolator's stiffness is known; from 0.03g to 0.05g is accepted"
+        f"case {shown(code)}: acceleration {shown(text)} is outside the tested range, in which "
+        "the stiffness of the isolator is known; an acceleration from 0.03g to 0.05g is accepted"
     )
 
 

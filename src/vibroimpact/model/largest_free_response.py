@@ -39,7 +39,7 @@ def peak_displacement(oscillator: Oscillator, amplitude: float | str) -> float:
         peak is unbounded) or at least 1/√2 (the displacement has no peak).
     """
     a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
-    oscillator.check_linear("free flight in closed form, whose peak scales gaps", stops=False)
+    oscillator.check_linear("peak displacement in closed form", stops=False)
     stiffness = oscillator.isolator.initial_stiffness
     return peak_of(oscillator.mass, stiffness, oscillator.damping_ratio, a)
 
@@ -90,19 +90,19 @@ def peak_of(mass: float, stiffness: float, damping_ratio: float, amplitude: floa
     if not 0.0 < damping_ratio < math.sqrt(0.5):
         raise InputError(
             f"damping_ratio: at {damping_ratio:.6g}, the motion without stops has no finite "
-            "resonance peak, so a nonzero gap cannot be scaled by this peak; a value between 0 and "
-            "0.707107 is accepted"
+            "resonance peak, so the gap ratio is undefined; a damping ratio between 0 and 0.707107 "
+            "is accepted"
         )
     if amplitude == 0.0:
         raise InputError(
-            "amplitude: 0 causes no motion, so a nonzero gap cannot be scaled; an acceleration "
-            "greater than 0 is accepted"
+            "amplitude: 0 causes no motion, so the gap ratio is undefined; an acceleration greater "
+            "than 0 is accepted"
         )
     peak, _ = largest_free_flight(math.sqrt(stiffness / mass), damping_ratio, amplitude)
     if not 0.0 < peak < math.inf:
         raise InputError(
             f"amplitude: {amplitude:g} m/s² moves a mass of {mass:g} kg on {stiffness:g} N/m by "
-            "a distance outside the range of floating-point numbers; a moderate amplitude is "
-            "accepted"
+            "a distance outside the range of floating-point numbers; correct these three values or "
+            "their units"
         )
     return peak

@@ -45,7 +45,8 @@ class Named(Model):
             return data
         if data["kind"] != cls.kind:
             raise InputError(
-                f"kind: {shown(data['kind'])} is not the kind of this law; {cls.kind!r} is accepted"
+                f"kind: {shown(data['kind'])} is not the kind of a {cls.__name__}; {cls.kind!r} is "
+                "accepted"
             )
         return {name: value for name, value in data.items() if name != "kind"}
 

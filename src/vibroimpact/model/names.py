@@ -32,8 +32,7 @@ def check_name(name: Any, field: str) -> str:
         raise InputError(f"{field}: {len(name)} characters; at most {_LONGEST} are accepted")
     if found := UNPRINTABLE.search(name):
         raise InputError(
-            f"{field}: {shown(name)} has the control character {found[0]!a}; printable text in one "
-            "line is accepted"
+            f"{field}: {shown(name)} has the control character {found[0]!a}; remove this character"
         )
     return name
 

@@ -91,7 +91,7 @@ class Oscillator(Model):
         if not isinstance(data, Mapping) or "weight" not in data:
             return data
         if "mass" in data:
-            raise InputError("weight: given together with mass; one of the two is accepted")
+            raise InputError("weight: given together with mass; remove one of the two")
         rest = {name: value for name, value in data.items() if name != "weight"}
         return {"mass": to_si(data["weight"], FORCE, "weight", above=0.0) / GRAVITY, **rest}
 
@@ -128,17 +128,17 @@ class Oscillator(Model):
         k, m = self.isolator.initial_stiffness, self.mass
         if k == 0.0:
             return self
-        for what, size, least in (
-            ("natural frequency", math.sqrt(k / m), _LEAST),
-            ("damping ratio", self.isolator.damping / math.sqrt(k * m), 0.0),
+        for what, size, least, unit in (
+            ("natural angular frequency", math.sqrt(k / m), _LEAST, " rad/s"),
+            ("damping ratio", self.isolator.damping / math.sqrt(k * m), 0.0, ""),
         ):
             if what == "damping ratio" and self.isolator.damping_exponent != 1.0:
                 continue
             if not least <= size <= _MOST:
                 raise InputError(
                     f"mass {m:g} kg, stiffness {k:g} N/m and damping {self.isolator.damping:g} "
-                    f"N s/m: the {what}, about {size:.0e}, is outside the computable range; a "
-                    f"value between {least:g} and {_MOST:g} is accepted"
+                    f"N s/m: the {what}, about {size:.0e}{unit}, is outside the computable range; "
+                    f"correct these values, so that it is from {least:g} to {_MOST:g}{unit}"
                 )
         return self
 
@@ -149,17 +149,19 @@ class Oscillator(Model):
         against = self.right if self.force > 0.0 else self.left
         slips = self.force != 0.0 and abs(self.force) >= strongest
         if (slips and against is None) or (strongest == 0.0 and not self.stops):
-            bound = (
-                "isolator.stiffness: 0, and nothing"
+            side = "right" if self.force > 0.0 else "left"
+            pushed = f" against a force of {pretty(self.force, FORCE)}" if self.force else ""
+            bound, remedy = (
+                ("isolator.stiffness: 0, and nothing", "use a stiffness greater than 0")
                 if strongest == 0.0
-                else f"force: the isolator bears less than {pretty(strongest, FORCE)}, and no stop"
-            )
-            stiffer = (
-                " or a stiffness greater than 0" if strongest == 0.0 else " or a smaller force"
+                else (
+                    f"force: the isolator bears less than {pretty(strongest, FORCE)}, and no stop",
+                    "reduce the force",
+                )
             )
             raise InputError(
-                f"{bound} holds the mass against a force of {pretty(self.force, FORCE)}; "
-                f"a stop on that side{stiffer} is accepted"
+                f"{bound} holds the mass{pushed}; {remedy}, or add a "
+                f"{f'{side} stop' if self.force else 'stop'}"
             )
         return self
 
@@ -170,7 +172,8 @@ class Oscillator(Model):
             if not right + left > 0.0:
                 raise InputError(
                     f"right.gap: {pretty(right, LENGTH)} and left.gap: {pretty(left, LENGTH)} "
-                    "leave no room between two rigid stops; a sum greater than 0 is accepted"
+                    "leave no room between two rigid stops; gaps with a sum greater than 0 are "
+                    "accepted"
                 )
         return self
 
@@ -226,15 +229,16 @@ class Oscillator(Model):
         if self.isolator.damping_exponent != 1.0:
             raise InputError(
                 f"isolator.damping_exponent: {self.isolator.damping_exponent:g}; the damping ratio "
-                "would depend on the velocity, so it is undefined; 1 is accepted"
+                "would depend on the velocity, so it is undefined; use the exponent 1"
             )
         return 2.0 * math.sqrt(self.isolator.initial_stiffness * self.mass)
 
     def _springs(self, what: str) -> None:
         if self.isolator.initial_stiffness == 0.0:
+            instead = "frequencies in Hz" if what == "natural frequency" else "the damping itself"
             raise InputError(
-                f"isolator.stiffness: 0, so there is no {what}; a stiffness greater than 0 "
-                f"is accepted, or values that do not require a {what}, such as frequencies in Hz"
+                f"isolator.stiffness: 0, so there is no {what}; use a stiffness greater than 0, or "
+                f"pass {instead}"
             )
 
     @property
@@ -261,7 +265,10 @@ class Oscillator(Model):
                 continue
             law = part.kind if part.kind != "linear" else "a dashpot with an exponent"
             accepted = "a linear Isolator" if name == "isolator" else "a Bumper or a RigidStop"
-            raise InputError(f"{name}: its law, {law}, has no {what}; {accepted} is accepted")
+            raise InputError(
+                f"{name}: its law, {law}, is not linear, so it has no {what}; {accepted} is "
+                "accepted"
+            )
 
     @property
     def symmetric(self) -> bool:

@@ -121,10 +121,10 @@ class Law(Named):
             if name in _FIELDS:
                 continue
             if not str(name).isidentifier() or name in _RESERVED:
+                why = ", because it has another meaning there" if name in _RESERVED else ""
                 raise InputError(
-                    f"{shown(name)} cannot be the name of a number in a formula; a name of "
-                    "letters, digits and _ that begins with a letter and has no other meaning in "
-                    "formulas is accepted"
+                    f"{shown(name)} cannot be the name of a number in a formula{why}; use a name "
+                    "such as 'k3', of letters, digits and _, that begins with a letter"
                 )
             found[name] = to_si_of_any(value, name)
         is_stop = kept.get("gap") is not None
@@ -141,8 +141,8 @@ class Law(Named):
         stiffness = self.initial_stiffness
         if not 0.0 <= stiffness < math.inf:
             raise InputError(
-                f"formula: its stiffness at rest is {pretty(stiffness, STIFFNESS)}; at least 0 is "
-                "accepted"
+                f"formula: its stiffness at rest is {pretty(stiffness, STIFFNESS)}; change its "
+                "numbers, so that this stiffness is finite and at least 0"
             )
         if self.is_stop and self.power is None:
             _check_whole(self.read)
@@ -304,8 +304,8 @@ def _check_odd(read: Formula) -> None:
         if parity(term) != ODD:
             raise InputError(
                 f"formula: column {term.column}: {term.text!r} does not change its sign with u and "
-                "v, as the force of an isolator must; odd powers, sinh, sin, tanh, and their "
-                "products with abs or even powers are accepted"
+                "v, as the force of an isolator must; terms such as u**3, u*abs(u), sinh(u/u0) and "
+                "tanh(v/v0) are accepted"
             )
 
 
@@ -327,7 +327,8 @@ def _check_whole(read: Formula) -> None:
         if node.kind == "**" and node.parts[1].number % 1.0:
             raise InputError(
                 f"formula: column {node.column}: {node.text!r} has no Taylor series where "
-                "contact begins; whole exponents are accepted, or k*d**n*(1 + chi*v) alone"
+                "contact begins; use a whole exponent, or the formula k*d**n*(1 + chi*v) without "
+                "other terms"
             )
 
 

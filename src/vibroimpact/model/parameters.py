@@ -129,8 +129,8 @@ def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[flo
     """
     if not is_pair(span):
         raise InputError(
-            f"{field}: {shown(span)}; the lowest and the highest value of {varied.name} are "
-            "accepted, as (low, high)"
+            f"{field}: {shown(span)}; pass the lowest and the highest value of {varied.name} as "
+            "(low, high)"
         )
     ends = list(cast("Iterable[float | str]", span))
     low, high = (
@@ -138,9 +138,10 @@ def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[flo
         for i, end in enumerate(ends)
     )
     if not low < high:
+        unit = f" {varied.quantity.symbol}" if varied.physical else ""
         raise InputError(
-            f"{field}[1]: {high:g} is not greater than {field}[0], {low:g}; a larger value is "
-            "accepted"
+            f"{field}[1]: {high:g}{unit} is not greater than {field}[0], {low:g}{unit}; pass the "
+            "lowest value first, and then the highest"
         )
     return low, high
 

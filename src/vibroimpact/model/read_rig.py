@@ -79,7 +79,7 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
     else:
         items = [("", rig) for rig in check_list(rigs, where)]
     if not items:
-        raise InputError(f"{where}: the list is empty; at least one rig is accepted")
+        raise InputError(f"{where}: the list is empty; pass at least one rig")
     read = []
     for i, (name, item) in enumerate(items):
         place = where if alone else f"{where}[{name or i}]"
@@ -109,18 +109,18 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
         try:
             return laboratory.case(value).rig
         except InputError as error:
-            why = f" ({error})"
+            why = "" if "is not a case code" in str(error) else f" ({error})"
     if isinstance(value, Oscillator):
         if oscillator_alone:
             return Rig(value)
         raise InputError(
-            f"{where}: an Oscillator alone has no shaking; Rig(oscillator, shaking) "
-            'is accepted, such as Rig(oscillator, "0.05 g")'
+            f"{where}: an Oscillator alone has no shaking; a Rig with a shaking is accepted, such "
+            'as Rig(oscillator, "0.05 g")'
         )
     if isinstance(value, Harmonic | Periodic | Record):
         raise InputError(
-            f"{where}: a {type(value).__name__} alone has no oscillator; Rig(oscillator, "
-            "shaking) is accepted"
+            f"{where}: a {type(value).__name__} alone has no oscillator; pass Rig(oscillator, "
+            "shaking)"
         )
     raise InputError(f"{where}: {shown(value)} is not a rig; {_ACCEPTED}{why}")
 

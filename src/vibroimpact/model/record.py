@@ -166,9 +166,8 @@ class Record:
             raise InputError(
                 f"displacement[{worst}]: the displacement jumps or is too rough at this sample to "
                 f"be differentiated twice: the peak acceleration is {peaks[0]:.3g} m/s² with all "
-                "samples and "
-                f"{peaks[1]:.3g} m/s² with every other sample; a smooth displacement is accepted, "
-                "or the acceleration itself"
+                f"samples and {peaks[1]:.3g} m/s² with every other sample; smooth the "
+                "displacement, or pass the acceleration itself"
             )
         return cls(fine, spacing)
 
@@ -227,14 +226,14 @@ class Record:
         if peak is not None:
             if factor != 1.0:
                 raise InputError(
-                    f"peak: {shown(peak)} is given together with scale = {scale}; one of the two "
-                    "is accepted"
+                    f"peak: {shown(peak)} is given together with scale = {scale}; remove one of "
+                    "the two"
                 )
             wanted = to_si(peak, ACCELERATION, "peak", above=0.0)
             if self.peak == 0.0:
                 raise InputError(
-                    f"peak: {shown(peak)} cannot be reached because the record is 0 throughout; "
-                    "a record with samples other than 0 is accepted"
+                    f"peak: {shown(peak)} cannot be reached, because all samples of the record are "
+                    "0; use a record with other samples"
                 )
             factor = wanted / self.peak
         if factor == 0.0:
@@ -262,8 +261,8 @@ class Record:
         first, behind = round(begins / self._step), min(round(ends / self._step), last) + 1
         if behind - first < 2:
             raise InputError(
-                f"end: {ends:g} s leaves fewer than 2 samples after the start, {begins:g} s; the "
-                f"samples are {self._step:g} s apart, and at least 2 are accepted"
+                f"end: {ends:g} s leaves fewer than 2 samples after the start, {begins:g} s; move "
+                f"the end or the start, so that the part lasts at least one step, {self._step:g} s"
             )
         told = f"cut to the part from {first * self._step:g} to {(behind - 1) * self._step:g} s"
         return self._changed(self._acceleration[first:behind], told)
@@ -352,15 +351,15 @@ def _samples(values: Any, quantity: Quantity, field: str, least: int = 2) -> NDA
         found = np.array(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         raise InputError(
-            f"{field}: {shown(values)} is not a list of numbers; samples in "
-            f"{quantity.symbol} are accepted"
+            f"{field}: {shown(values)} is not a list of numbers; pass the samples in "
+            f"{quantity.symbol} as a list or an array"
         ) from None
     if found.ndim != 1 or len(found) < least:
         raise InputError(
-            f"{field}: {f'{len(found)} given' if found.ndim == 1 else f'shape {found.shape}'}; one "
-            f"sequence of at least {least} samples in {quantity.symbol} is accepted"
+            f"{field}: {f'{len(found)} given' if found.ndim == 1 else f'shape {found.shape}'}; "
+            f"pass one sequence of at least {least} samples in {quantity.symbol}"
         )
     for i in np.flatnonzero(~np.isfinite(found))[:1]:
-        raise InputError(f"{field}[{i}]: {found[i]} is not finite; finite samples are accepted")
+        raise InputError(f"{field}[{i}]: {found[i]} is not finite; replace it by a finite number")
     found.setflags(write=False)
     return found

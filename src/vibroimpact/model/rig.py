@@ -91,11 +91,9 @@ class Rig:
         name: str | None = None,
     ) -> None:
         if not isinstance(oscillator, Oscillator):
-            raise InputError(f"oscillator: {_misplaced(oscillator)}; {_EXAMPLE} is accepted")
+            raise InputError(f"oscillator: {_misplaced(oscillator)}; write {_EXAMPLE}")
         if isinstance(shaking, Oscillator | Rig):
-            raise InputError(
-                f"shaking: {shown(shaking)} is not an excitation; {_EXAMPLE} is accepted"
-            )
+            raise InputError(f"shaking: {shown(shaking)} is not an excitation; write {_EXAMPLE}")
         amplitudes: tuple[float, ...] | None = None
         own: float | None = None
         if isinstance(shaking, Harmonic | Periodic):
@@ -107,7 +105,7 @@ class Rig:
             if isinstance(shaking, Record):
                 raise InputError(
                     f"frequency: {own:g} Hz, but the shaking is a Record, which has no frequency; "
-                    "a frequency is accepted with a Harmonic or a Periodic only"
+                    "remove the frequency, or use a Harmonic or a Periodic as the shaking"
                 )
             if shaking is not None:
                 shaking = shaking.replace(frequency=own)
@@ -172,8 +170,8 @@ class Rig:
             as_periodic(self.shaking, "shaking")  # which says what is wrong
         if self.frequency is None:
             raise InputError(
-                "frequency: missing, and the rig does not state it; a frequency greater than 0 is "
-                'accepted, such as frequency="2 Hz" or Rig(oscillator, Harmonic("0.05 g", "2 Hz"))'
+                "frequency: missing, and the rig does not state it; pass it, such as "
+                'frequency="2 Hz" or Rig(oscillator, Harmonic("0.05 g", "2 Hz"))'
             )
 
     @classmethod
@@ -196,7 +194,7 @@ class Rig:
         """
         found = self.periodic
         if not isinstance(found, Harmonic):
-            raise InputError("shaking: it has several harmonics; one sine is accepted")
+            raise InputError("shaking: it has several harmonics; use one sine, such as a Harmonic")
         return found
 
     @property
@@ -210,8 +208,8 @@ class Rig:
         """
         if not isinstance(self.shaking, Record):
             raise InputError(
-                f"shaking: {shown(self.shaking)} is not a Record; Rig(oscillator, record) is "
-                "accepted"
+                f"shaking: {shown(self.shaking)} is not a Record; pass Rig(oscillator, record) "
+                "with a Record"
             )
         return self.shaking
 
@@ -285,13 +283,13 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
     """
     if isinstance(value, Record):
         raise InputError(
-            f"{where}: a Record has no period, and a periodic excitation is required; a "
-            "Harmonic or a Periodic is accepted (for records, use simulate)"
+            f"{where}: a Record has no period, but a periodic excitation is required; use a "
+            "Harmonic or a Periodic, or call simulate for the Record"
         )
     if value is None:
         raise InputError(
-            f"{where}: missing, and the rig has no shaking; an acceleration greater than 0 is "
-            'accepted, such as "0.05 g", or a displacement or a force'
+            f"{where}: missing, and the rig has no shaking; pass an acceleration greater than 0, "
+            'such as "0.05 g", or a displacement or a force'
         )
     if isinstance(value, Harmonic | Periodic):
         if value.amplitude == 0.0:
@@ -303,7 +301,7 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
             size, of = sized(one, of, f"{where}[{i}]", positive=True)
             sizes.append(size)
         if not sizes:
-            raise InputError(f"{where}: the list is empty; one amplitude per frequency is accepted")
+            raise InputError(f"{where}: the list is empty; pass one amplitude per frequency")
         return Harmonic(max(sizes), ANY_FREQUENCY, of=of), tuple(sizes)
     size, of = sized(value, None, where, positive=True)
     return Harmonic(size, ANY_FREQUENCY, of=of), None

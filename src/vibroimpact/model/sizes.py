@@ -17,8 +17,7 @@ def check_size(value: object, number: float, smallest: float = 0.0) -> float:
         If the absolute value is greater than `LARGEST` or less than `smallest`.
     """
     if not smallest <= abs(number) <= LARGEST:
-        raise InputError(
-            f"{shown(value)} is outside the computable range; a size between {smallest:g} and "
-            f"{LARGEST:g} in SI units is accepted"
-        )
+        wrong = "small; pass at least" if abs(number) < smallest else "large; pass at most"
+        limit = smallest if abs(number) < smallest else LARGEST
+        raise InputError(f"{shown(value)} is too {wrong} {limit:g} (absolute value in SI units)")
     return number

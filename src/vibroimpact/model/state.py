@@ -22,7 +22,8 @@ def _contact(value: Any) -> int | None:
     if is_number and value in (-1, 0, 1, 2):
         return int(value)
     raise InputError(
-        f"{shown(value)} is not a side; -1 (left), 0 (none), 1 (right) or 2 (both) is accepted"
+        f"{shown(value)} is not a stop; pass -1 (left stop), 0 (no contact), 1 (right stop) or "
+        "2 (both stops)"
     )
 
 

@@ -27,7 +27,7 @@ _Study = TypeVar("_Study", bound="RigStudy")
 
 _DEEPEST = 20
 """Largest number of levels of nested tables and lists in a study file."""
-_DEEP = f"nests tables or lists too deeply; at most {_DEEPEST} levels are accepted"
+_DEEP = f"nests tables or lists more than {_DEEPEST} levels deep; use fewer levels"
 
 
 class ExcitationTable(Model):
@@ -54,13 +54,11 @@ class ExcitationTable(Model):
         ways = {name: getattr(self, name) for name in ("amplitude", "amplitudes", "record")}
         given = [name for name, value in ways.items() if value is not None]
         if len(given) > 1:
-            raise InputError(f"{' and '.join(given)} are given; one of them is accepted")
+            raise InputError(f"{' and '.join(given)} are given together; keep one of them")
         beside = dict.fromkeys(("component", "step", "unit", "decimal"), "record")
         for name, needs in (("phases", "amplitudes"), *beside.items()):
             if getattr(self, name) is not None and ways[needs] is None:
-                raise InputError(
-                    f"{name} is given without {needs}; it is accepted only together with {needs}"
-                )
+                raise InputError(f"{name} is given without {needs}; add {needs}, or remove {name}")
         return self
 
     def shaking(self, folder: Path) -> Repeated | Record | None:
@@ -105,14 +103,16 @@ class RigStudy(Model):
         if self.name is not None:
             check_name(self.name, "name")
         if (self.case is None) == (self.oscillator is None):
-            none = self.case is None
-            given = "neither case nor oscillator is" if none else "both case and oscillator are"
-            raise InputError(
-                f'{given} given; exactly one of the two is accepted, such as case = "B2-G1-A3"'
-            )
+            if self.case is None:
+                raise InputError(
+                    'neither case nor oscillator is given; add case, such as case = "B2-G1-A3", '
+                    "or the table [oscillator]"
+                )
+            raise InputError("both case and oscillator are given; remove one of them")
         if self.parameters is not None and self.case is None:
             raise InputError(
-                "parameters are given without a case; they are accepted only together with a case"
+                'parameters is given without case; add case, such as case = "B2-G1-A3", or remove '
+                "parameters"
             )
         return self
 
@@ -169,18 +169,20 @@ def read_study(path: Path, kind: type[_Study]) -> _Study:
     except OSError as error:
         raise InputError(
             f"study: {str(path)!r} cannot be read ({error.strerror or error}); "
-            "a study file or a case code is accepted"
+            "pass the path of a study file, or the code of a case, such as B2-G1-A3"
         ) from None
     except UnicodeDecodeError:
         raise InputError(
-            f"study: {str(path)!r} is not UTF-8 text; a TOML file in UTF-8 is accepted"
+            f"study: {str(path)!r} is not UTF-8 text; pass a TOML file that is saved in UTF-8"
         ) from None
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"study: {str(path)!r} is not TOML ({error}); TOML is accepted") from None
+        raise InputError(
+            f"study: {str(path)!r} is not valid TOML ({error}); correct the file there"
+        ) from None
     except ValueError:  # Python reads no whole number of more than some thousand digits
         raise InputError(
-            f"study: {str(path)!r} has a whole number with too many digits; at most "
-            f"{sys.get_int_max_str_digits()} digits are accepted"
+            f"study: {str(path)!r} has a whole number of more than "
+            f"{sys.get_int_max_str_digits()} digits; write a shorter number"
         ) from None
     except RecursionError:
         raise InputError(f"study: {str(path)!r} {_DEEP}") from None

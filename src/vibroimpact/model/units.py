@@ -163,13 +163,13 @@ def read(
         if not math.isfinite(number):
             raise RefusalError("is not finite")
         if above is not None and not number > above:
-            raise RefusalError(f"is not greater than {above:g}")
+            raise RefusalError(f"is not greater than {_with_unit(above, quantity)}")
         if above == 0.0 and quantity is FREQUENCY and not _SLOWEST <= number <= _FASTEST:
             raise RefusalError(f"is not between {_SLOWEST:g} and {_FASTEST:g} Hz")
         if minimum is not None and not number >= minimum:
-            raise RefusalError(f"is less than {minimum:g}")
+            raise RefusalError(f"is less than {_with_unit(minimum, quantity)}")
         if maximum is not None and not number <= maximum:
-            raise RefusalError(f"is greater than {maximum:g}")
+            raise RefusalError(f"is greater than {_with_unit(maximum, quantity)}")
     except RefusalError as refusal:
         wanted = accepted(quantity, above=above, minimum=minimum, maximum=maximum)
         raise InputError(f"{shown(value)} {refusal}; {wanted}") from None
@@ -186,15 +186,19 @@ def accepted(
 ) -> str:
     """Describe the accepted values of a quantity, with an example."""
     told = (("greater than", above), ("of at least", minimum), ("of at most", maximum))
-    bounds = [f"{words} {bound:g}" for words, bound in told if bound is not None]
+    bounds = [f"{words} {_with_unit(end, quantity)}" for words, end in told if end is not None]
     if minimum is not None and maximum is not None:
-        bounds = [f"from {minimum:g} to {maximum:g}"]
+        bounds = [f"from {minimum:g} to {_with_unit(maximum, quantity)}"]
     sign = "-" if maximum is not None and maximum <= 0 else ""
     number = f"{sign}{quantity.number}"
     example = (
         f'"{sign}{quantity.example}" or {number} ({quantity.symbol})' if quantity.symbol else number
     )
     return " ".join((quantity.phrase, *bounds, "is accepted, such as", example))
+
+
+def _with_unit(bound: float, quantity: Quantity) -> str:
+    return f"{bound:g} {quantity.symbol}".rstrip() if bound else "0"
 
 
 def to_si_of_any(value: object, field: str) -> tuple[float, tuple[float, float, float] | None]:
@@ -231,12 +235,11 @@ def to_si_of_any(value: object, field: str) -> tuple[float, tuple[float, float, 
             raise RefusalError("is not finite")
     except ArithmeticError:
         raise InputError(
-            f"{field}: {shown(value)} is not finite; a finite number is accepted"
+            f'{field}: {shown(value)} is not finite; pass a finite number, such as "26 kN/m"'
         ) from None
     except RefusalError as refusal:
         raise InputError(
-            f"{field}: {shown(value)} {refusal}; a number with its unit is accepted, such as "
-            '"26 kN/m"'
+            f'{field}: {shown(value)} {refusal}; pass a number with its unit, such as "26 kN/m"'
         ) from None
     return number + 0.0, (mass, length, time)
 

@@ -176,12 +176,13 @@ class Model(BaseModel, metaclass=_Listed):
             """Refuse: the object is immutable."""
             kind = type(self).__name__
             raise InputError(
-                f"{name}: {kind} is immutable; .replace({name}=...) makes a changed copy"
+                f"{name}: {kind} is immutable; use .replace({name}=...) to make a changed copy"
             )
 
         def __delattr__(self, name: str) -> None:
             """Refuse: the object is immutable."""
-            raise InputError(f"{name}: {type(self).__name__} is immutable")
+            kind = type(self).__name__
+            raise InputError(f"{name}: {kind} is immutable; its fields cannot be deleted")
 
     @classmethod
     def model_validate(cls, obj: Any, *, where: str = "", **options: Any) -> Self:
@@ -340,7 +341,8 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
         assert choice is not None
         path, problem = f"{path}.kind", choice.unknown(mistake["input"])
     elif kind in ("model_type", "model_attributes_type"):
-        problem = f"{value} is not a table; a table with {listed(in_order(wanted))} is accepted"
+        keys, name = listed(in_order(wanted)), wanted.__name__
+        problem = f"{value} is not a table; pass a table of {keys} (in Python: {name}(...))"
     else:
         message = mistake["msg"]
         problem = f"{value} is invalid: {message[:1].lower()}{message[1:]}"
@@ -393,4 +395,4 @@ def _missing(model: type[BaseModel], name: str) -> str:
     for accepts in metadata:
         if isinstance(accepts, Accepts):
             return f"missing; {accepts.words()}"
-    return f"missing; {listed(in_order(model))} are accepted"
+    return f"missing; add this key (keys of this table: {listed(in_order(model))})"

@@ -13,7 +13,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.units import doubt_damping_ratio, to_si
+from vibroimpact.model.units import doubt_damping_ratio, pretty, to_si
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
 """Parameters that also set a damping. They are set first, so that a varied damping replaces it."""
@@ -54,7 +54,7 @@ def varied(
     """
     known = parameter(name, "vary").of(rig)
     if known.name in but:
-        raise InputError(f"vary: {name!r} {why}; a parameter of the rig is accepted")
+        raise InputError(f"vary: {name!r} {why}; remove it")
     values = check_list(values, field, what="a list of values")
     limits: dict[str, Any] = {"minimum": known.least} if known.zero else {"above": 0.0}
     numbers = [
@@ -62,11 +62,13 @@ def varied(
         for i, value in enumerate(values)
     ]
     if not numbers:
-        raise InputError(f"{field}: empty; one or more values are accepted")
+        raise InputError(f"{field}: the list is empty; pass at least one value")
     if known.name == "damping_ratio":
         doubt_damping_ratio(max(numbers), field)
-    if len(set(numbers)) < len(numbers):
-        raise InputError(f"{field}: a value is given twice; distinct values are accepted")
+    if twice := [one for i, one in enumerate(numbers) if one in numbers[:i]]:
+        raise InputError(
+            f"{field}: {pretty(twice[0], known.quantity)} is given twice; remove one of the two"
+        )
     return Varied(known.name, np.array(numbers), known.units, known.long_name)
 
 

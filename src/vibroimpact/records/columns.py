@@ -51,24 +51,26 @@ _Array = NDArray[np.float64]
 def read(file: File) -> list[Channel]:
     """Read the columns of a file, except for the column of times."""
     if not file.lines:
-        raise InputError(f"record: {file.path!r} is not text; columns of numbers are accepted")
+        raise InputError(f"record: {file.path!r} is not text; pass a text with columns of numbers")
     decimal = file.decimal or decimal_mark(file.lines, f"record: {file.path!r}")
     rows, lines, words = _numbers(file, decimal)
     if not rows:
-        raise InputError(f"record: {file.path!r} has no numbers; columns of numbers are accepted")
+        raise InputError(f"record: {file.path!r} has no numbers; pass a file with number columns")
     step = _stated(words)
     if len(rows) > 2 and len(rows[0]) == 2 and len(rows[1]) == 1:
         count, step = rows[0]
         if count != len(rows) - 1:
             raise file.refused(
-                lines[0], f"the file announces {count:g} values, but {len(rows) - 1} follow"
+                lines[0],
+                f"the file announces {count:g} values, but {len(rows) - 1} follow; "
+                "correct this number, or pass a complete file",
             )
         rows, lines = rows[1:], lines[1:]
     table = _table(file, rows, lines)
     few_columns(table.shape[1], file.path, "record")
     for i, j in np.argwhere(~np.isfinite(table))[:1]:
         at = lines[i] if len(lines) == len(table) else lines[0]
-        raise file.refused(at, f"{table[i, j]} is not finite; finite samples are accepted")
+        raise file.refused(at, f"{table[i, j]} is not finite; replace it by a finite number")
     stated = [unit for line in reversed(words) if (unit := stated_unit(line))]
     general = stated[0] if stated else None
     # Others may be of the times.
@@ -173,7 +175,7 @@ def _table(file: File, rows: list[list[float]], lines: list[int]) -> _Array:
     for at, width in zip(lines, widths, strict=True):
         if width != widths[0]:
             told = f"the row has {width} number{'' if width == 1 else 's'}, but the rows above "
-            raise file.refused(at, f"{told}have {widths[0]}; rows of equal length are accepted")
+            raise file.refused(at, f"{told}have {widths[0]}; make all rows equally long")
     table = np.array(rows)
     return table.T if len(rows) == 2 and widths[0] > 2 else table
 
@@ -189,16 +191,16 @@ def _spacing(
         If the unit of the times is not known.
     """
     if len(times) < 2:
-        raise InputError(f"record: {file.path!r} has one sample; at least 2 are accepted")
+        raise InputError(f"record: {file.path!r} has one sample; pass at least two samples")
     unit = stated.unit
     each = _IN_A_SECOND.get(unit or "s")
     if each is None:
         raise InputError(
-            f"record: {file.path!r}: its times are in {unit!r}; s, ms and us are accepted"
+            f"record: {file.path!r}: its times are in {unit!r}; convert them to s, ms or us"
         )
     for other in (stated.other, stated.of_name):
         if other and _IN_A_SECOND.get(other) != each:
-            told = f"its times are in {unit!r} and in {other!r}; one unit is accepted, or step= "
+            told = f"its times are in {unit!r} and in {other!r}; use one unit, or pass step= "
             return None, "", f"{told}(--step), which replaces the times"
     step = float((times[-1] - times[0]) / (len(times) - 1))
     off = times - (times[0] + step * np.arange(len(times)))
@@ -218,7 +220,7 @@ def _spacing(
         None,
         "",
         f"{where}: its time {times[worst]:g} s is not evenly spaced (steps of {step / each:g} s on "
-        f"average); equal steps are accepted, or step= (--step), which replaces the times{hint}",
+        f"average); make the steps equal, or pass step= (--step), which replaces the times{hint}",
     )
 
 

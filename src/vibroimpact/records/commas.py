@@ -28,7 +28,7 @@ def checked(decimal: object) -> Decimal | None:
     if decimal is None:
         return None
     if not isinstance(decimal, str) or decimal not in (".", ","):
-        raise InputError(f"decimal: {shown(decimal)}; '.' or ',' is accepted")
+        raise InputError(f"decimal: {shown(decimal)} is not a decimal mark; pass '.' or ','")
     return decimal  # type: ignore[return-value]
 
 
@@ -59,9 +59,9 @@ def decimal_mark(lines: Iterable[str], where: str) -> Decimal:
         parted = parted or ";" in line or "\t" in line
     if numbers and not parted and all(map(_THOUSANDS.fullmatch, numbers)):
         raise InputError(
-            f"{where}: the comma of {numbers[0]!r} may be a decimal comma or a separator of "
-            "thousands; for a decimal comma, pass decimal=',' (--decimal ,); otherwise use a file "
-            "with decimal points and without separators of thousands"
+            f"{where}: the comma in {numbers[0]!r} may be a decimal comma or a thousands "
+            "separator; if it is a decimal comma, pass decimal=',' (--decimal ,); if not, remove "
+            "the thousands separators from the file"
         )
     return "," if numbers else "."
 

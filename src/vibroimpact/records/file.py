@@ -33,13 +33,12 @@ class File:
                 self.data = unpacked(self.data, path, "record", gzip=True)
         except (EOFError, zlib.error) as error:
             raise InputError(
-                f"record: {self.path!r} is a damaged gzip file ({error}); a complete file is "
-                "accepted"
+                f"record: {self.path!r} is a damaged gzip file ({error}); pass an undamaged copy"
             ) from None
         except OSError as error:
             raise InputError(
-                f"record: {self.path!r} cannot be read ({error.strerror or error}); the path of a "
-                "record is accepted"
+                f"record: {self.path!r} cannot be read ({error.strerror or error}); pass the path "
+                "of a readable record file"
             ) from None
 
     @cached_property
@@ -70,7 +69,7 @@ class File:
         """
         if at >= len(self.lines):
             raise self.refused(
-                len(self.lines) - 1, "the file ends within the header; a complete file is accepted"
+                len(self.lines) - 1, "the file ends within the header; pass a complete file"
             )
         return self.lines[at]
 
@@ -107,10 +106,7 @@ class File:
         at = first
         while len(parts) < count:
             if at >= len(self.lines):
-                told = (
-                    f"the file ends after {len(parts)} of {count} values; a complete file is "
-                    "accepted"
-                )
+                told = f"the file ends after {len(parts)} of {count} values; pass a complete file"
                 raise self._damaged(first, at, width) or self.refused(len(self.lines) - 1, told)
             parts += self._cut(at, width)
             at += 1
@@ -123,7 +119,8 @@ class File:
         if len(parts) > count:
             raise self.refused(
                 at - 1,
-                f"the file has {len(parts)} values up to this line, but {count} are announced",
+                f"the file has {len(parts)} values up to this line, but its header announces "
+                f"{count}; remove the extra values, or correct the header",
             )
         return values, at
 
@@ -140,14 +137,13 @@ class File:
                 try:
                     found = float(part)
                 except ValueError:
-                    why = "is not a number; numbers are accepted"
+                    why = "is not a number; replace it by a number"
                     if "," in part:
-                        why = (
-                            "has a comma; decimal points, and blanks between numbers, are accepted"
-                        )
+                        why = "has a comma; use decimal points, and blanks between numbers"
                     return self.refused(at, f"{part[:40]!r} {why}")
                 if not np.isfinite(found):
-                    return self.refused(at, f"{part!r} is not finite; finite samples are accepted")
+                    why = f"{part!r} is not finite; replace it by a finite number"
+                    return self.refused(at, why)
         return None
 
     def behind(self, at: int, count: int, width: int | None = None) -> None:
@@ -167,5 +163,7 @@ class File:
         except ValueError:
             return
         raise self.refused(
-            at, f"there is a further value after the {count} values that the header announces"
+            at,
+            f"there are values after the {count} that the header announces; remove them, or "
+            "correct the header",
         )

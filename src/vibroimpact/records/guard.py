@@ -24,7 +24,7 @@ def regular(path: Path | str, field: str) -> None:
     file = check_path(path, field)
     if file.exists() and not file.is_file():
         kind = "a folder" if file.is_dir() else "not a regular file"
-        raise InputError(f"{field}: {str(path)!r} is {kind}; a file is accepted")
+        raise InputError(f"{field}: {str(path)!r} is {kind}; pass the path of a file")
     if file.is_file():
         within(file.stat().st_size, path, field)
 
@@ -39,8 +39,8 @@ def within(size: int, path: Path | str, field: str) -> None:
     """
     if size > MOST_BYTES:
         raise InputError(
-            f"{field}: {str(path)!r} holds more than {MOST_BYTES // 2**20} MiB of data; a smaller "
-            "file is accepted, such as a part of it or fewer samples"
+            f"{field}: {str(path)!r} has more than {MOST_BYTES // 2**20} MiB of data; shorten it, "
+            "or reduce its number of samples"
         )
 
 
@@ -54,7 +54,7 @@ def few_columns(count: int, path: Path | str, field: str) -> None:
     """
     if count > MOST_COLUMNS:
         raise InputError(
-            f"{field}: {str(path)!r} has {count} columns; at most {MOST_COLUMNS} are accepted"
+            f"{field}: {str(path)!r} has {count} columns; pass at most {MOST_COLUMNS} columns"
         )
 
 

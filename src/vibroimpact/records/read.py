@@ -71,10 +71,10 @@ def read_channel(
             one._replace(also=(*one.also, name)) for one, name in zip(channels, names, strict=True)
         ]
     listed = ", ".join(f"{name!r}" for name in names)
-    numbered = f"{listed}, or a number from 1 to {len(names)}, is accepted"
+    numbered = f"pass {listed}, or a number from 1 to {len(names)}"
     if component is None:
         raise InputError(
-            f"component: missing, and {file.path!r} has {len(channels)} components; {numbered}"
+            f"component: missing, but {file.path!r} has {len(channels)} components; {numbered}"
         )
     wanted = in_one_line(str(component))
     chosen = [channel for channel in channels if channel.called(wanted)]

@@ -49,8 +49,8 @@ def _read(file: File, kind: str) -> list[Channel]:
             import obspy
     except ImportError:
         raise InputError(
-            f"record: {file.path!r} is a {kind} file, and obspy, which reads it, is not "
-            "installed; pip install 'vibroimpact[seismic]' installs it"
+            f"record: {file.path!r} is a {kind} file, which requires obspy; install obspy "
+            "with: pip install 'vibroimpact[seismic]'"
         ) from None
     try:
         with warnings.catch_warnings():
@@ -65,7 +65,7 @@ def _read(file: File, kind: str) -> list[Channel]:
     except Exception as error:  # obspy raises whatever it meets in a damaged file
         why = " ".join(str(error).split())
         raise InputError(
-            f"record: {file.path!r} is a damaged {kind} file ({why}); a complete file is accepted"
+            f"record: {file.path!r} is a damaged {kind} file ({why}); pass an undamaged copy"
         ) from None
 
 
@@ -89,8 +89,8 @@ def _whole(file: File) -> None:
         at += length
         if at > size or length < _HEAD:
             raise InputError(
-                f"record: {file.path!r} ends within a record of {length} bytes, so it is "
-                "incomplete; a complete file is accepted"
+                f"record: {file.path!r} is incomplete: it ends within a miniSEED record of "
+                f"{length} bytes; pass a complete file"
             )
 
 
@@ -105,7 +105,7 @@ def _merged(file: File, stream: Any) -> Any:
     for trace in [one for one in stream if not len(one.data)]:
         stream.remove(trace)
     if not len(stream):
-        raise InputError(f"record: {file.path!r} has no samples; at least 2 are accepted")
+        raise InputError(f"record: {file.path!r} has no samples; pass at least two samples")
     ends: dict[str, Any] = {}
     for trace in sorted(stream, key=lambda one: one.stats.starttime):
         about, end = trace.stats, ends.get(trace.id)
@@ -116,14 +116,12 @@ def _merged(file: File, stream: Any) -> Any:
     stream.merge()
     for trace in stream:
         if np.ma.is_masked(trace.data):
-            raise _apart(file, trace, "parts that overlap and differ")
+            raise _apart(file, trace, "overlapping parts that differ")
     return stream
 
 
 def _apart(file: File, trace: Any, what: str) -> InputError:
-    return InputError(
-        f"record: {file.path!r}: {trace.id} has {what}; a record without them is accepted"
-    )
+    return InputError(f"record: {file.path!r}: {trace.id} has {what}; pass a record without {what}")
 
 
 def _scale(file: File, trace: Any) -> tuple[float, tuple[str, ...]]:
@@ -146,8 +144,8 @@ def _scale(file: File, trace: Any) -> tuple[float, tuple[str, ...]]:
         )
     if not 0.0 < abs(scale) < np.inf:
         raise InputError(
-            f"record: {file.path!r}: its header states the scale {scale:g}; a number other than 0 "
-            "is accepted"
+            f"record: {file.path!r}: its header has the scale {scale:g}; set SCALE to a finite "
+            "number other than 0"
         )
     return scale, (f"the values were multiplied by {scale:g}, the scale in the header",)
 

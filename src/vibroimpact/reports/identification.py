@@ -87,14 +87,14 @@ def fit_report(
         written.
     """
     if not isinstance(result, xr.Dataset) or "fitted_value" not in result:
-        raise InputError("result: this is not a fit; the result of identify is accepted")
+        raise InputError("result: this is not a fit; pass the result of identify")
     where = check_path(folder, "folder")
     if not where.is_dir():
-        raise InputError(f"folder: {shown(folder)} does not exist; an existing folder is accepted")
+        raise InputError(f"folder: {shown(folder)} is not a folder; create it, or pass another one")
     check_name(name, "name")
     check_one_of(figure, get_args(Format), "figure")
     if comparison is not None:
-        check_variables(comparison, ["akaike"], "comparison", "a dataset of compare_fits")
+        check_variables(comparison, ["akaike"], "comparison", "the result of compare_fits")
     files: dict[str, Path] = {}
     figures: list[Figure] = []
 

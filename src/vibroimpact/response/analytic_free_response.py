@@ -168,11 +168,11 @@ def _check(rig: Rig, frequencies: Iterable[float], field: str) -> None:
     held = ", whose bounded force is too small to hold the mass," if bounded and bounded[1] else ","
     for i, frequency in enumerate(frequencies):
         if n := grows(rig, float(frequency), _RESONANT):
-            which = "" if n == 1 else f" over {n}"
+            which = "" if n == 1 else f"1/{n} of "
             raise InputError(
-                f"{field.format(i)}: {float(frequency)!r} Hz is the natural frequency{which} "
-                f"of an undamped isolator{held} so the motion without stops grows without "
-                "bound; another frequency or some isolator damping is accepted"
+                f"{field.format(i)}: {float(frequency)!r} Hz is {which}the natural frequency of "
+                f"an undamped isolator{held} so the motion without stops grows without bound; "
+                "change the frequency, or add isolator damping"
             )
 
 

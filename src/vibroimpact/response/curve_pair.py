@@ -98,8 +98,8 @@ def _of_measured(data: xr.Dataset) -> Swept:
         found[kind[0]] = values / (1.0 if name.startswith("eta") else np.nanmax(values))
     if not found:
         raise InputError(
-            "data: the measured curves have neither excursions, maxima, minima nor η; one of these "
-            "is accepted"
+            "data: the measured curves have no excursion, maximum, minimum or η; add at least one "
+            "of them, such as displacement_excursion"
         )
     a, d = (found.get(short, next(iter(found.values()))) for short in "ad")
     return Swept(
@@ -124,7 +124,7 @@ def as_rigs(data: xr.Dataset) -> xr.Dataset:
     if set(data.get("eta_a", xr.DataArray()).dims) != {"direction", "frequency"}:
         raise InputError(
             f"data: a dataset with the dimensions {dict(data.sizes)} is not the sweep of one "
-            "rig; the result of sweep is accepted, or one rig of sweeps, such as data.isel(rig=0)"
+            "rig; pass the result of sweep, or one rig of sweeps, such as data.isel(rig=0)"
         )
     return data.expand_dims("rig")
 

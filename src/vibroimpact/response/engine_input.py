@@ -15,7 +15,7 @@ from vibroimpact.engine import section_map
 from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Bumper, Oscillator, Periodic, Record, RigidStop, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.law_numbers import isolator_numbers, own_numbers, stop_numbers
@@ -37,6 +37,9 @@ _COLUMNS = np.array(
 """Where an engine's state holds each of `COMPONENTS`; it has no phase, and the mode tells the
 contact."""
 _TOUCHING = np.array(record.TOUCHING)
+_SIDES = {-1: "left", 1: "right"}
+_CONTACTS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
+"""A contact in words."""
 
 
 def engine_rig(rig: Rig) -> NDArray[np.float64]:
@@ -103,8 +106,8 @@ def as_state(start: State | xr.DataArray | xr.Dataset) -> State:
             values["contact"] = int(values["contact"])
         return State(**values)
     raise InputError(
-        f"start: {type(start).__name__} is not a state; a State, the result of simulate or its "
-        "final_state is accepted"
+        f"start: {shown(start)} is not a state; pass a State, such as State(0.01, 0.0), the result "
+        "of simulate, or its final_state"
     )
 
 
@@ -130,13 +133,13 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
         if stop is None:
             if given:
                 raise InputError(
-                    f"start.{name}: {given:g} m, but the oscillator has no such bumper; "
-                    "0 or None is accepted"
+                    f"start.{name}: {given:g} m, but the oscillator has no {_SIDES[sign]} bumper; "
+                    "pass 0 or None"
                 )
             if said:
                 raise InputError(
-                    f"start.contact: {state.contact}, but the oscillator has no stop on that "
-                    "side; 0 is accepted"
+                    f"{_claim(state)}, but the oscillator has no {_SIDES[sign]} stop; pass 0 or "
+                    "None"
                 )
             continue
         slack = TOUCHING * max(
@@ -166,6 +169,11 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     return vector
 
 
+def _claim(state: State) -> str:
+    """Return the contact of a state, with which a message begins."""
+    return f"start.contact: {state.contact} ({_CONTACTS[state.contact or 0]})"
+
+
 def _overlap(oscillator: Oscillator) -> bool:
     """Whether the mass can press both stops at once."""
     return sum(stop.gap for stop in oscillator.stops) < 0.0
@@ -189,9 +197,10 @@ def _on_power_law(
     given = state.right_bumper if sign == 1 else state.left_bumper
     touches = reach > slack or (abs(reach) <= slack and (bool(said) or closing > 0.0))
     if said is not None and said != touches and abs(reach) > slack:
+        where = "inside" if touches else "away from"
         raise InputError(
-            f"start.contact: {state.contact}, but the mass is {-reach:g} m away from the stop; "
-            f"{sign if touches else 0} is accepted"
+            f"{_claim(state)}, but the mass is {abs(reach):g} m {where} the {_SIDES[sign]} stop; "
+            f"pass {sign if touches else 0} or None"
         )
     met = sign * given if given is not None else closing if abs(reach) <= slack else 0.0
     return touches, max(met, 0.0) if touches else 0.0
@@ -213,19 +222,19 @@ def _on_wall(
     given = state.right_bumper if sign == 1 else state.left_bumper
     if given:
         raise InputError(
-            f"start.{name}: {given:g} m, but a rigid stop does not deform; 0 is accepted"
+            f"start.{name}: {given:g} m, but a rigid stop does not deform; pass 0 or None"
         )
     if reach > slack:
-        way = "left" if sign == 1 else "right"
+        most = "at most" if sign == 1 else "at least"
         raise InputError(
-            f"start.displacement: {state.displacement:g} m lies {reach:g} m inside the rigid stop; "
-            f"{sign * stop.gap:g} m or farther to the {way} is accepted"
+            f"start.displacement: {state.displacement:g} m is {reach:g} m inside the rigid "
+            f"{_SIDES[sign]} stop; pass {most} {sign * stop.gap:g} m"
         )
     rests = reach >= -slack and state.velocity == 0.0
     if said and not rests:
         raise InputError(
-            f"start.contact: {state.contact}, but the mass does not rest on the rigid stop "
-            f"({-reach:g} m away, {state.velocity:g} m/s); 0 is accepted"
+            f"{_claim(state)}, but the mass does not rest on the rigid {_SIDES[sign]} stop "
+            f"(distance {-reach:g} m, velocity {state.velocity:g} m/s); pass 0 or None"
         )
     return rests and said is not False, 0.0
 
@@ -244,15 +253,16 @@ def _on_bumper(
     given = state.right_bumper if sign == 1 else state.left_bumper
     deformation = max(reach, 0.0) if given is None else sign * given
     if reach > deformation + slack:
+        most = "at least" if sign == 1 else "at most"
         raise InputError(
-            f"start.{name}: {sign * deformation:g} m puts the mass at {state.displacement:g} m "
-            f"inside the bumper; {sign * reach:g} m or more is accepted"
+            f"start.{name}: {sign * deformation:g} m, but a displacement of {state.displacement:g} "
+            f"m compresses this bumper by {reach:g} m; pass {most} {sign * reach:g} m, or None"
         )
     touches = deformation - reach <= slack
     if said and not touches:
         raise InputError(
-            f"start.contact: {state.contact}, but the bumper is {deformation - reach:g} m away; "
-            "0 is accepted"
+            f"{_claim(state)}, but the {_SIDES[sign]} bumper is {deformation - reach:g} m away "
+            "from the mass; pass 0 or None"
         )
     force = stop.stiffness * deformation + stop.damping * closing
     if stop.damping == 0.0 and not touches:
@@ -260,14 +270,14 @@ def _on_bumper(
     rounding = TOUCHING * (stop.stiffness * deformation + stop.damping * abs(closing))
     if said and force < -rounding:
         raise InputError(
-            f"start.contact: {state.contact}, but the bumper would pull with {-force:g} N; 0 is "
-            "accepted, or a velocity at which it pushes"
+            f"{_claim(state)}, but the {_SIDES[sign]} bumper would pull the mass with {-force:g} "
+            "N; pass 0 or None, or a higher velocity towards the bumper"
         )
     if said is False and touches and stop.damping == 0.0 and deformation > slack:
         raise InputError(
-            f"start.contact: {state.contact}, but the mass compresses the {name} by "
-            f"{deformation:g} m, and a bumper without a dashpot stays in contact; {sign} is "
-            "accepted"
+            f"{_claim(state)}, but the mass compresses the {_SIDES[sign]} bumper by "
+            f"{deformation:g} m, and a bumper without a dashpot stays in contact; pass {sign} or "
+            "None"
         )
     presses = force > 0.0 or (deformation == 0.0 and stop.damping == 0.0 and closing > 0.0)
     return bool(said) or (said is None and touches and presses), deformation

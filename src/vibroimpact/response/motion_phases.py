@@ -108,8 +108,8 @@ def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
     held = isinstance(motion, xr.Dataset) and {"event_time", "velocity"} <= set(motion.variables)
     if not held or motion.sizes["time"] < ("cycle" not in motion) + 1:
         raise InputError(
-            "motion: this is not a recorded motion; the result of steady, or of simulate with "
-            "samples, is accepted"
+            "motion: this is not a recorded motion; pass the result of steady, or the result of "
+            "simulate with samples greater than 0"
         )
     parameters = json.loads(motion.attrs["parameters"])
     oscillator = validate(Oscillator, parameters["oscillator"], "motion.oscillator")
@@ -140,9 +140,9 @@ def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
     shaken = origin.excitation
     if isinstance(shaken, Record):
         raise InputError(
-            "motion: it is the response to a Record, which has no cycles; a motion under a "
-            "Harmonic or a Periodic is accepted (contacts, totals, record_history, phase_portrait "
-            "and hysteresis_cycle accept this one)"
+            "motion: this is the response to a Record, which has no cycles; pass a motion under a "
+            "Harmonic or a Periodic, or use contacts, totals, record_history, phase_portrait or "
+            "hysteresis_cycle"
         )
     return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
 

@@ -38,7 +38,7 @@ def through(
     """What `simulate` returns of a record; `tail` in s."""
     oscillator, record = rig.oscillator, rig.record
     lines = straight(record, tail)
-    check_samples(len(lines), samples, "samples")
+    check_samples(len(lines), samples, "samples", "time steps")
     state = equilibrium(oscillator) if start is None else as_state(start)
     vector = engine_state(oscillator, state)
     first = components(vector, 0.0)
@@ -104,8 +104,8 @@ def straight(record: Record, tail: float) -> _Array:
     values, step = record.acceleration, record.step
     if tail / step > MOST_SAMPLES:
         raise InputError(
-            f"tail: {tail:g} s is {tail / step:.3g} steps of the record; at most {MOST_SAMPLES} "
-            "are accepted"
+            f"tail: {tail:g} s has {tail / step:.3g} time steps of the record; pass at most "
+            f"{MOST_SAMPLES * step:g} s"
         )
     whole = int(tail / step)
     rest = tail - whole * step

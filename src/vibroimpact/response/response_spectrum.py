@@ -77,7 +77,7 @@ def response_spectrum(
     """
     check_progress(progress)
     components = _components(record)
-    period = _numbers(periods, "periods", _LEAST, _MOST, "periods of 0, or from 1e-9 to 1e9 s,")
+    period = _numbers(periods, "periods", _LEAST, _MOST, "periods of 0 s, or from 1e-9 to 1e9 s")
     ratio = _numbers(damping, "damping", 0.0, 1.0, "damping ratios from 0 to less than 1")
     moving = period.ravel() > 0.0
     omega = math.tau / np.tile(period.ravel()[moving], ratio.size)
@@ -174,32 +174,37 @@ def _components(record: Any) -> tuple[Record, ...]:
     given = tuple(record) if isinstance(record, list | tuple) else (record,)
     if not 1 <= len(given) <= 2 or not all(isinstance(one, Record) for one in given):
         raise InputError(
-            f"record: {shown(record)}; a Record, or two perpendicular components, are accepted"
+            f"record: {shown(record)} is not a Record; pass one Record, or two of them for "
+            "perpendicular components"
         )
     first, last = given[0], given[-1]
-    for what, one, other in (
-        ("steps", first.step, last.step),
-        ("samples", len(first.acceleration), len(last.acceleration)),
-    ):
-        if one != other:
-            raise InputError(
-                f"record: components with {what} {one:g} and {other:g}; the same in both is "
-                "accepted (Record.cut shortens a record)"
-            )
+    if first.step != last.step:
+        raise InputError(
+            f"record: the two components have time steps of {first.step:g} s and {last.step:g} s; "
+            "pass components with equal time steps"
+        )
+    counts = len(first.acceleration), len(last.acceleration)
+    if counts[0] != counts[1]:
+        raise InputError(
+            f"record: the two components have {counts[0]} and {counts[1]} samples; shorten the "
+            "longer one with Record.cut"
+        )
     return given
 
 
 def _numbers(values: ArrayLike, field: str, least: float, below: float, accepted: str) -> _Array:
     """Read one number or a list of numbers that are 0 or at least `least`."""
-    if is_list(values):
-        values = check_list(values, field)
+    listed = check_list(values, field) if is_list(values) else values
     try:
-        found = np.asarray(values, dtype=np.float64)
+        found = np.asarray(listed, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{field}: {shown(values)}; {accepted} are accepted") from None
+        raise InputError(f"{field}: {shown(values)}; pass {accepted}") from None
     if found.ndim > 1 or found.size == 0:
-        raise InputError(f"{field}: shape {found.shape}; {accepted} are accepted")
+        raise InputError(
+            f"{field}: {shown(values)}; pass one value, or a list of at least one value (no lists "
+            "in this list)"
+        )
     for one in found.ravel():
         if not (one == 0.0 or least <= one < below):
-            raise InputError(f"{field}: {one:g}; {accepted} are accepted")
+            raise InputError(f"{field}: {one:g}; pass {accepted}")
     return found

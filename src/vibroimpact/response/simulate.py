@@ -119,16 +119,18 @@ def compute_history(
     if isinstance(excitation, Record):
         if cycles is not None:
             raise InputError(
-                f"cycles: {cycles!r}, but a record has no cycles; use tail (a time) instead"
+                f"cycles: {cycles!r}, but a record has no cycles; remove cycles (to compute the "
+                "time after the record, pass tail)"
             )
         behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
         return through(Rig(oscillator, excitation), behind, start, samples, max_events, progress)
     if tail is not None:
         raise InputError(
-            f"tail: {tail!r} is accepted for a Record only; cycles set the duration of this shaking"
+            f"tail: {tail!r}, but no Record shakes this rig; remove tail, and set the duration by "
+            "cycles"
         )
     if cycles is None:
-        raise InputError("cycles: missing; a number greater than 0 is accepted, such as 100")
+        raise InputError("cycles: missing; pass the number of forcing cycles, such as 100")
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
     check_samples(length, samples, "cycles")
     if oscillator.isolator.linear:  # in closed form about its steady motion, which is none there

@@ -58,14 +58,15 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
         If the dataset does not hold a motion with samples, or if ``highest`` is not positive.
     """
     limit = to_si(highest, DIMENSIONLESS, "highest", above=0.0)
-    check_variables(motion, (), "motion", "the dataset of a motion")
+    check_variables(motion, (), "motion", "the result of simulate or steady")
     if motion.attrs.get("kind") == "history" and "event_time" not in motion:
         return _of_measured(motion, limit)
     origin = recorded(motion)
     if origin.periodic:
         n = int(motion["period"])
         if limit * n > MOST_LINES:
-            raise InputError(f"highest: {limit:g}; at most {MOST_LINES / n:g} is accepted")
+            most = MOST_LINES / n
+            raise InputError(f"highest: {limit:g} is too large; pass at most {most:g}")
         order = np.arange(int(limit * n + 1e-9) + 1) / n
         lines = _exact(origin, phases(motion), order)
         method = f"exact Fourier coefficients over one period of {n} forcing cycles"
@@ -100,9 +101,10 @@ def _windowed(
     cycles = int(origin.cycles + 1e-9)
     count = cycles * samples
     if cycles < 1 or count < 4:
+        few = f"{origin.cycles:g} cycles" if cycles < 1 else f"{count} samples"
         raise InputError(
-            f"motion: its history of {origin.cycles:g} cycles and {count} samples is too short "
-            "for a spectrum; at least one cycle and four samples are accepted"
+            f"motion: {few} are too few for a spectrum; pass a motion of at least one whole cycle "
+            "with four samples"
         )
     order = np.arange(count // 2 + 1) / cycles
     kept = order <= highest
@@ -132,8 +134,8 @@ def _of_measured(motion: xr.Dataset, highest: float) -> xr.Dataset:
     cycles = 0 if sine is None else int((time[-1] - time[0]) * sine.frequency + 1e-9)
     if sine is None or cycles < 1 or not held:
         raise InputError(
-            "motion: the measured history does not contain a whole cycle of a sine; at least one "
-            "cycle of displacement, velocity or acceleration with 8 samples is accepted"
+            "motion: the measured history does not contain a whole cycle of a sine; pass at "
+            "least one cycle of displacement, velocity or acceleration with 8 samples"
         )
     span = cycles / sine.frequency
     count = int(np.searchsorted(time, time[0] + span))

@@ -150,12 +150,12 @@ def sweeps(
         Phase φ of the base acceleration A sin(ωt + φ) at the stroboscopic section, in rad.
     tolerance
         Relative tolerance of a steady motion. A motion counts as steady when its state, recorded
-        once per forcing cycle, is within this tolerance of a periodic orbit. The period of the
-        orbit is at most 16 forcing cycles.
+        once per forcing cycle, is within this tolerance of a periodic orbit whose period is at most
+        16 forcing cycles.
     max_cycles
         Largest number of forcing cycles to wait for a steady motion. If a motion is still
-        approaching a periodic orbit, for example with light damping, the limit is increased up to
-        50-fold (docs/decisions/0004-sweep-convergence.md).
+        approaching a periodic orbit by then, for example with light damping, the limit is increased
+        up to 50-fold.
     window
         Number of forcing cycles over which a motion is measured if it did not become steady.
     max_events
@@ -258,7 +258,8 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     """
     if isinstance(frequencies, str):
         raise InputError(
-            f"frequencies: {shown(frequencies)} is a single text; a list of frequencies is accepted"
+            f"frequencies: {shown(frequencies)} is a single text; pass a list, such as "
+            '["2 Hz", "2.1 Hz"]'
         )
     items = list(check_list(frequencies, "frequencies"))
     if isinstance(frequencies, np.ndarray) and frequencies.dtype == float and frequencies.ndim == 1:
@@ -267,11 +268,11 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
         [to_si(f, FREQUENCY, f"frequencies[{i}]", above=0.0) for i, f in enumerate(items)]
     )
     if not len(grid):
-        raise InputError("frequencies: the list is empty; at least one frequency is accepted")
+        raise InputError("frequencies: the list is empty; pass at least one frequency")
     for i in np.flatnonzero(np.diff(grid) <= 0.0):
         raise InputError(
-            f"frequencies[{i + 1}]: {grid[i + 1]:g} Hz follows {grid[i]:g} Hz; "
-            "rising frequencies are accepted"
+            f"frequencies[{i + 1}]: {grid[i + 1]:g} Hz follows {grid[i]:g} Hz; sort the "
+            "frequencies in increasing order, and pass each one only once"
         )
     return grid
 
@@ -295,11 +296,11 @@ def _directions(directions: Sequence[str]) -> tuple[str, ...]:
     for direction in given:
         if not isinstance(direction, str) or direction not in DIRECTIONS:
             raise InputError(
-                f"directions: {shown(direction)}; 'forward' and 'backward' are accepted"
+                f"directions: {shown(direction)}; pass 'forward', 'backward' or a list of both"
             )
     if not given or len(set(given)) < len(given):
         raise InputError(
-            f"directions: {list(given)!r}; 'forward', 'backward' or both, once each, are accepted"
+            f"directions: {list(given)!r}; pass 'forward', 'backward' or both, each only once"
         )
     return given
 

@@ -105,7 +105,7 @@ def _levels(sizes: tuple[float, ...] | None, shaken: Repeated, grid: _Array) -> 
         return np.full(len(grid), shaken.amplitude)
     if len(sizes) != len(grid):
         raise InputError(
-            f"amplitude: {len(sizes)} amplitudes for {len(grid)} frequencies; one amplitude, or "
-            "one per frequency, is accepted"
+            f"amplitude: {len(sizes)} amplitudes for {len(grid)} frequencies; pass one amplitude, "
+            f"or {len(grid)} amplitudes"
         )
     return np.array(sizes)

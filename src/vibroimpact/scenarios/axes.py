@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, unknown
+from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.model import (
     Bumper,
     Harmonic,
@@ -21,6 +21,7 @@ from vibroimpact.model.excitation import Of
 from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.parameters import PARAMETERS, parameter
 from vibroimpact.model.rig import ANY_FREQUENCY, Rig, as_periodic
+from vibroimpact.model.units import pretty
 
 _Array = NDArray[np.float64]
 
@@ -93,35 +94,40 @@ def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
     pair = isinstance(given, tuple | list) and len(given) in (2, 3) and isinstance(given[0], str)
     if not pair or given[2:] not in ((), [], ("log",), ["log"], ("linear",), ["linear"]):
         raise InputError(
-            f"{field}: {given!r} is not an axis; a pair of a name and values is accepted, such as "
-            '("gap_ratio", [0, 0.5, 1]), optionally followed by "log" or "linear"'
+            f"{field}: {shown(given)} is not an axis; pass the name of a parameter and its values, "
+            'such as ("gap_ratio", [0, 0.5, 1]); "log" or "linear" may be the third item'
         )
     name, values = given[:2]
     if name not in NAMES:
         raise InputError(f"{field}: {unknown(name, NAMES)}")
     varied = parameter(name, of=of)
     if isinstance(values, str) or not isinstance(values, Iterable):
-        raise InputError(f"{field}: {values!r} is not a list of values; at least two are accepted")
+        raise InputError(f"{field}: {shown(values)} is not a list; pass at least two values")
     limits: dict[str, Any] = {"minimum": 0.0} if varied.zero else {"above": 0.0}
     limits["maximum"] = varied.most
     numbers = np.array(
         [to_si(value, varied.quantity, f"{field}[{i}]", **limits) for i, value in enumerate(values)]
     )
     if len(numbers) < 2:
-        raise InputError(f"{field}: {len(numbers)} values given; at least two are accepted")
+        count = "one value" if len(numbers) else "no values"
+        raise InputError(f"{field}: the list has {count}; pass at least two values")
     for i in np.flatnonzero(np.diff(numbers) <= 0.0):
+        first, second = (pretty(float(one), varied.quantity) for one in numbers[i : i + 2])
         raise InputError(
-            f"{field}[{i + 1}]: {numbers[i + 1]:g} follows {numbers[i]:g}; "
-            "rising values are accepted"
+            f"{field}[{i + 1}]: {second} follows {first}; sort the values in increasing order, and "
+            "pass each one only once"
         )
     if name == "damping_ratio" and numbers[-1] >= math.sqrt(0.5):
         raise InputError(
-            f"{field}[{len(numbers) - 1}]: a damping ratio of {numbers[-1]:g} has no resonance "
-            "peak; values below 0.707107 are accepted"
+            f"{field}[{len(numbers) - 1}]: at a damping ratio of {numbers[-1]:g}, there is no "
+            "resonance peak; pass values below 0.707107"
         )
     spaced = given[2] == "log" if len(given) == 3 else logarithmic(numbers)
     if spaced and numbers[0] <= 0.0:
-        raise InputError(f"{field}[0]: 0 on a logarithmic axis; values above 0 are accepted")
+        raise InputError(
+            f"{field}[0]: 0 is not possible on a logarithmic axis; pass values above 0, or use a "
+            "linear axis"
+        )
     return Axis(name, numbers, spaced)
 
 
@@ -134,10 +140,11 @@ def check_pair(x: Axis, y: Axis) -> None:
         If they do not go together.
     """
     if x.name == y.name:
-        raise InputError(f"y: {y.name!r} is also the parameter of x; another parameter is accepted")
+        raise InputError(f"y: {y.name!r} is also the parameter of x; choose another one for y")
     if {x.name, y.name} in ONE_QUANTITY:
         raise InputError(
-            f"y: {y.name!r} is the same quantity as {x.name!r}; another parameter is accepted"
+            f"y: {y.name!r} varies the same quantity as {x.name!r}, the parameter of x; choose "
+            "another one for y"
         )
 
 
@@ -153,18 +160,18 @@ def one_sine(rig: Rig, where: str = "shaking") -> Rig:
     shaken, _ = as_periodic(rig.shaking, where)
     if rig.amplitudes is not None:
         raise InputError(
-            f"{where}: {len(rig.amplitudes)} amplitudes; a scenario is defined for one amplitude "
-            "at all frequencies"
+            f"{where}: {len(rig.amplitudes)} amplitudes, but a scenario is defined for one "
+            "amplitude at all frequencies; pass one amplitude"
         )
     if not isinstance(shaken, Harmonic):
         raise InputError(
-            f"{where}: the harmonics of a Periodic cause resonances below the primary one even "
-            "without stops, so scenarios are not defined; a Harmonic is accepted"
+            f"{where}: scenarios are not defined for a Periodic, because its harmonics cause "
+            "further resonances even without stops; pass a Harmonic"
         )
     if oscillator.isolator.initial_stiffness == 0.0:
         raise InputError(
-            "isolator.stiffness: 0, so there is no natural frequency to scale scenarios by; a "
-            "stiffness greater than 0 is accepted"
+            "isolator.stiffness: 0, but a scenario requires a natural frequency; set a stiffness "
+            "greater than 0"
         )
     open_sine = shaken.replace(frequency=ANY_FREQUENCY, phase=0.0)
     return Rig.of_open_frequency(oscillator, open_sine, rig.name)
@@ -215,15 +222,15 @@ class Base(NamedTuple):
     def _check(self, values: Mapping[str, float]) -> None:
         stops = self.base.oscillator.stops
         if not stops:
-            raise InputError("rig: there is no bumper; a rig with one or two bumpers is accepted")
+            raise InputError("rig: there is no stop; pass a rig with one or two stops")
         for name in values:
             if name in _OF_BUMPERS and not any(isinstance(stop, Bumper) for stop in stops):
                 raise InputError(
-                    f"rig: {name!r} applies to bumpers, but every stop is rigid; 'gap', "
-                    "'gap_ratio', 'restitution', 'amplitude' or 'damping_ratio' is accepted"
+                    f"rig: {name!r} applies to bumpers, but this rig has none; vary 'gap', "
+                    "'gap_ratio', 'restitution', 'amplitude' or 'damping_ratio' instead"
                 )
             if name == "restitution" and not any(isinstance(stop, RigidStop) for stop in stops):
                 raise InputError(
-                    "rig: 'restitution' applies to rigid stops, but the rig has none; a rig with "
-                    "at least one rigid stop is accepted"
+                    "rig: 'restitution' applies to rigid stops, but this rig has none; vary "
+                    "another parameter, or pass a rig with a rigid stop"
                 )

@@ -73,7 +73,7 @@ def jump_border(
         If it is not a map, or ``where`` is invalid.
     """
     if data.attrs.get("created_by") != CREATED_BY:
-        raise InputError("data: this is not a map; the result of scenario_map is accepted")
+        raise InputError("data: this is not a map; pass the result of scenario_map")
     settings = json.loads(data.attrs["parameters"])
     x, y = settings["x"]["name"], settings["y"]["name"]
     along = next((name for name in FOLLOWED if name in (x, y)), None)

@@ -175,8 +175,8 @@ def classify(
     data = sweep(rig, held, max_cycles=max_cycles, threads=threads, progress=progress)
     if data.sizes["frequency"] < LEAST:
         raise InputError(
-            f"frequencies: {data.sizes['frequency']} values; at least {LEAST} frequencies are "
-            "accepted, because a resonance curve needs them"
+            f"frequencies: {data.sizes['frequency']} values are too few for a resonance curve; "
+            f"pass at least {LEAST} frequencies"
         )
     found = evidence(rig, data, 0.5 * used.prominence)
     total = data.sizes["frequency"] * data.sizes["direction"]

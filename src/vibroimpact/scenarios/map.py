@@ -155,7 +155,10 @@ def scenario_map(
     workers = map_workers(len(first.values) * len(second.values), threads, where)
     nodes = (len(first.values) << refine) * (len(second.values) << refine)
     if nodes > MOST_NODES:
-        raise InputError(f"refine: {refine} makes {nodes} nodes; at most {MOST_NODES} are accepted")
+        raise InputError(
+            f"refine: {refine} gives {nodes} points, more than the maximum of {MOST_NODES}; lower "
+            "refine, or pass fewer values of x and y"
+        )
     fine = first.refined(refine), second.refined(refine)
     for end in (0, -1):  # refused before anything is computed
         start.rig({one.name: float(one.values[end]) for one in fine})
@@ -274,7 +277,7 @@ def _parallel(
 def _refinement(given: object) -> int:
     refine = whole(given, "refine", 0)
     if refine > MOST_REFINED:
-        raise InputError(f"refine: {refine}; a whole number of at most {MOST_REFINED} is accepted")
+        raise InputError(f"refine: {refine} is too large; pass at most {MOST_REFINED}")
     return refine
 
 

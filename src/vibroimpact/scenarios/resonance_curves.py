@@ -78,8 +78,8 @@ def each_curves(data: xr.Dataset) -> Iterator[Curves]:
     """
     if data.sizes["direction"] != 2:
         raise InputError(
-            f"data: the sweep went {data['direction'].values.tolist()}; both forward and "
-            "backward are required because hysteresis distinguishes the scenarios"
+            f"data: the sweep has only the directions {data['direction'].values.tolist()}; sweep "
+            "in both directions, 'forward' and 'backward', to detect hysteresis"
         )
     most = data["displacement_max"].max(["direction", "frequency"]).values
     least = data["displacement_min"].min(["direction", "frequency"]).values

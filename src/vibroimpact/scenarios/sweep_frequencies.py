@@ -144,14 +144,14 @@ def grid(high: float, step: float) -> NDArray[np.float64]:
     count = (high - LOW) / step - 1e-9
     if count > MOST and (high - LOW) / STEP <= MOST:
         raise InputError(
-            f"step: {step:g} gives {count:.3g} frequencies; a step that gives at most {MOST} is "
-            "accepted"
+            f"step: {step:g} gives {count:.3g} frequencies, more than the maximum of {MOST}; pass "
+            "a larger step"
         )
     if count > MOST:
         raise InputError(
             f"stiffness: the stops may raise the resonance to {high:.3g} times the natural "
-            f"frequency of the rig, so that the sweep has {count:.3g} frequencies; softer stops, "
-            f"with which it has at most {MOST}, are accepted"
+            f"frequency of the rig, so the sweep would have {count:.3g} frequencies, more than "
+            f"the maximum of {MOST}; lower the stiffness of the stops"
         )
     values: NDArray[np.float64] = LOW + step * np.arange(math.ceil(count) + 1, dtype=np.float64)
     return values

@@ -50,7 +50,7 @@ class Thresholds:
             number = isinstance(value, Real) and not isinstance(value, bool)
             if not (number and 0.0 < value <= 1.0):
                 raise InputError(
-                    f"{name}: {shown(value)}; a number greater than 0 and at most 1 is accepted"
+                    f"{name}: {shown(value)}; pass a number greater than 0 and at most 1"
                 )
 
     @classmethod
@@ -76,5 +76,8 @@ def checked(given: object) -> Thresholds:
     if given is None:
         return Thresholds()
     if not isinstance(given, Thresholds):
-        raise InputError(f"thresholds: {given!r}; a Thresholds, or None, is accepted")
+        raise InputError(
+            f"thresholds: {shown(given)} is not a Thresholds; pass an object such as "
+            "Thresholds(prominence=0.02), or None"
+        )
     return given

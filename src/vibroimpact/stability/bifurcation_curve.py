@@ -39,6 +39,7 @@ from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.units import pretty
 from vibroimpact.stability.bifurcation_locus import Locus, Place
 from vibroimpact.stability.bifurcations import BREAKING
 from vibroimpact.stability.branch_dataset import state_of
@@ -50,6 +51,7 @@ from vibroimpact.tasks.threads import Progress, counted
 
 _Array = NDArray[np.float64]
 
+_NAMES = 'pass the names of two parameters, such as ("frequency", "gap")'
 _NOTHING = xr.DataArray([np.nan])
 
 
@@ -104,19 +106,19 @@ def bifurcation_curve(
     oscillator, excitation = rig.oscillator, rig.harmonic
     names = check_list(parameters, "parameters", 2, "a list of two parameters")
     for name in (one for one in names if not isinstance(one, str)):
-        raise InputError(f"parameters: {shown(name)} is not a name; two names are accepted")
+        raise InputError(f"parameters: {shown(name)} is not a name; {_NAMES}")
     if len(names) != 2:
-        raise InputError(f"parameters: {shown(parameters)}; two names are accepted")
+        raise InputError(f"parameters: {shown(parameters)} is not a pair; {_NAMES}")
     parameters = (names[0], names[1])
     if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
         raise InputError(
-            "start: this is not a single bifurcation; data.isel(bifurcation=i) of a branch is "
-            "accepted"
+            "start: this is not a single bifurcation; pass one bifurcation of a result of branch, "
+            "such as data.isel(bifurcation=0)"
         )
     if start.attrs.get("parameter") != parameters[0].replace("-", "_"):
         raise InputError(
             f"parameters: {parameters[0]!r} is not the parameter along which the start was "
-            f"computed; {start.attrs.get('parameter')!r} is accepted as the first parameter"
+            f"computed; pass {start.attrs.get('parameter')!r} as the first parameter"
         )
     most_points = whole(most_points, "most_points")
     kind = start["bifurcation_kind"].item()
@@ -124,7 +126,8 @@ def bifurcation_curve(
     over = plane(Rig(oscillator, excitation.replace(phase=phase)), (parameters[0], parameters[1]))
     if not is_pair(spans):
         raise InputError(
-            f"spans: {shown(spans)}; a (low, high) pair for each of the two parameters is accepted"
+            f"spans: {shown(spans)}; pass a pair (low, high) for each of the two parameters, such "
+            "as ((2, 8), (0.005, 0.02))"
         )
     ends = [
         read_span(varied, span, f"spans[{i}]")
@@ -133,23 +136,26 @@ def bifurcation_curve(
         )
     ]
     if not ends[1][0] <= over.value <= ends[1][1]:
+        low, high, own = (pretty(one, over.other.quantity) for one in (*ends[1], over.value))
         raise InputError(
-            f"spans[1]: {ends[1][0]:g} to {ends[1][1]:g} does not contain the rig's "
-            f"{parameters[1]}, {over.value:g}; a range that contains it is accepted"
+            f"spans[1]: {low} to {high} does not contain the rig's {parameters[1]} of {own}; widen "
+            "this range"
         )
     if kind == BREAKING and not over.symmetric:
         raise InputError(
-            f"parameters: {parameters[1]!r} destroys the symmetry that the bifurcation breaks; a "
-            "parameter that changes both sides equally, such as 'gap', is accepted"
+            f"parameters: {parameters[1]!r} makes the rig asymmetric, but symmetry breaking "
+            "requires a symmetric rig; use a parameter that changes both sides equally, such as "
+            "'gap'"
         )
     system, y = _start(over, kind, start, ends)
     first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
     if first is None:
         first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
     if first is None:
+        own = pretty(float(start["bifurcation_value"]), over.family.parameter.quantity, 9)
         raise InputError(
-            f"start: this rig has no {kind} near {float(start['bifurcation_value']):.9g}; a "
-            "bifurcation that was computed for this rig is accepted"
+            f"start: this rig has no {kind} near {parameters[0]} = {own}; pass a bifurcation that "
+            "was computed for this rig"
         )
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):

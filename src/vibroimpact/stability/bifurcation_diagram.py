@@ -96,10 +96,11 @@ def bifurcation_diagram(
     starts
         Further initial states, by name. From each of them a motion is started at every value.
     random
-        Number of additional random initial states. The same states are used at every value. Their
-        displacements are at most D, which is 1.5 times the largest displacement of the other
-        motions or 1.5 times the widest gap, whichever is larger. Their velocities are at most D
-        times the angular forcing frequency (its median, if the frequency is varied).
+        Number of random initial states from which further motions start. The same states are used
+        at every value. Their displacements are at most D, which is 1.5 times the largest
+        displacement of the other motions or 1.5 times the widest gap, whichever is larger. Their
+        velocities are at most D times the angular forcing frequency. If the frequency is varied,
+        the median of its values is used.
     seed
         Seed of the random initial states. The same seed gives the same initial states.
     section
@@ -151,7 +152,8 @@ def bifurcation_diagram(
     log = check_flag(log, "log")
     if log and ends[0] <= 0.0:
         raise InputError(
-            f"span[0]: {ends[0]:g}; for a logarithmic axis a value above 0 is accepted"
+            f"span[0]: {ends[0]:g} is not possible on a logarithmic axis; pass a value above 0, or "
+            "use a linear axis"
         )
     count = whole(steps, "steps", 2, MOST_LISTED)
     values: _Array = np.geomspace(*ends, count) if log else np.linspace(*ends, count)
@@ -244,10 +246,11 @@ def _ways(
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     for name in named:
         if name in DIRECTIONS:
-            raise InputError(f"starts: {name!r} is a direction; another name is accepted")
+            raise InputError(f"starts: {name!r} is the name of a direction; use another name")
     if not (given or named or random):
         raise InputError(
-            "directions: empty, and no starts; at least one direction or start is accepted"
+            "directions: neither a direction nor a start is given; pass at least one direction, "
+            "such as 'up', or a start"
         )
     ways: dict[str, _Array | None] = dict.fromkeys(given)
     return ways | {str(name): engine_state(rig, as_state(one)) for name, one in named.items()}

@@ -146,8 +146,8 @@ def _first_orbit(
     if not ends[0] <= fam.value <= ends[1]:
         low, high, own = (pretty(value, fam.parameter.quantity) for value in (*ends, fam.value))
         raise InputError(
-            f"span: {low} to {high} does not contain the first orbit's {parameter}, {own}; a "
-            "range that contains it is accepted"
+            f"span: {low} to {high} does not contain the rig's {parameter} of {own}, at which the "
+            "first orbit lies; widen this range"
         )
     period = None if period is None else whole(period, "period", most=MOST_CYCLES)
     return fam, ends, first_orbit(fam, ends, start, period)

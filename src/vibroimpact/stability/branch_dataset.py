@@ -19,6 +19,7 @@ from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator
+from vibroimpact.model.units import pretty
 from vibroimpact.response import sweep_dataset
 from vibroimpact.response.analytic_free_response import reference_excursions
 from vibroimpact.response.hold_rows import HoldRows
@@ -84,12 +85,12 @@ def as_dataset(
         unexplained = bifurcations.unexplained(one.stations, one.bifurcations)
         if unexplained:
             data.attrs[f"{prefix}unexplained_changes"] = [v for pair in unexplained for v in pair]
-            low, high = unexplained[0]
+            low, high = (pretty(end, fam.parameter.quantity, 9) for end in unexplained[0])
             often = "once" if len(unexplained) == 1 else f"{len(unexplained)} times"
             warnings.warn(
-                f"stability changes {often} along this branch without a "
-                f"detected bifurcation, first between {name} {low:.9g} and {high:.9g}: the list "
-                "of bifurcations is incomplete there",
+                f"stability changes {often} along this branch without a detected bifurcation, "
+                f"first between {name} = {low} and {high}; the list of bifurcations is incomplete "
+                "there",
                 RuntimeWarning,
                 stacklevel=4,
             )
@@ -177,9 +178,10 @@ def _measured(one: Orbit) -> _Array:
     )
     if outcome != Status.DONE:
         result[:] = np.nan
+        varied = one.section.family.parameter
+        where = f"{varied.name} = {pretty(one.value, varied.quantity, 9)}"
         warnings.warn(
-            f"the largest values of the orbit at {one.section.family.parameter.name} "
-            f"{one.value:.9g} are unknown: {Status(outcome).advice}",
+            f"the largest values of the orbit at {where} are unknown: {Status(outcome).advice}",
             RuntimeWarning,
             stacklevel=6,
         )

@@ -66,7 +66,7 @@ def curves_of_kind(
         quantity = over.other.quantity
         raise InputError(
             f"spans[1]: {pretty(low, quantity)} to {pretty(high, quantity)} does not contain the "
-            f"rig's {second}, {pretty(over.value, quantity)}; a range that contains it is accepted"
+            f"rig's {second} of {pretty(over.value, quantity)}; widen this range"
         )
     if first == "frequency":
         data = resonance_diagram(rig, spans[0], phase=shaking.phase, progress=progress)
@@ -83,8 +83,8 @@ def curves_of_kind(
         )
     if not found:
         raise InputError(
-            f"kind: no {kind} was found along {first} between {spans[0][0]} and {spans[0][1]}; "
-            "another kind or range is accepted"
+            f"kind: no {kind} was found for {first} from {spans[0][0]} to {spans[0][1]}; choose "
+            "another kind, or widen the range of the first parameter"
         )
     return found
 

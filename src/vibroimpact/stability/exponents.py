@@ -131,7 +131,7 @@ def lyapunov_exponents(
     workers = placed(threads, where)
     first = pairs[0].oscillator
     every = tuple(
-        varied(name, values, first, f"vary[{name!r}]", ("frequency",), "has an argument of its own")
+        varied(name, values, first, f"vary[{name!r}]", ("frequency",), "is set by frequencies")
         for name, values in check_mapping({} if vary is None else vary, "vary", VALUES).items()
     )
     shape = (len(pairs), len(grid), *(len(one.values) for one in every))
@@ -215,8 +215,8 @@ def lyapunov_exponents(
     if count := sum(f.settling for f in found):
         warnings.warn(
             f"{count} of {len(found)} motions were still converging to a periodic motion after "
-            f"{transient} + {DISCARD} cycles, so their exponents are not those of the periodic "
-            "motion; use a larger transient; `settling` marks these motions",
+            f"{transient + DISCARD} cycles, so their exponents are not those of the periodic "
+            f"motion; pass a transient larger than {transient}; `settling` marks these motions",
             RuntimeWarning,
             stacklevel=2,
         )

@@ -76,13 +76,13 @@ def first_orbit(
 def _no_orbit(period: int, status: Status, failed: Orbit | None) -> InputError:
     if failed is not None and status is Status.NOT_SETTLED and _neutral(failed):
         return InputError(
-            f"start: the orbits of period {period} near this state are not isolated, or a fold is "
-            "near (a multiplier of 1), so Newton's method does not converge; use some isolator "
-            "damping, or another start"
+            f"start: Newton's method does not converge to an orbit of period {period}, because an "
+            "orbit near this state has a Floquet multiplier of 1; add isolator damping, or pass "
+            "another start"
         )
     return InputError(
         f"start: Newton's method finds no orbit of period {period} near this state "
-        f"({told(status)}); a state closer to an orbit is accepted"
+        f"({told(status)}); pass a start closer to an orbit, or another period"
     )
 
 
@@ -117,11 +117,11 @@ def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Or
     begin = engine_state(fam.oscillator, equilibrium(fam.oscillator))
     rest = approach(fam.rig, begin)
     if rest.status not in (Status.DONE, Status.NOT_SETTLED):
-        raise InputError(f"start: the motion from rest was given up: {rest.status.advice}")
+        raise InputError(f"start: the motion from rest could not be computed: {rest.status.advice}")
     if period is None and not rest.period:
         raise InputError(
             f"start: the motion from rest does not settle at {fam.excitation.frequency:g} Hz; "
-            "a state near an orbit, and its period, are accepted"
+            "pass a start near an orbit, and the period of this orbit"
         )
     period = period or rest.period
     repeats = rest.period and period % rest.period == 0
@@ -177,8 +177,8 @@ def _tell_another(rest: Settled, found: Orbit) -> None:
         return
     it = f"has period {rest.period}" if rest.period else "does not settle"
     warnings.warn(
-        f"the orbit found has period {found.section.period} and is not the motion from rest, "
-        f"which {it}",
+        f"the computed orbit has period {found.section.period} and is not the motion from rest, "
+        f"which {it}; to compute another orbit, pass a start near that orbit",
         RuntimeWarning,
         stacklevel=5,
     )

@@ -54,7 +54,7 @@ def rigs_along(varied: Parameter, rig: Rig, values: Iterable[float]) -> list[Rig
         check_bounded(one)
         shaken = one.periodic
         if not (shaken.amplitude > 0.0 and shaken.frequency > 0.0):
-            raise InputError(f"span[0]: {varied.name} of 0; a value greater than 0 is accepted")
+            raise InputError(f"span[0]: the {varied.name} is 0; pass a value greater than 0")
     return found
 
 

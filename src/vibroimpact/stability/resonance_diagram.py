@@ -105,12 +105,12 @@ def resonance_diagram(
     check_progress(progress)
     rig = as_rig(rig, frequency)
     if rig.amplitudes is not None:
-        raise InputError("shaking: a list of amplitudes; one amplitude is accepted")
+        raise InputError("shaking: a list of amplitudes is given; pass one amplitude")
     if registered(parameter).name == "frequency":
         if frequency is not None:
             raise InputError(
-                f"frequency: {shown(frequency)}, but the frequency is the varied parameter; a "
-                "value is accepted only if another parameter is varied"
+                f"frequency: {shown(frequency)}, but the frequency is the varied parameter; remove "
+                "frequency, or vary another parameter"
             )
         rig = rig.at(read_span(PARAMETERS["frequency"], span)[1])
     fam = family(Rig(rig.oscillator, rig.harmonic.replace(phase=phase)), parameter)
@@ -157,8 +157,8 @@ def resonance_diagram(
     if not followed:
         between = f"{ends[0]:g} and {ends[1]:g} {fam.parameter.units}"
         raise InputError(
-            f"span: no periodic orbit was found between {between}; another range, or a larger "
-            "number of starts, is accepted"
+            f"span: no periodic orbit was found between {between}; widen this range, or pass a "
+            "larger number of starts"
         )
     data = as_dataset(followed, fam, ends, "resonance_diagram")
     data.attrs["complete"] = int(complete)

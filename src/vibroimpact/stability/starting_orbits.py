@@ -15,6 +15,7 @@ from vibroimpact.engine import batch
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import extremes, harmonics
 from vibroimpact.response.engine_input import engine_rig, state_from, system_vector
 from vibroimpact.response.hold_rows import Settling
@@ -197,7 +198,7 @@ def in_basins(
 def _value_of(fam: Family, span: tuple[float, float], one: xr.Dataset, field: str) -> float:
     """The value of the parameter at which basins were found."""
     if not isinstance(one, xr.Dataset) or "basin" not in one or "section_attractor" not in one:
-        raise InputError(f"{field}: it has no basins; the result of basins is accepted")
+        raise InputError(f"{field}: this is not a result of basins; pass such a result")
     given = motion_parameters(one)
     rig = Rig(Oscillator.model_validate(given["oscillator"]), excitation_from(given))
     value = fam.parameter.read(rig)
@@ -205,12 +206,13 @@ def _value_of(fam: Family, span: tuple[float, float], one: xr.Dataset, field: st
     alike = np.allclose(system_vector(rig), system_vector(there), 1e-9, 0.0, True)
     if not alike or abs(np.sin(0.5 * (rig.periodic.phase - fam.phase))) > 1e-9:
         raise InputError(
-            f"{field}: these basins belong to another rig, shaking or phase; basins of this rig at "
-            f"a value of {fam.parameter.name} are accepted"
+            f"{field}: these basins were computed for another rig, shaking or phase; compute them "
+            f"for this rig, in which only the {fam.parameter.name} may differ"
         )
     if not span[0] <= value <= span[1]:
+        low, high, own = (pretty(x, fam.parameter.quantity) for x in (*span, value))
         raise InputError(
-            f"{field}: these basins belong to {fam.parameter.name} {value:g}; a value "
-            f"from {span[0]:g} to {span[1]:g} is accepted"
+            f"{field}: these basins were computed at {fam.parameter.name} = {own}, outside the "
+            f"range from {low} to {high}; widen this range, or remove these basins"
         )
     return value

@@ -51,8 +51,9 @@ NEUTRAL = 1e-6
 """Logarithm of the largest multiplier below which an orbit counts as neither stable nor unstable:
 the rest of a transient hides smaller values."""
 _UNDECIDED = (
-    "its largest multiplier is 1 within the accuracy: the orbit is not isolated, or the motion "
-    "approaches it more slowly than exponentially, so the motion may not have settled"
+    "the motion may not have settled, because the largest Floquet multiplier of its orbit is 1 "
+    "within the accuracy: the orbit is not isolated, or the motion approaches it more slowly than "
+    "exponentially"
 )
 MOST_CYCLES = 5_000_000
 """Largest number of cycles over which exponents are averaged: about 0.3 GB."""
@@ -147,7 +148,7 @@ def read_lengths(samples: object, window: object, exponent_cycles: object) -> tu
     check_samples(window, samples, "window")
     if exponent_cycles > MOST_CYCLES:
         raise InputError(
-            f"exponent_cycles: {exponent_cycles} cycles; at most {MOST_CYCLES} are accepted"
+            f"exponent_cycles: {exponent_cycles} is too large; pass at most {MOST_CYCLES} cycles"
         )
     return samples, window, exponent_cycles
 

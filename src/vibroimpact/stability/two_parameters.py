@@ -49,17 +49,15 @@ def plane(rig: Rig, names: tuple[str, str]) -> Plane:
     first = family(rig, names[0])
     other = parameter(names[1], "parameters", rig.periodic.of).of(rig.oscillator)
     if other.name == first.parameter.name:
-        raise InputError(
-            f"parameters: {names[0]!r} is given twice; two different parameters are accepted"
-        )
+        raise InputError(f"parameters: {names[0]!r} is given twice; pass two different parameters")
     second = family(rig, names[1])
     for one in (first, second):
         if not one.straight:
             raise InputError(
-                "parameters: with this law, the equations do not depend linearly on "
-                f"{one.parameter.name!r}, so no curve can be followed along it; the frequency, "
-                "the amplitude, a gap, a force or another stiffness or damping is accepted (a "
-                "branch can be followed along any parameter)"
+                f"parameters: no curve can be followed along {one.parameter.name!r}, because the "
+                "equations of this rig do not depend linearly on it; use the frequency, the "
+                "amplitude, a gap, a force, or another stiffness or damping; branch accepts any "
+                "parameter"
             )
     both = first.symmetric and second.symmetric
     made = Plane(first, other, second.value, second.direction, both)
@@ -78,7 +76,7 @@ def plane(rig: Rig, names: tuple[str, str]) -> Plane:
     straight[RATES] = True  # they follow from stiffness and damping
     if not straight.all():
         raise InputError(
-            f"parameters: {names[0]!r} and {names[1]!r} are not independent of each other; a pair "
-            "such as 'frequency' and 'gap', or 'stiffness_ratio' and 'gap_ratio', is accepted"
+            f"parameters: {names[0]!r} and {names[1]!r} are not independent of each other; pass "
+            "another pair, such as 'frequency' and 'gap', or 'stiffness_ratio' and 'gap_ratio'"
         )
     return made

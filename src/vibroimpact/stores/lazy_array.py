@@ -38,8 +38,8 @@ class _LazyArray(BackendArray):
             reason = (str(error).splitlines() or [type(error).__name__])[0]
             raise InputError(
                 f"store: {str(getattr(stored.store, 'root', stored.store))!r} was damaged after it "
-                f"was opened ({stored.basename}: {reason}); repeat the call that opened it to "
-                "compute the damaged blocks again"
+                f"was opened ({stored.basename}: {reason}); repeat the call that opened it: "
+                "this computes the damaged parts again"
             ) from None
 
 

@@ -71,8 +71,8 @@ def read(group: zarr.Group, word: str, name: str, where: Any = ...) -> NDArray[A
         return np.array(group[name][where])
     except (RuntimeError, ValueError) as error:
         raise InputError(
-            f"store: {group.store} is damaged ({name}: {error}); a {word} that was written "
-            "by this package is accepted"
+            f"store: {group.store} is damaged ({name}: {error}); use another folder, or "
+            f"delete this {word}"
         ) from None
 
 
@@ -181,7 +181,7 @@ def folder(
     try:
         there = Path(path).expanduser().resolve()
     except (TypeError, ValueError, RuntimeError):
-        raise InputError(f"store: {path!r}; the path of a folder is accepted") from None
+        raise InputError(f"store: {path!r} is not a path; pass the path of a folder") from None
     try:
         if not there.parent.is_dir():
             raise FileNotFoundError(2, "the folder that contains it does not exist")
@@ -204,8 +204,8 @@ def folder(
         ) from None
     except OSError as error:
         raise InputError(
-            f"store: {str(there)!r} cannot be written ({error.strerror or error}); a new "
-            "folder, in a place that you may write to and on a disk with room, is accepted"
+            f"store: {str(there)!r} cannot be written ({error.strerror or error}); pass a new "
+            "folder in a place where you may write and where the disk has free space"
         ) from None
 
 
@@ -287,8 +287,8 @@ def _opened(there: Path, template: Template) -> zarr.Group:
     if damaged or altered:
         group.attrs["finished"] = False
         warnings.warn(
-            f"store: {str(there)!r} is damaged; {len(damaged)} of {len(template.blocks)} blocks "
-            "are computed again",
+            f"store: {str(there)!r} is damaged; {len(damaged)} of its {len(template.blocks)} "
+            "parts are computed again",
             InputWarning,
             stacklevel=5,
         )
@@ -380,15 +380,18 @@ def _check(there: Path, template: Template) -> None:
         version = held["vibroimpact_version"]
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise InputError(
-            f"store: {str(there)!r} exists and is not a {kind.word}, or its description is "
-            f"damaged; a folder that does not exist, or a {kind.word} to be completed, is accepted"
+            f"store: {str(there)!r} exists, but contains no readable {kind.word}; pass the "
+            f"path of a new folder, or of an unfinished {kind.word}"
         ) from None
     wanted = json.loads(json.dumps(template.parameters))
     differing = [name for name in wanted if known.get(name) != wanted[name]]
-    if version != __version__:
-        differing.append("vibroimpact_version")
+    if not differing and version != __version__:
+        raise InputError(
+            f"store: {str(there)!r} contains a {kind.word} of version {version} of vibroimpact, "
+            f"but this is version {__version__}; use another folder"
+        )
     if differing:
         raise InputError(
-            f"store: {str(there)!r} holds another {kind.word}: {', '.join(differing)} differ; "
-            "another folder, or the same values, are accepted"
+            f"store: {str(there)!r} contains a {kind.word} with other values of "
+            f"{', '.join(differing)}; use another folder, or the same values"
         )

@@ -43,34 +43,34 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
             return number
         if not may_start():
             raise InputError(
-                "where: 'processes' is not possible within a process that may not start others "
-                "(a daemon, such as a worker of a cluster); 'threads' is accepted"
+                "where: 'processes' is not possible in a process that may not start others, such "
+                "as a worker of a cluster; pass 'threads'"
             )
         return Processes(number)
     if threads is not None:
         raise InputError(
-            f"threads: {threads}; on a cluster, each worker sets its number of threads; "
-            "None is accepted"
+            f"threads: {threads}, but on a cluster each worker sets its own number of threads; "
+            "pass None"
         )
     if importlib.util.find_spec("distributed") is None:
         raise InputError(
-            f"where: {shown(where)} needs dask, which is not installed: "
+            f"where: {shown(where)} requires dask, which is not installed; install it with: "
             "pip install 'vibroimpact[cluster]'"
         )
     client = importlib.import_module("distributed").Client
     if isinstance(where, client):
         if where.status in ("closing", "closed"):
-            raise InputError("where: the client is closed; a client that is connected is accepted")
+            raise InputError("where: this client is closed; pass a connected client")
         return Cluster(where)
     if not (isinstance(where, str) and where.startswith(_MARKS)):
         raise InputError(
-            f"where: {shown(where)}; 'threads', 'processes', a dask Client, or the address of a "
-            "scheduler such as tcp://10.0.0.1:8786 is accepted"
+            f"where: {shown(where)} is unknown; pass 'threads', 'processes', a dask Client, or the "
+            "address of a scheduler, such as tcp://10.0.0.1:8786"
         )
     try:
         return Cluster(client(where, timeout=_PATIENCE, set_as_default=False))
     except (OSError, ValueError) as error:
         raise InputError(
-            f"where: no scheduler answers at {where} ({error}); the address of a running "
-            "scheduler is accepted"
+            f"where: no scheduler answers at {where} ({error}); start the scheduler, or pass the "
+            "address of a running one"
         ) from error

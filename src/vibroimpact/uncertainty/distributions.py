@@ -12,7 +12,7 @@ from scipy import stats
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.model.units import to_si
+from vibroimpact.model.units import pretty, to_si
 
 _Array = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ class Distribution(Protocol):
 
 KINDS = (
     "normal:MEAN:DEVIATION[:LOW:HIGH], lognormal:MEDIAN:SIGMA, uniform:LOW:HIGH, "
-    "triangular:LOW:MODE:HIGH, or around the rig's value normal:5%, lognormal:0.2, uniform:5%"
+    "triangular:LOW:MODE:HIGH; or, around the rig's value, normal:5%, lognormal:0.2, uniform:5%"
 )
 
 
@@ -56,8 +56,8 @@ def distribution(
     if not isinstance(given, str):
         if not callable(getattr(given, "ppf", None)) or not hasattr(given, "args"):
             raise InputError(
-                f"{field}: {shown(given)} is not a distribution; a frozen distribution of "
-                f"scipy.stats or one of these texts is accepted: {KINDS}"
+                f"{field}: {shown(given)} is not a distribution; pass a frozen distribution of "
+                f"scipy.stats, or a text: {KINDS}"
             )
         frozen: Distribution = given
         return frozen
@@ -65,7 +65,7 @@ def distribution(
     try:
         return _made(kind.lower(), texts, varied, own, field)
     except _Unknown:
-        raise InputError(f"{field}: {given!r}; one of these is accepted: {KINDS}") from None
+        raise InputError(f"{field}: {given!r} is not a distribution; use {KINDS}") from None
 
 
 class _Unknown(Exception):  # noqa: N818 - turned into words
@@ -84,7 +84,7 @@ def _made(
     def pair(low: str, high: str) -> tuple[float, float]:
         ends = value(low), value(high)
         if not ends[0] < ends[1]:
-            raise InputError(f"{field}: {low!r} is not below {high!r}; rising values are accepted")
+            raise InputError(f"{field}: {low!r} is not below {high!r}; put the lower value first")
         return ends
 
     made: Distribution
@@ -113,8 +113,8 @@ def _made(
             middle = value(mode)
             if not first <= middle <= last:
                 raise InputError(
-                    f"{field}: the mode {mode!r} lies outside {low!r} to {high!r}; a mode between "
-                    "these ends is accepted"
+                    f"{field}: the mode {mode!r} is not between {low!r} and {high!r}; use a mode "
+                    "between them"
                 )
             made = stats.triang((middle - first) / (last - first), first, last - first)
         case _:
@@ -124,7 +124,10 @@ def _made(
 
 def _positive(value: float, field: str) -> float:
     if not value > 0.0:
-        raise InputError(f"{field}: a median of {value:g}; a median above 0 is accepted")
+        raise InputError(
+            f"{field}: a lognormal distribution cannot have a median of {value:g}; use a median "
+            "above 0, or a normal or uniform distribution"
+        )
     return value
 
 
@@ -158,9 +161,10 @@ def check_values(values: _Array, varied: Parameter, field: str) -> None:
     accepted = "finite values" if varied.zero and least is None else f"values of {low}"
     if most is not None:
         accepted += f" and at most {most:g}"
+    worst = pretty(float(values[wrong][0]), varied.quantity)
     raise InputError(
-        f"{field}: a draw is {values[wrong][0]:g} {varied.units}; a distribution with {accepted} "
-        "is accepted, such as a lognormal, or a normal between bounds"
+        f"{field}: this distribution gives the value {worst}, but only {accepted} are "
+        "possible; use a lognormal distribution, or a normal one with bounds"
     )
 
 
@@ -174,7 +178,7 @@ def check_names(distributions: Any) -> dict[str, Any]:
     """
     if not isinstance(distributions, Mapping) or not distributions:
         raise InputError(
-            f"distributions: {shown(distributions)}; distributions by parameter are accepted, such "
-            'as {"gap": "normal:5%"}'
+            f"distributions: {shown(distributions)}; pass a mapping from parameters to "
+            'distributions, such as {"gap": "normal:5%"}'
         )
     return {str(name): one for name, one in distributions.items()}

@@ -66,8 +66,9 @@ def ensemble(
         Distributions of the uncertain parameters, as a mapping from names to distributions. The
         names are those of `branch`. A distribution is a frozen distribution of ``scipy.stats`` in
         SI units, or a text such as ``"normal:7.5 mm:0.5 mm"``, ``"lognormal:0.2"`` or
-        ``"uniform:10%"``. A percentage refers to the value of the rig. The parameters are drawn
-        independently of each other.
+        ``"uniform:10%"``. A percentage refers to the value of the rig. The number of a lognormal
+        distribution is the standard deviation of the logarithm, and the median is the value of the
+        rig. The parameters are drawn independently of each other.
     response
         Function that computes the responses. It is called with a list of several rigs at a time.
     draws
@@ -116,8 +117,8 @@ def responded(
     """Compute the response of the rigs at rows of values, block by block, along ``sample``."""
     if not callable(response) or isinstance(response, type):
         raise InputError(
-            f"response: {shown(response)} is not a function; a function of a list of rigs is "
-            "accepted, such as functools.partial(vibroimpact.sweeps, frequencies=...)"
+            f"response: {shown(response)} is not a function; pass a function of a list of rigs, "
+            "such as functools.partial(vibroimpact.sweeps, frequencies=...)"
         )
     rigs = drawn.rigs(values)
     parts: list[xr.Dataset] = []
@@ -146,16 +147,18 @@ def responded(
 def _part(data: Any, count: int, names: list[str]) -> xr.Dataset:
     """Return the checked response of some rigs."""
     if not isinstance(data, xr.Dataset) or data.sizes.get("rig") != count:
-        got = dict(data.sizes) if isinstance(data, xr.Dataset) else shown(data)
+        got = shown(data)
+        if isinstance(data, xr.Dataset):
+            got = f"a dataset with the dimensions {dict(data.sizes)}"
         raise InputError(
-            f"response: it returns {got} for {count} rigs; a dataset with a dimension 'rig' and "
-            "one entry per rig is accepted"
+            f"response: the function returns {got} for {count} rigs; let it return a dataset with "
+            "a dimension 'rig' and one entry per rig"
         )
     for name in names:
         if name in data.variables:
             raise InputError(
-                f"distributions: {name!r} is also the name of a variable of the response; other "
-                "parameters are accepted with this response"
+                f"distributions: {name!r} is also the name of a variable of the response; rename "
+                "this variable in the response, or remove the parameter"
             )
     return data.drop_vars("rig", errors="ignore").rename_dims(rig="sample")
 

@@ -97,9 +97,10 @@ class Uncertain(NamedTuple):
         first = found[0]
         for varied, value in zip(self.parameters, values[0], strict=True):
             if not math.isclose(varied.read(first), value, rel_tol=_ROUNDING, abs_tol=1e-300):
+                others = [repr(one.name) for one in self.parameters if one is not varied]
                 raise InputError(
-                    f"distributions: {varied.name!r} and another parameter set the same property "
-                    "of the rig; only one of the two is accepted"
+                    f"distributions: {varied.name!r} sets the same property of the rig as "
+                    f"{' or '.join(others)}; remove one of them"
                 )
         return found
 
@@ -124,7 +125,7 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     alone = isinstance(rig, Oscillator)
     base = as_rig(rig, oscillator_alone=True)
     if base.amplitudes is not None:
-        raise InputError("shaking: a list of amplitudes; one amplitude is accepted")
+        raise InputError("shaking: a list of amplitudes is given; pass one amplitude")
     oscillator, shaken = base.oscillator, None if alone else base.periodic
     given = check_names(distributions)
     parameters, made = [], []
@@ -134,8 +135,8 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
         varied = varied.of(oscillator)
         if shaken is None and varied.name in ("frequency", "amplitude", "gap_ratio"):
             raise InputError(
-                f"{field}: {varied.name} needs a sine, and the rig is not shaken by one; "
-                "Rig(oscillator, amplitude) is accepted as the rig"
+                f"{field}: {varied.name} requires sinusoidal shaking, but the rig is an oscillator "
+                "without shaking; pass Rig(oscillator, amplitude) as the rig"
             )
 
         def own(varied: Parameter = varied) -> float:
@@ -146,9 +147,9 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
         made.append(distribution(one, varied, own, field))
     texts = {varied.name: told(one) for varied, one in zip(parameters, given.values(), strict=True)}
     if len(texts) < len(parameters):
-        raise InputError(
-            "distributions: a parameter appears twice; one distribution per parameter is accepted"
-        )
+        names = [one.name for one in parameters]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise InputError(f"distributions: {twice!r} is given twice; remove one of the two")
     return Uncertain(base, tuple(parameters), tuple(made), texts)
 
 
@@ -183,5 +184,6 @@ def check_power(number: int, field: str, what: str) -> None:
     if number & (number - 1):
         following = 1 << number.bit_length()
         raise InputError(
-            f"{field}: {number}; for {what} a power of 2 is accepted, such as {following}"
+            f"{field}: {number} is not a power of 2, which {what} require; pass a power of 2, such "
+            f"as {following}"
         )

@@ -42,13 +42,17 @@ def plane(state: State) -> Plane:
     scaled = to_dimensionless(state.rig)
     stops = [stop for stop in (scaled.right, scaled.left) if stop is not None]
     if not stops or not all(isinstance(stop, DimensionlessBumper) for stop in stops):
-        raise InputError("map: the rig has no Kelvin-Voigt bumper; at least one is required")
-    times = {float(f"{stop.relaxation_time:.6g}") for stop in stops}  # type: ignore[union-attr]
-    if len(times) > 1 or rig.force:
         raise InputError(
-            "map: the relaxation times τ of the two sides differ, or a constant force acts on the "
-            "mass; rigs with one τ and without constant force are accepted"
+            "map: the map requires that all stops are Kelvin-Voigt bumpers; change the law of the "
+            "stops to kelvin-voigt"
         )
+    times = {float(f"{stop.relaxation_time:.6g}") for stop in stops}  # type: ignore[union-attr]
+    if len(times) > 1:
+        raise InputError(
+            "map: the two bumpers have different relaxation times τ; give both the same τ"
+        )
+    if rig.force:
+        raise InputError("map: a constant force acts on the mass; set this force to 0")
     return Plane(
         float(f"{scaled.damping_ratio:.6g}"),
         times.pop(),

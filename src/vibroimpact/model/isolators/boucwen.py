@@ -101,18 +101,18 @@ class BoucWenIsolator(YieldingLaw):
         if not self.beta + self.gamma > 0.0:
             raise InputError(
                 f"gamma: {self.gamma:g} plus beta, {self.beta:g}, is not greater than 0, so the "
-                "isolator would never yield; a sum greater than 0 is accepted"
+                "isolator would never yield; increase gamma or beta"
             )
         if not self.hysteretic_limit < math.inf:
             raise InputError(
                 f"gamma: {self.gamma:g} plus beta, {self.beta:g}, is so small that the limit of "
-                "the hysteretic displacement is outside the range of floating-point numbers; a "
-                "larger sum is accepted"
+                "the hysteretic displacement is outside the range of floating-point numbers; "
+                "increase gamma or beta"
             )
         # The engine writes u_y^-n as a number.
         if not -_DIGITS < self.exponent * math.log10(self.yield_displacement) < _DIGITS:
             raise InputError(
-                f"exponent: {self.exponent} is too large: the yield displacement, "
+                f"exponent: {self.exponent} is too large, because the yield displacement, "
                 f"{self.yield_displacement:g} m, to this power is outside the range of "
                 f"floating-point numbers; at most {self._sharpest} is accepted"
             )

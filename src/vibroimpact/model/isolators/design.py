@@ -69,7 +69,7 @@ def force_of_strength(mass: float, strength: object) -> float:
     if number > 1.0:
         raise InputError(
             f"strength: {shown(strength)} times the weight; a share of the weight up to 1, such as "
-            '0.05, or a force with its unit, such as "250 kN", is accepted'
+            '0.05, is accepted, or a force with its unit, such as "250 kN"'
         )
     return number * mass * GRAVITY
 
@@ -103,7 +103,9 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
     if not given:
         return table
     if mass is None:
-        raise InputError(f"{given[0]}: requires the mass of the oscillator; add a valid mass")
+        raise InputError(
+            f'{given[0]}: requires the mass of the oscillator; add the mass, such as "550 kg"'
+        )
     for p in own:
         if p.default is p.empty and p.name not in table:
             raise InputError(

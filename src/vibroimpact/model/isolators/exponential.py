@@ -93,13 +93,13 @@ class ExponentialIsolator(IsolatorLaw):
         if self.final_stiffness > self.reversal_stiffness:
             raise InputError(
                 f"final_stiffness: {pretty(self.final_stiffness, STIFFNESS)} is greater than "
-                f"reversal_stiffness, {pretty(self.reversal_stiffness, STIFFNESS)}; "
-                "at most this value is accepted"
+                f"reversal_stiffness, {pretty(self.reversal_stiffness, STIFFNESS)}; reduce "
+                "final_stiffness, or increase reversal_stiffness"
             )
         if not self.hysteretic_force < math.inf:
             raise InputError(
                 f"decay: {pretty(self.decay, DECAY)} makes the hysteresis loop infinitely high; "
-                "a larger value is accepted"
+                "increase decay"
             )
         return self
 

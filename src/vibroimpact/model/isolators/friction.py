@@ -98,9 +98,7 @@ class FrictionIsolator(SpringLaw):
         """
         if coefficient is not None:
             if "friction" in others:
-                raise InputError(
-                    "friction: given together with coefficient; one of the two is accepted"
-                )
+                raise InputError("friction: given together with coefficient; remove one of the two")
             m, mu = design(mass=mass, coefficient=coefficient)
             others["friction"] = mu * m * GRAVITY
         return super().from_period(mass, period, damping_ratio, **others)

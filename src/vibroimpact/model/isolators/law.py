@@ -104,7 +104,7 @@ class IsolatorLaw(Named):
         """Make an isolator from the numbers of a design and other fields."""
         for name in ("damping_exponent", *made):
             if name in others:
-                raise InputError(f"{name}: given together with {by}; one of the two is accepted")
+                raise InputError(f"{name}: given together with {by}; remove one of the two")
         return cls(**made, **others)
 
 
@@ -257,14 +257,14 @@ class YieldingLaw(IsolatorLaw):
         if self.post_yield_stiffness > self.elastic_stiffness:
             raise InputError(
                 f"post_yield_stiffness: {pretty(self.post_yield_stiffness, STIFFNESS)} is greater "
-                f"than elastic_stiffness, {pretty(self.elastic_stiffness, STIFFNESS)}; "
-                "at most this value is accepted"
+                f"than elastic_stiffness, {pretty(self.elastic_stiffness, STIFFNESS)}; reduce "
+                "post_yield_stiffness, or increase elastic_stiffness"
             )
         if not 0.0 < self.yield_displacement < math.inf:
             raise InputError(
                 f"yield_force: {pretty(self.yield_force, FORCE)} divided by elastic_stiffness, "
                 f"{pretty(self.elastic_stiffness, STIFFNESS)}, gives a yield displacement outside "
-                "the range of floating-point numbers; moderate values are accepted"
+                "the range of floating-point numbers; correct the two values or their units"
             )
         return self
 

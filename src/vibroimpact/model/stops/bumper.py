@@ -121,9 +121,12 @@ def returning(table: Mapping[str, Any], mass: float | None) -> Mapping[str, Any]
     if "restitution" not in table:
         return table
     if "damping" in table:
-        raise InputError("restitution: given together with damping; one of the two is accepted")
+        raise InputError("restitution: this bumper also has a damping; remove one of the two")
     if mass is None:
-        raise InputError("restitution: requires the mass of the oscillator; add a valid mass")
+        raise InputError(
+            "restitution: it requires a valid mass of the oscillator; set the mass, such as "
+            '"550 kg"'
+        )
     rest = {name: value for name, value in table.items() if name != "restitution"}
     if "stiffness" not in rest:
         return {**rest, "damping": 0.0}  # it is missed by who reads the table

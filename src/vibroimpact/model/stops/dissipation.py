@@ -70,13 +70,12 @@ def dissipation_number(restitution: float, relation: str) -> float:
     if relation not in RELATIONS:
         *names, last = map(repr, RELATIONS)
         raise InputError(
-            f"relation: {shown(relation)} is unknown; {', '.join(names)} or {last} is accepted"
+            f"relation: {shown(relation)} is unknown; use {', '.join(names)} or {last}"
         )
     if relation in _DIVIDE and not restitution > 1e-300:
-        others = " and ".join(repr(name) for name in RELATIONS if name not in _DIVIDE)
+        others = " or ".join(repr(name) for name in RELATIONS if name not in _DIVIDE)
         raise InputError(
-            f"restitution: {restitution:g} requires an infinite dissipation with the relation "
-            f"{relation!r}; a restitution greater than 0 is accepted, or the relations {others}, "
-            "which give a finite one"
+            f"restitution: {restitution:g} gives an infinite dissipation with the relation "
+            f"{relation!r}; use a restitution greater than 0, or the relation {others}"
         )
     return RELATIONS[relation](restitution)

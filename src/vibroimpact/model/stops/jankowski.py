@@ -64,8 +64,8 @@ class JankowskiBumper(Named):
     def _damped_finitely(self) -> Self:
         if not self.damping_ratio < math.inf:
             raise InputError(
-                f"restitution: {self.restitution:g} requires an infinite damping; a larger "
-                "restitution is accepted"
+                f"restitution: {self.restitution:g} gives an infinite damping; use a larger "
+                "restitution, such as 0.5"
             )
         return self
 

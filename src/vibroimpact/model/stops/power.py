@@ -105,13 +105,13 @@ class PowerBumper(Named):
         if self.dissipation is not None and self.restitution is not None:
             raise InputError(
                 f"dissipation: {self.dissipation:g} s/m is given together with a restitution of "
-                f"{self.restitution:g}; one of the two is accepted"
+                f"{self.restitution:g}; remove one of the two"
             )
         dissipation_number(1.0 if self.restitution is None else self.restitution, self.relation)
         if self.restitution is None and self.relation != "exact":
             raise InputError(
-                f"relation: {self.relation!r} is given without a restitution; it is accepted "
-                "only together with a restitution"
+                f"relation: {self.relation!r} is given without a restitution; add a restitution, "
+                "or remove the relation"
             )
         return self
 
