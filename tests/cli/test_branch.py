@@ -400,4 +400,4 @@ def test_help_names_every_parameter() -> None:
     from vibroimpact.model.parameters import PARAMETERS
 
     every = [name.replace("_", "-") for name in PARAMETERS]
-    assert ", ".join(every) == TOLD
+    assert sorted(", ".join(TOLD.values()).split(", ")) == sorted(every)

@@ -110,7 +110,7 @@ def test_a_closed_stdout(tmp_path):
     assert (tmp_path / "out/B2-G1-A3-sweep.nc").is_file()
 
 
-@pytest.mark.parametrize("stream", ["2>&-", "2>&- >&-", "2>/dev/full"])
+@pytest.mark.parametrize("stream", [*sample(["2>&-"], []), "2>&- >&-", "2>/dev/full"])
 def test_a_closed_stderr(tmp_path, stream):
     if "full" in stream and not os.path.exists("/dev/full"):
         pytest.skip("no full disk at hand")
@@ -130,7 +130,7 @@ def test_a_closed_stderr(tmp_path, stream):
     assert (wrong.returncode, wrong.stdout) == (2, "")
 
 
-@pytest.mark.parametrize("streams", [">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize("streams", [*sample([">&-", "2>&-"], []), "<&- >&- 2>&-"])
 def test_closed_streams_with_processes(tmp_path, streams):
     """The library that starts processes takes for granted that streams are open."""
     line = (

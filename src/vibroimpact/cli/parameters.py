@@ -11,23 +11,46 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
 
-PARAMETERS = (
-    "frequency, amplitude, force, gap, right-gap, left-gap, bumper-stiffness, right-stiffness, "
-    "left-stiffness, proportional-stiffness, stiffness-at-restitution, bumper-damping, "
-    "right-damping, left-damping, restitution, right-restitution, left-restitution, "
-    "bumper-exponent, right-exponent, "
-    "left-exponent, dissipation, right-dissipation, left-dissipation, bumper-mass, right-mass, "
-    "left-mass, stiffness, damping, damping-exponent, friction, elastic-stiffness, "
-    "post-yield-stiffness, yield-force, cubic, quintic, beta, gamma, reversal-stiffness, "
-    "final-stiffness, decay, hardening, hardening-force, isolator-period, stiffness-ratio, "
-    "gap-ratio, relaxation-time, damping-ratio"
-)
-"""Names of all parameters, written out because ``--help`` must not import what computes."""
+PARAMETERS = {
+    "Shaking": "frequency, amplitude",
+    "Constant force on the mass": "force",
+    "Both stops": (
+        "gap, bumper-stiffness, bumper-damping, restitution, bumper-exponent, dissipation, "
+        "bumper-mass"
+    ),
+    "Right stop": (
+        "right-gap, right-stiffness, right-damping, right-restitution, right-exponent, "
+        "right-dissipation, right-mass"
+    ),
+    "Left stop": (
+        "left-gap, left-stiffness, left-damping, left-restitution, left-exponent, "
+        "left-dissipation, left-mass"
+    ),
+    "Stiffness of both bumpers, with damping in proportion": "proportional-stiffness",
+    "Stiffness of both bumpers, with constant restitution": "stiffness-at-restitution",
+    "Isolator": "stiffness, damping, damping-exponent, friction",
+    "Isolator, with constant damping ratio": "isolator-period",
+    "Bilinear or Bouc-Wen isolator": "elastic-stiffness, post-yield-stiffness, yield-force",
+    "Bouc-Wen isolator (β and γ)": "beta, gamma",
+    "Polynomial isolator": "cubic, quintic",
+    "Exponential isolator": (
+        "reversal-stiffness, final-stiffness, decay, hardening, hardening-force"
+    ),
+    "Dimensionless": "stiffness-ratio, gap-ratio, relaxation-time, damping-ratio",
+}
+"""Names of all parameters by what has them, written out because ``--help`` must not import what
+computes."""
+
+_NAMES = "".join(f"- {what}: {names}\n" for what, names in PARAMETERS.items())
 
 Varied: TypeAlias = Annotated[
     str,
     Parameter(
-        help=f"Parameter that is varied. The rig must have this parameter. Names: {PARAMETERS}."
+        help=(
+            "Parameter that is varied. The rig must have this parameter. The names are:\n\n"
+            f"{_NAMES}"
+            "- Number NAME of a formula: isolator-NAME, bumper-NAME, right-NAME, left-NAME\n\n"
+        )
     ),
 ]
 Least: TypeAlias = Annotated[

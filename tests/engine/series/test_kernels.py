@@ -7,6 +7,7 @@ import ctypes
 import numpy as np
 import pytest
 
+from samples import sample
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.motion import FLIGHT, GIVEN_UP, LIMIT, Motion
@@ -59,6 +60,8 @@ SHAPES += [
     for which, power, viscous in ((2, 3, False), (4, 6, True))
     for single in (True, False)
 ]
+# Each is compiled for itself.
+SHAPES = sample(SHAPES, SHAPES[::4])
 NUMBERS = {
     "drag": 0.2,
     "drag_exponent": 0.6,

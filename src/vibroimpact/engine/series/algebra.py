@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine.series.emit import summed
+from vibroimpact.engine.series.summation import summed, summed_lanes
 
 _TOGETHER = 4
 """From which order on two coefficients of a product are summed side by side."""
@@ -17,6 +17,9 @@ _TOGETHER = 4
 
 class Series:
     """Coefficients that are found one by one and kept."""
+
+    depth = 1
+    """How many products lie between its coefficients and those of the state."""
 
     def __init__(self, machine: Any) -> None:
         self.machine = machine
@@ -80,15 +83,9 @@ class Series:
 
     def together(self, n: int, factors: Any, other: Series) -> tuple[Any, Any]:
         """Sum factor j times coefficients n − j and n + 1 − j of a series, side by side."""
-        early, late = factors[:-2], factors[-2:]
-        sums: list[Any] = [None] * min(3, max(1, len(early) // 2))
-        for i, (j, factor) in enumerate(early):
-            sums[i % len(sums)] = other.pair(n - j).times(factor, sums[i % len(sums)])
-        total = sums[0]
-        for one in sums[1:]:
-            total = total + one
-        for j, factor in late:
-            total = other.pair(n - j).times(factor, total)
+        if not factors:
+            return 0.0, 0.0
+        total = summed_lanes((other.pair(n - j), factor) for j, factor in factors)
         return total.lane(0), total.lane(1)
 
     def add_older(self, n: int, total: Any, factor: Any) -> Any:
@@ -137,6 +134,11 @@ class Series:
     __radd__, __rmul__ = __add__, __mul__
 
 
+def later(orders: Any, n: int) -> list[int]:
+    """Sort factors j of coefficients n − j by when the later of both is known."""
+    return sorted(orders, key=lambda j: max(j, n - j))
+
+
 def scaled(slopes: dict[Series, Any], factor: Any) -> dict[Series, Any]:
     """Multiply slopes."""
     return {newest: slope * factor for newest, slope in slopes.items()}
@@ -152,6 +154,8 @@ def joined(one: dict[Series, Any], other: dict[Series, Any]) -> dict[Series, Any
 
 class State(Series):
     """A series of the state, whose coefficients are written as they are found."""
+
+    depth = 0
 
     def __init__(self, machine: Any, coefficients: Any) -> None:
         super().__init__(machine)
@@ -175,6 +179,7 @@ class Shifted(Series):
     def __init__(self, series: Series, first: Any) -> None:
         super().__init__(series.machine)
         self.series, self.begins = series, first
+        self.depth = series.depth
 
     def first(self) -> Any:
         """Return coefficient 0."""
@@ -209,6 +214,7 @@ class Sum(Series):
     def __init__(self, one: Series, other: Any) -> None:
         super().__init__(one.machine)
         self.one, self.other = one, other
+        self.depth = max(one.depth, other.depth if isinstance(other, Series) else 0)
 
     def first(self) -> Any:
         """Return coefficient 0."""
@@ -240,6 +246,7 @@ class Scaled(Series):
     def __init__(self, series: Series, factor: Any) -> None:
         super().__init__(series.machine)
         self.series, self.factor = series, factor
+        self.depth = series.depth
 
     def first(self) -> Any:
         """Return coefficient 0."""
@@ -274,6 +281,7 @@ class Product(Series):
     def __init__(self, one: Series, other: Series) -> None:
         super().__init__(one.machine)
         self.one, self.other = one, other
+        self.depth = 1 + max(one.depth, other.depth)
 
     def first(self) -> Any:
         """Return coefficient 0."""
@@ -289,18 +297,20 @@ class Product(Series):
         """Return what is older of coefficient n."""
         one, other = self.one, self.other
         if n % 2 == 0 and n >= _TOGETHER:
-            # Coefficient n + 1 is summed beside it, but for what is not known yet.
-            order = sorted(range(2, n), key=lambda j: max(j, n + 1 - j))
+            # Coefficient n + 1 is summed beside it. What is known last enters last, by itself.
+            order = later(range(3, n - 1), n + 1)
             total, self._begun[n + 1] = self.together(n, [(j, one[j]) for j in order], other)
-            total = self.machine.fma(one[1], other[n - 1], total)
+            orders = [2, 1, n - 1]
         elif n in self._begun:
-            total = self.machine.fma(one[1], other[n - 1], self._begun[n])
-            total = self.machine.fma(one[n - 1], other[1], total)
+            total, orders = self._begun[n], [2, n - 2, 1, n - 1]
         else:
-            order = sorted(range(1, n), key=lambda j: max(j, n - j))
-            total = summed(self.machine, [(one[j], other[n - j]) for j in order])
-        total = other.add_older(n, total, one[0])
-        return one.add_older(n, total, other[0])
+            total = summed(self.machine, [(one[j], other[n - j]) for j in later(range(1, n), n)])
+            orders = []
+        early, late = (one, other) if one.depth < other.depth else (other, one)
+        total = early.add_older(n, total, late[0])
+        for j in orders:
+            total = self.machine.fma(one[j], other[n - j], total)
+        return late.add_older(n, total, early[0])
 
 
 class Square(Series):
@@ -309,6 +319,7 @@ class Square(Series):
     def __init__(self, one: Series) -> None:
         super().__init__(one.machine)
         self.one = one
+        self.depth = 1 + one.depth
 
     def first(self) -> Any:
         """Return coefficient 0."""
@@ -322,12 +333,14 @@ class Square(Series):
         """Return what is older of coefficient n."""
         one, half = self.one, n // 2
         if n % 2 == 0 and half - 2 >= 2:
-            order = range(half - 1, 1, -1)
-            total, self._begun[n + 1] = self.together(n, [(j, one.doubled(j)) for j in order], one)
+            order = [(j, one.doubled(j)) for j in range(half - 1, 2, -1)]
+            total, self._begun[n + 1] = self.together(n, order, one)
             total = self.machine.fma(one[half], one[half], total)
+            total = self.machine.fma(one.doubled(2), one[n - 2], total)
             total = self.machine.fma(one.doubled(1), one[n - 1], total)
         elif n in self._begun:
             total = self.machine.fma(one.doubled(half), one[half + 1], self._begun[n])
+            total = self.machine.fma(one.doubled(2), one[n - 2], total)
             total = self.machine.fma(one.doubled(1), one[n - 1], total)
         else:
             pairs = [(one[half], one[half])] if n % 2 == 0 else []

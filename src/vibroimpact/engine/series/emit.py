@@ -140,6 +140,12 @@ class Lanes:
         """Take one of them."""
         return Number(self.builder, self.builder.extract_element(self.value, _SHORT(i)))
 
+    def swapped(self) -> Lanes:
+        """Take the second of two, then the first."""
+        nothing = ir.Constant(self.kind, ir.Undefined)
+        order = ir.Constant(ir.VectorType(_SHORT, 2), [1, 0])
+        return Lanes(self.builder, self.builder.shuffle_vector(self.value, nothing, order))
+
     def total(self) -> Number:
         """Add the four."""
         pair = ir.VectorType(_SHORT, 2)
@@ -182,6 +188,10 @@ class PlainLanes:
     def lane(self, i: int) -> float:
         """Take one of them."""
         return self.numbers[i]
+
+    def swapped(self) -> PlainLanes:
+        """Take the second of two, then the first."""
+        return PlainLanes(reversed(self.numbers))
 
     def total(self) -> float:
         """Add the four."""
@@ -357,31 +367,3 @@ class Plain:
     def of_bits(self, a: float) -> float:
         """Invert `bits`."""
         return float(struct.unpack("<d", struct.pack("<q", int(a)))[0])
-
-
-def summed(machine: Any, pairs: Any, base: Any = 0.0, width: int = 3) -> Any:
-    """Sum products in a few chains; the last two pairs, which are known last, enter last."""
-    pairs = list(pairs)
-    if len(pairs) <= 2:
-        for a, b in pairs:
-            base = machine.fma(a, b, base)
-        return base
-    late, early = pairs[-2:], pairs[:-2]
-    width = min(width, max(1, len(early) // 2))
-    sums = [base] + [0.0] * (width - 1)
-    for i, (a, b) in enumerate(early):
-        sums[i % width] = machine.fma(a, b, sums[i % width])
-    total = tree(sums)
-    for a, b in late:
-        total = machine.fma(a, b, total)
-    return total
-
-
-def tree(numbers: Any) -> Any:
-    """Sum numbers pair by pair."""
-    numbers = [one for one in numbers if not (type(one) is float and one == 0.0)] or [0.0]
-    while len(numbers) > 1:
-        pairs = zip(numbers[::2], numbers[1::2], strict=False)
-        odd = numbers[-1:] if len(numbers) % 2 else []
-        numbers = [a + b for a, b in pairs] + odd
-    return numbers[0]

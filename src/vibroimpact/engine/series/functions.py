@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from vibroimpact.engine.series.algebra import Series, scaled
-from vibroimpact.engine.series.emit import summed
+from vibroimpact.engine.series.summation import summed
 
 
 class Exponential(Series):

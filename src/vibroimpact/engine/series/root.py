@@ -1,6 +1,6 @@
 """A step while a stop is pressed by a power of its deformation, as a formula in a root of that.
 
-δ^1.5 has no series where contact begins. With δ = wᵐ and a variable τ in which dt = m wᵐ⁻¹ dτ,
+δ^1.5 has no series where contact begins. With m δ = wᵐ and a variable τ in which dt = wᵐ⁻¹ dτ,
 w′ = δ̇, and all else has a series in τ, at both ends of the contact, too, if m times the exponent is
 a whole number; Jankowski's c δ^¼ δ̇ wants m = 4. The time is one more unknown.
 """
@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from vibroimpact.engine.series import layout as at
-from vibroimpact.engine.series.algebra import Series, State
-from vibroimpact.engine.series.emit import LANES, tree
+from vibroimpact.engine.series.algebra import Series, State, later
+from vibroimpact.engine.series.emit import LANES
 from vibroimpact.engine.series.ends import (
     along_of,
     end_of,
@@ -29,6 +29,7 @@ from vibroimpact.engine.series.step import (
     memory_off,
     reach,
 )
+from vibroimpact.engine.series.summation import summed_lanes, tree
 
 EARLY = 4
 
@@ -48,33 +49,39 @@ class Rooted(NamedTuple):
 
 
 class Moved(Series):
-    """The rate of a series of w, of which w′ = v: coefficient n needs w up to n + 1 only."""
+    """δ′, from the series of y = m δ, which is wᵐ: coefficient n needs w up to n + 1 only."""
 
-    def __init__(self, series: Series, w: State, v: State) -> None:
-        super().__init__(series.machine)
-        self.series, self.w, self.v = series, w, v
+    def __init__(self, y: Series, w: State, v: State, pace: Any, share: float) -> None:
+        super().__init__(w.machine)
+        self.y, self.w, self.v, self.pace, self.share = y, w, v, pace, share
 
     def first(self) -> Any:
         """Return coefficient 0."""
-        return self.series.slopes[self.w] * self.v[0]
+        return self.pace[0] * self.v[0]
 
     def slope(self) -> dict[Series, Any]:
         """Return the slopes."""
-        return {self.v: self.series.slopes[self.w]}
+        return {self.v: self.pace[0]}
 
     def rest(self, n: int) -> Any:
         """Return what is older of coefficient n."""
-        return self.series.older(n + 1) * float(n + 1)
+        return self.y.older(n + 1) * (float(n + 1) * self.share)
 
 
-def pull(law: Law, shape: Rooted, w: Any, v: Any, z: Any, x: Any, moved: Any, pace: Any) -> Any:
-    """What all forces pull back with but for the shaking, times dt/dτ; `moved` is dδ/dτ."""
-    grip = law.push + law.push * law.push_dissipation * v
-    inner = law.stiffness * w ** (shape.root - 1) + w ** (shape.power - 1) * grip
-    terms = [x * (inner * float(shape.root)), law.damping * moved]
+def pull(law: Law, shape: Rooted, w: Any, v: Any, z: Any, y: Any, moved: Any, pace: Any) -> Any:
+    """What all forces but the shaking and the dashpot pull back with, times dt/dτ.
+
+    `y` is m δ, and `moved` is dδ/dτ.
+    """
+    share = 1.0 / shape.root
+    push = law.push * share ** (shape.power * share)
+    deep = w ** (shape.power - 1)
+    inner = law.stiffness * share * pace + push * deep
+    terms = [(inner + push * law.push_dissipation * (v * deep)) * y]
     if shape.viscous:
-        terms.append(law.push_viscous * (w * moved))
-    terms += [force * pace for force in isolator(law, shape, x + law.offset, v, z)]
+        terms.append(law.push_viscous * share**0.25 * (w * moved))
+    x = y * share + law.offset
+    terms += [force * pace for force in isolator(law, shape, x, v, z)]
     return tree(terms)
 
 
@@ -88,36 +95,78 @@ def grown(series: Series, n: int) -> Any:
     return total * (1.0 / (n + 1))
 
 
+def faster(
+    machine: Any, gain: Series, turning: Turning | None, damping: Any, parts: Any, n: int
+) -> Any:
+    """Coefficient n + 1 of the velocity; that of order n, known last, enters last.
+
+    `damping` is −c / m: the dashpot's part of the velocity is −c δ exactly.
+    """
+    w, v, y = parts
+    share = 1.0 / (n + 1)
+    pushed = turning.push(n) if turning is not None else 0.0
+    if n == 0:
+        return machine.fma(damping, y[1], gain[0] + pushed)
+    total = pushed
+    for newest, slope in gain.slopes.items():
+        if newest is not v:
+            total = machine.fma(slope, newest[n], total)
+    total = gain.add_older(n, total, 1.0)
+    total = machine.fma(total, share, damping * y.older(n + 1))
+    brake = damping * y.slopes[w]
+    if v in gain.slopes:
+        brake = brake + gain.slopes[v]
+    return machine.fma(brake * share, v[n], total)
+
+
+class Turning:
+    """What one sine shakes with, times dt/dτ: its even terms and its odd ones, side by side."""
+
+    def __init__(self, machine: Any, even: Any, odd: Any, pace: Series, law: Law) -> None:
+        self.machine, self.pace = machine, pace
+        self.both = [machine.lanes([even, odd])]
+        self.rates = machine.lanes([law.rate, law.closing])
+
+    def push(self, n: int) -> Any:
+        """Coefficient n of what shakes; it needs those of dt/dτ up to n."""
+        pairs = ((self.both[j], self.pace[n - j]) for j in later(range(n + 1), n))
+        total = summed_lanes(pairs, 3)
+        share = 1.0 / (n + 1)
+        self.both.append(total.swapped() * (self.rates * [share, share]))
+        return total.lane(0)
+
+
 def rooted(machine: Any, shape: Rooted) -> None:
     """Write the series of a step from (w, δ̇, z), and the values at its end."""
     first, speed, kept, size, longest, now, after = machine.arguments
     law, degree = Law(machine), at.DEGREE
     w, v, z, t = (State(machine, [one]) for one in (first, speed, kept, 0.0))
-    x = w**shape.root
-    pace, moved = w ** (shape.root - 1) * float(shape.root), Moved(x, w, v)
-    turns = []
+    y, pace = w**shape.root, w ** (shape.root - 1)
+    moved = Moved(y, w, v, pace, 1.0 / shape.root)
+    turning, shaken = None, None
     if shape.single:
         squared = machine.load(at.SHAKES)  # of the unit of time
-        even, odd = State(machine, [now * squared]), State(machine, [after * squared])
-        shaken = even * pace
-        turns = [(even, odd * pace * law.rate), (odd, shaken * law.closing)]
+        turning = Turning(machine, now * squared, after * squared, pace, law)
     else:
         series = t * machine.load(at.SHAKES + degree - 2)
         for n in range(degree - 3, 0, -1):
             series = (series + machine.load(at.SHAKES + n)) * t
         shaken = (series + machine.load(at.SHAKES)) * pace
-    gain = shaken + law.load * pace - pull(law, shape, w, v, z, x, moved, pace)
+    gain = law.load * pace - pull(law, shape, w, v, z, y, moved, pace)
+    if shaken is not None:
+        gain = gain + shaken
+    damping = law.damping * (-1.0 / shape.root)
     flow = memory(law, shape, None, moved, z)
     h, last = None, degree - EARLY
     for n in range(degree):
         w.found.append(v[n] * (1.0 / (n + 1)))
         if n + 1 == last:
             h = machine.least(reach(machine, w, None, size, last), longest)
-        new = [(t, grown(pace, n)), *((one, grown(rate, n)) for one, rate in turns)]
+        new = [(t, grown(pace, n))]
         if flow is not None:
             new.append((z, grown(flow, n)))
         if n + 1 < degree:
-            new.append((v, grown(gain, n)))
+            new.append((v, faster(machine, gain, turning, damping, (w, v, y), n)))
         for one, coefficient in new:
             one.found.append(coefficient)
     written = [(at.X, w), (at.T, t), *([(at.Z, z)] if flow is not None else [])]
@@ -166,7 +215,7 @@ def ended(
     last = machine.absolute(w[degree]) * highest / whole
     last = machine.most(last, machine.absolute(t[degree]) * highest / (times[1] + 1e-300))
     excess = last * (1.0 / (LAST * TOLERANCE))
-    pace = end ** (shape.root - 1) * float(shape.root)
+    pace = end ** (shape.root - 1)
     kept = 0.0
     if z is not None:
         more = sums(machine, z, step.reached)
@@ -178,8 +227,8 @@ def ended(
         excess = machine.most(machine.most(missing, last), excess)
     machine.store(at.FOUND + at.F_EXCESS, excess)
     weight = pace * (h * h)
-    x = end**shape.root
-    pulled = pull(law, shape, end, v, kept, x, v * pace, pace)
-    owes = machine.fma(pulled, h * h, found.gain)
+    moved = v * pace
+    pulled = pull(law, shape, end, v, kept, end**shape.root, moved, pace)
+    owes = machine.fma(machine.fma(law.damping, moved, pulled), h * h, found.gain)
     machine.store(at.FOUND + at.F_OWES, owes)
     machine.store(at.FOUND + at.F_WEIGHT, weight)

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program
 from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State
-from vibroimpact.engine.series.emit import LANES, tree
+from vibroimpact.engine.series.emit import LANES
 from vibroimpact.engine.series.ends import (
     along_of,
     end_of,
@@ -24,6 +24,7 @@ from vibroimpact.engine.series.ends import (
 from vibroimpact.engine.series.functions import cosine, exponential, power, sine, tanh
 from vibroimpact.engine.series.laws import contact, drag, hysteresis, own, polynomial
 from vibroimpact.engine.series.laws import exponential as hardening
+from vibroimpact.engine.series.summation import tree
 
 EARLY = 6
 """How many coefficients before the last the length of a step is known: the rest of the step's code
@@ -166,9 +167,10 @@ def begun(machine: Any, shape: Shape) -> None:
             total = machine.fma(stiffness, along[n], total)
             for force in forces:
                 total = force.add_older(n, total, -1.0)
+            new = total * share
             if hold is not None:
-                total = machine.fma(hold, memo[n], total)
-            new = machine.fma(damping * (1.0 / (n + 2)), along[n + 1], total * share)
+                new = machine.fma(hold * share, memo[n], new)
+            new = machine.fma(damping * (1.0 / (n + 2)), along[n + 1], new)
         if flow is not None:
             if n == 0:
                 made = flow[0]
@@ -176,11 +178,10 @@ def begun(machine: Any, shape: Shape) -> None:
                 by = 1.0 / (n + 1)
                 made = flow.add_older(n, 0.0, by)
                 for newest, slope in flow.slopes.items():
-                    if newest is rate:
-                        made = machine.fma(slope, along[n + 1], made)
-                for newest, slope in flow.slopes.items():
                     if newest is not rate:
                         made = machine.fma(slope * by, newest[n], made)
+                if rate in flow.slopes:
+                    made = machine.fma(flow.slopes[rate], along[n + 1], made)
             memo.found.append(made)
             machine.store(at.Z + n + 1, made)
         along.found.append(new)

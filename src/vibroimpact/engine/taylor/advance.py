@@ -53,6 +53,9 @@ from vibroimpact.engine.taylor.watch import (
     search,
 )
 
+_LACKS, _TOO_MANY = -2, -3
+"""Why a stretch is given up: kernels, or an end after any number of steps."""
+
 _AT_ONCE = 1e-6
 """Of a phase whose length is known: what ends it sooner is rounding."""
 
@@ -162,40 +165,56 @@ def still(plan: Vector, motion: Motion, limit: float) -> Ended:
     return rest(plan, motion, limit)
 
 
-@kernel
-def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
-    """Go on to the next event, or for the time `limit` if that comes first."""
+@apart
+def aside(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """A motion that is not followed by steps: it settles, stands still, or is given up."""
     if motion.fresh & SETTLING:
         return settle(plan, motion, limit)
     if resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion):
         return still(plan, motion, limit)
-    if plan[LACKING] != 0.0:
-        return abandoned(plan, motion, 0.0)
-    mode, _, _, _, right, left, _, age, _ = motion
+    return abandoned(plan, motion, 0.0)
+
+
+@kernel
+def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
+    """Go on to the next event, or for the time `limit` if that comes first."""
+    mode = motion.mode
+    if (
+        motion.fresh & SETTLING
+        or resting(plan, mode)
+        or stuck(plan, motion)
+        or idle(plan, motion)
+        or plan[LACKING] != 0.0
+    ):
+        return aside(plan, motion, limit)
+    _, _, _, _, right, left, _, age, _ = motion
     frame = frame_of(plan, mode)
     sign = frame.sign
     hysteretic = plan[par.HYSTERETIC] != 0.0
     matters, anew = branched(plan, motion), varies(plan, mode)
-    here = motion
+    here, there = motion, True
     t = 0.0
     x, z, clock = coordinate(plan, motion), sign * motion.z, motion.clock
     v, ahead = 0.0, NOT_YET
     root = root_of(plan, motion) if anew else 0
+    event = _TOO_MANY
     for _ in range(MOST):
         if anew or t == 0.0:
             if root:
                 event, step, here = pressed_for(plan, here, frame, root, limit - t, t == 0.0)
                 t += step
                 if event != NEITHER:
-                    return stretch_end(plan, event, freed(plan, here, t), t, limit)
+                    break
             x, z, clock = coordinate(plan, here), sign * here.z, here.clock
             if anew and creeps(plan, here):
-                return happened(plan, TURNED, freed(plan, here, t), t)
+                event = TURNED
+                break
             ahead = ahead_of(plan, here, frame, x, limit - t, matters, anew)
             v = sign * here.v * ahead.unit
         h, after = stepped_on(plan, clock, x, v, z, ahead, (limit - t) * ahead.per_unit)
         if plan[LACKING] != 0.0:
-            return abandoned(plan, freed(plan, placed(plan, here, x), t), t)
+            event = _LACKS
+            break
         ends = ends_of(plan, h, x, v, z, hysteretic)
         ways = ahead.way if matters else 0.0
         found = search(plan, here, frame, ways, ends, ahead.unit, t * ahead.per_unit)
@@ -211,13 +230,15 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
             z = ends.z1 if hysteretic else z
         clock = after
         speed = sign * v * ahead.per_unit
-        here = Motion(mode, 0, 0.0, speed, right, left, sign * z, age, clock)
+        here, there = Motion(mode, 0, 0.0, speed, right, left, sign * z, age, clock), False
         t += step
         if event != LIMIT or not t < limit:
-            return stretch_end(plan, event, freed(plan, placed(plan, here, x), t), t, limit)
+            break
+        event = _TOO_MANY
         if anew:
-            here = placed(plan, here, x)
-    return GIVEN_UP, t, here.v, freed(plan, placed(plan, here, x), t)
+            here, there = placed(plan, here, x), True
+    # One way out for all: each call that returns a motion needs memory, which is cleared first.
+    return stretch_end(plan, event, here, x, there, t, limit)
 
 
 @apart
@@ -230,14 +251,21 @@ def abandoned(plan: Vector, here: Motion, t: float) -> Ended:
 
 
 @apart
-def stretch_end(plan: Vector, event: int, here: Motion, t: float, limit: float) -> Ended:
-    """What a stretch ends with, where the motion is there."""
+def stretch_end(
+    plan: Vector, event: int, here: Motion, x: float, there: bool, t: float, limit: float
+) -> Ended:
+    """What a stretch ends with; the mass is where the coordinate x says, if not there already."""
+    here = freed(plan, here if there else placed(plan, here, x), t)
+    if event == _LACKS:
+        return abandoned(plan, here, t)
+    if event == _TOO_MANY:
+        return GIVEN_UP, t, here.v, here
     if event == LIMIT:
         return LIMIT, limit, here.v, here
-    event, t, arrival, there = happened(plan, event, here, t)
+    event, t, arrival, after = happened(plan, event, here, t)
     if event in (RIGHT, LEFT) and rigid(plan, event):
-        return impact(plan, event, t, arrival, there, limit)
-    return event, t, arrival, there
+        return impact(plan, event, t, arrival, after, limit)
+    return event, t, arrival, after
 
 
 @kernel

@@ -86,12 +86,12 @@ def pressed_by(plan: Vector, motion: Motion, frame: Frame, x: float, root: int) 
 
 @inlined
 def rooted(x: float, root: int) -> float:
-    """A root of a deformation."""
+    """A root of m times a deformation."""
     if root == 2:
-        return math.sqrt(x)
+        return math.sqrt(2.0 * x)
     if root == 4:
-        return math.sqrt(math.sqrt(x))
-    return x ** (1.0 / root)  # type: ignore[no-any-return]
+        return math.sqrt(2.0 * math.sqrt(x))
+    return (root * x) ** (1.0 / root)  # type: ignore[no-any-return]
 
 
 @inlined
@@ -100,7 +100,7 @@ def raised(w: float, root: int) -> float:
     x = w
     for _ in range(1, root):
         x *= w
-    return x if root % 2 or w > 0.0 else -x
+    return (x if root % 2 or w > 0.0 else -x) / root
 
 
 @inlined
