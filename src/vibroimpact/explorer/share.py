@@ -75,7 +75,7 @@ def _from_table(table: Any) -> State:
     }  # fmt: skip
     if not isinstance(table, dict) or set(table) != fields:
         raise InputError(
-            "address: some of its values are missing; copy the whole address of the page again"
+            "address: it does not describe a page; copy the whole address of the page again"
         )
     name, of, direction, span = (table[key] for key in ("name", "of", "direction", "span"))
     if not isinstance(name, str) or len(name) > _LONGEST_NAME or not name.isprintable():
