@@ -74,7 +74,7 @@ def test_one_of_several_components(run, tmp_path):
     code, _, errors = run("quake.V2")
     assert code == 2
     assert errors.startswith(
-        "vibroimpact: error: component: missing, and 'quake.V2' has 2 components; "
+        "vibroimpact: error: component: missing, but 'quake.V2' has 2 components; pass '90 DEG', "
     )
     assert run("quake.V2", "--component", "up", "--periods", "5")[0] == 0
     assert (tmp_path / "out/quake.V2-up-record.nc").is_file()

@@ -62,7 +62,10 @@ def test_no_hint_where_none_is_needed(refused):
         (("sweep", CASE, "--tolerance", "2"), "--tolerance: 2"),
         (("sweep", CASE, "--threads", "-1"), "--threads: -1"),
         (("sweep", CASE, "--frequencies", "1Hz,0Hz"), "--frequencies[1]: '0Hz'"),
-        (("sweep", "B2-G2-A3", "--parameters", "identified"), "--parameters: case 'B2-G2-A3'"),
+        (
+            ("sweep", "B2-G2-A3", "--parameters", "identified"),
+            "--parameters: 'identified' exists only for the cases B2-G1-A3 and B2-G2-A2",
+        ),
         (("classify", CASE, "--threads", "0"), "--threads: 0"),
         (("branch", CASE, "--parameter", "mass"), "--parameter: 'mass'"),
         (("branch", CASE, "--longest", "0"), "--longest: 0"),

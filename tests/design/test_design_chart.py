@@ -177,7 +177,10 @@ def test_what_has_no_bound_is_infinite() -> None:
     [
         ({"vary": {}}, "vary: {}; pass the values of at least one parameter"),
         ({"vary": {"length": [1.0]}}, "vary: 'length'; one of "),
-        ({"vary": {"amplitude": [1.0]}}, "vary: 'amplitude' is a parameter of a sine"),
+        (
+            {"vary": {"amplitude": [1.0]}},
+            "vary: 'amplitude' depends on the shaking, which is not varied here; remove it",
+        ),
         ({"vary": {"gap": []}}, "gaps: the list is empty"),
         ({"vary": {"yield_force": [1.0]}}, "yield_force: unknown key"),
         ({"records": []}, "records: missing; pass at least one Record"),

@@ -72,7 +72,8 @@ def branch(
     frequency
         Forcing frequency, such as 2Hz, if another parameter is varied. With --start or --period, it
         is the frequency of the first orbit. Default: the frequency in the study file (table
-        [simulate]). If there is none, the option is required in these two cases.
+        [simulate]). If the study file has none, the option is required if another parameter is
+        varied, or with --start or --period.
     quantity
         Quantity on the vertical axis of the figure. An excursion is the maximum minus the minimum.
         eta_d and eta_a are the excursions of displacement and acceleration, each divided by its
@@ -82,8 +83,8 @@ def branch(
         Draw the largest displacement (mm) instead of eta_d, and the largest acceleration (g)
         instead of eta_a.
     random
-        Number of random initial states at each of the 40 values of the parameter at which motions
-        are simulated. They help to find isolated branches, that is, branches with stable orbits
+        Number of random initial states at each of 40 values of the parameter. Motions that start
+        from these states help to find isolated branches, that is, branches with stable orbits
         that are not connected to the other branches.
     basins
         Number of values of the parameter at which basins of attraction are computed. The basins

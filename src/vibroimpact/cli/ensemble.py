@@ -48,8 +48,8 @@ def ensemble(
       95 % quantiles
     - NAME-sensitivity-PEAK.nc and NAME-sensitivity-PEAK.png, with --sensitivity: the Sobol indices
       of each peak. Each parameter has two indices, which are shares of the variance of the peak.
-      The parameter causes the first share alone. The second share also includes its interactions
-      with other parameters.
+      The first index is the share that the parameter causes on its own. The second index also
+      includes its interactions with other parameters.
 
     For example:
 
@@ -64,10 +64,10 @@ def ensemble(
         normal:MEAN:DEVIATION, normal:MEAN:DEVIATION:LOW:HIGH (truncated to the range from LOW to
         HIGH), uniform:LOW:HIGH, triangular:LOW:MODE:HIGH and lognormal:MEDIAN:SIGMA. SIGMA is the
         standard deviation of the natural logarithm of the parameter. Three short forms use the
-        value of the rig: normal:5% (the mean is this value, and the standard deviation is 5 % of
-        it), uniform:5% (from 5 % below to 5 % above this value) and lognormal:0.2 (the median is
-        this value, and SIGMA is 0.2). Default: the distributions in the study file (table
-        [ensemble]).
+        value of the parameter in the rig: normal:5% (the mean is this value, and the standard
+        deviation is 5 % of it), uniform:5% (from 5 % below to 5 % above this value) and
+        lognormal:0.2 (the median is this value, and SIGMA is 0.2). Default: the distributions in
+        the study file (table [ensemble]).
     draws
         Number of random rigs. For the method sobol it must be a power of 2. Default: the number in
         the study file (table [ensemble]), or 128.

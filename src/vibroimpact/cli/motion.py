@@ -34,7 +34,8 @@ def motion(
     """Find the steady motions at a frequency, classify them, and draw them on one page.
 
     For each motion, the command prints its type (periodic, quasi-periodic, chaotic or undecided)
-    with the evidence, its extremes and its contacts. It writes these files (--name sets NAME):
+    and the evidence for the type. It also prints the extremes and the contacts. It writes these
+    files (--name sets NAME):
 
     - NAME-FREQUENCY-motion.nc: the samples, contacts, spectrum and Poincaré section of each motion,
       with one NetCDF group per motion

@@ -134,11 +134,11 @@ class RigOptions:
     parameters: Annotated[
         Literal["table", "identified", "refined"] | None, Parameter(group=RIG)
     ] = None
-    """Parameter set of a laboratory case. table: the values in Table 1 and Section 7 of the paper
-    on the tests (by Stefani, De Angelis and Andreaus), for all cases. identified: the values that
-    Section 5 of the paper identifies from single tests, only for B2-G1-A3 and B2-G2-A2. refined:
-    the same as table, but with an isolator that softens as the displacement grows, for all cases.
-    Default: the set in the study file, or table."""
+    """Parameter set of a laboratory case. table (for all cases): the values in Table 1 and Section
+    7 of the paper by Stefani, De Angelis and Andreaus. identified (only for B2-G1-A3 and B2-G2-A2):
+    the values that Section 5 of this paper identifies from single tests. refined (for all cases):
+    the same as table, but with an isolator that softens as the displacement grows. Default: the set
+    in the study file, or table."""
     amplitude: _OfRig = None
     """Amplitude of the shaking. Its unit selects the quantity: peak acceleration of the base (0.05g
     or 0.49m/s^2), peak displacement of the base (5mm), or peak force on the mass (120N)."""

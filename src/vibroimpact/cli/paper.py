@@ -106,7 +106,7 @@ def chosen(
     for key in keys:
         if key not in known:
             raise InputError(
-                f"--only: {key!r} is unknown; pass one or more of {', '.join(known)}, separated by "
-                "commas"
+                f"--only: {key!r} is unknown; pass one or more of these, separated by commas: "
+                f"{', '.join(known)}"
             )
     return tuple(item for item in items if item.key in keys), claims if _CLAIMS in keys else ()

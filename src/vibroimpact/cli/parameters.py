@@ -49,7 +49,7 @@ Varied: TypeAlias = Annotated[
         help=(
             "Parameter that is varied. The rig must have this parameter. The names are:\n\n"
             f"{_NAMES}"
-            "- Number NAME of a formula: isolator-NAME, bumper-NAME, right-NAME, left-NAME\n\n"
+            "- Constant NAME in a formula: isolator-NAME, bumper-NAME, right-NAME, left-NAME\n\n"
         )
     ),
 ]

@@ -197,7 +197,8 @@ def _named(text: str, options: RigOptions) -> _Named:
         beside = path.with_name(f"{path.name}.toml") if path.name else path
         if beside.is_file():
             return _of_study(str(beside), read_study(beside), options)
-        raise InputError(f"{error}; or pass a study file, NAME.toml") from None
+        hint = "" if str(error).startswith("parameters: ") else "; or pass a study file, NAME.toml"
+        raise InputError(f"{error}{hint}") from None
 
 
 def _shaken_by(case: Case) -> Harmonic:

@@ -37,10 +37,12 @@ def simulate(
 
     If a record in the study file shakes the rig, the motion lasts as long as the record. The
     command prints the final state and the number of contacts per forcing cycle. It writes these
-    files (--name sets NAME; for a record, FREQUENCY is left out):
+    files (--name sets NAME):
 
     - NAME-FREQUENCY-history.nc: all samples, and each contact and detachment at its exact time
     - NAME-FREQUENCY-history.png: the time history
+
+    If a record shakes the rig, the file names do not contain FREQUENCY.
 
     For example:
 

@@ -85,7 +85,7 @@ def runs(rig: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None)
             one,
             "gaps" if name == "gap" else f"vary[{name!r}]",
             NOT_VARIED,
-            "is a parameter of a sine",
+            "depends on the shaking, which is not varied here",
         )
         for name, values in given.items()
     )

@@ -102,9 +102,10 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
         values = values.where(~np.isin(data["status"].values, UNSTABLE), math.inf)
     unknown = int(values.isnull().sum())
     if unknown:
+        why = "; the variable status gives the reasons" if "status" in data else ""
         warnings.warn(
-            f"fractiles: {unknown} of {values.size} values of {quantity} are unknown and were left "
-            "out",
+            f"fractiles: {unknown} of {values.size} values of {quantity} are missing (NaN) and "
+            f"were left out{why}",
             RuntimeWarning,
             stacklevel=3,
         )

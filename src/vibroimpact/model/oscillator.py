@@ -137,8 +137,8 @@ class Oscillator(Model):
             if not least <= size <= _MOST:
                 raise InputError(
                     f"mass {m:g} kg, stiffness {k:g} N/m and damping {self.isolator.damping:g} "
-                    f"N s/m: the {what}, about {size:.0e}{unit}, is outside the computable range; "
-                    f"correct these values, so that it is from {least:g} to {_MOST:g}{unit}"
+                    f"N s/m: the {what} is about {size:.0e}{unit}, but only values from "
+                    f"{least:g} to {_MOST:g}{unit} can be computed; correct the three values"
                 )
         return self
 

@@ -341,8 +341,7 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
         assert choice is not None
         path, problem = f"{path}.kind", choice.unknown(mistake["input"])
     elif kind in ("model_type", "model_attributes_type"):
-        keys, name = listed(in_order(wanted)), wanted.__name__
-        problem = f"{value} is not a table; pass a table of {keys} (in Python: {name}(...))"
+        problem = f"{value} is not a table; pass a table of {listed(in_order(wanted))}"
     else:
         message = mistake["msg"]
         problem = f"{value} is invalid: {message[:1].lower()}{message[1:]}"

@@ -49,8 +49,8 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
         return Processes(number)
     if threads is not None:
         raise InputError(
-            f"threads: {threads}, but on a cluster each worker sets its own number of threads; "
-            "pass None"
+            f"threads: {threads} has no effect on a cluster, where each worker sets its own number "
+            "of threads; leave threads out"
         )
     if importlib.util.find_spec("distributed") is None:
         raise InputError(
