@@ -16,7 +16,7 @@ COMMAND = "classify"
 def test_text(run, tmp_path):
     code, out, errors = run("B3-10mm-A3")
     assert (code, errors) == (0, "")
-    assert "S4: secondary resonances with left hysteresis or non-regular motion" in out
+    assert "S4: left hysteresis or non-regular resonances" in out
     for line in ("right hysteresis 1.9–3.3 Hz", "left hysteresis 0.674–0.729 Hz"):
         assert line in out
     assert "Confidence 100%" in out

@@ -145,7 +145,9 @@ def test_what_was_stopped_is_completed_to_the_same(tmp_path) -> None:
     # Finished, it is read, and by nobody else's values.
     third = vi.demands(*arguments, **how, store=store, progress=lambda n, _: 1 / 0)
     assert third.identical(again)
-    with pytest.raises(vi.InputError, match="holds another set of demands: scales differ"):
+    with pytest.raises(
+        vi.InputError, match="contains a set of demands with other values of scales"
+    ):
         vi.demands(RIGS["bumpers"], RECORDS, [1.0], **how, store=store)
     shutil.rmtree(store / "status")
     with pytest.warns(vi.InputWarning, match="is damaged; [0-9]+ of its [0-9]+ parts are computed"):

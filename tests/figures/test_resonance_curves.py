@@ -259,7 +259,9 @@ class TestFiles:
 
     def test_unknown_format(self, tmp_path):
         axes = resonance_curves(swept("B2-G1-A3"))
-        with pytest.raises(vi.InputError, match="png, pdf, svg"):
+        with pytest.raises(
+            vi.InputError, match=r"does not end in .png, .pdf, .svg; use one of these endings"
+        ):
             save_figure(axes[0], tmp_path / "a.xyz")
         assert list(tmp_path.iterdir()) == []
 

@@ -102,7 +102,7 @@ def test_names_and_units_above_the_columns(tmp_path):
     np.testing.assert_allclose(record.acceleration, [98.0665, 196.133, -294.1995])
     assert (record.about.component, record.about.unit) == ("East", "g")
     with pytest.raises(
-        vi.InputError, match="has 2 components; 'North', 'East', or a number from 1"
+        vi.InputError, match="has 2 components; pass 'North', 'East', or a number from 1"
     ):
         vi.Record.read(path)
     assert vi.Record.read(path, 1, unit="m/s^2").peak == 3.0
@@ -141,7 +141,7 @@ def test_a_comma_that_may_mean_two_things(tmp_path):
     path = written(tmp_path, "0,001 1,500\n0,002 -2,500\n")
     assert vi.Record.read(path).peak == 2.5
     path = written(tmp_path, "1,000 1,500\n2,000 -2,500\n")
-    with pytest.raises(vi.InputError, match=r"the comma of '1,000' may be .* pass decimal=','"):
+    with pytest.raises(vi.InputError, match=r"the comma in '1,000' may be .* pass decimal=','"):
         vi.Record.read(path)
     assert vi.Record.read(path, decimal=",").peak == 2.5
     with pytest.raises(

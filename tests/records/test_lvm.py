@@ -24,7 +24,7 @@ def test_records_of_all_layouts(tmp_path, times, decimal, separator):
         np.testing.assert_allclose(record.acceleration, factor * np.array(VALUES), rtol=1e-14)
         assert record.step == 0.01
         assert (record.about.format, record.about.notes) == ("LabVIEW", ())
-    with pytest.raises(vi.InputError, match="has 2 components; 'North', 'East', or a number"):
+    with pytest.raises(vi.InputError, match="has 2 components; pass 'North', 'East', or a number"):
         vi.Record.read(path)
 
 

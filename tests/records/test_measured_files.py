@@ -159,7 +159,7 @@ def test_what_is_read_is_what_the_file_states(name):
         assert record.peak_time == pytest.approx(stated.time, abs=1e-9)
     if len(components) > 1:
         with pytest.raises(
-            vi.InputError, match=r"component: missing, and .* has 3 components; '"
+            vi.InputError, match=r"component: missing, but .* has 3 components; pass '"
         ) as refused:
             vi.Record.read(path)
         assert "\n" not in str(refused.value)

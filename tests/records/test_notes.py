@@ -88,7 +88,9 @@ def test_units_of_columns_and_of_their_times(tmp_path, head, scale):
 
 def test_times_in_a_unit_that_is_not_known(tmp_path):
     path = written(tmp_path, "Time (fortnights),a (g)\n0,1\n1,-1\n")
-    with pytest.raises(vi.InputError, match="its times are in 'fortnights'; s, ms and us are"):
+    with pytest.raises(
+        vi.InputError, match="its times are in 'fortnights'; convert them to s, ms or us"
+    ):
         vi.Record.read(path)
 
 
@@ -214,7 +216,7 @@ def test_two_spellings_of_one_unit_are_no_conflict(tmp_path, head):
 def test_the_ending_of_a_name_yields_to_a_line_of_units_and_is_noted(tmp_path):
     record, told = noted(written(tmp_path, "time,acc_g\ns,cm/s^2\n" + ROWS))
     assert record.peak == pytest.approx(0.03)
-    assert "read in cm/s^2, although its name states g" in told
+    assert "read in cm/s^2, although the name of the column states g" in told
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no such names of files")

@@ -67,7 +67,7 @@ def test_figures_of_a_fit(fit):
         "bumper stiffness",
         "bumper damping",
     ]
-    with pytest.raises(vi.InputError, match="not a history"):
+    with pytest.raises(vi.InputError, match="has no time history"):
         fit_history(fit)
     with pytest.raises(vi.InputError, match="not a fit"):
         fit_residuals(fit[["fitted_value"]])

@@ -156,7 +156,9 @@ def test_no_motion(wrong):
     case = vi.laboratory.case("B2-G1-A3")
     if wrong == 3:
         wrong = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(1.0, 2.0)), 3, samples=0)
-    with pytest.raises(vi.InputError, match=r"motion: .* steady, or of simulate"):
+    with pytest.raises(
+        vi.InputError, match=r"motion: .* pass the result of steady, or the result of simulate"
+    ):
         vi.contacts(wrong)
     with pytest.raises(vi.InputError, match="grazing"):
         vi.contacts(vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(1.0, 2.0)), 3), grazing=-1.0)
@@ -245,5 +247,5 @@ class TestThroughARecord:
     def test_sections_and_spectra_have_no_meaning(self):
         data = vi.simulate(vi.Rig(self.RIG, self.ROUGH))
         for look in (vi.fourier_spectrum, vi.stroboscopic_section, vi.impact_section):
-            with pytest.raises(vi.InputError, match=r"^motion: it is the response to a Record"):
+            with pytest.raises(vi.InputError, match=r"^motion: this is the response to a Record"):
                 look(data)

@@ -193,9 +193,11 @@ def test_what_makes_no_sense_with_a_record_is_refused(arguments: dict, line: str
 
 
 def test_a_tail_is_for_records() -> None:
-    with pytest.raises(vi.InputError, match=r"^tail: 2.0 is accepted for a Record only"):
+    with pytest.raises(
+        vi.InputError, match=r"^tail: 2.0, but no Record shakes this rig; remove tail"
+    ):
         vi.simulate(vi.Rig(RIGS["bumpers"], vi.Harmonic(1.0, 1.0)), 3, tail=2.0)
-    with pytest.raises(vi.InputError, match=r"^cycles: missing; a number greater than 0"):
+    with pytest.raises(vi.InputError, match=r"^cycles: missing; pass the number of forcing cycles"):
         vi.simulate(vi.Rig(RIGS["bumpers"], vi.Harmonic(1.0, 1.0)))
 
 

@@ -92,8 +92,14 @@ def test_components_of_a_motion_along_a_line():
 
 def test_components_of_another_length_or_step():
     for other, line in (
-        (vi.Record(VALUES, 0.01), "record: components with steps 0.02 and 0.01; the same"),
-        (vi.Record(VALUES[:-1], 0.02), "record: components with samples 400 and 399; the same"),
+        (
+            vi.Record(VALUES, 0.01),
+            "record: the two components have time steps of 0.02 s and 0.01 s; pass ",
+        ),
+        (
+            vi.Record(VALUES[:-1], 0.02),
+            "record: the two components have 400 and 399 samples",
+        ),
     ):
         with pytest.raises(vi.InputError) as refused:
             vi.response_spectrum([RECORD, other], 1.0)

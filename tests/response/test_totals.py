@@ -148,7 +148,10 @@ def test_those_of_a_steady_motion() -> None:
 
 def test_no_motion() -> None:
     for wrong in (None, vi.simulate(vi.Rig(BUMPERS, ROUGH), samples=0)):
-        with pytest.raises(vi.InputError, match=r"motion: .* simulate with samples, is accepted"):
+        with pytest.raises(
+            vi.InputError,
+            match=r"motion: .* pass the result of steady, or the result of simulate with samples",
+        ):
             vi.totals(wrong)
 
 

@@ -12,7 +12,9 @@ from vibroimpact.scenarios.thresholds import Thresholds
 
 @pytest.mark.parametrize("value", [0.0, -0.1, 1.5, math.nan, "a", True])
 def test_thresholds_are_shares(value):
-    with pytest.raises(vi.InputError, match=r"extent: .*greater than 0 and at most 1 is accepted"):
+    with pytest.raises(
+        vi.InputError, match=r"extent: .*; pass a number greater than 0 and at most 1"
+    ):
         Thresholds(extent=value)
 
 

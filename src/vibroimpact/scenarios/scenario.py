@@ -40,7 +40,7 @@ _MEANINGS = {
     Scenario.S1: "grazing",
     Scenario.S2: "primary resonance with right hysteresis",
     Scenario.S3: "right hysteresis and a secondary resonance",
-    Scenario.S4: "secondary resonances with left hysteresis or non-regular motion",
+    Scenario.S4: "left hysteresis or non-regular resonances",
     Scenario.S5: "bumpers attached, smooth curves",
     Scenario.S6: "curves bent to the right, without jumps",
     Scenario.UNCLASSIFIED: "none of S0 to S6",
