@@ -164,8 +164,8 @@ def test_a_study_needs_no_ending(write):
         (RIG + '[sweep]\nfrom = "0 Hz"', r"sweep.from: '0 Hz' is not greater than 0"),
         (
             RIG,
-            r"excitation.amplitude: missing; set it in the study, or pass --amplitude: an "
-            r"acceleration",
+            r"excitation.amplitude: missing; set it in the study, or pass --amplitude, such as "
+            r"0.05g \(acceleration\), 2mm \(displacement\) or 500N \(force\)",
         ),
         (RIG + 'parameters = "table"', r"oscillator.parameters: unknown key"),
         ('parameters = "table"' + RIG, r"parameters is given without case"),

@@ -207,7 +207,7 @@ def test_millimetres_taken_as_metres_are_noticed():
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude)
     data["displacement_excursion"] = 1e3 * data.displacement_excursion
-    with pytest.raises(vi.InputError, match="is the unit wrong"):
+    with pytest.raises(vi.InputError, match="correct the unit or the rig"):
         vi.identify(case.oscillator, data, "gap")
 
 

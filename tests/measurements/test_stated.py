@@ -194,7 +194,7 @@ def test_units_of_steps_beside_the_channels(tmp_path):
         data = vi.read_measurement(tmp_path / "a.mat")
         np.testing.assert_allclose(data["time"], TIME, rtol=1e-12)
     scipy.io.savemat(tmp_path / "a.mat", {"u_mm": U, "dt": 0.004, "fs": 200.0})
-    with pytest.raises(vi.InputError, match="two different time steps"):
+    with pytest.raises(vi.InputError, match="state two different time steps"):
         vi.read_measurement(tmp_path / "a.mat")
     scipy.io.savemat(tmp_path / "a.mat", {"u_mm": U, "dt": 0.004, "fs": 250.0})
     np.testing.assert_allclose(vi.read_measurement(tmp_path / "a.mat")["time"], TIME, rtol=1e-12)

@@ -108,7 +108,9 @@ def test_a_group_prints():
 
 @pytest.mark.parametrize("damping_ratio", [0.0, math.sqrt(0.5), 1.0])
 def test_without_a_resonance_peak_a_gap_has_no_scale(damping_ratio):
-    with pytest.raises(InputError, match=r"^damping_ratio: .* between 0 and 0.707107 is accepted"):
+    with pytest.raises(
+        InputError, match=r"^damping_ratio: .* greater than 0 and less than 0.707107 is accepted"
+    ):
         from_dimensionless(20.0, 0.5, 0.01, damping_ratio)
     oscillator = Oscillator(1.0, Isolator(1.0, 2.0 * damping_ratio), Bumper(1.0, 0.0, 1.0))
     with pytest.raises(InputError, match=r"^damping_ratio: "):

@@ -158,7 +158,7 @@ def test_over_any_parameters():
 @pytest.mark.parametrize(
     ("vary", "told"),
     [
-        ({"frequency": [1.0]}, "vary: 'frequency' is set by frequencies; remove it"),
+        ({"frequency": [1.0]}, "vary: 'frequency' is set by the argument frequencies; remove it"),
         ({"colour": [1.0]}, "vary: 'colour'"),
         ({"gap": 3e-3}, "is not a list"),
         ({"gap": [1e-3, 1e-3]}, "given twice"),

@@ -276,5 +276,9 @@ def test_workers_that_join_later_take_part():
 
 
 def test_threads_and_a_cluster_exclude_one_another(cluster):
-    with pytest.raises(vi.InputError, match="threads: 2, but on a cluster each worker sets"):
+    told = (
+        r"^threads: 2 has no effect with where=.*, because each worker of a cluster sets its own "
+        "number of threads; leave threads out, or pass where='threads' or 'processes'$"
+    )
+    with pytest.raises(vi.InputError, match=told):
         vi.sweeps(["B2-G1-A3"], GRID, threads=2, where=cluster)

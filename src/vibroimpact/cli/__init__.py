@@ -34,8 +34,8 @@ Compute the exact dynamics of oscillators that hit deformable stops.
 
 A rig is a mass on an isolator between two bumpers (deformable stops), shaken by its base. Most
 commands require a rig. Pass the code of a published laboratory test, such as B2-G1-A3 (bumper 2,
-gap 1, acceleration 3), or the path of a study file that describes your own rig. Options replace
-single parameters of the rig. A value without a unit is in SI units.
+gap 1, acceleration 3), or the path of a study file that describes your own rig. With options,
+you can change individual parameters of the rig. A value without a unit is in SI units.
 
 For example:
 

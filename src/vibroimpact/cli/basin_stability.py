@@ -31,8 +31,9 @@ def basin_stability(
 
     This share is called the basin stability of the motion. It is computed at several values of one
     parameter. The motions are numbered, and each motion keeps its number along the parameter. To
-    find a motion again at the next value, the command starts simulations at this value from states
-    of the motion. If they lead to a nearby motion, this motion gets the same number.
+    find a motion again at the next value, the command takes states of the motion at the current
+    value, and simulates the rig from them at the next value. If these simulations lead to a nearby
+    motion, the nearby motion gets the same number.
 
     The forcing frequency (--frequency) has no effect if the parameter is the frequency.
 

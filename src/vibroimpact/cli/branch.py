@@ -70,10 +70,10 @@ def branch(
     Parameters
     ----------
     frequency
-        Forcing frequency, such as 2Hz, if another parameter is varied. With --start or --period, it
-        is the frequency of the first orbit. Default: the frequency in the study file (table
-        [simulate]). If the study file has none, the option is required if another parameter is
-        varied, or with --start or --period.
+        Forcing frequency, such as 2Hz. It is used if another parameter is varied. It is also used
+        with --start or --period, as the frequency of the orbit from which the branch starts.
+        Default: the frequency in the study file (table [simulate]). If there is none, the option is
+        required in both cases.
     quantity
         Quantity on the vertical axis of the figure. An excursion is the maximum minus the minimum.
         eta_d and eta_a are the excursions of displacement and acceleration, each divided by its
@@ -84,8 +84,8 @@ def branch(
         instead of eta_a.
     random
         Number of random initial states at each of 40 values of the parameter. Motions that start
-        from these states help to find isolated branches, that is, branches with stable orbits
-        that are not connected to the other branches.
+        from these states help to find isolated branches. An isolated branch has stable orbits, but
+        is not connected to the other branches.
     basins
         Number of values of the parameter at which basins of attraction are computed. The basins
         help to find isolated branches to which only few initial states lead.
@@ -94,7 +94,7 @@ def branch(
         branch of this orbit is followed. Default: all branches are followed.
     period
         Period of the orbits of one branch, in forcing cycles. Only this branch is followed.
-        Default: 1 with --start, otherwise the period of the motion that is reached from rest.
+        Default: 1 with --start. Without --start, the default is that all branches are followed.
     """
     import numpy as np
 

@@ -66,8 +66,8 @@ def design(
     ----------
     records
         Files of earthquake records. For the formats, see vibroimpact record. Default: the records
-        in the study file. If it has none, the rig is shaken by sines with the amplitude of the rig
-        (--amplitude).
+        in the study file. If it has none, the rig is shaken by sines. Their amplitude is the value
+        of --amplitude or, by default, the value in the laboratory case or study file.
     vary
         Parameter that is varied and its range, NAME LOW:HIGH, such as gap 100mm:500mm. The option
         may be used once or twice. The range has 15 evenly spaced values. To change the number or
@@ -75,9 +75,9 @@ def design(
         spacing). Examples of names: gap, bumper-stiffness (at constant damping),
         stiffness-at-restitution (stiffness of the bumpers at constant coefficient of restitution),
         bumper-damping, isolator-period, damping-ratio, yield-force. Default: the parameters in the
-        study file (table [design]). If the file states none, the gap is varied, up to slightly
-        above the gap at which the rig hits no stop. If all stops are linear bumpers, their
-        stiffness is varied, too.
+        study file (table [design]). If the file states none, the gap is varied. Its largest value
+        is then slightly larger than the smallest gap at which the rig hits no stop. If all stops
+        are linear bumpers, their stiffness is varied, too.
     best
         Also search for the bumper that gives the smallest acceleration of the mass. The search does
         not change the gap of the rig.

@@ -46,8 +46,9 @@ def explore(
     browser
         Open the page in a browser. This is the default.
     host
-        Address on which the server listens. With another address than the default, other machines
-        can connect if they know the token (a secret key) in the printed address.
+        Address on which the server listens. If you change the default, other machines can connect
+        to the server if they know the token. The token is a secret key, which is part of the
+        printed address of the page.
     """
     from vibroimpact.explorer import require_websockets
 
@@ -74,7 +75,8 @@ def explore(
         if host not in LOOPBACK:
             warn(
                 f"anyone who can connect to {host} and knows the token in this address can run "
-                "computations on this machine, and the connection is not encrypted"
+                "computations on this machine, and the connection is not encrypted; use --host "
+                "only in a network that you trust"
             )
         if browser:
             import webbrowser

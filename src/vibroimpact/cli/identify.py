@@ -76,13 +76,13 @@ def identify(
         Bounds of a free parameter, NAME LOW:HIGH, such as gap 5mm:10mm. The option may be repeated.
         Default: none.
     tie
-        Parameter, and the other parameter to which it is kept equal, such as left-gap right-gap.
-        The option may be repeated. Default: none.
+        Two parameters, separated by a space, such as left-gap right-gap. The first parameter is
+        kept equal to the second parameter. The option may be repeated. Default: none.
     prior
         Prior knowledge of a free parameter: mean and standard deviation of a normal distribution,
         NAME MEAN:DEVIATION, such as gap 7.5mm:0.2mm. The option may be repeated. Default: none.
     columns
-        Variable, and the name of the column of the file that contains it, such as
+        Name of a variable, and name of the column that contains the variable, such as
         displacement-excursion 'channel 3'. The option may be repeated. An excursion is the maximum
         minus the minimum. Variables of resonance curves: frequency, displacement-excursion,
         acceleration-excursion, displacement-max, displacement-min, acceleration-max,
@@ -100,8 +100,8 @@ def identify(
         the table.
     steady
         Treat the time histories as records of steady motions. Each history is then compared with
-        the steady motion that the rig reaches from the measured state, and no initial states are
-        fitted.
+        the steady motion that the rig reaches from the measured state at the start of the history.
+        No initial states are fitted.
     compare
         Other models that are fitted for comparison: hertz (Hertzian contacts), softening (a
         softening isolator) or hertz,softening (both models). Default: none.

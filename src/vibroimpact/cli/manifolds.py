@@ -55,7 +55,7 @@ def manifolds(
         repeated. Default: at most four saddle orbits, which are found along the borders between
         basins.
     period
-        Period of the saddle orbits near --saddle, in forcing cycles.
+        Period of the saddle orbits that you choose with --saddle, in forcing cycles.
     spacing
         Largest distance between neighbouring points of a curve. The distance is dimensionless: the
         displacement and the velocity are divided by the widths of the ranges --displacement and

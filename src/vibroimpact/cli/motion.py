@@ -54,9 +54,9 @@ def motion(
         Default: the frequency in the study file (table [simulate]). If there is none, the option is
         required.
     branch
-        Motions that are found: the motion that a forward (rising) frequency sweep reaches
-        (forward), the motion that a backward (falling) sweep reaches (backward), or all motions
-        that are reached from sweeps, from rest and from random states (all). Default: all.
+        Motions that are found. forward: the motion that a rising frequency sweep reaches. backward:
+        the motion that a falling frequency sweep reaches. all: all motions that are reached from
+        sweeps, from rest and from random initial states. Default: all.
     random
         Number of random initial states, which are used with --branch all. Their displacements and
         velocities are at most 1.5 times the largest values in the motions from all other initial

@@ -190,21 +190,22 @@ class ThresholdOptions:
     """Options for the thresholds between scenarios."""
 
     prominence: _Threshold = None
-    """Smallest prominence of a secondary resonance that counts, as a share of the height of its
-    peak. The prominence is the height of the peak above the neighbouring parts of the acceleration
-    curve. Default: 0.02."""
+    """Smallest prominence of a secondary resonance, as a share of the height of its peak. The
+    prominence is the height of the peak above the neighbouring parts of the acceleration curve.
+    Peaks with a smaller prominence are not counted. Default: 0.02."""
     extent: _Threshold = None
-    """Limit of scenario S4 for the total width of all left hystereses and non-regular resonances
-    below the primary resonance, as a share of the natural frequency. If the width is smaller, the
-    scenario is not S4. Default: 0.08, the frequency step of the published tests."""
+    """Smallest extent in scenario S4. The extent is the total width of all left hystereses and
+    non-regular resonances below the primary resonance, divided by the natural frequency. If it is
+    smaller than this limit, the scenario is not S4. Default: 0.08, the frequency step of the
+    published tests."""
     touch: _Threshold = None
-    """Limit of grazing (scenario S1) for the gap ratio, which is the gap divided by the largest
-    displacement without bumpers. A contact counts as grazing only if 1 minus the gap ratio is at
-    most this limit. Default: 0.1."""
+    """Largest value of 1 minus the gap ratio in scenario S1 (grazing). The gap ratio is the gap
+    divided by the largest displacement without bumpers. If 1 minus the gap ratio is larger than
+    this limit, a contact does not count as grazing. Default: 0.1."""
     deformation: _Threshold = None
-    """Limit of grazing (scenario S1) for the penetration, that is, the deformation of the bumper. A
-    contact counts as grazing only if its penetration divided by the gap is at most this limit.
-    Default: 0.1."""
+    """Largest penetration in scenario S1 (grazing), divided by the gap. The penetration is the
+    deformation of the bumper. If the penetration divided by the gap is larger than this limit, a
+    contact does not count as grazing. Default: 0.1."""
 
     def thresholds(self) -> Thresholds:
         """Return the thresholds. A threshold without an option has its default."""

@@ -37,8 +37,9 @@ def paper(
     without the measured data. If a statement is not reproduced, the command does not fail.
 
     The report also counts the verdicts by kind of statement, because not all kinds are equally
-    strong tests of the model. The computation could have refuted some statements. Other statements
-    must hold because of the classification rules, the inputs or the equations.
+    strong tests of the model. Some statements are real tests, because the computation could have
+    contradicted them. Other statements must hold because of the classification rules, the inputs or
+    the equations.
 
     The command writes these files:
 

@@ -157,7 +157,7 @@ def subject(
     if shaking is None:
         raise InputError(
             f"study {text!r}: excitation.amplitude: missing; set it in the study, or pass "
-            "--amplitude: an acceleration greater than 0, such as 0.05g, a displacement or a force"
+            "--amplitude, such as 0.05g (acceleration), 2mm (displacement) or 500N (force)"
         )
     made = changes(options, rig_of, oscillator)
     what = Subject(

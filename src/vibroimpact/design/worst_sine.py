@@ -92,8 +92,8 @@ class Sines(NamedTuple):
         count = max(2, math.ceil((max(high, low) - low) / (step * natural) - 1e-9) + 1)
         if count > MOST:
             raise InputError(
-                f"step: {step:g} times the natural frequency ({natural:.3g} Hz) gives {count:g} "
-                f"frequencies from {low:.3g} to {high:.3g} Hz, but at most {MOST} are accepted; "
+                f"step: {self.step:g} gives {count:g} frequencies from {low:.3g} to {high:.3g} Hz "
+                f"at a natural frequency of {natural:.3g} Hz, but at most {MOST} are accepted; "
                 "narrow the frequency range or raise step"
             )
         found: _Array = np.linspace(low, max(high, low), count)

@@ -48,8 +48,8 @@ def floor_record(motion: xr.Dataset) -> Record:
     time = motion["time"].values
     if len(time) < 4:
         raise InputError(
-            f"motion: {len(time)} samples, but at least 4 are required; pass a larger samples to "
-            "simulate"
+            f"motion: {len(time)} samples, but at least 4 are required; call simulate with a "
+            "larger value of samples"
         )
     step = float(time[1])
     if time[-1] - time[-2] < (1.0 - _GRID) * step:  # what is left of the tail

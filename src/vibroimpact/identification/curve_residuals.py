@@ -118,9 +118,9 @@ class CurveTest:
             unit, si = ("mm", "m") if name.startswith("displacement") else ("m/s^2", "m/s²")
             if size > 100.0 * reference or (size < 1e-4 * reference):
                 raise InputError(
-                    f"data: {name} of {self.name!r} reaches {size:.3g} {si}, but that of the rig "
-                    f"without stops {reference:.3g} {si}; is the unit wrong? If the file is in "
-                    f"{unit}, pass units={{{name!r}: {unit!r}}} to read_measurement (--units)"
+                    f"data: {name} of {self.name!r} reaches {size:.3g} {si}, but the rig without "
+                    f"stops reaches {reference:.3g} {si}; correct the unit or the rig. If the file "
+                    f"is in {unit}, pass units={{{name!r}: {unit!r}}} to read_measurement (--units)"
                 )
 
     @property

@@ -113,8 +113,8 @@ def identify(
         motion, and fewer cycles for a chaotic motion. Default: 5.
     steady
         Whether the time histories are records of steady motions. If so, each history is compared
-        with the steady motion that the rig reaches from the measured state, and no initial states
-        are fitted.
+        with the steady motion that the rig reaches from the measured state at the start of the
+        history. No initial states are fitted.
     seed
         Random seed of the starting points and of the bootstrap samples.
     threads

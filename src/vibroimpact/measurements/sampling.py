@@ -101,8 +101,8 @@ def one_step(said: Mapping[str, str], unit: str | None = None) -> float:
     for name, other in others:
         if abs(other - step) > _SAME * step:
             raise InputError(
-                f"{name}: {said[name]!r:.40} and {first} = {said[first]!r:.40} are two different "
-                f"time steps; correct or remove {name} or {first}"
+                f"{name}: {said[name]!r:.40} and {first} = {said[first]!r:.40} state two "
+                f"different time steps; correct or remove {name} or {first}"
             )
     return step
 

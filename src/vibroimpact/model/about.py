@@ -90,8 +90,9 @@ def _unit(
         if found.unclear:
             raise InputError(
                 f"unit: missing, and the values in {path!r} are {found.unclear}, not "
-                'accelerations; pass unit="m/s^2" (--unit), and convert the values with the '
-                "factor of Record.scaled (--scale)"
+                "accelerations; pass the unit of displacements, or convert velocities to "
+                'accelerations; for counts or volts, pass unit="m/s^2" (--unit) and the factor to '
+                "Record.scaled (--scale)"
             )
         taken = "m/s^2"
         notes.append(NO_UNIT)

@@ -234,6 +234,6 @@ def operations(
         if count > most:
             raise InputError(
                 f"formula: it has {count} {what}; shorten it to at most {most}, not counting the "
-                "terms in u, u**3, u**5 and v"
+                "terms in u, u**3, u**5 and v of an isolator"
             )
     return found, numbers

@@ -90,8 +90,8 @@ def peak_of(mass: float, stiffness: float, damping_ratio: float, amplitude: floa
     if not 0.0 < damping_ratio < math.sqrt(0.5):
         raise InputError(
             f"damping_ratio: at {damping_ratio:.6g}, the motion without stops has no finite "
-            "resonance peak, so the gap ratio is undefined; a damping ratio between 0 and 0.707107 "
-            "is accepted"
+            "resonance peak, so the gap ratio is undefined; a damping ratio greater than 0 and "
+            "less than 0.707107 is accepted"
         )
     if amplitude == 0.0:
         raise InputError(

@@ -51,7 +51,9 @@ _Array = NDArray[np.float64]
 def read(file: File) -> list[Channel]:
     """Read the columns of a file, except for the column of times."""
     if not file.lines:
-        raise InputError(f"record: {file.path!r} is not text; pass a text with columns of numbers")
+        raise InputError(
+            f"record: {file.path!r} is not text; pass a text file with columns of numbers"
+        )
     decimal = file.decimal or decimal_mark(file.lines, f"record: {file.path!r}")
     rows, lines, words = _numbers(file, decimal)
     if not rows:

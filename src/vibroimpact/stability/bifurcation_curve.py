@@ -143,9 +143,9 @@ def bifurcation_curve(
         )
     if kind == BREAKING and not over.symmetric:
         raise InputError(
-            f"parameters: {parameters[1]!r} makes the rig asymmetric, but symmetry breaking "
-            "requires a symmetric rig; use a parameter that changes both sides equally, such as "
-            "'gap'"
+            f"parameters: {parameters[1]!r} makes the rig asymmetric, but the start is a symmetry "
+            "breaking, which requires a symmetric rig; use a parameter that changes both sides "
+            "equally, such as 'gap'"
         )
     system, y = _start(over, kind, start, ends)
     first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))

@@ -98,9 +98,9 @@ def bifurcation_diagram(
     random
         Number of random initial states from which further motions start. The same states are used
         at every value. Their displacements are at most D, which is 1.5 times the largest
-        displacement of the other motions or 1.5 times the widest gap, whichever is larger. Their
-        velocities are at most D times the angular forcing frequency. If the frequency is varied,
-        the median of its values is used.
+        displacement of all motions that do not start from random states, or 1.5 times the widest
+        gap, whichever is larger. Their velocities are at most D times the angular forcing
+        frequency. If the frequency is varied, the median of its values is used.
     seed
         Seed of the random initial states. The same seed gives the same initial states.
     section

@@ -131,7 +131,14 @@ def lyapunov_exponents(
     workers = placed(threads, where)
     first = pairs[0].oscillator
     every = tuple(
-        varied(name, values, first, f"vary[{name!r}]", ("frequency",), "is set by frequencies")
+        varied(
+            name,
+            values,
+            first,
+            f"vary[{name!r}]",
+            ("frequency",),
+            "is set by the argument frequencies",
+        )
         for name, values in check_mapping({} if vary is None else vary, "vary", VALUES).items()
     )
     shape = (len(pairs), len(grid), *(len(one.values) for one in every))

@@ -184,7 +184,8 @@ def describe_motion(
     if kind.period and stable == -1:
         kind = kind._replace(evidence=f"{kind.evidence}; {_UNDECIDED}")
         if used:
-            warnings.warn(f"steady: {_UNDECIDED}", RuntimeWarning, stacklevel=4)
+            told = f"{_UNDECIDED}; to find out which, compare it with the motion from another start"
+            warnings.warn(f"steady: {told}", RuntimeWarning, stacklevel=4)
     data = _record(found, found.state, samples, kind.period or window, max_events)
     if int(data["status"]) not in (Status.DONE, Status.REVERSED):
         return _given_up(found._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)

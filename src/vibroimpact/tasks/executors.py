@@ -49,12 +49,14 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
         return Processes(number)
     if threads is not None:
         raise InputError(
-            f"threads: {threads} has no effect on a cluster, where each worker sets its own number "
-            "of threads; leave threads out"
+            f"threads: {threads} has no effect with where={shown(where)}, because each worker of a "
+            "cluster sets its own number of threads; leave threads out, or pass where='threads' or "
+            "'processes'"
         )
     if importlib.util.find_spec("distributed") is None:
         raise InputError(
-            f"where: {shown(where)} requires dask, which is not installed; install it with: "
+            f"where: {shown(where)} is neither 'threads' nor 'processes', and a cluster requires "
+            "dask, which is not installed; pass one of the two, or install dask with: "
             "pip install 'vibroimpact[cluster]'"
         )
     client = importlib.import_module("distributed").Client

@@ -43,8 +43,8 @@ def plane(state: State) -> Plane:
     stops = [stop for stop in (scaled.right, scaled.left) if stop is not None]
     if not stops or not all(isinstance(stop, DimensionlessBumper) for stop in stops):
         raise InputError(
-            "map: the map requires that all stops are Kelvin-Voigt bumpers; change the law of the "
-            "stops to kelvin-voigt"
+            "map: the map requires at least one stop, and all stops must be Kelvin-Voigt bumpers; "
+            "change the law of the stops to kelvin-voigt"
         )
     times = {float(f"{stop.relaxation_time:.6g}") for stop in stops}  # type: ignore[union-attr]
     if len(times) > 1:
