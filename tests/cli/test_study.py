@@ -168,7 +168,7 @@ def test_a_study_needs_no_ending(write):
             r"0.05g \(acceleration\), 2mm \(displacement\) or 500N \(force\)",
         ),
         (RIG + 'parameters = "table"', r"oscillator.parameters: unknown key"),
-        ('parameters = "table"' + RIG, r"parameters is given without case"),
+        ('parameters = "table"' + RIG, r"parameters: this key is only for a laboratory case"),
         ('case = "B2-G1-A3"' + RIG, r"both case and oscillator are given; remove one of them"),
         ('name = "x"', r"neither case nor oscillator is given; add case"),
         ('case = "B9-G1-A3"', r"study .*bumper 'B9' is unknown"),

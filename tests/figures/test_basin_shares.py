@@ -55,5 +55,5 @@ def test_above_all_there_is_no_interval():
 
 
 def test_what_has_no_shares_is_told():
-    with pytest.raises(vi.InputError, match="no shares along a parameter"):
+    with pytest.raises(vi.InputError, match="the shares do not depend on a parameter"):
         basin_shares(made().isel(frequency=0))

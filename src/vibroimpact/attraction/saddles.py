@@ -99,10 +99,10 @@ def check_flies(stage: Stage, orbit: Orbit) -> None:
     for _ in range(orbit.section.period):
         if met(stage, point).any():
             raise InputError(
-                f"excitation.phase: at {stage.excitation.phase:.6g} rad, the saddle at "
-                f"{point[0]:.6g} m presses a stop whose force depends on the impact speed, so "
-                "its manifolds do not lie in a plane; choose a phase at which the mass touches no "
-                "stop"
+                f"excitation.phase: at {stage.excitation.phase:.6g} rad, the mass on the saddle "
+                f"orbit (at {point[0]:.6g} m) touches a stop whose force depends on the impact "
+                "speed, so the manifolds of the saddle do not lie in a plane; choose a phase at "
+                "which the mass touches no stop"
             )
         _, _, point = evaluated(one, point, orbit.facts[0])
 

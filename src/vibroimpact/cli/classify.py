@@ -31,6 +31,13 @@ def classify(
 
     The command sweeps the frequency forward (rising) and backward (falling). It prints the scenario
     and the evidence, that is, the features of the two resonance curves that determine the scenario.
+
+    The primary resonance is the main resonance, and secondary resonances lie at lower frequencies.
+    In a right hysteresis, the forward sweep gives the larger motions. In a left hysteresis, the
+    backward sweep gives the larger motions. A resonance is regular if its motion repeats after one
+    forcing cycle and, for a symmetric rig, is its own mirror image. Chaotic and subharmonic
+    resonances are not regular.
+
     The scenarios are:
 
     - S0: the mass touches no bumper
@@ -42,12 +49,6 @@ def classify(
     - S6: the primary resonance is bent to the right, without jumps
 
     All other curves are unclassified.
-
-    The primary resonance is the main resonance, and secondary resonances lie at lower frequencies.
-    In a right hysteresis, the forward sweep gives the larger motions. In a left hysteresis, the
-    backward sweep gives the larger motions. A resonance is regular if its motion repeats after one
-    forcing cycle and, for a symmetric rig, is its own mirror image. Chaotic and subharmonic
-    resonances are not regular.
 
     The command writes these files (--name sets NAME):
 

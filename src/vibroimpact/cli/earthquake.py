@@ -59,9 +59,9 @@ def earthquake(
         Duration of free vibration after each record, such as 10s. Default: two natural periods of
         the mass, computed with the smallest stiffness of the isolator's force law.
     samples
-        Number of samples of the motion that the figures and the files contain for each time step of
-        a record. It affects the response spectrum of the mass. It does not affect the reported
-        largest displacements, accelerations and forces.
+        Number of samples of the motion per time step of a record, in the figures and files. This
+        number affects the response spectrum of the mass. It does not affect the reported largest
+        displacements, accelerations and forces.
     """
     from rich.text import Text as Line
 

@@ -138,7 +138,7 @@ class RigOptions:
     7 of the paper by Stefani, De Angelis and Andreaus. identified (only for B2-G1-A3 and B2-G2-A2):
     the values that Section 5 of this paper identifies from single tests. refined (for all cases):
     the same as table, but with an isolator that softens as the displacement grows. Default: the set
-    in the study file, or table."""
+    in the study file. If it names none, the default is the set table."""
     amplitude: _OfRig = None
     """Amplitude of the shaking. Its unit selects the quantity: peak acceleration of the base (0.05g
     or 0.49m/s^2), peak displacement of the base (5mm), or peak force on the mass (120N)."""
@@ -196,12 +196,11 @@ class ThresholdOptions:
     extent: _Threshold = None
     """Smallest extent in scenario S4. The extent is the total width of all left hystereses and
     non-regular resonances below the primary resonance, divided by the natural frequency. If it is
-    smaller than this limit, the scenario is not S4. Default: 0.08, the frequency step of the
-    published tests."""
+    smaller than this limit, the scenario is not S4. Default: 0.08, about the frequency step of
+    the published tests (0.1 Hz) divided by their natural frequencies."""
     touch: _Threshold = None
-    """Largest value of 1 minus the gap ratio in scenario S1 (grazing). The gap ratio is the gap
-    divided by the largest displacement without bumpers. If 1 minus the gap ratio is larger than
-    this limit, a contact does not count as grazing. Default: 0.1."""
+    """Largest value of (1 − gap ratio) at which a contact counts as grazing (scenario S1). The gap
+    ratio is the gap divided by the largest displacement without bumpers. Default: 0.1."""
     deformation: _Threshold = None
     """Largest penetration in scenario S1 (grazing), divided by the gap. The penetration is the
     deformation of the bumper. If the penetration divided by the gap is larger than this limit, a
@@ -223,8 +222,8 @@ class OutputOptions:
     output: OutputFolder = "out"
     """Folder for the written files (default: out). A missing folder is created."""
     name: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """Text with which all file names begin (NAME above). Default: the name of the rig or, for
-    vibroimpact record, of the record."""
+    """Text with which all file names begin (NAME above). Default: the name of the rig. (For the
+    command vibroimpact record: the name of the record.)"""
     figure: Annotated[Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, show_default=False)] = (
         "png"
     )

@@ -78,7 +78,8 @@ def sweep(
         Draw the largest acceleration (g), displacement (mm) and contact force instead of the
         normalised excursions η_a (acceleration) and η_d (displacement). An excursion is the maximum
         minus the minimum. It is normalised by the largest excursion of the same rig without stops.
-        If the motion without stops is unbounded, the largest values are always drawn.
+        If the motion without stops is unbounded, there are no normalised excursions. The figure
+        then shows the largest values even without --physical.
     """
     from rich.console import Group
 

@@ -111,8 +111,8 @@ class RigStudy(Model):
             raise InputError("both case and oscillator are given; remove one of them")
         if self.parameters is not None and self.case is None:
             raise InputError(
-                'parameters is given without case; add case, such as case = "B2-G1-A3", or remove '
-                "parameters"
+                "parameters: this key is only for a laboratory case; remove it, or replace the "
+                'table [oscillator] by a case, such as case = "B2-G1-A3"'
             )
         return self
 
