@@ -68,15 +68,14 @@ def check_mapping(value: object, field: str, what: str) -> Mapping[str, Any]:
     return value
 
 
-def check_texts(value: object, field: str) -> None:
-    """Check that a value is None or a mapping from texts to texts.
+def check_texts(value: object, field: str, example: str) -> None:
+    """Check that a value is None or a mapping from texts to texts, of which `example` is one.
 
     Raises
     ------
     InputError
         If it is anything else.
     """
-    example = "mm" if field == "units" else "Ed"
     what = f'a dict of texts, such as {{"displacement_excursion": "{example}"}}'
     held = {} if value is None else check_mapping(value, field, what)
     for key, one in held.items():

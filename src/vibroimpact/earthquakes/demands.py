@@ -27,6 +27,7 @@ from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.units import with_si_unit
 from vibroimpact.response.plausibility import doubt_gaps
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
@@ -266,7 +267,7 @@ def _levels(scales: Any, scaled: Measure) -> _Array:
         raise InputError("scales: the list is empty; pass at least one scale")
     for i in np.flatnonzero(np.diff(levels) <= 0.0):
         last, this = (
-            text if isinstance(text, str) else f"{level:g} {scaled.quantity.symbol}".rstrip()
+            text if isinstance(text, str) else with_si_unit(level, scaled.quantity)
             for text, level in zip(scales[i : i + 2], levels[i : i + 2], strict=True)
         )
         raise InputError(

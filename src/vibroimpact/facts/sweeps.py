@@ -111,8 +111,7 @@ def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
         return Text("Hysteresis: none")
     lines = []
     for item in found.hysteresis:
-        higher, lower = ("forward", "backward")[:: 1 if item.side == "right" else -1]
-        notes = [f"{item.side} ({higher} curve above {lower} curve)"]
+        notes = [f"{item.side} ({item.order})"]
         if item.below is None or item.above is None:
             notes.append("continues beyond the swept range")
         if not item.settled:

@@ -13,7 +13,7 @@ from vibroimpact.errors import InputError, meant, shown
 from vibroimpact.model.parameters import PARAMETERS, Parameter, parameter
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, Quantity
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.units import to_si
+from vibroimpact.model.units import to_si, with_si_unit
 
 Array = NDArray[np.float64]
 
@@ -177,19 +177,18 @@ def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: 
         positive = read.get("start", now) > 0.0
         low, high = read.get("low", 0.0 if positive else low), read.get("high", high)
         high = high if positive or "high" in read else 0.0
-    unit = f" {quantity.symbol}" if quantity.symbol else ""
     if not low < high:
         raise InputError(
-            f"{field}: low, {low:g}{unit}, is not below high, {high:g}{unit}; pass a smaller low "
-            "or a larger high"
+            f"{field}: low, {with_si_unit(low, quantity)}, is not below high, "
+            f"{with_si_unit(high, quantity)}; pass a smaller low or a larger high"
         )
     inside = low <= now <= high
     middle = math.sqrt(low * high) if low > 0.0 else 0.5 * (low + high)
     start = read.get("start", now if inside else middle)
     if not low <= start <= high:
         raise InputError(
-            f"{field}: the start, {start:g}{unit}, is not in the range from {low:g} to "
-            f"{high:g}{unit}; pass a start in this range, or change low or high"
+            f"{field}: the start, {with_si_unit(start, quantity)}, is not in the range from "
+            f"{low:g} to {with_si_unit(high, quantity)}; pass a start in this range, or change low or high"
         )
     size = size_of(quantity, rig, swing)
     small = abs(start) < NEAR_ZERO * size

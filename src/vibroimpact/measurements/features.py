@@ -181,8 +181,8 @@ def in_words(data: xr.Dataset) -> list[str]:
         way = "up" if jump.upward else "down"
         low, high = sorted((jump.before, jump.after))
         lines.append(f"{jump.direction}: jump {way} between {low:.4g} and {high:.4g} Hz")
-    for item in found.hysteresis:
-        higher, lower = ("forward", "backward")[:: 1 if item.side == "right" else -1]
-        side = f"{higher} curve above {lower} curve"
-        lines.append(f"hysteresis, {side}: {item.low:.4g} to {item.high:.4g} Hz")
+    lines += [
+        f"hysteresis, {item.order}: {item.low:.4g} to {item.high:.4g} Hz"
+        for item in found.hysteresis
+    ]
     return lines

@@ -98,8 +98,8 @@ def read_measurement(
         If assumptions were made, or if columns or numbers were left out.
     """
     file = check_path(path, "measurement")
-    for field, given in (("columns", columns), ("units", units)):
-        check_texts(given, field)
+    check_texts(columns, "columns", "Ed")
+    check_texts(units, "units", "mm")
     if file.is_dir():
         raise InputError(f"measurement: {str(path)!r} is a folder; pass the path of a file")
     if not file.exists():

@@ -32,13 +32,17 @@ def number(part: Model, name: str, whose: str = "stops have") -> float:
     """
     value = getattr(part, name) if name in type(part).model_fields else None
     if value is None or isinstance(value, str | int):
-        numbers = [key for key, held in dict(part).items() if isinstance(held, float)]
-        own = f"vary its {' or '.join(numbers)}, or " if numbers else ""
+        own = " or ".join(_numbers(part))
+        own = f"vary its {own}, or " if own else ""
         raise InputError(
             f"parameter: {part} has no {name} that can be varied; {own}use a rig whose {whose} "
             f"{'an' if name[0] in 'aeiou' else 'a'} {name}"
         )
     return float(value)
+
+
+def _numbers(part: Model) -> list[str]:
+    return [key for key, value in dict(part).items() if isinstance(value, float)]
 
 
 def quantity(part: Model, name: str, whose: str = "stops have") -> Quantity:
@@ -212,8 +216,7 @@ def formulas(
 
 def _fields(part: Model, whose: str, registered: Collection[str]) -> list[str]:
     """Return the parameters of an isolator or a stop that is not defined by a formula."""
-    held = [key for key, value in dict(part).items() if isinstance(value, float)]
-    named = [f"{whose}_{key}" if f"{whose}_{key}" in registered else key for key in held]
+    named = [f"{whose}_{key}" if f"{whose}_{key}" in registered else key for key in _numbers(part)]
     return [one for one in named if one in registered]
 
 

@@ -203,11 +203,9 @@ def case(code: str, parameters: Parameters = "table") -> Case:
         If the code or the parameter set is unknown, or if a value is invalid. Also if the case has
         no identified parameters.
     """
-    if not isinstance(code, str):
+    if not is_code(code):
         raise InputError(f"case: {shown(code)} is not a case code; {_ACCEPTED}")
     parts = _split(code)
-    if len(parts) != 3 or not all(parts):
-        raise InputError(f"case: {shown(code)} is not a case code; {_ACCEPTED}")
     if parameters not in get_args(Parameters):
         raise InputError(
             f"parameters: {shown(parameters)} is unknown; 'table', 'identified' or 'refined' is "
@@ -292,6 +290,12 @@ def table_1() -> Table1:
             for a, rig in rigs.items()
         },
     )
+
+
+def is_code(text: object) -> bool:
+    """Return whether a value has the form of a case code: a text of three parts."""
+    parts = _split(text) if isinstance(text, str) else []
+    return len(parts) == 3 and all(parts)
 
 
 def _split(code: str) -> list[str]:

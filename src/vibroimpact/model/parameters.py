@@ -31,7 +31,7 @@ from vibroimpact.model.quantities import (
     Quantity,
     power_stiffness,
 )
-from vibroimpact.model.units import to_si
+from vibroimpact.model.units import to_si, with_si_unit
 
 _UNITS = {
     FREQUENCY: "Hz",
@@ -138,10 +138,10 @@ def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[flo
         for i, end in enumerate(ends)
     )
     if not low < high:
-        unit = f" {varied.quantity.symbol}" if varied.physical else ""
+        first, last = (with_si_unit(end, varied.quantity) for end in (low, high))
         raise InputError(
-            f"{field}[1]: {high:g}{unit} is not greater than {field}[0], {low:g}{unit}; pass the "
-            "lowest value first, and then the highest"
+            f"{field}[1]: {last} is not greater than {field}[0], {first}; pass the lowest value "
+            "first, and then the highest"
         )
     return low, high
 

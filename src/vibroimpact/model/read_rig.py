@@ -109,7 +109,7 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
         try:
             return laboratory.case(value).rig
         except InputError as error:
-            why = "" if "is not a case code" in str(error) else f" ({error})"
+            why = f" ({error})" if laboratory.is_code(value) else ""
     if isinstance(value, Oscillator):
         if oscillator_alone:
             return Rig(value)

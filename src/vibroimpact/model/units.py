@@ -163,13 +163,13 @@ def read(
         if not math.isfinite(number):
             raise RefusalError("is not finite")
         if above is not None and not number > above:
-            raise RefusalError(f"is not greater than {_with_unit(above, quantity)}")
+            raise RefusalError(f"is not greater than {_bound(above, quantity)}")
         if above == 0.0 and quantity is FREQUENCY and not _SLOWEST <= number <= _FASTEST:
             raise RefusalError(f"is not between {_SLOWEST:g} and {_FASTEST:g} Hz")
         if minimum is not None and not number >= minimum:
-            raise RefusalError(f"is less than {_with_unit(minimum, quantity)}")
+            raise RefusalError(f"is less than {_bound(minimum, quantity)}")
         if maximum is not None and not number <= maximum:
-            raise RefusalError(f"is greater than {_with_unit(maximum, quantity)}")
+            raise RefusalError(f"is greater than {_bound(maximum, quantity)}")
     except RefusalError as refusal:
         wanted = accepted(quantity, above=above, minimum=minimum, maximum=maximum)
         raise InputError(f"{shown(value)} {refusal}; {wanted}") from None
@@ -186,9 +186,9 @@ def accepted(
 ) -> str:
     """Describe the accepted values of a quantity, with an example."""
     told = (("greater than", above), ("of at least", minimum), ("of at most", maximum))
-    bounds = [f"{words} {_with_unit(end, quantity)}" for words, end in told if end is not None]
+    bounds = [f"{words} {_bound(end, quantity)}" for words, end in told if end is not None]
     if minimum is not None and maximum is not None:
-        bounds = [f"from {minimum:g} to {_with_unit(maximum, quantity)}"]
+        bounds = [f"from {minimum:g} to {_bound(maximum, quantity)}"]
     sign = "-" if maximum is not None and maximum <= 0 else ""
     number = f"{sign}{quantity.number}"
     example = (
@@ -197,8 +197,13 @@ def accepted(
     return " ".join((quantity.phrase, *bounds, "is accepted, such as", example))
 
 
-def _with_unit(bound: float, quantity: Quantity) -> str:
-    return f"{bound:g} {quantity.symbol}".rstrip() if bound else "0"
+def with_si_unit(value: float, quantity: Quantity) -> str:
+    """Write a value with its SI unit."""
+    return f"{value:g} {quantity.symbol}".rstrip()
+
+
+def _bound(value: float, quantity: Quantity) -> str:
+    return with_si_unit(value, quantity) if value else "0"
 
 
 def to_si_of_any(value: object, field: str) -> tuple[float, tuple[float, float, float] | None]:
@@ -280,7 +285,7 @@ def pretty(value: float, quantity: Quantity, digits: int = 6) -> str:
         Text such as ``"510 kN/m"``, ``"7.5 mm"``, ``"0.134 g"`` or ``"0.15"``.
     """
     if not math.isfinite(value):
-        return f"{value:g} {quantity.symbol}".rstrip()
+        return with_si_unit(value, quantity)
     # What rounds up to the next unit is written in that: 1 MN, not 1000 kN.
     unit = quantity.unit(float(f"{value:.{digits}g}"))
     return f"{plain(value / unit.size, digits)} {unit.symbol}".rstrip()

@@ -96,6 +96,12 @@ class Hysteresis(NamedTuple):
     """False if at no frequency both motions settled, so that transients may look like it."""
 
     @property
+    def order(self) -> str:
+        """Which curve lies above the other, in words."""
+        higher, lower = ("forward", "backward")[:: 1 if self.side == "right" else -1]
+        return f"{higher} curve above {lower} curve"
+
+    @property
     def ends(self) -> tuple[float, float]:
         """Best estimate of its ends: the middle between the last two frequencies (Hz)."""
         low = self.low if self.below is None else 0.5 * (self.below + self.low)

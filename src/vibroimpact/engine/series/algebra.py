@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine.series.summation import summed, summed_lanes
+from vibroimpact.engine.series.summation import summed
 
 _TOGETHER = 4
 """From which order on two coefficients of a product are summed side by side."""
@@ -85,7 +85,8 @@ class Series:
         """Sum factor j times coefficients n − j and n + 1 − j of a series, side by side."""
         if not factors:
             return 0.0, 0.0
-        total = summed_lanes((other.pair(n - j), factor) for j, factor in factors)
+        pairs = ((other.pair(n - j), factor) for j, factor in factors)
+        total = summed(self.machine, pairs, width=2)
         return total.lane(0), total.lane(1)
 
     def add_older(self, n: int, total: Any, factor: Any) -> Any:

@@ -228,7 +228,9 @@ class Code:
         return Number(self.builder, self.builder.call(function, values))
 
     def fma(self, a: Any, b: Any, c: Any) -> Any:
-        """Compute a b + c, rounded once."""
+        """Compute a b + c, rounded once; of lanes a, side by side."""
+        if isinstance(a, Lanes):
+            return a.times(b, c if isinstance(c, Lanes) else None)
         if any(not isinstance(one, Number) and one == 0.0 for one in (a, b)):
             return c
         if not isinstance(c, Number) and c == 0.0:

@@ -29,7 +29,7 @@ from vibroimpact.engine.series.step import (
     memory_off,
     reach,
 )
-from vibroimpact.engine.series.summation import summed_lanes, tree
+from vibroimpact.engine.series.summation import summed, tree
 
 EARLY = 4
 
@@ -130,7 +130,7 @@ class Turning:
     def push(self, n: int) -> Any:
         """Coefficient n of what shakes; it needs those of dt/dτ up to n."""
         pairs = ((self.both[j], self.pace[n - j]) for j in later(range(n + 1), n))
-        total = summed_lanes(pairs, 3)
+        total = summed(self.machine, pairs)
         share = 1.0 / (n + 1)
         self.both.append(total.swapped() * (self.rates * [share, share]))
         return total.lane(0)

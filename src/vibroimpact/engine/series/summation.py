@@ -6,7 +6,10 @@ from typing import Any
 
 
 def summed(machine: Any, pairs: Any, base: Any = 0.0, width: int = 3) -> Any:
-    """Sum products in a few chains; the last two pairs, which are known last, enter last."""
+    """Sum products in a few chains; the last two pairs, which are known last, enter last.
+
+    The first of a pair may be lanes, which are summed side by side.
+    """
     pairs = list(pairs)
     if len(pairs) <= 2:
         for a, b in pairs:
@@ -20,21 +23,6 @@ def summed(machine: Any, pairs: Any, base: Any = 0.0, width: int = 3) -> Any:
     total = tree(sums)
     for a, b in late:
         total = machine.fma(a, b, total)
-    return total
-
-
-def summed_lanes(pairs: Any, width: int = 2) -> Any:
-    """Sum lanes times numbers as `summed` does."""
-    pairs = list(pairs)
-    late, early = pairs[-2:], pairs[:-2]
-    sums: list[Any] = [None] * min(width, max(1, len(early) // 2))
-    for i, (lanes, factor) in enumerate(early):
-        sums[i % len(sums)] = lanes.times(factor, sums[i % len(sums)])
-    total = sums[0]
-    for one in sums[1:]:
-        total = total + one
-    for lanes, factor in late:
-        total = lanes.times(factor, total)
     return total
 
 

@@ -13,7 +13,6 @@ from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.stops import impact, rest, rigid, settle
-from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import (
     DETACHED,
     GIVEN_UP,
@@ -38,6 +37,7 @@ from vibroimpact.engine.taylor.frame import (
     grip,
     idle,
     rounding,
+    stands,
     stuck,
     without_friction,
 )
@@ -170,7 +170,7 @@ def aside(plan: Vector, motion: Motion, limit: float) -> Ended:
     """A motion that is not followed by steps: it settles, stands still, or is given up."""
     if motion.fresh & SETTLING:
         return settle(plan, motion, limit)
-    if resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion):
+    if stands(plan, motion):
         return still(plan, motion, limit)
     return abandoned(plan, motion, 0.0)
 
@@ -178,16 +178,9 @@ def aside(plan: Vector, motion: Motion, limit: float) -> Ended:
 @kernel
 def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next event, or for the time `limit` if that comes first."""
-    mode = motion.mode
-    if (
-        motion.fresh & SETTLING
-        or resting(plan, mode)
-        or stuck(plan, motion)
-        or idle(plan, motion)
-        or plan[LACKING] != 0.0
-    ):
+    if motion.fresh & SETTLING or stands(plan, motion) or plan[LACKING] != 0.0:
         return aside(plan, motion, limit)
-    _, _, _, _, right, left, _, age, _ = motion
+    mode, _, _, _, right, left, _, age, _ = motion
     frame = frame_of(plan, mode)
     sign = frame.sign
     hysteretic = plan[par.HYSTERETIC] != 0.0

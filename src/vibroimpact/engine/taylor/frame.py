@@ -13,6 +13,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import change_rate, value
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST
+from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import (
     BOTH,
     LEFT,
@@ -249,6 +250,12 @@ def idle(plan: Vector, motion: Motion) -> bool:
     if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED):
         return False
     return bool(abs(without_friction(plan, motion)) < rounding(plan, motion))
+
+
+@inlined
+def stands(plan: Vector, motion: Motion) -> bool:
+    """Whether the mass stays: on a rigid stop, by friction, or at rest with balanced forces."""
+    return resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion)
 
 
 @kernel

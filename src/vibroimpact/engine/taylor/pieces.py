@@ -38,8 +38,7 @@ from vibroimpact.engine.taylor.frame import (
     acceleration_of,
     curved_stop,
     frame_of,
-    idle,
-    stuck,
+    stands,
     way_of,
 )
 
@@ -87,7 +86,7 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
     frame = frame_of(plan, motion.mode)
     x = coordinate(plan, motion)
     z = frame.sign * motion.z
-    held = resting(plan, motion.mode) or stuck(plan, motion) or idle(plan, motion)
+    held = stands(plan, motion)
     matters, anew = branched(plan, motion), varies(plan, motion.mode)
     ahead = ahead_of(plan, motion, frame, x, longest, matters, anew)
     if held:

@@ -13,7 +13,6 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.stops import impact, rigid, settle
-from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import (
     BOTH,
     DETACHED,
@@ -29,7 +28,7 @@ from vibroimpact.engine.motion import (
 )
 from vibroimpact.engine.motion import LIMIT as NOTHING
 from vibroimpact.engine.taylor.advance import still
-from vibroimpact.engine.taylor.frame import idle, stuck, way_of
+from vibroimpact.engine.taylor.frame import stands, way_of
 from vibroimpact.engine.yielding.layout import ELASTIC, MOVES_LEFT, MOVES_RIGHT
 from vibroimpact.engine.yielding.leg import (
     BEGUN,
@@ -55,7 +54,7 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     mode, fresh, u, v, right, left, z, age, clock = motion
     if fresh & SETTLING:
         return settle(plan, motion, limit)
-    if resting(plan, mode) or stuck(plan, motion) or idle(plan, motion):
+    if stands(plan, motion):
         return still(plan, motion, limit)
     way = way_of(plan, motion)
     gap_r, gap_l, rate_r, rate_l = bumpers(plan)
