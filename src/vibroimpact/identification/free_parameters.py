@@ -188,7 +188,8 @@ def _free(name: str, test: str | None, value: Any, rig: Rig, prior: Any, swing: 
     if not low <= start <= high:
         raise InputError(
             f"{field}: the start, {with_si_unit(start, quantity)}, is not in the range from "
-            f"{low:g} to {with_si_unit(high, quantity)}; pass a start in this range, or change low or high"
+            f"{low:g} to {with_si_unit(high, quantity)}; pass a start in this range, or change low "
+            "or high"
         )
     size = size_of(quantity, rig, swing)
     small = abs(start) < NEAR_ZERO * size
