@@ -194,6 +194,7 @@ def test_ctrl_c_ends_what_takes_long(call):
         [sys.executable, "-c", textwrap.dedent(code)],
         capture_output=True,
         text=True,
+        timeout=1200.0,
         check=True,
     )
     assert float(done.stdout) < 2.0
