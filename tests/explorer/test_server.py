@@ -246,20 +246,6 @@ def test_the_command_says_where_and_ends_with_ctrl_c():
     assert said.endswith("The explorer has stopped.\n")
 
 
-def test_without_websockets_that_is_said_before_anything_is_loaded():
-    code = (
-        "import sys; import vibroimpact.explorer as module; module.find_spec = lambda name: None\n"
-        "from vibroimpact.cli import main; code = main(['explore'])\n"
-        "heavy = {'numpy', 'numba', 'xarray', 'matplotlib', 'pydantic', 'pint'}\n"
-        "assert not heavy & set(sys.modules), heavy & set(sys.modules)\n"
-        "sys.exit(code)\n"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    assert done.returncode == 2
-    assert "pip install 'vibroimpact[explore]'" in done.stderr
-    assert done.stderr.count("\n") == 1
-
-
 def test_in_a_notebook():
     shown = vi.explore("B2-G1-A3", height=500)
     assert "<iframe" in shown._repr_html_()

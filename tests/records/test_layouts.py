@@ -292,7 +292,7 @@ def test_without_obspy_it_is_named(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "obspy", None)
     path = tmp_path / "record.mseed"
     path.write_bytes(b"000001D " + b"\0" * 504)
-    with pytest.raises(vi.InputError, match=r"pip install 'vibroimpact\[seismic\]'") as refused:
+    with pytest.raises(vi.InputError, match="pip install obspy") as refused:
         vi.Record.read(path)
     assert "\n" not in str(refused.value)
 

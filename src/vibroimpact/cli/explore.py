@@ -50,10 +50,6 @@ def explore(
         to the server if they know the token. The token is a secret key, which is part of the
         printed address of the page.
     """
-    from vibroimpact.explorer import require_websockets
-
-    require_websockets()
-
     from vibroimpact.cli.output import warn
     from vibroimpact.cli.rig import subject
     from vibroimpact.errors import InputError

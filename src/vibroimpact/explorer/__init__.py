@@ -14,24 +14,3 @@ Each page has one session, and each session has one immutable state::
 The page itself (HTML, CSS, JavaScript) is in ``page/``. It draws the pictures that the server
 sends, and computes nothing.
 """
-
-from __future__ import annotations
-
-from importlib.util import find_spec
-
-from vibroimpact.errors import InputError
-
-
-def require_websockets() -> None:
-    """Check that the websocket library is installed, before anything is computed.
-
-    Raises
-    ------
-    InputError
-        If the library is not installed.
-    """
-    if find_spec("websockets") is None:
-        raise InputError(
-            "explore: the package websockets is not installed; run pip install "
-            "'vibroimpact[explore]'"
-        )

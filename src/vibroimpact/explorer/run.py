@@ -8,7 +8,6 @@ import threading
 from collections.abc import Callable
 
 from vibroimpact.errors import InputError
-from vibroimpact.explorer import require_websockets
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.share import address
 from vibroimpact.explorer.state import State, begin
@@ -50,7 +49,6 @@ async def serving(
     stop: asyncio.Event | None = None,
 ) -> None:
     """Serve pages, as `serve` does, until `stop` is set."""
-    require_websockets()
     from vibroimpact.explorer.server import start
 
     token = "" if host in LOOPBACK else secrets.token_urlsafe(24)

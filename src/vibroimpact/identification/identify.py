@@ -106,7 +106,7 @@ def identify(
         Number of bootstrap samples, which are drawn from the measured points.
     posterior
         Number of samples of the posterior distribution, for a fit to curves. They are drawn by
-        emcee, which ``vibroimpact[posterior]`` installs.
+        emcee (``pip install emcee``).
     window
         Number of forcing cycles per segment. A time history is split into segments, and the initial
         state of each segment is fitted together with the parameters. Use more cycles for a regular

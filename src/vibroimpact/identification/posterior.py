@@ -32,7 +32,7 @@ def posterior(
         import emcee
     except ImportError:
         raise InputError(
-            "posterior: emcee is not installed; run pip install 'vibroimpact[posterior]'"
+            "posterior: emcee is not installed; install it with: pip install emcee"
         ) from None
     count = len(problem.free)
     if len(x) > count:

@@ -55,8 +55,8 @@ def read_measurement(
     ----------
     path
         The file. Accepted are text tables (CSV and similar formats, ``.lvm`` of LabVIEW), MATLAB
-        (``.mat``), HDF5 (``.h5``), universal files (``.uff``, requires ``vibroimpact[uff]``), TDMS
-        (``.tdms``, requires ``vibroimpact[tdms]``), and NetCDF files of this package.
+        (``.mat``), HDF5 (``.h5``), universal files (``.uff``, requires pyuff), TDMS
+        (``.tdms``, requires npTDMS), and NetCDF files of this package.
     columns
         Names of the columns in the file, by variable, such as ``{"displacement_excursion": "Ed"}``.
         They are required only for columns whose names are not understood.

@@ -144,7 +144,7 @@ def _words(
     return {name: words for name, words in lists.items() if name not in told}, told
 
 
-def library(name: str, extra: str, path: Path) -> Any:
+def library(name: str, path: Path) -> Any:
     """Import an optional library.
 
     Raises
@@ -156,8 +156,8 @@ def library(name: str, extra: str, path: Path) -> Any:
         return importlib.import_module(name)
     except ImportError:
         raise InputError(
-            f"measurement: {str(path)!r} is read by {name}, which is not installed; run "
-            f"pip install 'vibroimpact[{extra}]'"
+            f"measurement: {str(path)!r} is read by {name}, which is not installed; install "
+            f"it with: pip install {name}"
         ) from None
 
 

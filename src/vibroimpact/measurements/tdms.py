@@ -31,7 +31,7 @@ def read(path: Path) -> list[Columns]:
     InputError
         If the file is damaged, truncated or too large.
     """
-    nptdms = library("nptdms", "tdms", path)
+    nptdms = library("nptdms", path)
     _whole(path)
     try:
         with _strict(nptdms), nptdms.TdmsFile.open(str(path)) as file:

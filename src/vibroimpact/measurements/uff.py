@@ -34,7 +34,7 @@ def read(path: Path) -> list[Columns]:
     InputError
         If the file is damaged or truncated.
     """
-    pyuff = library("pyuff", "uff", path)
+    pyuff = library("pyuff", path)
     _whole(path)
     try:
         found = pyuff.UFF(str(path)).read_sets()

@@ -50,7 +50,7 @@ def _read(file: File, kind: str) -> list[Channel]:
     except ImportError:
         raise InputError(
             f"record: {file.path!r} is a {kind} file, which requires obspy; install obspy "
-            "with: pip install 'vibroimpact[seismic]'"
+            "with: pip install obspy"
         ) from None
     try:
         with warnings.catch_warnings():

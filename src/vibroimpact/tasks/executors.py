@@ -57,7 +57,7 @@ def placed(threads: int | None, where: Any = THREADS) -> Workers:
         raise InputError(
             f"where: {shown(where)} is neither 'threads' nor 'processes', and a cluster requires "
             "dask, which is not installed; pass one of the two, or install dask with: "
-            "pip install 'vibroimpact[cluster]'"
+            "pip install distributed"
         )
     client = importlib.import_module("distributed").Client
     if isinstance(where, client):
