@@ -21,13 +21,14 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # One installation at a time, also under make -j.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-full lint prose format docs bench dist pins clean
+.PHONY: help demo test test-full paper lint prose format docs bench dist pins clean
 .SECONDARY:
 
 help:
 	@echo 'make demo     sweep the rig B2-G1-A3; figure, data and summary in out/'
 	@echo 'make test     run the tests; ARGS="tests/cli -x" passes words on to pytest'
 	@echo 'make test-full   the same on full samples, before what the engine does is changed'
+	@echo 'make paper    compute the published study again, with a verdict on each statement'
 	@echo 'make lint     check style, types, layers and prose'
 	@echo 'make format   put the code into the style that make lint checks'
 	@echo 'make docs     build the documentation, gallery included; it begins at out/site/index.html'
@@ -47,6 +48,9 @@ test test-full: $(VENV)/.installed-test
 	$(BIN)/python -m pytest -n auto --maxprocesses 8 --dist loadfile $(FULL) $(ARGS)
 
 test-full: FULL := --full
+
+paper: $(VENV)/.installed-run
+	@$(BIN)/python -m paper $(ARGS)
 
 lint: $(VENV)/.installed-lint
 	$(BIN)/ruff check .

@@ -98,7 +98,6 @@ def test_errors_of_commands_are_short(tmp_path, capsys):
         ["bifurcation", "B2-G1-A3", "--parameter", "x", "--from", "1", "--to", "2"],
         ["sweep", "B2-G1-A3", *NAMES],
         ["x" * 999],
-        ["paper", "--only", "x"],
     ):
         assert main([*words]) == 2
         told = capsys.readouterr().err.replace(repr(str(study)), "").strip()

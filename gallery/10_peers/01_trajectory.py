@@ -7,8 +7,9 @@ compared with general integrators that were tuned for an error of at most 10‚Åª¬
 computing time on a logarithmic scale. The error of each program is printed after its bar.
 """
 
-from benchmarks.results import number, rows
 from matplotlib.figure import Figure
+
+from benchmarks.results import number, rows
 
 table = rows("One trajectory of problem P")
 names = [row["Solver"] for row in table]

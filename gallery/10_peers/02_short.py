@@ -8,8 +8,9 @@ labels is therefore faster. If you need many short sweeps, compute them in one c
 ``vi.sweeps``.
 """
 
-from benchmarks.results import number, rows
 from matplotlib.figure import Figure
+
+from benchmarks.results import number, rows
 
 figure = Figure(figsize=(7.0, 4.2), layout="constrained")
 ax = figure.subplots()

@@ -7,8 +7,9 @@ programs can solve. To the left of the vertical line, the other program is faste
 Loops over scipy represent the code that a user would write without this package.
 """
 
-from benchmarks.results import against_others
 from matplotlib.figure import Figure
+
+from benchmarks.results import against_others
 
 found = sorted(against_others(), key=lambda one: one[1])
 names, ratios = zip(*found, strict=True)

@@ -7,8 +7,9 @@ measured margin in the last full run of the benchmarks. Crosses to the left of t
 targets that were not met.
 """
 
-from benchmarks.results import margins
 from matplotlib.figure import Figure
+
+from benchmarks.results import margins
 
 found = sorted(margins(), key=lambda one: one[1])
 names, room = zip(*found, strict=True)

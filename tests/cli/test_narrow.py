@@ -59,7 +59,7 @@ def test_a_long_path_is_whole(told):
 
 
 @pytest.mark.parametrize("columns", [80, 60])
-@pytest.mark.parametrize("command", ["sweep", "motion", "map", "paper"])
+@pytest.mark.parametrize("command", ["sweep", "motion", "map"])
 def test_help_is_whole(told, command, columns):
     narrow = told(columns, command, "--help")
     assert "…" not in narrow

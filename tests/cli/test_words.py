@@ -70,7 +70,6 @@ def test_no_hint_where_none_is_needed(refused):
         (("branch", CASE, "--parameter", "mass"), "--parameter: 'mass'"),
         (("branch", CASE, "--longest", "0"), "--longest: 0"),
         (("map", "--threads", "0"), "--threads: 0"),
-        (("paper", "--threads", "0"), "--threads: 0"),
     ],
 )
 def test_options_are_named_as_they_are_written(refused, words, begins):
@@ -87,7 +86,7 @@ def test_an_unknown_command_lists_all_of_them(refused):
     line = refused("swep")
     assert line.startswith('Unknown command "swep". Did you mean "sweep"? ')
     listed = line.partition("? ")[2].partition(" are accepted")[0].split(", ")
-    assert len(listed) == 19
+    assert len(listed) == 18
     assert set(listed) == {name for name in _app() if not name.startswith("-")}
 
 

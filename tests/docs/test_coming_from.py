@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from benchmarks.peers import auto07
 
 import samples
+from benchmarks.peers import auto07
 from docs.snippets import ROOT
 
 PAGES = ROOT / "docs" / "coming-from"

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from benchmarks import fixed, growth, results
 
+from benchmarks import fixed, growth, results
 from vibroimpact.cli import _COMMANDS
 
 

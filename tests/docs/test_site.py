@@ -8,9 +8,9 @@ import sys
 from fnmatch import fnmatch
 
 import pytest
+
 from benchmarks.page import chromium
 from docs.check_links import broken
-
 from docs.snippets import ROOT
 
 CODE = re.compile(r"^(```+|~~~+).*?^\1", re.M | re.S)

@@ -6,8 +6,8 @@ import asyncio
 import threading
 
 import pytest
-from benchmarks.page import chromium
 
+from benchmarks.page import chromium
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.run import serving
 

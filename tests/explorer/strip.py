@@ -7,10 +7,10 @@ import io
 import threading
 from pathlib import Path
 
-from benchmarks.page import chromium
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
+from benchmarks.page import chromium
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.run import serving
 

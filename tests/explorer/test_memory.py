@@ -5,8 +5,8 @@ from __future__ import annotations
 import gc
 
 import xarray as xr
-from benchmarks.page import TURNED
 
+from benchmarks.page import TURNED
 from samples import sample
 from vibroimpact.explorer.session import Session
 from vibroimpact.explorer.state import MOST_STEPS, State

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 from benchmarks.page import TURNED
-
 from explorer.conftest import Served
 from samples import sample
 

@@ -11,10 +11,9 @@ import xarray as xr
 
 import samples
 import vibroimpact as vi
-from vibroimpact.model import laboratory
-from vibroimpact.paper import study as study_module
-from vibroimpact.paper.claim import Claim, Finding, Kind, Verdict
-from vibroimpact.paper.claims import (
+from paper import study as study_module
+from paper.claim import Claim, Finding, Kind, Verdict
+from paper.claims import (
     CLAIMS,
     LINEAR,
     jumps,
@@ -24,8 +23,9 @@ from vibroimpact.paper.claims import (
     named,
     with_bumpers,
 )
-from vibroimpact.paper.claims.reasons import REASONS
-from vibroimpact.paper.study import PublishedStudy
+from paper.claims.reasons import REASONS
+from paper.study import PublishedStudy
+from vibroimpact.model import laboratory
 
 NOT_REPRODUCED = {
     # Equal, never lower, where both sweeps pass over one peak; mostly grazing tests.

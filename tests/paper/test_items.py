@@ -9,12 +9,12 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from paper import fig15, study, table1
+from paper.curves import S3 as CODE
+from paper.items import ITEMS
+from paper.study import GAPS, PublishedStudy
 from samples import sample
 from vibroimpact.figures.style import SCENARIOS
-from vibroimpact.paper import fig15, study, table1
-from vibroimpact.paper.curves import S3 as CODE
-from vibroimpact.paper.items import ITEMS
-from vibroimpact.paper.study import GAPS, PublishedStudy
 
 STUDY = PublishedStudy(threads=2)
 DRAWN = [item for item in ITEMS if item.draw is not None]

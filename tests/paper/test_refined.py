@@ -10,10 +10,10 @@ from scipy.optimize import least_squares
 
 import samples
 import vibroimpact as vi
+from paper import refined
+from paper.claims import CLAIMS, LINEAR
+from paper.study import PublishedStudy
 from vibroimpact.model import laboratory
-from vibroimpact.paper import refined
-from vibroimpact.paper.claims import CLAIMS, LINEAR
-from vibroimpact.paper.study import PublishedStudy
 from vibroimpact.response.analytic_free_response import reference_excursions
 from vibroimpact.response.numerical_free_response import largest_flight, resonance
 from vibroimpact.response.resonance import features

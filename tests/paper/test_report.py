@@ -9,12 +9,12 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from vibroimpact.paper.claim import Claim, Finding, Verdict
-from vibroimpact.paper.claims import CLAIMS
-from vibroimpact.paper.claims.reasons import REASONS
-from vibroimpact.paper.item import Item, Table
-from vibroimpact.paper.report import Report, compute, write
-from vibroimpact.paper.study import PublishedStudy
+from paper.claim import Claim, Finding, Verdict
+from paper.claims import CLAIMS
+from paper.claims.reasons import REASONS
+from paper.item import Item, Table
+from paper.report import Report, compute, write
+from paper.study import PublishedStudy
 
 _VOID = {"meta", "img", "br", "hr", "link", "input"}
 

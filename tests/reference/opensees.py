@@ -20,10 +20,10 @@ import os
 from typing import Any
 
 import numpy as np
-from benchmarks.peers.opensees_peer import ops
 from numpy.typing import NDArray
 
 import vibroimpact as vi
+from benchmarks.peers.opensees_peer import ops
 
 _EXACT = ("NormDispIncr", 1e-15, 200)
 """So far, that what is left of the iterations does not hide the order of the steps."""

@@ -57,7 +57,6 @@ For example:
     vibroimpact classify B2-G1-A3
     vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
     vibroimpact explore B2-G1-A3
-    vibroimpact paper
     vibroimpact cache --clean others
 
 To see the options of a command, run: vibroimpact COMMAND --help
@@ -84,7 +83,6 @@ _COMMANDS = (
     "explore",
     "identify",
     "map",
-    "paper",
     "cache",
 )
 """Each command is a function in a module of the same name; that of `map` is scenario_map."""

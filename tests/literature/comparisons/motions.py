@@ -8,15 +8,15 @@ from functools import cache
 
 import numpy as np
 import xarray as xr
-from benchmarks.peers import auto07, scipy_peer
-from benchmarks.peers.problem import REFERENCE, P
 from mpmath import mpf
 
 import vibroimpact as vi
+from benchmarks.peers import auto07, scipy_peer
+from benchmarks.peers.problem import REFERENCE, P
 from literature.comparisons.comparison import AbsentError, Comparison, data
+from paper import table1
 from reference.law_cases import CASES, CYCLES
 from reference.law_states import STATES
-from vibroimpact.paper import table1
 
 # --- problem P: a sine between two Kelvin–Voigt bumpers
 
