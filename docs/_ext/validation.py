@@ -8,7 +8,7 @@ from typing import Any
 
 from sphinx.application import Sphinx
 
-TESTS = Path(__file__).parents[2] / "tests"
+ROOT = Path(__file__).parents[2]
 PAGE = "docs/validation"
 
 
@@ -21,7 +21,7 @@ def setup(app: Sphinx) -> dict[str, Any]:
 
 def _compute(app: Sphinx, name: str, text: list[str]) -> None:
     if name == PAGE:
-        sys.path.insert(0, str(TESTS))
+        sys.path[:0] = [str(ROOT / "tests"), str(ROOT)]  # of the tests, and of the study
         from literature.comparisons.table import renewed
 
         text[0] = renewed(text[0])
