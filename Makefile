@@ -21,7 +21,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # One installation at a time, also under make -j.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-full paper lint prose format docs bench dist pins clean
+.PHONY: help demo test test-full paper lint format docs bench dist pins clean
 .SECONDARY:
 
 help:
@@ -29,7 +29,7 @@ help:
 	@echo 'make test     run the tests; ARGS="tests/cli -x" passes words on to pytest'
 	@echo 'make test-full   the same on full samples, before what the engine does is changed'
 	@echo 'make paper    compute the published study again, with a verdict on each statement'
-	@echo 'make lint     check style, types, layers and prose'
+	@echo 'make lint     check style, types, layers and words'
 	@echo 'make format   put the code into the style that make lint checks'
 	@echo 'make docs     build the documentation, gallery included; it begins at out/site/index.html'
 	@echo 'make bench    compare speed and accuracy with other solvers (benchmarks/README.md)'
@@ -58,25 +58,11 @@ lint: $(VENV)/.installed-lint
 	$(BIN)/mypy
 	$(BIN)/mypy tests/typing
 	$(BIN)/lint-imports --no-logo
-	@$(MAKE) --no-print-directory prose
-
-# Docstrings, help texts and messages are linted as text, each at its line of the source.
-prose: $(VENV)/.installed-prose
-	@rm -rf out/prose
-	@$(BIN)/python docs/prose/extract.py src/vibroimpact out/prose
-	@PATH=$(abspath $(BIN)):$$PATH $(VENV)/prose/node_modules/.bin/textlint \
-	    --config docs/prose/textlintrc.json --rules-base-directory $(abspath $(VENV))/prose/node_modules \
-	    --format unix README.md CONTRIBUTING.md CHANGELOG.md 'docs/**/*.md' 'benchmarks/*.md' out/prose
+	$(BIN)/python docs/check_words.py README.md CONTRIBUTING.md CHANGELOG.md docs benchmarks/README.md src paper
 
 format: $(VENV)/.installed-lint
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
-
-$(VENV)/.installed-prose: $(VENV)/.installed-lint docs/prose/package.json
-	@mkdir -p $(VENV)/prose && cp docs/prose/package.json $(VENV)/prose
-	@PATH=$(abspath $(BIN)):$$PATH npm install --prefix $(VENV)/prose --no-package-lock --no-audit \
-	    --no-fund --silent
-	@touch $@
 
 # What is not newer than its page is not built again.
 docs: $(VENV)/.installed-docs

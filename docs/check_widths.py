@@ -3,7 +3,7 @@
 python docs/check_widths.py FOLDER
 
 Nor may a page's text be wider than its column, which would scroll and hide its end. Of the pages
-of single names, which one template makes, those of the longest names are looked at, and of the
+of single names, which one template makes, those of the longest names are inspected, and of the
 gallery its first. Without a browser, or what drives it, nothing is.
 """
 

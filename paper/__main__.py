@@ -31,7 +31,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        Exit code: 0, or 2 for invalid input. A statement that is not reproduced is no failure.
+        Exit code: 0, or 2 for invalid input. A statement that is not reproduced does not
+        make the command fail.
     """
     parser = argparse.ArgumentParser(
         prog="python -m paper",
