@@ -177,7 +177,9 @@ def test_a_peak_at_a_jump_of_the_acceleration_has_its_sign():
         shaken = vi.Harmonic(15.0, float(frequency), of="force")
         data = vi.simulate(vi.Rig(rig, shaken), 12, samples=20)
         begins = data["event_contact"].values == 1
-        before, after = (data[f"event_acceleration_{n}"].values[begins] for n in ("before", "after"))
+        before, after = (
+            data[f"event_acceleration_{n}"].values[begins] for n in ("before", "after")
+        )
         peaks = vi.contacts(data)["contact_peak_acceleration"].values
         (where, _) = marks(time_history(data, cycles=12.0)[1])[2]
         first = np.isclose(peaks, np.abs(after[: len(peaks)]), rtol=1e-12)
