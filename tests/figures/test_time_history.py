@@ -149,6 +149,45 @@ def test_dots_at_the_events_and_stars_at_the_peaks():
         assert np.sign(height) == -side
 
 
+@pytest.mark.parametrize("frequency", np.linspace(0.55, 0.8, 7))
+def test_dots_have_the_values_of_their_events(frequency):
+    """However the time of an event in cycles is rounded."""
+    data = motion(frequency=float(frequency))
+    begins = data["event_contact"].values == 1
+    for ax, values in zip(
+        time_history(data, cycles=20.0),
+        (
+            1e3 * data["event_displacement"].values,
+            np.where(begins, *(data[f"event_acceleration_{n}"] for n in ("after", "before"))),
+            data["event_velocity"].values,
+        ),
+        strict=True,
+    ):
+        for (where, _), mine in zip(marks(ax)[:2], (begins, ~begins), strict=True):
+            drawn = where[np.argsort(where[:, 0]), 1]
+            np.testing.assert_array_equal(drawn, values[mine][: len(drawn)])
+            assert len(drawn) == mine.sum()
+
+
+def test_a_peak_at_a_jump_of_the_acceleration_has_its_sign():
+    """A force pushes the mass towards a dashpot, whose force at once is the peak."""
+    rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.05), vi.Bumper(1.0, 30.0, 0.1))
+    turned = 0
+    for frequency in np.linspace(0.5, 0.9, 9):
+        shaken = vi.Harmonic(15.0, float(frequency), of="force")
+        data = vi.simulate(vi.Rig(rig, shaken), 12, samples=20)
+        begins = data["event_contact"].values == 1
+        before, after = (
+            data[f"event_acceleration_{n}"].values[begins] for n in ("before", "after")
+        )
+        peaks = vi.contacts(data)["contact_peak_acceleration"].values
+        (where, _) = marks(time_history(data, cycles=12.0)[1])[2]
+        first = np.isclose(peaks, np.abs(after[: len(peaks)]), rtol=1e-12)
+        np.testing.assert_allclose(where[first, 1], after[: len(peaks)][first], rtol=1e-12)
+        turned += int(np.sum(first & (before[: len(peaks)] * after[: len(peaks)] < 0.0)))
+    assert turned > 20
+
+
 def marks(ax) -> list[tuple[np.ndarray, str]]:
     """Places and colours of the marks: beginnings, ends, and the peaks of the acceleration."""
     found = [c for c in ax.collections if len(c.get_offsets()) and not c.get_label()[0].isalpha()]

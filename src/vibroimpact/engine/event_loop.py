@@ -6,7 +6,16 @@ from typing import Any
 
 from vibroimpact.engine.flow_dispatch import advance
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import GIVEN_UP, LIMIT, Clock, Motion, Stretch, at_section, finite
+from vibroimpact.engine.motion import (
+    GIVEN_UP,
+    LIMIT,
+    SETTLING,
+    Clock,
+    Motion,
+    Stretch,
+    at_section,
+    finite,
+)
 from vibroimpact.engine.observe import observe
 
 
@@ -34,7 +43,7 @@ def cycle(
     events = 0
     while True:
         before = motion
-        event, step, arrival, motion = advance(plan, before, length - t)
+        event, step, arrival, motion = advance(plan, before, max(length - t, 0.0))
         if event == GIVEN_UP:
             if finite(motion):  # otherwise it left the range of numbers, which its caller sees
                 events = max_events + 1
@@ -45,6 +54,8 @@ def cycle(
             break
         t += step
         events += 1
-        if events > max_events or t >= length:
+        if events > max_events:
+            break
+        if t >= length and not motion.fresh & SETTLING:  # the rest of a chatter is not cut off
             break
     return events, motion, notes

@@ -108,5 +108,7 @@ def integrate(
         while t < length:
             step, behind = smooth(plan, here, length - t)
             _stretch(plan, here, step, begins[i] + t, lines, out)
+            if step >= length - t:
+                break  # what comes behind may be in another mode (as in `measure`)
             here = behind
             t += step

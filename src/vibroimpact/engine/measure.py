@@ -154,6 +154,8 @@ def measure_phase(plan: Vector, before: Motion, length: float, side: int, out: V
         measure_stretch(plan, here, step, t, side, out)
         out[LOST_RIGHT] += unkept(plan, here, behind, RIGHT)
         out[LOST_LEFT] += unkept(plan, here, behind, LEFT)
+        if step >= length - t:
+            break  # what comes behind may be in another mode, however the sum of times is rounded
         here = behind
         t += step
     least, most = out[A_LEAST], out[A_MOST]

@@ -181,6 +181,7 @@ def _band(curve: Shown, side: str, motions: int) -> tuple[Any, str]:
 
 def _at_event(curve: Shown, values: Any, at: Any, *, behind: bool) -> Any:
     """Return the value at an event. If it jumps, return the value within the contact."""
-    index = np.searchsorted(curve.at, at, side="left")
-    # Two points share the time of an event: before it and behind it.
-    return values[np.minimum(index + (1 if behind else 0), len(values) - 1)]
+    # The last two points at the time of an event are those before it and behind it. A sample at the
+    # same time precedes them.
+    index = np.searchsorted(curve.at, at, side="right")
+    return values[index - (1 if behind else 2)]

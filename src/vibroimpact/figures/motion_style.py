@@ -230,18 +230,21 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         clearance = np.where(mine, 0.0, bumper.gap + side * distance)
         parts = [motion[f"{name}_clearance"].values, clearance, clearance]
         values[f"{name}_clearance"] = np.concatenate(parts)[order]
+    # A contact begins and ends at the very times that its events have on the curve.
+    bounds = np.append(every.begin, every.begin[-1] + every.length[-1]) * frequency
+    bounds[:-1][begins] = events[every.event[begins]]
     touching = [
-        (side, begin, begin + float(every.length[i]) * frequency)
+        (side, float(bounds[i]), float(bounds[i + 1]))
         for side in (1, -1)
         for i in np.flatnonzero(touches(every.contact, side))
-        for begin in [float(every.begin[i]) * frequency]
     ]
     if isinstance(shaken, Record):  # cut at each of its lines
         touching = _joined(touching)
     log = motion if "contact_peak_time" in motion else contacts(motion)
     peak_at = log["contact_peak_time"].values * frequency
-    height = np.interp(peak_at, times[order], values["acceleration"])
-    peak = log["contact_peak_acceleration"].values * np.sign(height)
+    peak = _signed(
+        log["contact_peak_acceleration"].values, peak_at, times[order], values["acceleration"]
+    )
     curve = Shown(look, times[order], values, touching, (peak_at, peak), gaps)
     if math.isinf(cycles):
         return curve
@@ -250,6 +253,18 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
     if "period" in motion:  # steady, but not periodic: its record begins anywhere
         return _cut(curve, 0.0, cycles)
     return _cut(curve, max(float(at[0]), float(at[-1]) - cycles), float(at[-1]))
+
+
+def _signed(peaks: _Array, peak_at: _Array, at: _Array, values: _Array) -> _Array:
+    """Return peaks of an absolute value with the sign that the curve has there.
+
+    The curve may jump at a peak. The sign is that of the value whose size is nearest to the peak,
+    of those beside it and before and after an event.
+    """
+    beside = np.searchsorted(at, peak_at)[:, np.newaxis] + np.arange(-2, 3)
+    found = values[np.clip(beside, 0, len(values) - 1)]
+    nearest = np.argmin(np.abs(np.abs(found) - peaks[:, np.newaxis]), axis=1)
+    return np.copysign(peaks, found[np.arange(len(peaks)), nearest])
 
 
 def _repeated(curve: Shown, period: float, cycles: float) -> Shown:

@@ -33,6 +33,10 @@ class State(Model):
     The deformations of the bumpers are part of the state: after the mass has left a bumper, the
     bumper is still deformed and relaxes.
 
+    If the mass is at the face of an undeformed stop and moves towards it, the contact begins at
+    this instant, and `simulate` lists it. If ``contact`` states that the mass touches the stop, the
+    contact has begun before.
+
     Parameters
     ----------
     displacement

@@ -37,7 +37,8 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
 
     Times, forces and integrals are exact up to rounding errors. They do not depend on the samples.
     If a contact starts before the simulated motion or continues after its end, it is left out. In a
-    periodic motion such a contact is complete, because the start of the period continues the end.
+    periodic motion such a contact is complete, because the start of the period continues the end. A
+    contact that starts at the first instant of the motion is listed.
 
     Parameters
     ----------

@@ -16,7 +16,7 @@ from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Bumper, Oscillator, Periodic, Record, RigidStop, State
+from vibroimpact.model import Bumper, Oscillator, Periodic, Record, RigidStop, State, Stop
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.law_numbers import isolator_numbers, own_numbers, stop_numbers
 
@@ -121,7 +121,7 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     """
     u, v = state.displacement, state.velocity
     deformations = [0.0, 0.0]
-    mode = FLIGHT
+    mode = parted = FLIGHT
     # Seen from each side in turn: s = +1 towards the right stop, −1 towards the left one.
     for i, (name, stop, given, sign) in enumerate(
         (
@@ -155,14 +155,18 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
             touches, deformation = _on_power_law(sign, state, reach, slack, said, sign * v)
         else:
             touches, deformation = _on_bumper(stop, sign, state, name, reach, slack, said, sign * v)
+        bit = RIGHT if sign == 1 else LEFT
         if touches:
-            mode |= RIGHT if sign == 1 else LEFT
+            mode |= bit
+        elif abs(reach - deformation) <= slack and _parts(stop, deformation, sign * v):
+            parted |= bit
         deformations[i] = deformation
     if mode == BOTH and not _overlap(oscillator):
         mode = _deeper(oscillator, u, v)
     vector = np.zeros(layout.STATE)
     vector[layout.MODE] = mode
-    vector[layout.FRESH] = mode  # what touches begins to
+    # What touches begins to. A stop that the mass leaves is not met again by rounding.
+    vector[layout.FRESH] = parted if parted in (RIGHT, LEFT) else mode
     vector[layout.U], vector[layout.V] = u, v
     vector[layout.RIGHT_BUMPER], vector[layout.LEFT_BUMPER] = deformations
     vector[layout.ISOLATOR] = state.isolator
@@ -190,12 +194,26 @@ def _deeper(oscillator: Oscillator, u: float, v: float) -> int:
     return RIGHT if (right, v) >= (left, -v) else LEFT
 
 
+def _parts(stop: Stop, deformation: float, closing: float) -> bool:
+    """Whether a mass at the face of a stop that it does not touch has just left it.
+
+    It leaves the face of a relaxing bumper as fast as that relaxes, any other one at its own speed.
+    """
+    if isinstance(stop, Bumper) and deformation > 0.0:
+        spring, dashpot = stop.stiffness * deformation, stop.damping * closing
+        return abs(spring + dashpot) <= TOUCHING * spring
+    return closing <= 0.0
+
+
 def _on_power_law(
     sign: int, state: State, reach: float, slack: float, said: bool | None, closing: float
 ) -> tuple[bool, float]:
-    """Whether the mass presses a stop without memory, and the speed at which it met it (m/s)."""
+    """Whether the mass presses a stop without memory, and the speed at which it met it (m/s).
+
+    At its face a mass that moves into it is about to meet it, unless the state says that it has.
+    """
     given = state.right_bumper if sign == 1 else state.left_bumper
-    touches = reach > slack or (abs(reach) <= slack and (bool(said) or closing > 0.0))
+    touches = reach > slack or (bool(said) and reach >= -slack)
     if said is not None and said != touches and abs(reach) > slack:
         where = "inside" if touches else "away from"
         raise InputError(
@@ -249,7 +267,10 @@ def _on_bumper(
     said: bool | None,
     closing: float,
 ) -> tuple[bool, float]:
-    """Whether the mass presses a bumper, and the bumper's deformation away from the mass (m)."""
+    """Whether the mass presses a bumper, and the bumper's deformation away from the mass (m).
+
+    An undeformed bumper is not pressed yet by a mass at its face, unless the state says so.
+    """
     given = state.right_bumper if sign == 1 else state.left_bumper
     deformation = max(reach, 0.0) if given is None else sign * given
     if reach > deformation + slack:
@@ -279,8 +300,9 @@ def _on_bumper(
             f"{deformation:g} m, and a bumper without a dashpot stays in contact; pass {sign} or "
             "None"
         )
-    presses = force > 0.0 or (deformation == 0.0 and stop.damping == 0.0 and closing > 0.0)
-    return bool(said) or (said is None and touches and presses), deformation
+    begins = deformation <= slack and closing > 0.0
+    presses = said is None and touches and force > 0.0 and not begins
+    return bool(said) or presses, deformation
 
 
 def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]:

@@ -177,7 +177,7 @@ def flight(
         bound = band(plan, table, x, v)
         second = 8.0 * bound  # per step squared
         span = (limit - t) * plan[table + RATE]
-        if not launched and t == 0.0 and (x > bounds.upper - bound or x < bound + bounds.lower):
+        if not launched and t == 0.0 and (x >= bounds.upper - bound or x <= bound + bounds.lower):
             # The mass may touch a bumper: about the start itself the series is exact there,
             # and the signs of its coefficients tell a contact from a parting.
             high = min(0.5, span)

@@ -48,9 +48,7 @@ def rigid(plan: Vector, side: int) -> bool:
 
 
 @kernel
-def impact(
-    plan: Vector, event: int, t: float, arrival: float, motion: Motion, limit: float
-) -> Ended:
+def impact(plan: Vector, event: int, t: float, arrival: float, motion: Motion) -> Ended:
     """What follows when the mass meets a rigid stop: u̇ → −e u̇, or rest."""
     mode, _, u, v, right, left, z, _, clock = motion
     side = event
@@ -80,10 +78,7 @@ def impact(
     if (rest * rate > _CHATTERED or rest * change > _CHATTERED * push) and not lost:
         return event, t, arrival, bounced
     last = Motion(bounced.mode, side | SETTLING, u, v, right, left, z, 0.0, clock)
-    if t < limit:
-        return event, t, arrival, last
-    _, _, _, held = settle(plan, last, 0.0)
-    return event, t, arrival, held
+    return event, t, arrival, last
 
 
 @kernel
@@ -211,5 +206,5 @@ def advance_any(plan: Vector, motion: Motion, limit: float) -> Ended:
             if one[0] != LIMIT:
                 event, t, arrival, after = one
     if event in (RIGHT, LEFT) and rigid(plan, event):
-        return impact(plan, event, t, arrival, after, limit)
+        return impact(plan, event, t, arrival, after)
     return event, t, arrival, after

@@ -257,7 +257,7 @@ def stretch_end(
         return LIMIT, limit, here.v, here
     event, t, arrival, after = happened(plan, event, here, t)
     if event in (RIGHT, LEFT) and rigid(plan, event):
-        return impact(plan, event, t, arrival, after, limit)
+        return impact(plan, event, t, arrival, after)
     return event, t, arrival, after
 
 

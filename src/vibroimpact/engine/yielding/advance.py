@@ -139,7 +139,7 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     if event != NOTHING:
         after = Motion(event, event, u, v, right, left, z, 0.0, clock)
         if rigid(plan, event):
-            return impact(plan, event, t, v, after, limit)
+            return impact(plan, event, t, v, after)
         return event, t, v, after
     if end == LIMIT:
         return NOTHING, t, v, Motion(mode, 0, u, v, right, left, z, age + t, clock)
