@@ -76,6 +76,10 @@ SETUPS = {
     "a force, chatter and rest": Setup(
         SPRING, (Wall(0.3, 0.2), Wall(0.6, 0.1)), vi.Harmonic(2.0, 0.05, of="force")
     ),
+    "an unbalance": Setup(SPRING, BUMPERS, vi.Harmonic(1.2, 0.25, 0.3, of="unbalance")),
+    "unbalances of two shafts between walls": Setup(
+        SPRING, WALLS, periodic(0.13, "unbalance", 2, 0.7)
+    ),
     "a constant force": Setup(SPRING, BUMPERS, vi.Harmonic(1.0, 0.25), 0.7),
     "a constant force between walls": Setup(SPRING, WALLS, vi.Harmonic(1.5, 0.2), -0.8),
     "a constant force, chatter and rest": Setup(

@@ -14,7 +14,7 @@ ISOLATORS = {"spring": vi.Isolator(8.0, 0.8), "undamped": vi.Isolator(8.0, 0.0)}
 FREQUENCY, SIZES, ANGLES = 0.41, (1.0, 0.5, 0.0, 0.8), (0.3, 1.0, 0.0, -2.0)
 
 
-@pytest.mark.parametrize("of", ["acceleration", "displacement", "force"])
+@pytest.mark.parametrize("of", ["acceleration", "displacement", "force", "unbalance"])
 @pytest.mark.parametrize("isolator", ISOLATORS)
 def test_free_flight_is_the_sum_of_the_single_ones(of: str, isolator: str) -> None:
     rig = vi.Oscillator(2.0, ISOLATORS[isolator])
@@ -29,7 +29,7 @@ def test_free_flight_is_the_sum_of_the_single_ones(of: str, isolator: str) -> No
     for n, (size, angle) in enumerate(zip(SIZES, ANGLES, strict=True), start=1):
         shaken = vi.Harmonic(size, n * FREQUENCY, n * 0.7 + angle, of=of)
         parts.append(vi.simulate(vi.Rig(rig, shaken), 5 * n, samples=12 // n))
-    shaking = "applied_force" if of == "force" else "base_acceleration"
+    shaking = "applied_force" if of in ("force", "unbalance") else "base_acceleration"
     for name in ("displacement", "velocity", "acceleration", shaking):
         total = sum(part[name].values for part in parts)
         size = float(np.abs(total).max())
@@ -86,12 +86,17 @@ def differences(rig: vi.Oscillator, shaken, state: np.ndarray, steps: float) -> 
 
 @pytest.mark.parametrize("stop", [BUMPER, WALL])
 @pytest.mark.parametrize("kind", [ODD, EVEN])
-@pytest.mark.parametrize("of", ["acceleration", "displacement", "force"])
+@pytest.mark.parametrize("of", ["acceleration", "displacement", "force", "unbalance"])
 def test_multipliers_are_those_of_central_differences(stop, kind: dict, of: str) -> None:
     whole = vi.Periodic(0.45, kind["amplitudes"], kind["phases"], 0.25)
     omega = whole.angular_frequency
     sizes = [
-        {"acceleration": a, "displacement": a / (n * omega) ** 2, "force": 2.0 * a}[of]
+        {
+            "acceleration": a,
+            "displacement": a / (n * omega) ** 2,
+            "force": 2.0 * a,
+            "unbalance": 2.0 * a / (n * omega) ** 2,
+        }[of]
         for n, a in enumerate(kind["amplitudes"], start=1)
     ]
     shaken = vi.Periodic(

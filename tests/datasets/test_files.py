@@ -291,6 +291,7 @@ SHAKEN = {
     "harmonics": vi.Periodic(1.1, (0.4, 0.2), (0.3, 1.0), 0.2),
     "displacement": vi.Harmonic("8 mm", 1.1),
     "force": vi.Harmonic("250 N", 1.1, 0.4),
+    "unbalance": vi.Harmonic("5 kg m", 1.1, 0.4),
     "harmonics of displacement": vi.Periodic(1.1, ("8 mm", "1 mm")),
 }
 

@@ -61,6 +61,9 @@ def test_str():
         ("5 mm", "displacement", 0.005),
         ("120 N", "force", 120.0),
         ("0.12 kN", "force", 120.0),
+        ("0.4 kg m", "unbalance", 0.4),
+        ("400 kg·mm", "unbalance", 0.4),
+        ("400000 g mm", "unbalance", 0.4),
     ],
 )
 def test_the_dimension_of_the_amplitude_decides(amplitude, of, value):
@@ -68,13 +71,19 @@ def test_the_dimension_of_the_amplitude_decides(amplitude, of, value):
     assert (one.of, several.of) == (of, of)
     assert one.amplitude == pytest.approx(value, rel=1e-15)
     assert several.amplitudes == (one.amplitude,) * 2
-    assert one.moves_base == (of != "force")
+    assert one.moves_base == (of in ("acceleration", "displacement"))
     omega = one.angular_frequency
-    expected = {"acceleration": value, "displacement": value * omega**2, "force": value / 3.0}[of]
+    expected = {
+        "acceleration": value,
+        "displacement": value * omega**2,
+        "force": value / 3.0,
+        "unbalance": value * omega**2 / 3.0,
+    }[of]
     assert float(one.acceleration(3.0, omega)) == pytest.approx(expected, rel=1e-15)
     first, second = several.acceleration(3.0, omega)
     assert first == pytest.approx(expected, rel=1e-15)
-    assert second / first == pytest.approx(4.0 if of == "displacement" else 1.0, rel=1e-15)
+    grows = of in ("displacement", "unbalance")
+    assert second / first == pytest.approx(4.0 if grows else 1.0, rel=1e-15)
 
 
 def test_a_wave_from_its_harmonics():
@@ -85,6 +94,17 @@ def test_a_wave_from_its_harmonics():
     moved = Periodic(2.0, (1.0, 0.0, 0.5), (0.1, 0.0, 2.0), of="displacement")
     second = np.sin(angle + 0.1) + 4.5 * np.sin(3 * angle + 2.0)  # minus d²/dθ²
     np.testing.assert_allclose(moved.at(angle), -(moved.angular_frequency**2) * second, rtol=1e-12)
+
+
+def test_the_force_of_an_unbalance_is_that_of_what_rotates():
+    """m e ω² of each harmonic, at its own angular frequency; of the sign of a force."""
+    one = Harmonic("0.4 kg m", "5 Hz", "90 deg")
+    assert float(one.at(one.phase)) == pytest.approx(0.4 * (10.0 * math.pi) ** 2, rel=1e-15)
+    several = Periodic("5 Hz", ("0.4 kg m", "0.05 kg m"), (0.0, 1.0))
+    angle = np.linspace(0.0, 7.0, 23)
+    expected = 0.4 * np.sin(angle) + 4.0 * 0.05 * np.sin(2.0 * angle + 1.0)
+    np.testing.assert_allclose(several.at(angle), (10.0 * math.pi) ** 2 * expected, rtol=1e-12)
+    assert (str(one).split(",")[0], several.of) == ("Harmonic(amplitude=0.4 kg m", "unbalance")
 
 
 def test_half_waves():
@@ -104,6 +124,7 @@ def test_a_new_amplitude_scales_all_harmonics():
     [
         Harmonic("5 mm", 2.0, 0.3),
         Harmonic("120 N", 2.0),
+        Harmonic("90 g mm", 50.0),
         Periodic(2.0, ("5 mm", "1 mm"), (0.0, 1.0), 0.2),
         Periodic(2.0, (1.0, 0.5)),
         Oscillator(2.0, Isolator(0.0, 0.0), Bumper(5.0, 0.1, 0.1), Bumper(5.0, 0.1, 0.1), "1 kN"),
@@ -134,6 +155,10 @@ def test_there_and_back(one):
         (lambda: Harmonic("5 mm", 1.0, of="force"), "amplitude: "),
         (lambda: Harmonic(1.0, 1.0, of="velocity"), "of: 'velocity'"),
         (lambda: Harmonic("5 m/s", 1.0), "amplitude: "),
+        (
+            lambda: Harmonic("5 kg", 1.0),
+            'amplitude: .*, or a force such as "120 N", or an unbalance such as "0.4 kg m"',
+        ),
         (lambda: Oscillator(1.0, Isolator(0.0, 0.1)), "isolator.stiffness: 0, and nothing holds"),
         (
             lambda: Oscillator(1.0, Isolator(0.0, 0.1), Bumper(1.0, 0.0, 0.1), force=-1.0),

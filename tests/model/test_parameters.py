@@ -181,6 +181,8 @@ def test_a_gap_ratio_is_over_free_flight_under_what_is_held():
     assert read(vi.Harmonic("2 mm", "2 Hz")) == pytest.approx(7.5e-3 / peak, rel=1e-12)
     force = vi.Harmonic(0.3 * rig.mass, 2.0, of="force")
     assert read(force) == pytest.approx(read(vi.Harmonic(0.3, 2.0)), rel=1e-12)
+    machine = vi.Harmonic(2e-3 * rig.mass, 2.0, of="unbalance")
+    assert read(machine) == pytest.approx(7.5e-3 / peak, rel=1e-12)
     with pytest.raises(vi.InputError, match="gap_ratio: gaps are scaled by the peak"):
         read(vi.Periodic(2.0, [0.1, 0.2]))
 

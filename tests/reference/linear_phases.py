@@ -89,10 +89,12 @@ def _sines(rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic, time: float) -
     angles = np.array(shaken.phases if several else [0.0])
     n = np.arange(1, len(sizes) + 1)
     rates = n * shaken.angular_frequency
-    if shaken.of == "displacement":
-        sizes = -sizes * rates**2
-    if shaken.of == "force":
-        sizes = -sizes / rig.mass
+    if shaken.of in ("displacement", "unbalance"):
+        sizes = sizes * rates**2
+    if shaken.of in ("force", "unbalance"):
+        sizes = sizes / rig.mass
+    if shaken.of != "acceleration":
+        sizes = -sizes
     angle = n * (shaken.phase + shaken.angular_frequency * time) + angles
     none = np.zeros((len(n), len(n)))
     generator = np.block([[none, np.diag(rates)], [-np.diag(rates), none]])

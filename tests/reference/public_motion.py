@@ -62,6 +62,7 @@ def reference_shaking(rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic | vi
             "acceleration": lambda n, size: mpf(size),
             "displacement": lambda n, size: -mpf(size) * (n * omega) ** 2,
             "force": lambda n, size: -mpf(size) / mpf(rig.mass),
+            "unbalance": lambda n, size: -mpf(size) * (n * omega) ** 2 / mpf(rig.mass),
         }[shaken.of]
         return Sines(
             [sizes(n, size) for n, size in enumerate(amplitudes, start=1)],

@@ -60,9 +60,11 @@ SHAKEN = {
     "acceleration": vi.Harmonic(0.7, 1.0),
     "displacement": vi.Harmonic("70 mm", 1.0),
     "force": vi.Harmonic("2.1 N", 1.0),
+    "unbalance": vi.Harmonic("0.4 kg m", 1.0),
     "harmonics": vi.Periodic(1.0, (0.7, 0.3, 0.0, 0.2), (0.1, 1.0, 0.0, -2.0)),
     "harmonics of displacement": vi.Periodic(1.0, ("70 mm", "10 mm"), (0.0, 2.0)),
     "harmonics of force": vi.Periodic(1.0, ("2 N", "0 N", "1 N")),
+    "harmonics of unbalance": vi.Periodic(1.0, ("0.4 kg m", "0.06 kg m"), (0.0, 2.0)),
 }
 
 
@@ -78,8 +80,9 @@ def swings(one: vi.Oscillator, shaken, frequency: float, count: int) -> tuple[fl
     for n, (size, angle) in enumerate(zip(sizes, angles, strict=True), start=1):
         w = n * omega
         wave = np.exp(1j * (n * theta + angle))
-        base = {"acceleration": size, "displacement": -size * w**2, "force": 0.0}[shaken.of] * wave
-        push = size * wave if shaken.of == "force" else -m * base
+        base = {"acceleration": size, "displacement": -size * w**2}.get(shaken.of, 0.0) * wave
+        force = {"force": size, "unbalance": size * w**2}.get(shaken.of, 0.0) * wave
+        push = force - m * base
         swing = push / (k - m * w**2 + 1j * c * w)
         u += swing.imag
         a += (base - w**2 * swing).imag
@@ -101,7 +104,7 @@ def test_excursions_are_those_of_dense_samples(kind, isolator):
 @pytest.mark.parametrize("kind", SHAKEN)
 @pytest.mark.parametrize("ratio", [0.02, 0.15, 0.6])
 def test_the_reference_is_the_largest_of_any_kind(kind, ratio):
-    """Of displacement; of acceleration too, but where the base's displacement is given."""
+    """Of displacement; of acceleration too, but where what is given grows with the frequency."""
     one, shaken = rig(ratio), SHAKEN[kind]
     grid = one.natural_frequency * np.concatenate(
         [np.linspace(0.1, 3.0, 16_001), np.geomspace(1e-3, 30.0, 500)]
@@ -110,7 +113,7 @@ def test_the_reference_is_the_largest_of_any_kind(kind, ratio):
     swing, acceleration = reference_excursions(vi.Rig(one, shaken))
     assert curves[0].max() <= swing * (1 + 1e-12)
     assert curves[0].max() == pytest.approx(swing, rel=1e-4)
-    if shaken.of == "displacement":
+    if shaken.of in ("displacement", "unbalance"):
         at = curves[1][np.argmax(curves[0])]
         assert acceleration == pytest.approx(at, rel=2e-3)
     else:
@@ -141,7 +144,9 @@ def test_transmissibility(ratio):
         assert found[1][0] / (2 * omega**2 * 0.02) == pytest.approx(told, rel=1e-12)
 
 
-@pytest.mark.parametrize("kind", ["displacement", "force", "harmonics of displacement"])
+@pytest.mark.parametrize(
+    "kind", ["displacement", "force", "unbalance", "harmonics of displacement"]
+)
 def test_a_sweep_takes_its_share_of_them(kind):
     one, shaken = rig(0.1), SHAKEN[kind]
     grid = np.linspace(0.15, 0.5, 6)

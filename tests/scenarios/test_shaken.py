@@ -16,6 +16,7 @@ CASE = vi.laboratory.case("B2-G1-A3")
 MASS, OMEGA = CASE.oscillator.mass, CASE.oscillator.angular_frequency
 FORCE = vi.Harmonic(MASS * CASE.amplitude, 1.0, of="force")
 SWING = vi.Harmonic(CASE.amplitude / OMEGA**2, 1.0, of="displacement")
+UNBALANCE = vi.Harmonic(MASS * CASE.amplitude / OMEGA**2, 1.0, of="unbalance")
 """Of the same largest free flight."""
 
 
@@ -29,6 +30,19 @@ def test_a_force_on_the_mass_is_an_acceleration_of_the_base() -> None:
     np.testing.assert_allclose(force.features.folds, base.features.folds, rtol=1e-8)
     assert highest(one_sine(vi.Rig(CASE.oscillator, FORCE))) == highest(
         one_sine(vi.Rig(CASE.oscillator, CASE.amplitude))
+    )
+
+
+def test_an_unbalance_is_a_displacement_of_the_base() -> None:
+    """Relative to the base, the motion is the same; only the absolute acceleration is not."""
+    held = np.arange(0.5, 3.5, 0.02)
+    base, machine = (classify(vi.Rig(CASE.oscillator, one), held) for one in (SWING, UNBALANCE))
+    for name in ("contact", "gap_ratio", "penetration", "swept", "within"):
+        told = getattr(base.features, name), getattr(machine.features, name)
+        assert told[1] == pytest.approx(told[0], rel=1e-9)
+    np.testing.assert_allclose(machine.features.folds, base.features.folds, rtol=1e-8)
+    assert highest(one_sine(vi.Rig(CASE.oscillator, UNBALANCE))) == highest(
+        one_sine(vi.Rig(CASE.oscillator, SWING))
     )
 
 
@@ -105,6 +119,18 @@ def test_a_map_is_made_of_such_rigs(shaken: vi.Harmonic) -> None:
             stiffness_ratio=1, amplitude=k
         )
         assert max(float(one) for one in known.values()) == pytest.approx(wanted, rel=1e-6)
+
+
+def test_the_unit_of_an_unbalance_is_that_of_its_axis() -> None:
+    data = vi.scenario_map(
+        vi.Rig(CASE.oscillator, UNBALANCE),
+        ("amplitude", ["1 kg m", "2 kg m"]),
+        ("stiffness_ratio", [1.0, 20.0]),
+        step=0.1,
+    )
+    assert data["amplitude"].attrs["units"] == "kg m"
+    assert data["amplitude"].attrs["long_name"] == "rotating unbalance of the mass"
+    np.testing.assert_array_equal(data["amplitude"], [1.0, 2.0])
 
 
 def test_the_border_of_jumps_is_the_same_under_a_force() -> None:

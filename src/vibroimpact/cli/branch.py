@@ -78,7 +78,8 @@ def branch(
         Quantity on the vertical axis of the figure. An excursion is the maximum minus the minimum.
         eta_d and eta_a are the excursions of displacement and acceleration, each divided by its
         largest value without bumpers. The eccentricity is the mean of the largest and the smallest
-        displacement.
+        displacement. The transmissibility is the excursion of the force on the base, divided by
+        that of the exciting force.
     physical
         Draw the largest displacement (mm) instead of eta_d, and the largest acceleration (g)
         instead of eta_a.

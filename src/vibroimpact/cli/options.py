@@ -141,7 +141,8 @@ class RigOptions:
     in the study file. If it names none, the default is the set table."""
     amplitude: _OfRig = None
     """Amplitude of the shaking. Its unit selects the quantity: peak acceleration of the base (0.05g
-    or 0.49m/s^2), peak displacement of the base (5mm), or peak force on the mass (120N)."""
+    or 0.49m/s^2), peak displacement of the base (5mm), peak force on the mass (120N), or
+    rotating unbalance (0.4kg*m)."""
     mass: _OfRig = None
     """Mass, such as 550kg or 5000t."""
     weight: _OfRig = None

@@ -13,6 +13,7 @@ from vibroimpact.datasets.variable import Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, Rig, State
+from vibroimpact.model.excitation import ON_THE_MASS
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.varied import Varied
 
@@ -40,9 +41,16 @@ def describe(
         If a variable is not in the registry.
     """
     known = {one.name: Variable(one.units, one.long_name) for one in varied}
+    if parameters is None and "parameters" in dataset.attrs:
+        still = base_at_rest(dataset)
+    else:
+        still = parameters is not None and _stands(parameters)
     for name in dataset.variables:
         variable = VARIABLES.get(str(name)) or known[str(name)]
-        attributes = {"units": variable.units, "long_name": variable.long_name}
+        long_name = variable.long_name
+        if still:  # what is relative to a base at rest is absolute
+            long_name = long_name.replace("relative ", "absolute ")
+        attributes = {"units": variable.units, "long_name": long_name}
         if variable.comment:
             attributes["comment"] = variable.comment
         dataset.variables[name].attrs.update(attributes)  # as of dataset[name], sooner
@@ -58,6 +66,20 @@ def describe(
         dataset.attrs["notes"] = told
     dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
     return dataset
+
+
+def base_at_rest(data: xr.Dataset) -> bool:
+    """Return whether a force on the mass shakes all rigs of a dataset, so that the base is at rest.
+
+    It is False if the dataset does not say what shakes them.
+    """
+    text = data.attrs.get("parameters")
+    return text is not None and _stands(json.loads(text))
+
+
+def _stands(parameters: Mapping[str, Any]) -> bool:
+    rigs = parameters.get("rigs", [parameters])
+    return bool(rigs) and all(one.get("of") in ON_THE_MASS for one in rigs)
 
 
 def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:

@@ -13,6 +13,12 @@ MOTIONS: dict[str, Variable] = {
     ),
     "base_acceleration": Variable("m s-2", "base acceleration"),
     "applied_force": Variable("N", "force on the mass"),
+    "transmitted_force": Variable(
+        "N",
+        "force transmitted to the base",
+        "of the isolator and the stops together, positive to the right; at a jump: the value just "
+        "after the event",
+    ),
     "right_bumper": Variable("m", "deformation of the right bumper"),
     "left_bumper": Variable("m", "deformation of the left bumper, negative when compressed"),
     "right_clearance": Variable("m", "clearance between mass and right bumper"),
@@ -43,6 +49,12 @@ MOTIONS: dict[str, Variable] = {
     "event_left_bumper": Variable("m", "deformation of the left bumper at the event"),
     "event_acceleration_before": Variable("m s-2", "absolute acceleration just before the event"),
     "event_acceleration_after": Variable("m s-2", "absolute acceleration just after the event"),
+    "event_transmitted_force_before": Variable(
+        "N", "force transmitted to the base just before the event"
+    ),
+    "event_transmitted_force_after": Variable(
+        "N", "force transmitted to the base just after the event"
+    ),
     # contacts
     "contact_side": Variable("1", "stop of the contact: -1 left, 1 right"),
     "contact_start": Variable("s", "time at which the contact begins"),
@@ -147,6 +159,10 @@ MOTIONS: dict[str, Variable] = {
     "bifurcation_eccentricity": Variable("m", "eccentricity at the bifurcation"),
     "bifurcation_peak_displacement": Variable("m", "largest relative displacement"),
     "bifurcation_peak_acceleration": Variable("m s-2", "largest absolute acceleration"),
+    "bifurcation_peak_transmitted_force": Variable(
+        "N", "largest force transmitted to the base, without sign"
+    ),
+    "bifurcation_transmissibility": Variable("1", "transmissibility at the bifurcation"),
     "bifurcation_peak_force_right": Variable("N", "largest contact force of the right stop"),
     "bifurcation_peak_force_left": Variable("N", "largest contact force of the left stop"),
     "bifurcation_period": Variable("1", "period of the orbit in forcing cycles"),
@@ -165,7 +181,7 @@ MOTIONS: dict[str, Variable] = {
     "starts": Variable("1", "names of the initial states that led to the motion"),
     "mirrored_starts": Variable("1", "names of the initial states that led to its mirror image"),
     "mirror_pair": Variable("1", "whether the mirror image of the motion is a different motion"),
-    "energy_supplied": Variable("J", "work of the base on the mass per forcing cycle"),
+    "energy_supplied": Variable("J", "work of the excitation on the mass per forcing cycle"),
     "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
     "energy_bumpers": Variable("J", "energy lost in the stops per forcing cycle"),
     "total_supplied": Variable("J", "work of the excitation on the mass during the whole motion"),

@@ -13,6 +13,10 @@ _OVER = (
     "divided by the largest excursion at any frequency without stops, for the same isolator and "
     "amplitude"
 )
+_CARRIED = (
+    "of the isolator and the stops together, positive to the right; the infinite force of an "
+    "impact on a rigid stop is excluded"
+)
 _CHATTER = (
     "a chatter that ends at rest on a rigid stop has infinitely many impacts; only the impacts "
     "before the chatter is regarded as complete are counted"
@@ -58,6 +62,20 @@ VARIABLES: dict[str, Variable] = {
     ),
     "acceleration_max": Variable("m s-2", "largest absolute acceleration"),
     "acceleration_min": Variable("m s-2", "smallest absolute acceleration"),
+    "transmitted_force_max": Variable("N", "largest force transmitted to the base", _CARRIED),
+    "transmitted_force_min": Variable("N", "smallest force transmitted to the base", _CARRIED),
+    "transmitted_force_excursion": Variable(
+        "N", "excursion of the force transmitted to the base", "exact maximum minus exact minimum"
+    ),
+    "peak_transmitted_force": Variable(
+        "N", "largest force transmitted to the base, without sign", _CARRIED
+    ),
+    "transmissibility": Variable(
+        "1",
+        "transmissibility of the force",
+        "excursion of the force transmitted to the base divided by that of the exciting force: of "
+        "the force on the mass, or of M A_t if the base moves",
+    ),
     "peak_impulse_right": Variable("N s", "largest impulse of an impact on the right rigid stop"),
     "peak_impulse_left": Variable("N s", "largest impulse of an impact on the left rigid stop"),
     "eccentricity": Variable("m", "eccentricity", "half the sum of the displacement's extremes"),
@@ -81,6 +99,9 @@ VARIABLES: dict[str, Variable] = {
     ),
     "free_acceleration_excursion": Variable(
         "m s-2", "excursion of absolute acceleration in steady free flight"
+    ),
+    "free_transmitted_force_excursion": Variable(
+        "N", "excursion of the force transmitted to the base in steady free flight"
     ),
     "largest_free_displacement_excursion": Variable(
         "m", "largest excursion of relative displacement in free flight at any frequency"

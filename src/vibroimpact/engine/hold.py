@@ -27,7 +27,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import Clock, Motion, aged, finite
 from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.extremes import NOTHING
+from vibroimpact.engine.observers.extremes import NOTHING, Extremes
 from vibroimpact.engine.status import (
     DONE,
     NOT_FINITE,
@@ -59,29 +59,24 @@ PATIENT = math.inf
 
 # What a hold writes.
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME = range(9)
-FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT = range(9, 13)
-RESULTS = 13
+FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT, T_LEAST, T_MOST = range(9, 15)
+RESULTS = 15
 
 past_memory = stack(LONGEST * 4)
 distances = stack(LONGEST + 1)
 
 
 @kernel
-def measure(
+def follow(
     plan: Vector,
     motion: Motion,
     clock: Clock,
     period: float,
     cycles: int,
     max_events: int,
-    result: Vector,
     progress: Any,
-) -> tuple[int, Motion]:
-    """Follow `cycles` forcing cycles and write their exact extremes and contact counts.
-
-    Forces and impulses are those per unit mass. It stops when [1] of `progress` becomes nonzero;
-    None if it cannot take long.
-    """
+) -> tuple[int, int, Extremes, Motion]:
+    """Follow `cycles` forcing cycles: the outcome, how many were followed, and their extremes."""
     notes = NOTHING
     outcome = DONE
     done = 0
@@ -97,6 +92,35 @@ def measure(
         if progress is not None:  # noqa: SIM102 - the compiler leaves out what None makes needless
             if progress[1] != 0:
                 outcome = STOPPED
+    return outcome, done, notes, motion
+
+
+@kernel
+def measure(
+    plan: Vector,
+    start: Motion,
+    clock: Clock,
+    period: float,
+    cycles: int,
+    max_events: int,
+    result: Vector,
+    progress: Any,
+) -> tuple[int, Motion]:
+    """Follow `cycles` forcing cycles and write their exact extremes and contact counts.
+
+    Forces and impulses are those per unit mass. It stops when [1] of `progress` becomes nonzero;
+    None if it cannot take long.
+    """
+    outcome, done, notes, motion = follow(plan, start, clock, period, cycles, max_events, progress)
+    a_least, a_most = notes.a_least, notes.a_most
+    if plan[par.BASE] == 0.0:
+        # The force on the base is that of ü + A_t, A_t what stands for the force on the mass: the
+        # absolute acceleration of the same motion if the base moved.
+        plan[par.BASE] = 1.0
+        outcome, _, carried, _ = follow(plan, start, clock, period, done, max_events, progress)
+        plan[par.BASE] = 0.0
+        a_least, a_most = carried.a_least, carried.a_most
+    result[T_LEAST], result[T_MOST] = plan[par.LOAD] - a_most, plan[par.LOAD] - a_least
     result[U_LEAST], result[U_MOST] = notes.u_least, notes.u_most
     result[A_LEAST], result[A_MOST] = notes.a_least, notes.a_most
     result[HITS_RIGHT], result[HITS_LEFT] = notes.hits_right / done, notes.hits_left / done
@@ -288,11 +312,13 @@ def hold(
     for i in range(RESULTS):
         result[i] = math.nan
     begin(plan, amplitude, 2.0 * math.pi * frequency)
-    alone, swing, felt, motion = undisturbed(plan, motion, clock, DYING)
+    alone, swing, felt, carried, motion = undisturbed(plan, motion, clock, DYING)
     if alone:
         rest = plan[par.LOAD] / plan[par.STIFFNESS]
         result[U_LEAST], result[U_MOST] = rest - swing, rest + swing
         result[A_LEAST], result[A_MOST] = -felt, felt
+        result[T_LEAST] = plan[par.LOAD] - carried
+        result[T_MOST] = plan[par.LOAD] + carried
         for i in (HITS_RIGHT, HITS_LEFT, FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT):
             result[i] = 0.0
         result[PERIOD], result[CYCLES], result[OUTCOME] = 1, 0, DONE

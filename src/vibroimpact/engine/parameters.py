@@ -114,7 +114,8 @@ class Drive(NamedTuple):
         1 if the base moves, 0 if a force acts on the mass.
     scale, power
         A_t has the amplitude: the given size · scale · ω^power. The base acceleration itself has
-        1 and 0; a displacement of the base has −1 and 2, a force −1/M and 0.
+        1 and 0; a displacement of the base has −1 and 2, a force −1/M and 0, and an unbalance −1/M
+        and 2.
     weights
         Of sin nθ and cos nθ, n from 1 on, if there are several harmonics.
     interval

@@ -10,7 +10,15 @@ import xarray as xr
 from rich.console import RenderableType
 from rich.table import Table
 
-from vibroimpact.model.quantities import ACCELERATION, FORCE, IMPULSE, LENGTH, Quantity
+from vibroimpact.datasets.description import base_at_rest
+from vibroimpact.model.quantities import (
+    ACCELERATION,
+    DIMENSIONLESS,
+    FORCE,
+    IMPULSE,
+    LENGTH,
+    Quantity,
+)
 from vibroimpact.model.units import plain, pretty
 
 _DIGITS = 4
@@ -20,21 +28,29 @@ _ROWS: dict[str, tuple[str, str, float, Quantity]] = {
     "displacement_right": ("displacement to the right", "displacement_max", 1.0, LENGTH),
     "displacement_left": ("displacement to the left", "displacement_min", -1.0, LENGTH),
     "acceleration": ("absolute acceleration", "peak_acceleration", 1.0, ACCELERATION),
+    "transmitted_force": ("transmitted force", "peak_transmitted_force", 1.0, FORCE),
+    "transmissibility": ("transmissibility", "transmissibility", 1.0, DIMENSIONLESS),
     "force_right": ("force of the right stop", "peak_force_right", 1.0, FORCE),
     "force_left": ("force of the left stop", "peak_force_left", 1.0, FORCE),
     "impulse_right": ("impulse of the right stop", "peak_impulse_right", 1.0, IMPULSE),
     "impulse_left": ("impulse of the left stop", "peak_impulse_left", 1.0, IMPULSE),
 }
 """In words, and which variable, with which sign."""
+_UNDER_A_FORCE = ("transmitted_force", "transmissibility")
+"""If the base moves, they are in proportion to the absolute acceleration."""
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
     """The largest of each over all holds, in SI units, and where; of stops that are touched.
 
-    A rigid stop that is struck has an impulse, and no finite force.
+    Under a force on the mass, the force transmitted to the base and its ratio to that force are
+    added. A rigid stop that is struck has an impulse, and no finite force.
     """
     found: dict[str, Any] = {}
+    still = base_at_rest(data)
     for name, (_, variable, sign, _) in _ROWS.items():
+        if name in _UNDER_A_FORCE and not still:
+            continue
         values = sign * data[variable].transpose("direction", "frequency").values
         if np.isnan(values).all():
             continue

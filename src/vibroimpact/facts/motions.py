@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.datasets.description import noted
+from vibroimpact.datasets.description import base_at_rest, noted
 from vibroimpact.facts.status import status_facts
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -39,6 +39,10 @@ _SCALARS = (
     "acceleration_max",
     "acceleration_min",
     "acceleration_excursion",
+    "transmitted_force_max",
+    "transmitted_force_min",
+    "transmitted_force_excursion",
+    "transmissibility",
     "eccentricity",
     "impacts_right",
     "impacts_left",
@@ -149,6 +153,7 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         ("displacement", f"{plain(low / size, 5)} to {plain(high / size, 5)} {metres}"),
         ("eccentricity", f"{plain(middle / size, 4)} {metres}"),
         ("acceleration", f"{plain(floor / g, 5)} to {plain(ceiling / g, 5)} {gravity} (absolute)"),
+        *_transmitted(data),
         (
             "impacts",
             f"{plain(data['impacts_right'].item(), 4)} right, "
@@ -167,6 +172,20 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
     for row in rows:
         table.add_row(*row)
     return [Text(f"{name}: {', '.join(_kind(data))}", style="bold"), table, *contact_tables(data)]
+
+
+def _transmitted(data: xr.Dataset) -> list[tuple[str, str]]:
+    """Return the force on the base under a force on the mass.
+
+    If the base moves, it is in proportion to the absolute acceleration.
+    """
+    if not base_at_rest(data):
+        return []
+    low, high = (data[f"transmitted_force_{end}"].item() for end in ("min", "max"))
+    _, size, newtons = fitting((low, high), FORCE.scales)
+    ratio = data["transmissibility"].item()
+    told = f"{plain(low / size, 5)} to {plain(high / size, 5)} {newtons}"
+    return [("transmitted force", f"{told}, transmissibility {plain(ratio, 4)}")]
 
 
 def _pressed(data: xr.Dataset) -> str:

@@ -129,7 +129,12 @@ def _shaking_words(shaken: Repeated | Record) -> tuple[str, str]:
     return _SHAKEN[shaken.of], pretty(size, shaken.quantity)
 
 
-_SHAKEN = {"acceleration": "base", "displacement": "base", "force": "force on the mass"}
+_SHAKEN = {
+    "acceleration": "base",
+    "displacement": "base",
+    "force": "force on the mass",
+    "unbalance": "rotating unbalance",
+}
 
 
 def _dimensionless(rig: Rig) -> Dimensionless | None:

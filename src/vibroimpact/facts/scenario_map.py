@@ -17,7 +17,7 @@ from vibroimpact.model.units import pretty
 from vibroimpact.scenarios.axes import ONE_QUANTITY
 from vibroimpact.scenarios.scenario import Scenario
 
-_SYMBOLS = {"acceleration": "A =", "displacement": "X =", "force": "F ="}
+_SYMBOLS = {"acceleration": "A =", "displacement": "X =", "force": "F =", "unbalance": "m e ="}
 
 
 def facts(data: xr.Dataset, border: xr.Dataset | None) -> dict[str, Any]:

@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.motion_style import axes_or_new
 
 COLOURS = (
@@ -100,8 +101,8 @@ def basin_portrait(
     ax.set(
         xlim=(u[0], u[-1]),
         ylim=(v[0], v[-1]),
-        xlabel="relative displacement $u$ (mm)",
-        ylabel="relative velocity $\\dot u$ (m/s)",
+        xlabel=base_label("relative displacement $u$ (mm)", [data]),
+        ylabel=base_label("relative velocity $\\dot u$ (m/s)", [data]),
     )
     if manifolds is not None:
         handles += _curves(ax, manifolds)

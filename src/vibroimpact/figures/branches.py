@@ -68,8 +68,9 @@ def branch_diagram(
         Axes to draw on. Default: a new figure.
     quantity
         Quantity on the vertical axis: ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"``,
-        ``"eccentricity"``, ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force_right"``
-        or ``"peak_force_left"``.
+        ``"eccentricity"``, ``"peak_displacement"``, ``"peak_acceleration"``,
+        ``"peak_transmitted_force"``, ``"transmissibility"``, ``"peak_force_right"`` or
+        ``"peak_force_left"``.
     sweep
         Dataset of `sweep` over the same frequencies, which is drawn as marks. Default: no sweep.
     title
@@ -166,7 +167,7 @@ def axis_unit(values: xr.DataArray) -> tuple[float, str]:
     units = str(values.attrs["units"])
     if units == "m":
         return 1e3, "mm"
-    if units in ("N", "N m-1", "N s m-1", "kg"):
+    if units in ("N", "N m-1", "N s m-1", "kg", "kg m"):
         scale = in_units(units).unit(*values.values.ravel())
         return 1.0 / scale.size, scale.symbol
     return 1.0, {"1": "–", "m s-2": "m/s²"}.get(units, units)

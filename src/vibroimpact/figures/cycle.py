@@ -1,4 +1,4 @@
-"""Absolute acceleration over relative displacement, as in the paper's Fig. 4a."""
+"""Absolute acceleration or force over displacement, as in the paper's Fig. 4a."""
 
 from __future__ import annotations
 
@@ -7,7 +7,16 @@ from collections.abc import Mapping
 import xarray as xr
 from matplotlib.axes import Axes
 
-from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
+from vibroimpact.datasets.description import base_at_rest
+from vibroimpact.figures.base_motion import base_label
+from vibroimpact.figures.motion_style import (
+    axes_or_new,
+    force_unit,
+    gap_lines,
+    name_lines,
+    named,
+    shown,
+)
 
 
 def hysteresis_cycle(
@@ -18,9 +27,11 @@ def hysteresis_cycle(
 ) -> Axes:
     """Draw the absolute acceleration over the relative displacement (hysteresis loop).
 
-    The acceleration times the mass, with the opposite sign, is the force of the isolator and the
-    bumpers on the mass. Therefore the enclosed area is proportional to the energy that they
-    dissipate per period. The acceleration jumps where a contact begins.
+    If the base moves, the acceleration times the mass, with the opposite sign, is the force of the
+    isolator and the bumpers on the base. If a force acts on the mass of all motions, it is not:
+    then the force transmitted to the base is drawn instead. Therefore the enclosed area is
+    proportional to the energy that the isolator and the bumpers dissipate per period. The curves
+    jump where a contact begins.
 
     Parameters
     ----------
@@ -39,12 +50,19 @@ def hysteresis_cycle(
         If a dataset does not hold a motion with samples.
     """
     ax = axes_or_new(ax, (5.2, 4.4), title)
-    curves = shown(named(motions, records=True))
+    given = named(motions, records=True)
+    curves = shown(given)
+    force = all(base_at_rest(motion) for motion in given.values())
+    name, factor = "acceleration", 1.0
+    label = "absolute acceleration $\\ddot u + A_t$ (m/s²)"
+    if force:
+        name, unit = "transmitted_force", force_unit(curves)
+        factor, label = 1.0 / unit.size, f"transmitted force ({unit.symbol})"
     for curve in curves:
         long = curve.at[-1] - curve.at[0] > 20.0
         ax.plot(
             1e3 * curve.values["displacement"],
-            curve.values["acceleration"],
+            factor * curve.values[name],
             color=curve.look.colour,
             linestyle="-" if long else curve.look.dashes,
             linewidth=0.25 if long else 1.2,
@@ -52,7 +70,7 @@ def hysteresis_cycle(
             zorder=3,
         )
     gap_lines(ax, curves, horizontal=False)
-    ax.set_xlabel("relative displacement $u$ (mm)")
-    ax.set_ylabel("absolute acceleration $\\ddot u + A_t$ (m/s²)")
+    ax.set_xlabel(base_label("relative displacement $u$ (mm)", given.values()))
+    ax.set_ylabel(label)
     name_lines(ax, curves)
     return ax

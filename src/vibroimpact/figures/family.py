@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import FREE, LEGEND, SWEEPS, fit_x_axis
 from vibroimpact.model.names import literal
@@ -158,7 +159,7 @@ def resonance_family(
         _curves(ax, data.isel(rig=i, drop=True), quantity, factor, look, called)
     fit_x_axis(ax, frequency)
     ax.set_xlabel("excitation frequency $f$ (Hz)")
-    ax.set_ylabel(label)
+    ax.set_ylabel(base_label(label, [data]))
     if legend:
         ax.legend(
             handles=family_legend(ax),

@@ -12,7 +12,17 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from vibroimpact.figures.motion_style import SIDES, Shown, cycles_shown, gap_lines, named, shown
+from vibroimpact.datasets.description import base_at_rest
+from vibroimpact.figures.base_motion import base_label
+from vibroimpact.figures.motion_style import (
+    SIDES,
+    Shown,
+    cycles_shown,
+    force_unit,
+    gap_lines,
+    named,
+    shown,
+)
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import EDGE, LEGEND, panels
 
@@ -30,6 +40,8 @@ PANELS = (
     _Panel("acceleration", 1.0, "absolute acceleration\n$\\ddot u + A_t$ (m/s²)"),
     _Panel("velocity", 1.0, "relative\nvelocity $\\dot u$ (m/s)"),
 )
+_APPLIED: dict[str, Any] = {"color": "0.5", "linewidth": 0.9}
+"""Style of the force on the mass."""
 BANDS = {"right": ("#f7dc8b", ""), "left": ("#b9dcec", r"\\")}
 
 
@@ -41,6 +53,9 @@ def time_history(
     title: str | None = None,
 ) -> Panels:
     """Draw displacement, absolute acceleration and relative velocity over t/T.
+
+    If a force on the mass shakes all motions, a fourth panel shows the force that the isolator and
+    the stops transmit to the base, over the force on the mass (grey).
 
     Each contact is a band between its exact start and end times. The band is hatched for the left
     bumper. A filled dot marks the start of a contact, an open dot its end, and a star the peak of
@@ -56,7 +71,7 @@ def time_history(
         names to datasets. If a name contains "forward", the curve is red. If it contains
         "backward", the curve is blue.
     axes
-        Three Axes. Default: a new figure.
+        Three Axes, or four under a force on the mass. Default: a new figure.
     cycles
         Number of forcing cycles that are drawn. The last cycles of a simulation are drawn. A
         periodic motion is repeated. Default: three, or more cycles so that whole periods are drawn.
@@ -66,22 +81,35 @@ def time_history(
     Returns
     -------
     tuple of Axes
-        The Axes of the displacement, the acceleration and the velocity. ``axes[0].figure`` is the
-        figure.
+        The Axes of the displacement, the acceleration and the velocity, and under a force on the
+        mass of the transmitted force. ``axes[0].figure`` is the figure.
 
     Raises
     ------
     InputError
-        If a dataset does not hold a motion with samples, or if there are not three axes.
+        If a dataset does not hold a motion with samples, or if the number of axes is wrong.
     """
     given_motions = named(motions)
     curves = shown(given_motions, cycles_shown(given_motions, cycles, 3))
-    given = panels(axes, 3, "displacement, acceleration and velocity", (7.2, 7.6), title)
-    for ax, panel in zip(given, PANELS, strict=True):
+    drawn, what, handles = panels_of(given_motions), "displacement, acceleration and velocity", []
+    if all(base_at_rest(motion) for motion in given_motions.values()):
+        unit = force_unit(curves)
+        label = f"transmitted\nforce ({unit.symbol})"
+        drawn.append(_Panel("transmitted_force", 1.0 / unit.size, label))
+        what = "displacement, acceleration, velocity and transmitted force"
+        handles.append(Line2D([], [], label="force on the mass", **_APPLIED))
+    count = len(drawn)
+    given = panels(axes, count, what, (7.2, 0.4 + 2.4 * count), title)
+    for ax, panel in zip(given, drawn, strict=True):
         history_panel(ax, curves, panel)
-    given[2].set_xlabel("time in forcing cycles $t/T$ (–)")
-    given[0].legend(handles=history_legend(curves), ncols=4, **LEGEND)
+    given[-1].set_xlabel("time in forcing cycles $t/T$ (–)")
+    given[0].legend(handles=history_legend(curves) + handles, ncols=4, **LEGEND)
     return given
+
+
+def panels_of(motions: Mapping[str, xr.Dataset]) -> list[_Panel]:
+    """Return the panels of displacement, acceleration and velocity, with their labels."""
+    return [panel._replace(label=base_label(panel.label, motions.values())) for panel in PANELS]
 
 
 def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
@@ -124,6 +152,8 @@ def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
                 linewidth=0.8,
                 zorder=4,
             )
+        if panel.variable == "transmitted_force":
+            ax.plot(curve.at, panel.factor * curve.values["applied_force"], zorder=2, **_APPLIED)
         if panel.variable == "acceleration":
             ax.scatter(
                 curve.peaks[0],

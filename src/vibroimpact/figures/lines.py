@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
+from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.motion_style import axes_or_new, looks
 
 _LABELS = {
@@ -96,7 +97,7 @@ def spectrum_lines(
     ax.autoscale(axis="y")  # together with the axes that share this one's scale
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel("order $f/f_{exc}$ (–)")
-    ax.set_ylabel(label)
+    ax.set_ylabel(base_label(label, given.values()))
     if (
         frequency is not None
         and len({motion_parameters(d)["frequency"] for d in given.values()}) == 1

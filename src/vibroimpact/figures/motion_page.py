@@ -12,7 +12,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.history import PANELS, history_legend, history_panel
+from vibroimpact.figures.history import PANELS, history_legend, history_panel, panels_of
 from vibroimpact.figures.lines import spectrum_lines
 from vibroimpact.figures.motion_style import Shown, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Grid, new_axes
@@ -170,7 +170,7 @@ def _column(
         spectrum_lines(lines, axes[1], highest=highest)
     curves = shown(given, length)
     panels: list[Axes] = list(axes[2:])
-    for ax, panel in zip(panels, PANELS, strict=True):
+    for ax, panel in zip(panels, panels_of(given), strict=True):
         history_panel(ax, curves, panel)
     panels[-1].set_xlabel("time in forcing cycles $t/T$ (–)")
     for ax in axes:

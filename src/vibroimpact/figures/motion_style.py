@@ -18,6 +18,7 @@ from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
 from vibroimpact.measurements.read import is_measured
 from vibroimpact.model import Record
 from vibroimpact.model.names import literal
+from vibroimpact.model.quantities import FORCE, Scale
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.motion_phases import any_recorded, phases, recorded, touches
 from vibroimpact.response.sine_fit import forcing_sine, slope
@@ -37,7 +38,8 @@ class Shown(NamedTuple):
     at: _Array
     """Time in forcing cycles, or in seconds for a motion through a `Record`."""
     values: dict[str, _Array]
-    """Values by variable: displacement, velocity, acceleration, clearances."""
+    """Values by variable: displacement, velocity, acceleration, clearances; under a force on the
+    mass also the transmitted and the applied force."""
     touching: list[tuple[int, float, float]]
     """Side of each contact, and its start and end in forcing cycles."""
     peaks: tuple[_Array, _Array]
@@ -219,6 +221,11 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
             "acceleration", "event_acceleration_before", "event_acceleration_after"
         ),
     }
+    if not (isinstance(shaken, Record) or shaken.moves_base):
+        values["transmitted_force"] = merged(
+            "transmitted_force", "event_transmitted_force_before", "event_transmitted_force_after"
+        )
+        values["applied_force"] = shaken.at(2.0 * math.pi * times[order] + shaken.phase)
     gaps = {}
     for side, name in SIDES.items():
         bumper = getattr(origin.oscillator, name)
@@ -304,6 +311,16 @@ def _cut(curve: Shown, first: float, last: float) -> Shown:
         ],
         peaks=(curve.peaks[0][seen], curve.peaks[1][seen]),
     )
+
+
+def force_unit(curves: list[Shown]) -> Scale:
+    """Return the unit in which the transmitted forces of motions under a force are drawn."""
+    largest = [
+        float(np.nanmax(np.abs(curve.values[name]), initial=0.0))
+        for curve in curves
+        for name in ("transmitted_force", "applied_force")
+    ]
+    return FORCE.unit(*largest)
 
 
 def gap_lines(ax: Axes, curves: list[Shown], *, horizontal: bool) -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
 
 _MOST_VECTORS = 50_000
@@ -76,7 +77,7 @@ def phase_portrait(
             rasterized=len(whole) > _MOST_VECTORS,
         )
     gap_lines(ax, curves, horizontal=False)
-    ax.set_xlabel("relative displacement $u$ (mm)")
-    ax.set_ylabel("relative velocity $\\dot u$ (m/s)")
+    ax.set_xlabel(base_label("relative displacement $u$ (mm)", given.values()))
+    ax.set_ylabel(base_label("relative velocity $\\dot u$ (m/s)", given.values()))
     name_lines(ax, curves)
     return ax

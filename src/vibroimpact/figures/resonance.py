@@ -47,6 +47,9 @@ def resonance_curves(
 ) -> Panels:
     """Draw resonance curves: η_a and η_d, or physical quantities, over the forcing frequency.
 
+    If a force on the mass shakes the rig, a further panel shows how much of it is transmitted to
+    the base: the transmissibility, or in physical units the largest transmitted force.
+
     The forward sweep is a solid red line with dots. The backward sweep is a dashed blue line with
     squares. The motion without stops is black. Vertical arrows mark the jumps of a sweep. Ranges
     with hysteresis are shaded; ranges with left hysteresis are also hatched. Crosses mark motions
@@ -59,7 +62,7 @@ def resonance_curves(
         Dataset of `vibroimpact.sweep`, one rig of a dataset of `vibroimpact.sweeps`, or measured
         curves.
     axes
-        Axes to draw on: two for η_a and η_d, or one per physical quantity. Default: a new figure.
+        Axes to draw on, one per panel. Default: a new figure.
     found
         Features (resonances, jumps and hysteresis) that are marked. Default: the features are
         computed from the curves.
@@ -80,7 +83,7 @@ def resonance_curves(
     Returns
     -------
     tuple of Axes
-        The Axes of η_a and η_d, or of acceleration, displacement and force. ``axes[0].figure`` is
+        The Axes of η_a and η_d, or of acceleration, displacement and forces. ``axes[0].figure`` is
         the figure.
 
     Raises

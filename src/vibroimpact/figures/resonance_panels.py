@@ -11,13 +11,15 @@ import xarray as xr
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import excitation_from
+from vibroimpact.datasets.description import base_at_rest, excitation_from
 from vibroimpact.errors import InputError
+from vibroimpact.figures.base_motion import base_label
 from vibroimpact.model import Oscillator, equilibrium
-from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
+from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE, Scale
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound
 from vibroimpact.model.units import plain
+from vibroimpact.response.analytic_free_response import exciting_excursion
 
 _Array = NDArray[np.float64]
 
@@ -63,7 +65,7 @@ class Drawn(NamedTuple):
 
 
 def normalised(data: xr.Dataset) -> list[Drawn]:
-    """Return the panels of η_a and η_d."""
+    """Return the panels of η_a and η_d, and of the transmissibility under a force on the mass."""
     found = []
     for symbol, kind, words in (
         ("a", "acceleration", "absolute acceleration"),
@@ -73,12 +75,29 @@ def normalised(data: xr.Dataset) -> list[Drawn]:
         found.append(
             Drawn(
                 f"η_{symbol}",
-                f"normalised excursion of\n{words} $\\eta_{symbol}$ (–)",
+                base_label(f"normalised excursion of\n{words} $\\eta_{symbol}$ (–)", [data]),
                 _curves(data, f"eta_{symbol}", 1.0),
                 data[free].values / data[f"largest_{free}"].values,
             )
         )
+    if base_at_rest(data):
+        carried = data["free_transmitted_force_excursion"].values / _exciting_excursion(data)
+        curves = _curves(data, "transmissibility", 1.0)
+        label = "transmissibility\nof the force (–)"
+        found.append(Drawn("transmissibility", label, curves, carried))
     return found
+
+
+def _exciting_excursion(data: xr.Dataset) -> _Array:
+    """Return the excursion of the exciting force at each frequency (N)."""
+    about = json.loads(data.attrs["parameters"])["rigs"][0]
+    given = about.get("amplitude")
+    sizes = given if isinstance(given, list) else None
+    shaken = excitation_from(about, frequency=1.0, **({"amplitude": max(sizes)} if sizes else {}))
+    oscillator = Oscillator.model_validate(about["oscillator"])
+    excursion = exciting_excursion(Rig(oscillator, shaken), data["frequency"].values)
+    shares = 1.0 if sizes is None else np.array(sizes) / max(sizes)
+    return np.asarray(oscillator.mass * excursion * shares)
 
 
 def divides(data: xr.Dataset) -> bool:
@@ -104,7 +123,8 @@ def _spikes(data: xr.Dataset) -> bool:
 def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Drawn]:
     """Return panels of the largest absolute acceleration, displacement and, if any, contact force.
 
-    For the quantities in ``halves``, half the excursion is drawn. If a motion goes further to one
+    Under a force on the mass, there is also a panel of the force transmitted to the base. For the
+    quantities in ``halves``, half the excursion is drawn. If a motion goes further to one
     side than to the other, half the excursion is smaller than the largest value.
 
     Raises
@@ -133,7 +153,7 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
         ),
         Drawn(
             "displacement",
-            "largest relative\ndisplacement (mm)",
+            base_label("largest relative\ndisplacement (mm)", [data]),
             swings,
             None if rest is None else swing + 1e3 * abs(rest),
             gaps,
@@ -148,11 +168,18 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
     if "displacement" in halves:  # whose middle is that between the stops where all is symmetric
         even = rig is not None and rig.left == rig.right and rest is not None and abs(rest) < _NIL
         found[1] = found[1]._replace(
-            label="half the excursion of\nrelative displacement (mm)",
+            label=base_label("half the excursion of\nrelative displacement (mm)", [data]),
             curves=_curves(data, "displacement_excursion", 0.5e3),
             free=swing,
             levels=gaps if even else (),
         )
+    if base_at_rest(data):
+        unit = peak_force_unit(data)
+        curves = _curves(data, "peak_transmitted_force", 1.0 / unit.size)
+        load = 0.0 if rig is None else abs(rig.force)
+        free = (0.5 * data["free_transmitted_force_excursion"].values + load) / unit.size
+        label = f"largest transmitted\nforce ({unit.symbol})"
+        found.append(Drawn("transmitted force", label, curves, free, spike=spike))
     for words, quantity in (("force", FORCE), ("impulse", IMPULSE)):
         right, left = (_curves(data, f"peak_{words}_{side}", 1.0) for side in ("right", "left"))
         sizes = {direction: np.fmax(right[direction], left[direction]) for direction in right}
@@ -164,6 +191,11 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
             curves = {key: size / unit.size for key, size in known.items()}
             found.append(Drawn(words, f"largest contact\n{words} ({unit.symbol})", curves, None))
     return found
+
+
+def peak_force_unit(data: xr.Dataset) -> Scale:
+    """Return the unit in which the transmitted forces of a sweep are drawn."""
+    return FORCE.unit(float(np.nanmax(data["peak_transmitted_force"].values, initial=0.0)))
 
 
 def _curves(data: xr.Dataset, name: str, factor: float) -> dict[str, _Array]:

@@ -294,9 +294,9 @@ def at_restitution() -> tuple[Read, Vary]:
 def scale_of(rig: Rig) -> float:
     """Return the peak base acceleration (m/s²) that scales the gaps.
 
-    For a displacement X of the base it is X ω0², and for a force F on the mass it is F/M. The
-    largest displacement without stops is then the same as for this base acceleration (see
-    `peak_displacement`).
+    For a displacement X of the base it is X ω0², for a force F on the mass F/M, and for an
+    unbalance m e it is m e ω0²/M. The largest displacement without stops is then the same as for
+    this base acceleration (see `peak_displacement`).
 
     Raises
     ------

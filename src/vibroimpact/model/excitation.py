@@ -1,7 +1,7 @@
 """Periodic excitation: one sine, or several harmonics.
 
-An excitation is an acceleration of the base, a displacement of the base, or a force on the mass.
-The dimension of the amplitude determines which of them.
+An excitation is an acceleration of the base, a displacement of the base, a force on the mass, or
+the force of a rotating unbalance. The dimension of the amplitude determines which of them.
 """
 
 from __future__ import annotations
@@ -16,18 +16,30 @@ from pydantic import model_validator
 
 from vibroimpact.arguments import check_list
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.quantities import ACCELERATION, ANGLE, FORCE, FREQUENCY, LENGTH, Quantity
+from vibroimpact.model.quantities import (
+    ACCELERATION,
+    ANGLE,
+    FORCE,
+    FREQUENCY,
+    LENGTH,
+    UNBALANCE,
+    Quantity,
+)
 from vibroimpact.model.sizes import check_size
 from vibroimpact.model.units import one_of, pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 
-Of = Literal["acceleration", "displacement", "force"]
+Of = Literal["acceleration", "displacement", "force", "unbalance"]
 """Quantity of an amplitude."""
+
+ON_THE_MASS: tuple[Of, ...] = ("force", "unbalance")
+"""Quantities of a force on the mass, under which the base is at rest."""
 
 QUANTITIES: dict[Of, Quantity] = {
     "acceleration": ACCELERATION,
     "displacement": LENGTH,
     "force": FORCE,
+    "unbalance": UNBALANCE,
 }
 
 
@@ -53,7 +65,12 @@ class _Repeated(Model):
     @property
     def moves_base(self) -> bool:
         """Whether the base moves. If not, a force acts on the mass, and the base is at rest."""
-        return self.of != "force"
+        return self.of not in ON_THE_MASS
+
+    @property
+    def grows_with_frequency(self) -> bool:
+        """Whether the excitation grows as ω² at a constant amplitude."""
+        return self.of in ("displacement", "unbalance")
 
     @property
     def angular_frequency(self) -> float:
@@ -64,6 +81,17 @@ class _Repeated(Model):
     def period(self) -> float:
         """Forcing period, 1/f, in s."""
         return 1.0 / self.frequency
+
+    @property
+    def _sign(self) -> float:
+        """Sign of the acceleration or the force over that of the amplitude: −X ω² sin θ."""
+        return -1.0 if self.of == "displacement" else 1.0
+
+    def _as_acceleration(
+        self, size: NDArray[np.float64], mass: float, omega: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        size = size if self.moves_base else size / mass
+        return np.asarray(size * omega**2 if self.grows_with_frequency else size + 0.0 * omega)
 
     def _read(self) -> Iterator[tuple[str, Any, str]]:
         for name, value, text in super()._read():
@@ -84,7 +112,8 @@ class Harmonic(_Repeated):
     amplitude
         Amplitude A, at least 0. A number is an acceleration of the base in m/s². A text or a
         quantity with a unit is an acceleration of the base such as ``"0.05 g"`` (g is gravity), a
-        displacement of the base such as ``"5 mm"``, or a force on the mass such as ``"120 N"``.
+        displacement of the base such as ``"5 mm"``, a force on the mass such as ``"120 N"``, or a
+        rotating unbalance m e on the mass such as ``"0.4 kg m"``, whose force is m e (2π f)².
     frequency
         Frequency f in Hz, greater than 0; or text such as ``"2.5 Hz"``. An angular frequency such
         as ``"15.7 rad/s"`` is converted to Hz.
@@ -92,7 +121,7 @@ class Harmonic(_Repeated):
         Phase φ in rad; or text such as ``"90 deg"``. Default: 0.
     of
         Quantity of an amplitude that has no unit: ``"acceleration"`` (m/s², the default),
-        ``"displacement"`` (m) or ``"force"`` (N).
+        ``"displacement"`` (m), ``"force"`` (N) or ``"unbalance"`` (kg m).
 
     Raises
     ------
@@ -132,13 +161,13 @@ class Harmonic(_Repeated):
     def at(self, angle: ArrayLike) -> NDArray[np.float64]:
         """Return the base acceleration (m/s²) or the force (N) at angles ωt + φ (rad)."""
         size = self.amplitude
-        if self.of == "displacement":
-            size *= -(self.angular_frequency**2)
-        return np.asarray(size * np.sin(angle))
+        if self.grows_with_frequency:
+            size *= self.angular_frequency**2
+        return np.asarray(self._sign * size * np.sin(angle))
 
     def acceleration(self, mass: float, omega: ArrayLike) -> NDArray[np.float64]:
         """Return the equivalent peak base acceleration (m/s²) for a mass (kg) at ω (rad/s)."""
-        return _as_acceleration(self.of, np.asarray(self.amplitude), mass, np.asarray(omega))
+        return self._as_acceleration(np.asarray(self.amplitude), mass, np.asarray(omega))
 
 
 class Periodic(_Repeated):
@@ -150,7 +179,8 @@ class Periodic(_Repeated):
         Fundamental frequency f in Hz, greater than 0; or text such as ``"2.5 Hz"``.
     amplitudes
         Amplitudes A_1, A_2, …, at most 32. Each is a number or a text, as the amplitude of a
-        `Harmonic`. All must have the same dimension. An amplitude of 0 omits the harmonic.
+        `Harmonic`. All must have the same dimension. An amplitude of 0 omits the harmonic. An
+        unbalance of harmonic n rotates n times as fast: its force is m e (2π n f)².
     phases
         Phases φ_1, φ_2, … in rad, or texts such as ``"90 deg"``. Default: all are 0.
     phase
@@ -225,9 +255,9 @@ class Periodic(_Repeated):
     def at(self, angle: ArrayLike) -> NDArray[np.float64]:
         """Return the base acceleration (m/s²) or the force (N) at angles ωt + φ (rad)."""
         order = np.arange(1, len(self.amplitudes) + 1)
-        sizes = np.array(self.amplitudes)
-        if self.of == "displacement":
-            sizes = -sizes * (order * self.angular_frequency) ** 2
+        sizes = self._sign * np.array(self.amplitudes)
+        if self.grows_with_frequency:
+            sizes *= (order * self.angular_frequency) ** 2
         turned = np.multiply.outer(np.asarray(angle), order) + np.array(self.phases)
         return np.asarray(np.sin(turned) @ sizes)
 
@@ -239,7 +269,7 @@ class Periodic(_Repeated):
         """
         sizes = np.asarray(self.amplitudes)
         order = np.arange(1, len(sizes) + 1)
-        return _as_acceleration(self.of, sizes, mass, np.asarray(omega)[..., np.newaxis] * order)
+        return self._as_acceleration(sizes, mass, np.asarray(omega)[..., np.newaxis] * order)
 
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some fields changed. A new ``amplitude`` scales all harmonics."""
@@ -251,14 +281,6 @@ class Periodic(_Repeated):
 
 Repeated: TypeAlias = Harmonic | Periodic
 """A periodic excitation."""
-
-
-def _as_acceleration(
-    of: str, size: NDArray[np.float64], mass: float, omega: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    if of == "displacement":
-        return np.asarray(size * omega**2)
-    return np.asarray((size / mass if of == "force" else size) + 0.0 * omega)
 
 
 def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[float, Of]:

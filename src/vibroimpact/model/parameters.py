@@ -28,6 +28,7 @@ from vibroimpact.model.quantities import (
     MASS,
     PERIOD,
     STIFFNESS,
+    UNBALANCE,
     Quantity,
     power_stiffness,
 )
@@ -41,6 +42,7 @@ _UNITS = {
     DAMPING: "N s m-1",
     DIMENSIONLESS: "1",
     FORCE: "N",
+    UNBALANCE: "kg m",
     MASS: "kg",
     PERIOD: "s",
     DISSIPATION: "s m-1",
@@ -56,7 +58,11 @@ def in_units(units: str) -> Quantity:
     return next(quantity for quantity, text in _UNITS.items() if text == units)
 
 
-_PEAKS = {"displacement": "peak base displacement", "force": "peak force on the mass"}
+_PEAKS = {
+    "displacement": "peak base displacement",
+    "force": "peak force on the mass",
+    "unbalance": "rotating unbalance of the mass",
+}
 
 
 class Parameter(NamedTuple):

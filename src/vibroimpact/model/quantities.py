@@ -150,6 +150,15 @@ FORCE = Quantity(
     120,
     (Scale(1e9, 1e9, "GN"), Scale(1e6, 1e6, "MN"), Scale(1e3, 1e3, "kN"), Scale(0.0, 1.0, "N")),
 )
+UNBALANCE = Quantity(
+    "unbalance",
+    (("kilogram", 1), ("meter", 1)),
+    "kg m",
+    "0.4 kg m",
+    0.4,
+    (Scale(1e-2, 1.0, "kg m"), Scale(0.0, 1e-6, "g mm")),
+)
+"""m e of a rotating mass m whose centre lies the distance e off its axis."""
 IMPULSE = Quantity(
     "impulse",
     (("kilogram", 1), ("meter", 1), ("second", -1)),

@@ -39,8 +39,8 @@ class Rig:
 
         - the peak A of the base acceleration in m/s², greater than 0, or a text such as
           ``"0.05 g"`` (acceleration of the base), ``"5 mm"`` (displacement of the base) or
-          ``"120 N"`` (force on the mass). In this case the frequency is open: it is set later, by
-          ``frequency`` or by a function such as `sweep`;
+          ``"120 N"`` (force on the mass) or ``"0.4 kg m"`` (rotating unbalance). In this case the
+          frequency is open: it is set later, by ``frequency`` or by a function such as `sweep`;
         - a `Harmonic`, a `Periodic` or a `Record`;
         - for a sweep: a list with one amplitude per frequency;
         - None, if a function gets the shaking from another argument.
@@ -130,7 +130,7 @@ class Rig:
 
     @property
     def amplitude(self) -> float:
-        """Amplitude of the periodic shaking, the largest one of its harmonics (m/s², m or N)."""
+        """Amplitude of the periodic shaking (m/s², m, N or kg m), the largest of its harmonics."""
         return self.periodic.amplitude
 
     @property

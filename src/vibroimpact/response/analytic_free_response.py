@@ -57,17 +57,55 @@ def free_flight_excursions(rig: Rig, frequencies: _Array) -> tuple[_Array, _Arra
     return gain / oscillator.angular_frequency**2, gain * share
 
 
+def free_transmitted_excursion(
+    rig: Rig, frequencies: _Array, swing: _Array, acceleration: _Array
+) -> _Array:
+    """Excursion of the force of a linear isolator on the base per unit mass (m/s²).
+
+    K u + C u̇ has the amplitude √(K² + C²ω²) X. If the base moves, it is M times the absolute
+    acceleration.
+
+    Parameters
+    ----------
+    swing, acceleration
+        Excursions of `free_flight_excursions`.
+    """
+    oscillator, shaken = rig.oscillator, rig.periodic
+    if shaken.moves_base:
+        return acceleration
+    k = oscillator.isolator.initial_stiffness / oscillator.mass
+    c = oscillator.isolator.damping / oscillator.mass
+    omega = 2.0 * np.pi * frequencies
+    if not isinstance(shaken, Periodic):
+        return np.asarray(np.hypot(k, c * omega) * swing)
+    phasors, _ = harmonics(rig, frequencies)
+    rates = np.outer(omega, np.arange(1, phasors.shape[1] + 1))
+    return np.asarray(np.ptp(extremes((k + 1j * c * rates) * phasors), axis=0))
+
+
+def exciting_excursion(rig: Rig, frequencies: _Array) -> _Array:
+    """Excursion of the exciting force per unit mass (m/s²): of F/M, or of A_t if the base moves."""
+    shaken, mass = rig.periodic, rig.oscillator.mass
+    omega = 2.0 * np.pi * frequencies
+    if not isinstance(shaken, Periodic):
+        return np.asarray(2.0 * shaken.acceleration(mass, omega))
+    # The shape is the same at all frequencies.
+    sizes = shaken.acceleration(mass, 1.0)
+    wave = float(np.ptp(extremes(_turned(shaken, sizes[np.newaxis]))))
+    return np.asarray(wave * (omega**2 if shaken.grows_with_frequency else np.ones_like(omega)))
+
+
 def reference_excursions(rig: Rig) -> tuple[float, float]:
     """Excursions of displacement (m) and absolute acceleration (m/s²) that η is taken over.
 
     Those of the largest free flight at any frequency, whatever range is swept (the maximum of
     the paper's free-flight sweep, Section 4). An undamped isolator has none: there they are
     2A/ω0² and 2A, those under a base acceleration that changes slowly. Under a given displacement
-    of the base the acceleration grows on with the frequency: it is taken where the displacement
-    is largest. Without a spring there is no such scale, and both are NaN. Of an isolator that is
-    not linear they are those of a backward sweep of its own free flight (`own_flight`); if that has
-    no bound either, as with little friction and no dashpot, those of its spring alone, with
-    ω0² = K/M, under a base acceleration that changes slowly.
+    of the base or an unbalance the acceleration grows on with the frequency: it is taken where the
+    displacement is largest. Without a spring there is no such scale, and both are NaN. Of an
+    isolator that is not linear they are those of a backward sweep of its own free flight
+    (`largest_flight`); if that has no bound either, as with little friction and no dashpot, those
+    of its spring alone, with ω0² = K/M, under a base acceleration that changes slowly.
     """
     oscillator, shaken = rig.oscillator, rig.periodic
     if not oscillator.isolator.linear:
@@ -100,7 +138,7 @@ def reference_excursions(rig: Rig) -> tuple[float, float]:
     if not peaked:
         return 2.0 * size / omega0**2, 2.0 * size
     at = 1.0 / math.sqrt(1.0 - 2.0 * xi**2)
-    share = math.hypot(1.0, 2.0 * xi * at)
+    share = math.hypot(1.0, 2.0 * xi * at) if shaken.moves_base else at**2
     return 2.0 * peak * size / omega0**2, 2.0 * peak * size * share
 
 
@@ -122,12 +160,13 @@ def resonance_ratio(rig: Rig) -> float:
 def peak_ratio(damping_ratio: float, shaken: Harmonic) -> float:
     """Where a linear free flight's displacement is largest, over the natural frequency.
 
-    At √(1 − 2ξ²), or at 1/√(1 − 2ξ²) where the displacement of the base is given. With ξ of 1/√2
-    or more there is no peak, and it is 0 or infinite: the end towards which the curve rises.
+    At √(1 − 2ξ²), or at 1/√(1 − 2ξ²) where the displacement of the base or an unbalance is given.
+    With ξ of 1/√2 or more there is no peak, and it is 0 or infinite: the end towards which the
+    curve rises.
     """
     # As a product: the square of a huge ratio is beyond the range of numbers.
     below = math.sqrt(max(0.0, 1.0 - 2.0 * damping_ratio * damping_ratio))
-    if shaken.of != "displacement":
+    if not shaken.grows_with_frequency:
         return below
     return 1.0 / below if below else math.inf
 
@@ -271,8 +310,9 @@ def _slow(rig: Rig, natural: float) -> tuple[float, float]:
 def _largest(rig: Rig) -> tuple[float, float]:
     """The largest excursion of displacement at any frequency, and of acceleration likewise.
 
-    Under a displacement of the base, the acceleration at the frequency of the former. Neither the
-    frequency nor the stops matter, and the size only scales it: along a branch it is found once.
+    Under a displacement of the base or an unbalance, the acceleration at the frequency of the
+    former. Neither the frequency nor the stops matter, and the size only scales it: along a branch
+    it is found once.
     """
     oscillator, shaken = rig.oscillator, rig.periodic
     bare = oscillator.replace(right=None, left=None, force=0.0)
@@ -304,6 +344,6 @@ def _largest_of(rig: Rig) -> tuple[float, float]:
         return at, float(free_flight_excursions(rig, np.array([at]))[which][0])
 
     at, swing = peak(0)
-    if shaken.of == "displacement":
+    if shaken.grows_with_frequency:
         return swing, float(free_flight_excursions(rig, np.array([at]))[1][0])
     return swing, peak(1)[1]

@@ -72,7 +72,7 @@ def _drive(rig: Rig) -> Drive:
     """What shakes the mass, as the base acceleration that does the same.
 
     A displacement X sin θ of the base is the acceleration −X ω² sin θ, a force F sin θ on the
-    mass −F/M sin θ.
+    mass −F/M sin θ, and an unbalance m e is the force m e ω² sin θ.
     """
     if isinstance(rig.shaking, Record):
         return Drive(interval=rig.shaking.step)
@@ -81,6 +81,7 @@ def _drive(rig: Rig) -> Drive:
         "acceleration": (1.0, 0.0),
         "displacement": (-1.0, 2.0),
         "force": (-1.0 / oscillator.mass, 0.0),
+        "unbalance": (-1.0 / oscillator.mass, 2.0),
     }[shaken.of]
     weights: tuple[tuple[float, float], ...] = ()
     if isinstance(shaken, Periodic):

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.observers import record
 from vibroimpact.model.isolators import AnyIsolator
+from vibroimpact.model.oscillator import Oscillator
 
 EVENTS_AT_ONCE = 20_000
 """Room for events between two calls of the engine."""
@@ -28,6 +29,36 @@ def sampled(out: NDArray[np.float64], isolator: AnyIsolator) -> dict[str, Any]:
     }
     samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
     return {**samples, "contact": ("time", out[record.CONTACT].astype(np.int64))}
+
+
+def transmitted(
+    variables: dict[str, Any],
+    oscillator: Oscillator,
+    force: NDArray[np.float64] | float = 0.0,
+    event_force: NDArray[np.float64] | float = 0.0,
+) -> dict[str, Any]:
+    """The force of isolator and stops on the base (N): F(t) + F_0 − M times the acceleration.
+
+    Parameters
+    ----------
+    variables
+        Those of `sampled` and `listed`.
+    force, event_force
+        Force F(t) on the mass (N) at the samples and at the events; 0 if the base moves.
+    """
+    found = {
+        "transmitted_force": ("acceleration", force),
+        "event_transmitted_force_before": ("event_acceleration_before", event_force),
+        "event_transmitted_force_after": ("event_acceleration_after", event_force),
+    }
+    made = {}
+    for name, (acceleration, pushed) in found.items():
+        dim, values = variables[acceleration]
+        carried = -oscillator.mass * values
+        carried += pushed + oscillator.force
+        carried += 0.0  # no -0.0
+        made[name] = (dim, carried)
+    return made
 
 
 def listed(

@@ -133,6 +133,28 @@ class HoldRows:
         return self.array[..., hold.IMPULSE_LEFT]
 
     @property
+    def transmitted_min(self) -> _Array:
+        """Smallest force of isolator and stops on the base per unit mass (m/s²)."""
+        return self.array[..., hold.T_LEAST]
+
+    @property
+    def transmitted_max(self) -> _Array:
+        """Largest force of isolator and stops on the base per unit mass (m/s²)."""
+        return self.array[..., hold.T_MOST]
+
+    @property
+    def transmitted_excursion(self) -> _Array:
+        """Largest less smallest force on the base per unit mass (m/s²)."""
+        found: _Array = self.transmitted_max - self.transmitted_min
+        return found
+
+    @property
+    def peak_transmitted(self) -> _Array:
+        """Largest force on the base per unit mass, without sign (m/s²)."""
+        found: _Array = np.maximum(np.abs(self.transmitted_max), np.abs(self.transmitted_min))
+        return found
+
+    @property
     def period(self) -> NDArray[np.int64]:
         """Period in forcing cycles; 0 where the motion did not settle."""
         return self.array[..., hold.PERIOD].astype(np.int64)

@@ -37,7 +37,7 @@ _SAME = 1e-8
 
 
 def swept_flight(rig: Rig, frequencies: _Array, levels: _Array) -> _Array:
-    """Excursions of displacement (m) and absolute acceleration (m/s²) in free flight.
+    """Excursions in free flight, as in `sweep_arrays.SweepPlan`.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def swept_flight(rig: Rig, frequencies: _Array, levels: _Array) -> _Array:
 
     Returns
     -------
-    ndarray, shape (2, frequency)
+    ndarray, shape (3, frequency)
         Of a backward sweep; NaN where the motion does not settle.
     """
     oscillator, shaken = rig.oscillator, rig.periodic
@@ -69,7 +69,9 @@ def swept_flight(rig: Rig, frequencies: _Array, levels: _Array) -> _Array:
 
 def _excursions(found: list[Held]) -> _Array:
     rows = HoldRows(np.array([one.row.array for one in found]))
-    excursions = np.array([rows.displacement_excursion, rows.acceleration_excursion])
+    excursions = np.array(
+        [rows.displacement_excursion, rows.acceleration_excursion, rows.transmitted_excursion]
+    )
     excursions[:, rows.status != Status.DONE] = np.nan
     return excursions
 
@@ -77,7 +79,8 @@ def _excursions(found: list[Held]) -> _Array:
 def largest_flight(rig: Rig) -> tuple[float, float]:
     """Excursions (m, m/s²) of the largest free flight of a backward sweep, each at its own place.
 
-    Both are NaN where no free flight settles, or none moves.
+    Where the excitation grows as ω², the acceleration does too: it is that of the largest
+    displacement. Both are NaN where no free flight settles, or none moves.
     """
     swing, acceleration, _ = _peaks(rig)
     return swing, acceleration
@@ -110,14 +113,18 @@ def _largest(rig: Rig) -> tuple[float, float, float]:
         if top < 0.98 * high * unit or high >= _WIDEST:
             break
         high *= 2.0
-    (swing, place), (acceleration, _) = (_top(one, found, curves, which) for which in range(2))
+    largest = _top(one, found, curves, 0)
+    fastest = largest if shaken.grows_with_frequency else _top(one, found, curves, 1)
+    swing, acceleration = (
+        float(_excursions([top])[which, 0]) for which, top in enumerate((largest, fastest))
+    )
     if not swing > 0.0:
         return math.nan, math.nan, math.nan
-    return swing, acceleration, place
+    return swing, acceleration, largest.frequency
 
 
-def _top(one: Flight, found: list[Held], curves: _Array, which: int) -> tuple[float, float]:
-    """The largest excursion between the motions beside the largest that was found, and its place.
+def _top(one: Flight, found: list[Held], curves: _Array, which: int) -> Held:
+    """The motion of the largest excursion, between the motions beside the largest that was found.
 
     The frequencies fall. Narrowed by golden sections; where the largest stands at a fold there is
     no orbit on its far side, and the near one is closed in on.
@@ -125,7 +132,7 @@ def _top(one: Flight, found: list[Held], curves: _Array, which: int) -> tuple[fl
     k = int(np.nanargmax(curves[which]))
     best, most = found[k], float(curves[which, k])
     if not best.single:
-        return most, best.frequency
+        return best
     low = found[min(k + 1, len(found) - 1)].frequency
     high = found[max(k - 1, 0)].frequency
 
@@ -150,4 +157,4 @@ def _top(one: Flight, found: list[Held], curves: _Array, which: int) -> tuple[fl
             low, left = left, right
             right = low + _GOLDEN * (high - low)
             values = values[1], at(right)
-    return most, best.frequency
+    return best

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import measure
 from vibroimpact.engine import motion as layout
+from vibroimpact.engine import parameters as par
 from vibroimpact.engine.motion import LEFT, RIGHT
 from vibroimpact.model import Bumper, Record
 from vibroimpact.model.rig import Rig
@@ -26,9 +27,39 @@ def view(parts: Phases) -> NDArray[np.int64]:
 
 def measured(origin: Recorded[Any], parts: Phases, side: NDArray[np.int64] | None = None) -> _Array:
     """Measure phases: rows of `engine.measure`, per unit mass, as the stop on a side sees them."""
-    side = view(parts) if side is None else side
+    return _measured(origin, parts, view(parts) if side is None else side, *asked(origin))
+
+
+def transmitted_extremes(origin: Recorded[Any], parts: Phases, rows: _Array) -> tuple[float, float]:
+    """Return the smallest and the largest force of isolator and stops on the base (N).
+
+    It is F_0 − M (ü + A_t), F_0 the constant force and A_t the acceleration of the base, or what
+    stands for a force on the mass. Under such a force the phases are measured once more, as if the
+    base moved.
+
+    Parameters
+    ----------
+    rows
+        What `measured` found of the phases.
+    """
+    if not (isinstance(origin.excitation, Record) or origin.excitation.moves_base):
+        rig, size, frequency = asked(origin)
+        rig[par.BASE] = 1.0
+        rows = _measured(origin, parts, view(parts), rig, size, frequency)
+    mass, load = origin.oscillator.mass, origin.oscillator.force
+    low, high = float(rows[:, measure.A_LEAST].min()), float(rows[:, measure.A_MOST].max())
+    return load - mass * high, load - mass * low
+
+
+def _measured(
+    origin: Recorded[Any],
+    parts: Phases,
+    side: NDArray[np.int64],
+    rig: _Array,
+    size: float,
+    frequency: float,
+) -> _Array:
     found = np.zeros((len(side), measure.MEASURES))
-    rig, size, frequency = asked(origin)
     measure.measure_phases(rig, size, frequency, table(origin, parts, side), found)
     return found
 

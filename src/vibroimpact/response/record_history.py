@@ -19,7 +19,12 @@ from vibroimpact.model import Record, State, equilibrium
 from vibroimpact.model.count_checks import MOST_SAMPLES, check_samples
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
-from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
+from vibroimpact.response.history_variables import (
+    EVENTS_AT_ONCE,
+    listed,
+    sampled,
+    transmitted,
+)
 from vibroimpact.response.softening_limit import ended
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
@@ -86,6 +91,7 @@ def through(
         events = listed(found, record.step, oscillator.isolator)
         # A record has steps, not cycles.
         variables |= {name: one for name, one in events.items() if "cycle" not in name}
+        variables |= transmitted(variables, oscillator)
     variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:

@@ -30,7 +30,12 @@ from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
-from vibroimpact.response.history_variables import EVENTS_AT_ONCE, listed, sampled
+from vibroimpact.response.history_variables import (
+    EVENTS_AT_ONCE,
+    listed,
+    sampled,
+    transmitted,
+)
 from vibroimpact.response.plausibility import doubt_gaps, note_stiff_stops
 from vibroimpact.response.record_history import through
 from vibroimpact.response.softening_limit import ended
@@ -84,7 +89,9 @@ def simulate(
     xarray.Dataset
         The dim ``time`` (s) counts the samples, including one at the end of the motion. The dim
         ``event`` counts the contacts and detachments. The deformation ``left_bumper`` and the
-        clearance on the left have the signs of the paper's equation 4. To resume the motion, pass
+        clearance on the left have the signs of the paper's equation 4. ``transmitted_force`` is the
+        force that the isolator and the stops together exert on the base, positive to the right,
+        without the infinite force of an impact on a rigid stop. To resume the motion, pass
         ``final_state`` as ``start``. If the computation was given up, the dataset ends at that
         time. The variable ``status`` and the attribute ``message`` then give the reason.
 
@@ -189,6 +196,11 @@ def compute_history(
         name, values = _shaking(excitation, phase, cycle, samples)
         variables[name] = ("time", values)
         variables |= listed(found, 1.0 / excitation.frequency, oscillator.isolator)
+        forces: tuple[Any, ...] = ()
+        if not excitation.moves_base:
+            _, since = variables["event_cycle_time"]
+            forces = values, excitation.at(excitation.angular_frequency * since + phase)
+        variables |= transmitted(variables, oscillator, *forces)
     variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:

@@ -85,6 +85,11 @@ def sweep(
           to the left of u = 0;
         - ``peak_displacement`` and ``peak_acceleration``: the larger of the absolute values of
           maximum and minimum;
+        - ``transmitted_force_max``, ``transmitted_force_min``, ``transmitted_force_excursion`` and
+          ``peak_transmitted_force``: the force that the isolator and the stops together exert on
+          the base, without the infinite force of an impact on a rigid stop;
+        - ``transmissibility``: the excursion of this force, divided by that of the exciting force
+          (the force F on the mass, or M A_t if the base moves);
         - ``peak_force_right`` and ``peak_force_left``: the largest contact forces of the stops,
           infinite for an impact on a rigid stop;
         - ``peak_impulse_right`` and ``peak_impulse_left``: the largest impulses of impacts on rigid
@@ -223,7 +228,10 @@ def sweeps(
         ]
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)
-    data = sweep_dataset([rig.oscillator for rig in pairs], results, states, free, largest, angle)
+    exciting = np.array([one.exciting for one in ready])
+    data = sweep_dataset(
+        [rig.oscillator for rig in pairs], results, states, free, largest, exciting, angle
+    )
     data = data.assign_coords(
         rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
     )

@@ -12,7 +12,9 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Repeated, Rig, State, equilibrium
 from vibroimpact.response.analytic_free_response import (
     check_each_bounded,
+    exciting_excursion,
     free_flight_excursions,
+    free_transmitted_excursion,
     reference_excursions,
 )
 from vibroimpact.response.engine_input import engine_rig, engine_state
@@ -35,9 +37,12 @@ class SweepPlan(NamedTuple):
     start: _Array
     """Where either sweep begins, as the engine's vector."""
     free: _Array
-    """Excursions in free flight (m, m/s²) at each frequency, shape (2, frequency)."""
+    """Excursions in free flight at each frequency, shape (3, frequency): of the displacement (m),
+    of the absolute acceleration (m/s²) and of the transmitted force per unit mass (m/s²)."""
     largest: _Array
-    """The largest ones at any frequency."""
+    """The largest ones of the first two at any frequency."""
+    exciting: _Array
+    """Excursion of the exciting force per unit mass (m/s²) at each frequency."""
 
 
 def plan_sweep(rig: Rig, frequencies: _Array, state: State | None = None) -> SweepPlan:
@@ -53,7 +58,10 @@ def plan_sweep(rig: Rig, frequencies: _Array, state: State | None = None) -> Swe
     least = shaken if sizes is None else shaken.replace(amplitude=levels.min())
     check_each_bounded(Rig(oscillator, least), frequencies)
     if oscillator.isolator.linear:
-        free = np.array(free_flight_excursions(Rig(oscillator, shaken), frequencies))
+        flying = Rig(oscillator, shaken)
+        swing, acceleration = free_flight_excursions(flying, frequencies)
+        carried = free_transmitted_excursion(flying, frequencies, swing, acceleration)
+        free = np.array([swing, acceleration, carried])
         free *= levels / shaken.amplitude
     else:
         free = np.array(swept_flight(Rig(oscillator, shaken), frequencies, levels))
@@ -65,6 +73,7 @@ def plan_sweep(rig: Rig, frequencies: _Array, state: State | None = None) -> Swe
         engine_state(oscillator, state or equilibrium(oscillator)),
         free,
         np.array(reference_excursions(Rig(oscillator, most))),
+        exciting_excursion(rig, frequencies) * (levels / shaken.amplitude),
     )
 
 

@@ -19,6 +19,7 @@ def sweep_dataset(
     states: NDArray[np.float64],
     free: NDArray[np.float64],
     largest: NDArray[np.float64],
+    exciting: NDArray[np.float64],
     phase: float,
 ) -> xr.Dataset:
     """Label what holds measured.
@@ -32,9 +33,12 @@ def sweep_dataset(
     states
         At the end of each hold, likewise.
     free
-        Excursions (m, m/s²) in free flight, of each rig at each frequency.
+        Excursions in free flight, of each rig at each frequency: of the displacement (m), of the
+        absolute acceleration (m/s²) and of the transmitted force per unit mass (m/s²).
     largest
         The largest ones, of each rig.
+    exciting
+        Excursion of the exciting force per unit mass (m/s²), of each rig at each frequency.
     phase
         That of the section, rad.
     """
@@ -48,6 +52,7 @@ def sweep_dataset(
         **told,
         "eta_d": told["displacement_excursion"] / reference[0],
         "eta_a": told["acceleration_excursion"] / reference[1],
+        "transmissibility": rows.transmitted_excursion / exciting[:, np.newaxis],
         "motion": np.where(rows.period > 0, "periodic", "undecided"),
         "period": rows.period,
         "cycles": rows.cycles,
@@ -57,6 +62,8 @@ def sweep_dataset(
     data["section"] = ((*dims, "component"), components(states, phase))
     data["free_displacement_excursion"] = (("rig", "frequency"), free[0])
     data["free_acceleration_excursion"] = (("rig", "frequency"), free[1])
+    masses = np.array([[one.mass] for one in oscillators])
+    data["free_transmitted_force_excursion"] = (("rig", "frequency"), masses * free[2])
     data["largest_free_displacement_excursion"] = ("rig", largest[0])
     data["largest_free_acceleration_excursion"] = ("rig", largest[1])
     return data
@@ -82,6 +89,10 @@ def sizes(oscillator: Oscillator, rows: HoldRows) -> dict[str, NDArray[np.float6
         "acceleration_min": rows.acceleration_min,
         "peak_displacement": rows.peak_displacement,
         "peak_acceleration": rows.peak_acceleration,
+        "transmitted_force_max": mass * rows.transmitted_max,
+        "transmitted_force_min": mass * rows.transmitted_min,
+        "transmitted_force_excursion": mass * rows.transmitted_excursion,
+        "peak_transmitted_force": mass * rows.peak_transmitted,
         "eccentricity": 0.5 * (rows.displacement_max + rows.displacement_min),
         "impacts_right": rows.impacts_right,
         "impacts_left": rows.impacts_left,

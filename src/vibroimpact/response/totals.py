@@ -19,7 +19,7 @@ from vibroimpact.response.motion_phases import (
     impact_loss,
     relaxation_loss,
 )
-from vibroimpact.response.phase_measures import measured, view
+from vibroimpact.response.phase_measures import measured, transmitted_extremes, view
 
 
 def totals(motion: xr.Dataset) -> xr.Dataset:
@@ -33,10 +33,10 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        The extremes and the excursions of the displacement and of the absolute acceleration have
-        the same names as in `sweep`. ``total_supplied`` is the energy that the excitation supplies
-        over the whole motion. ``total_isolator`` is the energy lost in the isolator, and
-        ``total_bumpers`` the energy lost in the stops.
+        The extremes and the excursions of the displacement, of the absolute acceleration and of the
+        force transmitted to the base have the same names as in `sweep`. ``total_supplied`` is the
+        energy that the excitation supplies over the whole motion. ``total_isolator`` is the energy
+        lost in the isolator, and ``total_bumpers`` the energy lost in the stops.
 
         The energies are counted from ``initial_state``. If the mass starts on a rigid stop and
         moves into it, the energies include this impact, although the first sample lies after it. In
@@ -95,6 +95,7 @@ def extremes(origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]) ->
     most = np.where(side == -1, -rows[:, measure.X_LEAST], rows[:, measure.X_MOST]) + face
     high, low = float(most.max()), float(least.min())
     top, bottom = float(rows[:, measure.A_MOST].max()), float(rows[:, measure.A_LEAST].min())
+    least_force, most_force = transmitted_extremes(origin, every, rows)
     return {
         "displacement_max": high,
         "displacement_min": low,
@@ -102,6 +103,9 @@ def extremes(origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]) ->
         "acceleration_max": top,
         "acceleration_min": bottom,
         "acceleration_excursion": top - bottom,
+        "transmitted_force_max": most_force,
+        "transmitted_force_min": least_force,
+        "transmitted_force_excursion": most_force - least_force,
         "eccentricity": 0.5 * (high + low),
     }
 

@@ -53,12 +53,12 @@ def highest(rig: Rig) -> float:
       f ≤ M A/(2√2 C (G_R + G_L)). A motion that reaches one bumper alone travels 2 G of that
       side at least, for the mean of u is not on its side: it only pushes. So of a rig whose gaps
       differ, or that has one bumper, the smallest gap takes the place of the sum. A force F on
-      the mass takes the place of M A; a given displacement of the base supplies the more the
-      faster it moves, and sets no bound.
+      the mass takes the place of M A; a given displacement of the base or an unbalance supplies the
+      more the faster it moves, and sets no bound.
     - Stiffness. Nothing is stiffer than isolator and bumper in contact all the time, whose
       resonance lies at f0 √(1 + λ); flights lower it, and so does damping, or raises it where
-      the displacement of the base is given. With a rigid stop it is `MOST_HIGH`. Of other laws
-      the stiffness counts that they have where the largest free flight would reach.
+      the displacement of the base or an unbalance is given. With a rigid stop it is `MOST_HIGH`.
+      Of other laws the stiffness counts that they have where the largest free flight would reach.
     """
     oscillator, shaken = rig.oscillator, rig.sine
     free = max(1.0, resonance_ratio(rig))
@@ -72,7 +72,7 @@ def highest(rig: Rig) -> float:
     viscous = oscillator.isolator.damping_exponent == 1.0
     travel = apart * oscillator.isolator.damping if viscous else 0.0
     energy = math.inf
-    if travel > 0.0 and shaken.of != "displacement":
+    if travel > 0.0 and not shaken.grows_with_frequency:
         supplied = oscillator.mass * float(shaken.acceleration(oscillator.mass, 0.0))
         energy = supplied / (2.0 * math.sqrt(2.0)) / travel / oscillator.natural_frequency
     bound = 1.1 * min(stiff, energy) + 0.1
@@ -93,7 +93,7 @@ def _in_contact(oscillator: Oscillator, side: str, shaken: Harmonic) -> float:
         pressed = _tangent(stop.static_force, depth)
         held = max(_tangent(oscillator.isolator.static_force, swing), spring)
         stiffer = min(math.sqrt((held + pressed) / spring), MOST_HIGH)
-    if shaken.of != "displacement":
+    if not shaken.grows_with_frequency:
         return stiffer
     natural = stiffer * oscillator.angular_frequency
     damping = oscillator.isolator.damping + getattr(stop, "damping", 0.0)

@@ -86,7 +86,9 @@ def branch(
         The dim ``point`` counts the orbits along the branch. The variables of each orbit are:
 
         - the parameter by its name, and ``arclength``;
-        - extremes, excursions and ``eccentricity``;
+        - extremes and excursions of the displacement, of the absolute acceleration and of the
+          transmitted force, and ``eccentricity``;
+        - ``transmissibility``, as in `sweep`;
         - ``eta_d`` and ``eta_a``, the excursions divided by the largest excursion without stops at
           any frequency;
         - the impacts per cycle;

@@ -21,7 +21,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator
 from vibroimpact.model.units import pretty
 from vibroimpact.response import sweep_dataset
-from vibroimpact.response.analytic_free_response import reference_excursions
+from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
 from vibroimpact.response.hold_rows import HoldRows
 from vibroimpact.response.plausibility import note_unbounded
 from vibroimpact.stability import bifurcations
@@ -155,12 +155,14 @@ def _sizes(oscillator: Oscillator, orbits: list[Orbit]) -> dict[str, _Array]:
     """Extremes, excursions, contacts per cycle and contact forces of orbits."""
     measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
     free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
+    exciting = np.array([_exciting(one) for one in orbits])
     # Neither the mass nor whether a stop is rigid changes along a branch.
     found = sweep_dataset.sizes(oscillator, HoldRows(measured))
     return {
         **found,
         "eta_d": found["displacement_excursion"] / free[:, 0],
         "eta_a": found["acceleration_excursion"] / free[:, 1],
+        "transmissibility": found["transmitted_force_excursion"] / exciting,
     }
 
 
@@ -186,6 +188,12 @@ def _measured(one: Orbit) -> _Array:
             stacklevel=6,
         )
     return result
+
+
+def _exciting(one: Orbit) -> float:
+    """Excursion of the exciting force (N)."""
+    frequency = np.array([one.rig.periodic.frequency])
+    return one.rig.oscillator.mass * float(exciting_excursion(one.rig, frequency)[0])
 
 
 def _reference(one: Orbit) -> tuple[float, float]:

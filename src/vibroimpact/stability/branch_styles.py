@@ -11,6 +11,8 @@ Quantity = Literal[
     "eccentricity",
     "peak_displacement",
     "peak_acceleration",
+    "peak_transmitted_force",
+    "transmissibility",
     "peak_force_right",
     "peak_force_left",
 ]

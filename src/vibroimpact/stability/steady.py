@@ -18,6 +18,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import State, equilibrium
 from vibroimpact.model.count_checks import check_max_events, check_samples, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.response.analytic_free_response import exciting_excursion
 from vibroimpact.response.contacts import contact_log
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.motion_phases import Recorded, cut
@@ -109,8 +110,10 @@ def steady(
         - ``exponents``, ``exponents_uncertainty`` and ``exponents_cycles``;
         - ``stable`` and ``antisymmetric``: whether the motion is stable, and whether it is its own
           mirror image half a period later;
-        - the exact extremes and ``eccentricity``, and the impacts and the energies per forcing
-          cycle.
+        - the exact extremes of the displacement, of the absolute acceleration and of the
+          transmitted force, and ``eccentricity``;
+        - ``transmissibility``, as in `sweep`;
+        - the impacts and the energies per forcing cycle.
 
         The attribute ``evidence`` gives the reason for the classification. If the motion reached
         ``max_events``, the recorded history ends at that time, and ``status`` reports it.
@@ -261,8 +264,13 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     log = contact_log(data, origin, every, rows)
     cycles = max(origin.cycles, 1.0)
     supplied, isolator, bumpers = energies(origin, every, rows)
+    sizes = extremes(origin, every, rows)
+    exciting = found.oscillator.mass * float(
+        exciting_excursion(found.rig, np.array([found.excitation.frequency]))[0]
+    )
     values: dict[str, Any] = {
-        **extremes(origin, every, rows),
+        **sizes,
+        "transmissibility": sizes["transmitted_force_excursion"] / (exciting or math.nan),
         "impacts_right": int((log["contact_side"] == 1).sum()) / cycles,
         "impacts_left": int((log["contact_side"] == -1).sum()) / cycles,
         "energy_supplied": supplied / cycles,

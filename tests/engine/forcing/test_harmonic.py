@@ -18,8 +18,13 @@ OMEGA = 3.0
 
 @pytest.mark.parametrize(
     ("drive", "size"),
-    [(Drive(), 0.7), (Drive(1.0, -1.0, 2.0), -0.7 * 9.0), (Drive(0.0, -0.5), -0.35)],
-    ids=["acceleration", "displacement", "force"],
+    [
+        (Drive(), 0.7),
+        (Drive(1.0, -1.0, 2.0), -0.7 * 9.0),
+        (Drive(0.0, -0.5), -0.35),
+        (Drive(0.0, -0.5, 2.0), -0.35 * 9.0),
+    ],
+    ids=["acceleration", "displacement", "force", "unbalance"],
 )
 def test_what_is_given_as_a_base_acceleration(drive: Drive, size: float) -> None:
     plan = begun(harmonic, drive, 0.7, OMEGA)

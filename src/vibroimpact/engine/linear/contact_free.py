@@ -22,7 +22,7 @@ _WITHIN = 1.0 - 1e-9
 @kernel
 def undisturbed(
     plan: Vector, motion: Motion, clock: Clock, dying: float
-) -> tuple[bool, float, float, Motion]:
+) -> tuple[bool, float, float, float, Motion]:
     """The steady free flight, if a motion leads there and touches nothing on its way.
 
     Parameters
@@ -36,19 +36,19 @@ def undisturbed(
 
     Returns
     -------
-    found, displacement, acceleration, motion
-        Half the excursions (m, m/s²) of displacement and of the mass's absolute acceleration, and
-        the motion at the section.
+    found, displacement, acceleration, transmitted, motion
+        Half the excursions (m, m/s²) of displacement, of the mass's absolute acceleration and of
+        the transmitted force per unit mass, and the motion at the section.
     """
     k, c = plan[par.STIFFNESS], plan[par.DAMPING]
     if motion.mode != FLIGHT or count(plan) != 1 or not (k > 0.0 and c > 0.0):
-        return False, 0.0, 0.0, motion
+        return False, 0.0, 0.0, 0.0, motion
     part = wave(plan, 1, False)
     period = 2.0 * math.pi / part.rate
     square = 0.25 * c * c - k
     slowest = k / (0.5 * c + math.sqrt(square)) if square > 0.0 else 0.5 * c
     if not math.exp(-slowest * period) < dying:
-        return False, 0.0, 0.0, motion
+        return False, 0.0, 0.0, 0.0, motion
     p, q = swing_of(c, k, part)
     s, co = clock
     pulled, quarter = part.sine * s + part.cosine * co, part.sine * co - part.cosine * s
@@ -63,9 +63,11 @@ def undisturbed(
         sign = 1.0 if side == RIGHT else -1.0
         deformation = motion.right if side == RIGHT else motion.left
         if not sign * rest + reach < _WITHIN * plan[at + par.GAP]:
-            return False, 0.0, 0.0, motion
+            return False, 0.0, 0.0, 0.0, motion
         if deformation > 0.0 and not math.exp(-plan[at + par.RATE] * period) < dying:
-            return False, 0.0, 0.0, motion
+            return False, 0.0, 0.0, 0.0, motion
+    carried = math.hypot(k, c * part.rate)
     # Of a force on the mass it is ü itself.
-    felt = math.hypot(k, c * part.rate) if plan[par.BASE] != 0.0 else part.rate * part.rate
-    return True, swing, felt * swing, Motion(FLIGHT, 0, u, v, 0.0, 0.0, motion.z, 0.0, clock)
+    felt = carried if plan[par.BASE] != 0.0 else part.rate * part.rate
+    flight = Motion(FLIGHT, 0, u, v, 0.0, 0.0, motion.z, 0.0, clock)
+    return True, swing, felt * swing, carried * swing, flight

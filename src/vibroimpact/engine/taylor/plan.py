@@ -23,9 +23,9 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
 @kernel
 def undisturbed(
     plan: Vector, motion: Motion, clock: Clock, dying: float
-) -> tuple[bool, float, float, Motion]:
+) -> tuple[bool, float, float, float, Motion]:
     """Free flight has no closed form here."""
-    return False, 0.0, 0.0, motion
+    return False, 0.0, 0.0, 0.0, motion
 
 
 @kernel

@@ -9,9 +9,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.explorer.pictures.motion import at
 from vibroimpact.explorer.pictures.numbers import short
 from vibroimpact.explorer.state import State
+from vibroimpact.figures.resonance_panels import peak_force_unit
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.rig import Rig
 from vibroimpact.stability.branch import branch
@@ -48,17 +50,23 @@ def branches(state: State, data: xr.Dataset, progress: Progress) -> dict[str, An
 
 def _heights(state: State, data: xr.Dataset, found: xr.Dataset) -> list[NDArray[np.float64]]:
     """What the panels of the curves show, of each orbit."""
+    still = base_at_rest(data)
     if not state.physical:
         kinds = ("acceleration", "displacement")
-        return [
+        shares = [
             found[f"{kind}_excursion"].values / float(data[f"largest_free_{kind}_excursion"])
             for kind in kinds
         ]
+        return [*shares, *([found["transmissibility"].values] if still else [])]
     peaks = (
         np.fmax(np.abs(found[f"{kind}_max"].values), np.abs(found[f"{kind}_min"].values))
         for kind in ("acceleration", "displacement")
     )
-    return [size * unit for size, unit in zip(peaks, (1.0 / GRAVITY, 1e3), strict=True)]
+    sizes = [size * unit for size, unit in zip(peaks, (1.0 / GRAVITY, 1e3), strict=True)]
+    if still:
+        unit = peak_force_unit(data)
+        sizes.append(found["peak_transmitted_force"].values / unit.size)
+    return sizes
 
 
 def _pieces(found: xr.Dataset, values: NDArray[np.float64]) -> list[dict[str, Any]]:

@@ -88,9 +88,7 @@ def _drawn(state: State, motion: xr.Dataset, shaken: Harmonic) -> dict[str, Any]
     """The curves of a motion in mm, mm/s and N."""
     rig = state.oscillator
     time = motion["time"].values
-    force = rig.force - rig.mass * motion["acceleration"].values
-    if not shaken.moves_base:
-        force = force + shaken.amplitude * np.sin(shaken.angular_frequency * time + shaken.phase)
+    force = motion["transmitted_force"].values
     faces, gaps = {}, {}
     for side, stop, sign in (("right", rig.right, 1.0), ("left", rig.left, -1.0)):
         gaps[side] = None if stop is None else one(1e3 * sign * stop.gap)
