@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,8 +29,9 @@ from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.names import check_name, file_stem, literal
 from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
-from vibroimpact.model.rig import Rig, as_periodic
-from vibroimpact.model.units import to_si
+from vibroimpact.model.rig import Rig, as_periodic, with_stated_units
+from vibroimpact.model.units import forcing, to_si
+from vibroimpact.model.written_units import write_for
 from vibroimpact.response.plausibility import doubt_gaps
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
@@ -141,6 +143,10 @@ def subject(
     ------
     InputError
         If the code, the file or a value of the options is invalid.
+
+    Notes
+    -----
+    Everything that the command writes from here on has units, unless the rig has none.
     """
     found = _named(text, options)
     if shaken is not None:
@@ -150,9 +156,11 @@ def subject(
         shaking = found.shaking
         if given.amplitude is not None:
             shaking = _of_size(shaking, given.amplitude)
-        return changed(found.oscillator, given), shaking
+        stated = {_flag(one.name): getattr(given, one.name) for one in fields(given)}
+        return with_stated_units(changed(found.oscillator, given), stated), shaking
 
     oscillator, shaking = rig_of(options)
+    write_for(oscillator)
     shaking = otherwise if shaking is None else shaking
     if shaking is None:
         raise InputError(
@@ -170,6 +178,11 @@ def subject(
     )
     doubt_gaps(Rig(what.oscillator, what.shaking))
     return what
+
+
+def forcing_slug(frequency: float) -> str:
+    """Return a frequency (Hz) as a part of a file name, such as ``"2.5Hz"`` or ``"omega1"``."""
+    return forcing(frequency, 10).replace("ω = ", "omega").replace(" ", "")
 
 
 def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated:

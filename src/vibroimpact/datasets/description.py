@@ -15,6 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, Rig, State
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.varied import Varied
+from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
 COMPONENTS = [*State.model_fields]
 """Components of a state in a dataset, in the order of `State`'s fields."""
@@ -30,7 +31,7 @@ def describe(
     """Give every variable its units and meaning, and the dataset its parameters and origin.
 
     Attributes that the dataset already has are kept. Pass None for the parameters if they are among
-    these attributes. Assumptions about the input, and doubts about it, become the attribute
+    these attributes. The variables of rigs without units have the units ``1``. Assumptions about the input, and doubts about it, become the attribute
     ``notes``, one per line. The variables of parameters that were varied have the units that these
     have in the rig.
 
@@ -57,7 +58,22 @@ def describe(
     if told := "\n".join(notes):
         dataset.attrs["notes"] = told
     dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
+    if parameters_without_units(dataset.attrs.get("parameters", "{}")):
+        _remove_units(dataset)
     return dataset
+
+
+def _remove_units(dataset: xr.Dataset) -> None:
+    """Mark a dataset of rigs without units, whose numbers are dimensionless."""
+    dataset.attrs[ATTRIBUTE] = NONE
+    for variable in dataset.variables.values():
+        units = variable.attrs["units"]
+        if units == "Hz":
+            variable.attrs["comment"] = "f = ω / 2π, in cycles per unit of time"
+        if units != "rad":
+            variable.attrs["units"] = "1"
+        if "m/s" in str(variable.attrs.get("comment")):
+            del variable.attrs["comment"]  # which lists the units of components
 
 
 def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:

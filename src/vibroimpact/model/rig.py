@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, cast
 
@@ -13,7 +13,8 @@ from vibroimpact.model.html_table import table
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.record import Record
-from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.units import has_unit, pretty, to_si
+from vibroimpact.model.written_units import NONE, SI, written_for
 
 Shaking: TypeAlias = float | str | Harmonic | Periodic | Record | Sequence[float | str]
 """Accepted values for the shaking of a rig: an amplitude, a text with a unit, one amplitude per
@@ -94,6 +95,7 @@ class Rig:
             raise InputError(f"oscillator: {_misplaced(oscillator)}; write {_EXAMPLE}")
         if isinstance(shaking, Oscillator | Rig):
             raise InputError(f"shaking: {shown(shaking)} is not an excitation; write {_EXAMPLE}")
+        oscillator = with_stated_units(oscillator, {"shaking": shaking})
         amplitudes: tuple[float, ...] | None = None
         own: float | None = None
         if isinstance(shaking, Harmonic | Periodic):
@@ -248,11 +250,13 @@ class Rig:
         return f"Rig({', '.join(parts)})"
 
     def __str__(self) -> str:
-        return f"Rig(oscillator={self.oscillator}, shaking={self._shaking_text()})"
+        with written_for(self):
+            return f"Rig(oscillator={self.oscillator}, shaking={self._shaking_text()})"
 
     def _repr_html_(self) -> str:
         title = "Rig" if self.name is None else f"Rig {self.name}"
-        return table(title, [*self.oscillator.rows(), ("shaking", self._shaking_text())])
+        with written_for(self):
+            return table(title, [*self.oscillator.rows(), ("shaking", self._shaking_text())])
 
     def _open(self) -> object:
         """Return the shaking with an open frequency, as its amplitude if it is a plain sine."""
@@ -312,3 +316,32 @@ def _misplaced(value: object) -> str:
     if isinstance(value, Harmonic | Periodic | Record):
         return f"a {type(value).__name__} is a shaking, which is the second argument"
     return f"{shown(value)} is not an Oscillator"
+
+
+def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> Oscillator:
+    """Return the oscillator for values that may state units, such as its shaking, by their names.
+
+    A mass and a stiffness of 1 are 1 kg and 1 N/m after all if another value has a unit.
+
+    Raises
+    ------
+    InputError
+        If a value states a unit, but the rig has none for another reason.
+    """
+    if oscillator.units != NONE:
+        return oscillator
+    for name, value in values.items():
+        if not any(_states_unit(one) for one in (value if is_list(value) else [value])):
+            continue
+        if not oscillator.of_ones:
+            raise InputError(
+                f"{name}: {shown(value)} has a unit, but the rig has none (units is \"none\"); pass "
+                "a number without a unit, or remove units"
+            )
+        return oscillator.replace(units=SI)
+    return oscillator
+
+
+def _states_unit(value: object) -> bool:
+    """Return whether a value states a unit. The file of a record always has one."""
+    return bool(value.about.source) if isinstance(value, Record) else has_unit(value)

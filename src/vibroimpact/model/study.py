@@ -20,7 +20,7 @@ from vibroimpact.model.names import check_name
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ANGLE, TIME
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import Rig, as_periodic
+from vibroimpact.model.rig import Rig, as_periodic, with_stated_units
 from vibroimpact.model.validation import Accepts, Model, validate
 
 _Study = TypeVar("_Study", bound="RigStudy")
@@ -138,7 +138,16 @@ class RigStudy(Model):
             raise InputError(f"{where}: excitation.{error}") from None
         if self.case is None:
             assert self.oscillator is not None  # one of the two is there
-            return Rig.of_open_frequency(self.oscillator, shaking, name)
+            stated: dict[str, object] = {
+                "excitation.amplitude": self.excitation.amplitude,
+                "excitation.amplitudes": self.excitation.amplitudes,
+                "excitation.record": shaking,
+            }
+            try:
+                oscillator = with_stated_units(self.oscillator, stated)
+            except InputError as error:
+                raise InputError(f"{where}: {error}") from None
+            return Rig.of_open_frequency(oscillator, shaking, name)
         try:
             case = laboratory.case(self.case, parameters or self.parameters or "table")
         except InputError as error:

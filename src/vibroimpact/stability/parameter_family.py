@@ -17,6 +17,8 @@ from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import written_for
 from vibroimpact.response.engine_input import system_vector
 
 _Array = NDArray[np.float64]
@@ -54,6 +56,16 @@ class Family(NamedTuple):
     def excitation(self) -> Repeated:
         """What shakes it."""
         return self.rig.periodic
+
+    def written(self, value: float, digits: int = 6) -> str:
+        """Return a value of the parameter as text, with its unit unless the rig has none."""
+        with written_for(self.rig):
+            return pretty(value, self.parameter.quantity, digits)
+
+    def equation(self, value: float, digits: int = 6) -> str:
+        """Return the parameter and its value as text, such as ``"gap = 5 mm"`` or ``"ω = 2"``."""
+        text = self.written(value, digits)
+        return text if "=" in text else f"{self.parameter.name} = {text}"
 
     def near(self, value: float) -> Family:
         """The same family with the line that touches at a value of the parameter."""
