@@ -53,7 +53,7 @@ def basins(
 
     what = subject(rig, changes, output.name)
     shaken, window = states.rig(what), states.window()
-    hertz = shaken.frequency
+    hertz = shaken.harmonic.frequency
     with results(what, output) as written:
         with progress_bar("computing basins") as progress:
             data = vi.basins(

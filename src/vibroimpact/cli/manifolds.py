@@ -76,7 +76,7 @@ def manifolds(
     what = subject(rig, changes, output.name)
     shaken, window = states.rig(what), states.window()
     near = [state("--saddle", text, shaken.harmonic.phase) for text in saddle]
-    hertz = shaken.frequency
+    hertz = shaken.harmonic.frequency
     with results(what, output) as written:
         with progress_bar("computing manifolds") as progress:
             data = vi.manifolds(

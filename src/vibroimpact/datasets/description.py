@@ -31,9 +31,10 @@ def describe(
     """Give every variable its units and meaning, and the dataset its parameters and origin.
 
     Attributes that the dataset already has are kept. Pass None for the parameters if they are among
-    these attributes. The variables of rigs without units have the units ``1``. Assumptions about the input, and doubts about it, become the attribute
+    these attributes. Assumptions about the input, and doubts about it, become the attribute
     ``notes``, one per line. The variables of parameters that were varied have the units that these
-    have in the rig.
+    have in the rig. If no rig has units, the variables have the units ``1``, and the attribute
+    ``unit_system`` is ``none``.
 
     Raises
     ------

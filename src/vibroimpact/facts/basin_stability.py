@@ -9,7 +9,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import plain, heading
+from vibroimpact.facts.number_format import heading, plain
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:

@@ -150,7 +150,10 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         ("exponents", _exponents(data)),
         ("displacement", f"{plain(low / size, 5)} to {plain(high / size, 5)}{_gap(metres)}"),
         ("eccentricity", f"{plain(middle / size, 4)}{_gap(metres)}"),
-        ("acceleration", f"{plain(floor / g, 5)} to {plain(ceiling / g, 5)}{_gap(gravity)} (absolute)"),
+        (
+            "acceleration",
+            f"{plain(floor / g, 5)} to {plain(ceiling / g, 5)}{_gap(gravity)} (absolute)",
+        ),
         (
             "impacts",
             f"{plain(data['impacts_right'].item(), 4)} right, "
@@ -188,7 +191,8 @@ def _exponents(data: xr.Dataset) -> str:
     """The Lyapunov exponents, with their uncertainty where they are averages."""
     values, spreads = data["exponents"].values, data["exponents_uncertainty"].values
     if int(data["period"]) and int(data["exponents_cycles"]) <= 2 * int(data["period"]):
-        return f"{values[0]:+.5g} and {values[1]:+.5g}{unit(' 1/s')}, from the multipliers of the orbit"
+        both = f"{values[0]:+.5g} and {values[1]:+.5g}"
+        return f"{both}{unit(' 1/s')}, from the multipliers of the orbit"
     first, second = (
         f"{value:+.4g} ± {spread:.1g}" for value, spread in zip(values, spreads, strict=True)
     )

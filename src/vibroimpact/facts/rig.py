@@ -27,7 +27,6 @@ from vibroimpact.model import (
     to_dimensionless,
 )
 from vibroimpact.model.quantities import (
-    ACCELERATION,
     DAMPING,
     FORCE,
     LENGTH,

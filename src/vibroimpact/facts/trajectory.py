@@ -87,7 +87,9 @@ def text(data: xr.Dataset) -> RenderableType:
             Text(f"Contacts: {contacts['right']} right, {contacts['left']} left"),
         )
     return Group(
-        Text(f"State after {plain(found['cycles'])} cycles ({plain(found['time'], 6)}{unit(' s')})"),
+        Text(
+            f"State after {plain(found['cycles'])} cycles ({plain(found['time'], 6)}{unit(' s')})"
+        ),
         table,
         Text(
             f"Contacts per cycle, over the last {plain(contacts['over_cycles'])}: "

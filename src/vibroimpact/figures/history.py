@@ -14,6 +14,7 @@ from matplotlib.patches import Patch
 
 from vibroimpact.figures.motion_style import SIDES, Shown, cycles_shown, gap_lines, named, shown
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import EDGE, LEGEND, panels
 
 
@@ -33,6 +34,7 @@ PANELS = (
 BANDS = {"right": ("#f7dc8b", ""), "left": ("#b9dcec", r"\\")}
 
 
+@in_own_units
 def time_history(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     axes: Any = None,
@@ -103,7 +105,7 @@ def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
                 label=f"{name} contact",
                 zorder=0,
             )
-        values = panel.factor * curve.values[panel.variable]
+        values = in_unit(panel.factor) * curve.values[panel.variable]
         ax.plot(
             curve.at,
             values,
@@ -127,7 +129,7 @@ def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
         if panel.variable == "acceleration":
             ax.scatter(
                 curve.peaks[0],
-                panel.factor * curve.peaks[1],
+                in_unit(panel.factor) * curve.peaks[1],
                 s=42,
                 marker="*",
                 color=curve.look.colour,

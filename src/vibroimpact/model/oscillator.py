@@ -126,7 +126,7 @@ class Oscillator(Model):
             for path, value in _values(data):
                 if has_unit(value):
                     raise InputError(
-                        f"{path}: {shown(value)} has a unit, but units is \"none\"; pass a number "
+                        f'{path}: {shown(value)} has a unit, but units is "none"; pass a number '
                         "without a unit, or remove units"
                     )
         elif units is None and _is_one(data.get("mass")):

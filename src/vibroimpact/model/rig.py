@@ -331,11 +331,12 @@ def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> O
     if oscillator.units != NONE:
         return oscillator
     for name, value in values.items():
-        if not any(_states_unit(one) for one in (value if is_list(value) else [value])):
+        parts = cast("Sequence[object]", value) if is_list(value) else [value]
+        if not any(map(_states_unit, parts)):
             continue
         if not oscillator.of_ones:
             raise InputError(
-                f"{name}: {shown(value)} has a unit, but the rig has none (units is \"none\"); pass "
+                f'{name}: {shown(value)} has a unit, but the rig has none (units is "none"); pass '
                 "a number without a unit, or remove units"
             )
         return oscillator.replace(units=SI)

@@ -29,8 +29,8 @@ from vibroimpact.model.quantities import (
     MASS,
     Quantity,
 )
-from vibroimpact.model.written_units import unitless
 from vibroimpact.model.unit_registry import RefusalError, check_used, unit_text, with_unit
+from vibroimpact.model.written_units import unitless
 
 _TWO_PI = Decimal("6.283185307179586476925286766559")
 

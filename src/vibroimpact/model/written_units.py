@@ -69,7 +69,9 @@ def has_no_units(subject: Any) -> bool:
 
 def parameters_without_units(parameters: str | Mapping[str, Any]) -> bool:
     """Return whether all oscillators in the parameters of a dataset have no units."""
-    found = list(_oscillators(json.loads(parameters) if isinstance(parameters, str) else parameters))
+    found = list(
+        _oscillators(json.loads(parameters) if isinstance(parameters, str) else parameters)
+    )
     return bool(found) and all(one.get("units") == NONE for one in found)
 
 
