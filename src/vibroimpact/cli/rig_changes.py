@@ -70,7 +70,8 @@ def changes(
 def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
     flag = option.replace("_", "-")
     if isinstance(value, bool):
-        return Change(f"{flag.replace('-', ' ')} bumper", flag)
+        what = "" if option == "no_isolator" else " bumper"
+        return Change(f"{flag.replace('-', ' ')}{what}", flag)
     if option == "amplitude":
         size, of = sized(value, None, option)
         in_g = of == "acceleration" and not unitless()

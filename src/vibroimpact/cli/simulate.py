@@ -82,7 +82,7 @@ def simulate(
     from vibroimpact.model.quantities import DIMENSIONLESS
     from vibroimpact.model.units import forcing, to_si
 
-    what = subject(rig, changes, output.name)
+    what = subject(rig, changes, output.name, unshaken=True)
     table = what.simulate_table
     start = _start(what, displacement, velocity)
     samples = table.samples if samples is None else whole(samples, "samples")

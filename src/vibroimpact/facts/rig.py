@@ -64,7 +64,9 @@ def text(rig: Rig, shaking: bool = True) -> RenderableType:
     )
     table.add_row(
         "isolator",
-        f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}"
+        "none"
+        if isolator == Isolator(0.0, 0.0)
+        else f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}"
         if isinstance(isolator, Isolator) and isolator.linear
         else _law(isolator),
         f"ξ = {plain(oscillator.damping_ratio, 4)}" if damped else "",
@@ -125,6 +127,8 @@ def _shaking_words(shaken: Repeated | Record) -> tuple[str, str]:
     if isinstance(shaken, Periodic):
         sizes = ", ".join(pretty(size, shaken.quantity) for size in shaken.amplitudes)
         return _SHAKEN[shaken.of], f"harmonics of {sizes}"
+    if shaken.amplitude == 0.0:
+        return "base", "at rest: free vibration"
     text = pretty(shaken.amplitude, shaken.quantity)
     if shaken.of == "acceleration":
         exact = "" if unitless() else f"{plain(shaken.amplitude, 7)} m/s² = "

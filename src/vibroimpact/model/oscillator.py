@@ -22,7 +22,7 @@ from pydantic import (
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.built_in import as_isolator, as_stop
-from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
+from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, Isolator, IsolatorLaw
 from vibroimpact.model.isolators.design import designed
 from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
 from vibroimpact.model.stops import STOPS, Bumper, RigidStop, Stop
@@ -51,7 +51,7 @@ class Oscillator(Model):
         `BoucWenIsolator`, `ExponentialIsolator` or `Law`. A mapping with the fields of such an
         object is also accepted. It must have the key ``kind`` if the isolator is not linear. It may
         have the arguments of ``from_period`` or ``from_strength`` (without the mass) instead of the
-        fields.
+        fields. Default: no isolator, that is, ``Isolator(0, 0)``; then a stop must hold the mass.
     right
         Stop at positive displacement: a `Bumper`, `RigidStop`, `PowerBumper`, `JankowskiBumper`, or
         a `Law` with a gap. A mapping with the fields of such an object is also accepted. It must
@@ -80,7 +80,7 @@ class Oscillator(Model):
     _quiet: ClassVar[Mapping[str, Any]] = {"force": 0.0}
 
     mass: Annotated[float, Accepts(MASS, above=0.0)]
-    isolator: Annotated[AnyIsolator, ISOLATORS]
+    isolator: Annotated[AnyIsolator, ISOLATORS] = Isolator(0.0, 0.0)
     right: Annotated[Stop | None, STOPS] = None
     left: Annotated[Stop | None, STOPS] = None
     force: Annotated[float, Accepts(FORCE)] = 0.0
@@ -90,7 +90,7 @@ class Oscillator(Model):
     def __init__(
         self,
         mass: float | str,
-        isolator: AnyIsolator | Mapping[str, Any],
+        isolator: AnyIsolator | Mapping[str, Any] | None = None,
         right: Stop | Mapping[str, Any] | None = None,
         left: Stop | Mapping[str, Any] | None = None,
         force: float | str = 0.0,
@@ -146,6 +146,8 @@ class Oscillator(Model):
     @field_validator("isolator", mode="before")
     @classmethod
     def _for_this_mass(cls, value: Any, info: ValidationInfo) -> Any:
+        if value is None:
+            return Isolator(0.0, 0.0)
         law = ISOLATORS.classes.get(ISOLATORS.kind_of(value))
         if not isinstance(value, Mapping) or law is None:
             return value

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, cast
@@ -44,7 +45,8 @@ class Rig:
           ``frequency`` or by a function such as `sweep`;
         - a `Harmonic`, a `Periodic` or a `Record`;
         - for a sweep: a list with one amplitude per frequency;
-        - None, if a function gets the shaking from another argument.
+        - None or 0, if nothing shakes the rig, or if a function gets the shaking from another
+          argument. `simulate` then computes the free vibration.
     frequency
         Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: the frequency of the shaking.
         If the shaking is only an amplitude, the frequency is open.
@@ -100,6 +102,8 @@ class Rig:
         own: float | None = None
         if isinstance(shaking, Harmonic | Periodic):
             own = shaking.frequency
+        elif is_nothing(shaking, "shaking"):
+            shaking = None
         elif shaking is not None and not isinstance(shaking, Record):
             shaking, amplitudes = as_periodic(shaking, "shaking")
         if frequency is not None:
@@ -219,6 +223,23 @@ class Rig:
         """Return a copy of the rig with another forcing frequency (Hz, or text with a unit)."""
         return Rig(self.oscillator, self.periodic, frequency, self.name)
 
+    @property
+    def is_shaken(self) -> bool:
+        """Whether a record, or an amplitude greater than 0, shakes the rig."""
+        if isinstance(self.shaking, Record):
+            return True
+        return self.shaking is not None and self.shaking.amplitude > 0.0
+
+    def vibrating_freely(self) -> Rig:
+        """Return the rig with an excitation of amplitude 0, in whose cycles time is counted.
+
+        If the frequency is open, a cycle is one natural period, or 1 s without a spring.
+        """
+        natural = self.oscillator.angular_frequency / math.tau
+        hertz = self.frequency or natural or 1.0
+        phase = 0.0 if self.shaking is None else self.periodic.phase
+        return self.with_parts(self.oscillator, Harmonic(0.0, hertz, phase), keep_open=False)
+
     def with_parts(
         self,
         oscillator: Oscillator,
@@ -271,6 +292,19 @@ class Rig:
         return "open" if self.shaking is None else str(self.shaking)
 
 
+def is_nothing(shaking: object, where: str) -> bool:
+    """Return whether a shaking is an amplitude of 0, such as ``"0 g"``, so that nothing shakes.
+
+    Raises
+    ------
+    InputError
+        If it is a text or a number, but not a valid amplitude.
+    """
+    if not isinstance(shaking, str | float | int) or isinstance(shaking, bool):
+        return False
+    return sized(shaking, None, where)[0] == 0.0
+
+
 def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] | None]:
     """Read a periodic shaking: an amplitude, amplitudes, a `Harmonic` or a `Periodic`.
 
@@ -297,7 +331,9 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
         )
     if isinstance(value, Harmonic | Periodic):
         if value.amplitude == 0.0:
-            raise InputError(f"{where}: 0; an amplitude greater than 0 is accepted")
+            raise InputError(
+                f"{where}: 0; pass an amplitude greater than 0 (simulate computes free vibrations)"
+            )
         return value, None
     if is_list(value):
         sizes, of = [], None

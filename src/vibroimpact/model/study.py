@@ -20,7 +20,7 @@ from vibroimpact.model.names import check_name
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ANGLE, TIME
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import Rig, as_periodic, with_stated_units
+from vibroimpact.model.rig import Rig, as_periodic, is_nothing, with_stated_units
 from vibroimpact.model.validation import Accepts, Model, validate
 
 _Study = TypeVar("_Study", bound="RigStudy")
@@ -79,7 +79,7 @@ class ExcitationTable(Model):
             )
         if self.amplitudes is not None:
             return Periodic(1.0, self.amplitudes, self.phases, self.phase)
-        if self.amplitude is None:
+        if self.amplitude is None or is_nothing(self.amplitude, "amplitude"):
             return None
         shaken, _ = as_periodic(self.amplitude, "amplitude")
         return shaken.replace(phase=self.phase)

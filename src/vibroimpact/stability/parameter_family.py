@@ -16,7 +16,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, as_periodic
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import written_for
 from vibroimpact.response.engine_input import system_vector
@@ -145,7 +145,8 @@ def family(rig: Rig, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    varied = parameter(name, of=rig.periodic.of).of(rig.oscillator)
+    shaking, _ = as_periodic(rig.shaking, "shaking")
+    varied = parameter(name, of=shaking.of).of(rig.oscillator)
     value = varied.read(rig)
     step = varied.beside(value) - value
     here = system_vector(rig)
