@@ -48,7 +48,7 @@ _NAMES: dict[tuple[tuple[str, float], ...], str] = _ALSO_NAMED | {
 
 _FAR_OVERDAMPED = 2.0
 """A damping ratio from which on a percentage is more likely."""
-_LEAST, _MOST = 1e-4, 1e9
+_LEAST, _MOST = 1e-5, 1e9
 """Sizes between which a number is written without a power of ten."""
 
 _LONGEST = 200
