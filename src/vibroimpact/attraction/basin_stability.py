@@ -22,7 +22,8 @@ from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import check_max_events, whole
-from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.parameters import Parameter
+from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
@@ -116,7 +117,8 @@ def basin_stability(
         If a value is invalid, or if the rig has no dissipation.
     """
     rig = as_rig(rig, frequency)
-    if rig.frequency is None and parameter == "frequency" and isinstance(values, Iterable):
+    named = None if parameter is None else registered(parameter).name
+    if rig.frequency is None and named == "frequency" and isinstance(values, Iterable):
         values = list(values)
         rig = rig.at(values[0]) if values else rig
     rig.check_frequency()
@@ -189,7 +191,7 @@ def _values(
                 'that has these values, such as "gap"'
             )
         return None, [0.0]
-    varied = parameter(name, of=rig.periodic.of).of(rig.oscillator)
+    varied = registered(name, of=rig.periodic.of).of(rig.oscillator)
     listed = check_list(values, "values", MOST_VALUES, f"a list of values of {varied.name}")
     given = [to_si(one, varied.quantity, f"values[{i}]") for i, one in enumerate(listed)]
     if not given:

@@ -12,6 +12,7 @@ import sys
 import threading
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from contextvars import copy_context
 from typing import Any
 
 from cyclopts import App, CycloptsError
@@ -139,7 +140,8 @@ def _run(words: list[str]) -> int:
     take_any_encoding()
     try:
         with _terminable(), warnings_in_lines(), font_warnings_once():
-            result = _app(words)(words)
+            # In a context of its own: the rig of a command may be written without units.
+            result = copy_context().run(_app(words), words)
         flush()
     except (InputError, CycloptsError) as error:
         return _failed(in_words(error, words), 2)

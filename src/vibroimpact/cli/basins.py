@@ -47,12 +47,13 @@ def basins(
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
-    from vibroimpact.cli.rig import subject
+    from vibroimpact.cli.rig import forcing_slug, subject
     from vibroimpact.facts import basins as facts
+    from vibroimpact.model.units import forcing
 
     what = subject(rig, changes, output.name)
     shaken, window = states.rig(what), states.window()
-    hertz = shaken.frequency
+    hertz = shaken.harmonic.frequency
     with results(what, output) as written:
         with progress_bar("computing basins") as progress:
             data = vi.basins(
@@ -64,6 +65,6 @@ def basins(
                 where=where,
                 progress=progress,
             )
-        title = f"{what.title}, {hertz:.6g} Hz"
-        written.write(data, f"{hertz:.10g}Hz-basins", figures.basin_portrait, title)
+        title = f"{what.title}, {forcing(hertz)}"
+        written.write(data, f"{forcing_slug(hertz)}-basins", figures.basin_portrait, title)
     return written.tell({"frequency": hertz, **facts.facts(data)}, facts.text(data))

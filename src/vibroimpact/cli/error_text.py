@@ -13,6 +13,7 @@ from vibroimpact.errors import short_line
 
 _FIELD = re.compile(r"([a-z_.]+)(?=(\[\d+\])?: )")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_PAIR = re.compile(r"parameter (--[a-z-]+) requires 2 positional arguments")
 _UNIT = re.compile(r"[A-Za-zµ°]+(\^?-?[²³]|\^-?\d|[23])?([*/·][A-Za-z]+(\^?-?\d|[²³])?)*")
 
 
@@ -27,11 +28,27 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
         first, _, _ = str(error).partition(" Available commands:")
         names = ", ".join(name for name in error.app if not name.startswith("-"))
         line = f"{first} {names} are accepted"
+    elif pair := _PAIR.search(str(error)):
+        line = _as_two_words(pair[1], words)
     else:
         line = str(error).rstrip(".")
     if isinstance(error, CycloptsError):
         line += "; --help lists what is accepted"
     return short_line(_as_option(line, words) + _quoting(words))
+
+
+def _as_two_words(option: str, words: Sequence[str]) -> str:
+    """Describe an option whose name and value are not two words, such as ``--vary gap=5mm``."""
+    after = [words[i + 1] for i, word in enumerate(words[:-1]) if word == option]
+    after += [word.partition("=")[2] for word in words if word.startswith(f"{option}=")]
+    for written in after:
+        name, equals, value = written.partition("=")
+        if equals and name and value:
+            return (
+                f"{option}: {written!r} is one word; write the name and the value as two words: "
+                f"{option} {name} {value}"
+            )
+    return f"{option}: a name and a value are required, as two words"
 
 
 def _as_option(message: str, words: Sequence[str]) -> str:

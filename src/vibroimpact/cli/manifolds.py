@@ -68,14 +68,15 @@ def manifolds(
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
-    from vibroimpact.cli.rig import subject
+    from vibroimpact.cli.rig import forcing_slug, subject
     from vibroimpact.datasets.description import motion_parameters
     from vibroimpact.facts import manifolds as facts
+    from vibroimpact.model.units import forcing
 
     what = subject(rig, changes, output.name)
     shaken, window = states.rig(what), states.window()
     near = [state("--saddle", text, shaken.harmonic.phase) for text in saddle]
-    hertz = shaken.frequency
+    hertz = shaken.harmonic.frequency
     with results(what, output) as written:
         with progress_bar("computing manifolds") as progress:
             data = vi.manifolds(
@@ -92,9 +93,9 @@ def manifolds(
             below = vi.basins(shaken, *sides, nodes=nodes, threads=threads, progress=progress)
         written.write(
             data,
-            f"{hertz:.10g}Hz-manifolds",
+            f"{forcing_slug(hertz)}-manifolds",
             figures.basin_portrait,
-            f"{what.title}, {hertz:.6g} Hz",
+            f"{what.title}, {forcing(hertz)}",
             drawn=below,
             manifolds=data,
         )

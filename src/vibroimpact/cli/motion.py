@@ -66,8 +66,9 @@ def motion(
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
-    from vibroimpact.cli.rig import subject
+    from vibroimpact.cli.rig import forcing_slug, subject
     from vibroimpact.facts import motions as facts
+    from vibroimpact.model.units import forcing
     from vibroimpact.stability.named_motions import named_motions
 
     what = subject(rig, changes, output.name)
@@ -85,15 +86,15 @@ def motion(
         for hertz, motions in drawn.items():
             if not motions:
                 raise InputError(
-                    f"--frequency: no steady motion was found at {hertz:.10g} Hz; change the "
+                    f"--frequency: no steady motion was found at {forcing(hertz, 10)}; change the "
                     "frequency or the rig"
                 )
         groups = {
-            f"{hertz:.10g}Hz {name}" if len(found) > 1 else name: data
+            f"{forcing_slug(hertz)} {name}" if len(found) > 1 else name: data
             for hertz, motions in drawn.items()
             for name, data in motions.items()
         }
-        ending = f"{'-'.join(f'{hertz:.10g}Hz' for hertz in found)}-motion"
+        ending = f"{'-'.join(map(forcing_slug, found))}-motion"
         columns = facts.columns(drawn, MOST_COLUMNS)
         written.write(groups, ending, figures.motion_page, drawn=columns)
     return written.tell({"motions": facts.facts(found)}, facts.text(found))

@@ -14,9 +14,7 @@ from vibroimpact.errors import InputError
 if TYPE_CHECKING:
     from vibroimpact.scenarios.thresholds import Thresholds
 
-RIG = Group(
-    "Rig (default of each option: the value in the laboratory case or study file)", sort_key=2
-)
+RIG = Group("Rig (default of each option: the value in the case or study file)", sort_key=2)
 COMPUTATION = Group("Computation", sort_key=3)
 THRESHOLDS = Group("Thresholds", sort_key=3)
 OUTPUT = Group("Output", sort_key=4)
@@ -142,7 +140,8 @@ class RigOptions:
     amplitude: _OfRig = None
     """Amplitude of the shaking. Its unit selects the quantity: peak acceleration of the base (0.05g
     or 0.49m/s^2), peak displacement of the base (5mm), peak force on the mass (120N), or
-    rotating unbalance (0.4kg*m)."""
+    rotating unbalance (0.4kg*m). With 0, nothing shakes the rig; only vibroimpact simulate accepts
+    it."""
     mass: _OfRig = None
     """Mass, such as 550kg or 5000t."""
     weight: _OfRig = None
@@ -174,6 +173,8 @@ class RigOptions:
     """Damping of the left bumper, such as '0.9 kN s/m'."""
     left_gap: _OfRig = None
     """Gap on the left side, such as 7.5mm."""
+    no_isolator: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False
+    """Remove the isolator, so that the mass is free between its stops."""
     no_right: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False
     """Remove the right bumper."""
     no_left: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from dataclasses import fields
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -28,8 +29,9 @@ from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.names import check_name, file_stem, literal
 from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
-from vibroimpact.model.rig import Rig, as_periodic
-from vibroimpact.model.units import to_si
+from vibroimpact.model.rig import Rig, as_periodic, is_nothing, with_stated_units
+from vibroimpact.model.units import forcing, to_si
+from vibroimpact.model.written_units import write_for
 from vibroimpact.response.plausibility import doubt_gaps
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
@@ -121,6 +123,7 @@ def subject(
     name: str | None = None,
     shaken: Repeated | Record | None = None,
     otherwise: Repeated | None = None,
+    unshaken: bool = False,
 ) -> Subject:
     """Return the rig that a case code or the path of a study file names, with changes.
 
@@ -136,11 +139,17 @@ def subject(
         Shaking that replaces the shaking of the case or of the study.
     otherwise
         Shaking that is used if neither the case, nor the study, nor the options state one.
+    unshaken
+        Whether a rig that nothing shakes is accepted. Its shaking has the amplitude 0.
 
     Raises
     ------
     InputError
         If the code, the file or a value of the options is invalid.
+
+    Notes
+    -----
+    Everything that the command writes from here on has units, unless the rig has none.
     """
     found = _named(text, options)
     if shaken is not None:
@@ -150,14 +159,20 @@ def subject(
         shaking = found.shaking
         if given.amplitude is not None:
             shaking = _of_size(shaking, given.amplitude)
-        return changed(found.oscillator, given), shaking
+        stated = {_flag(one.name): getattr(given, one.name) for one in fields(given)}
+        return with_stated_units(changed(found.oscillator, given), stated), shaking
 
     oscillator, shaking = rig_of(options)
+    write_for(oscillator)
     shaking = otherwise if shaking is None else shaking
+    if shaking is None and unshaken:
+        shaking = Rig(oscillator).vibrating_freely().periodic
     if shaking is None:
+        where = "--amplitude: 0" if options.amplitude else f"study {text!r}: no amplitude"
         raise InputError(
-            f"study {text!r}: excitation.amplitude: missing; set it in the study, or pass "
-            "--amplitude, such as 0.05g (acceleration), 2mm (displacement) or 500N (force)"
+            f"{where}; pass --amplitude, such as 0.05g (acceleration), 2mm (displacement) or 500N "
+            "(force), or set excitation.amplitude in the study; for a free vibration, use "
+            "vibroimpact simulate"
         )
     made = changes(options, rig_of, oscillator)
     what = Subject(
@@ -172,16 +187,26 @@ def subject(
     return what
 
 
-def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated:
-    """Return the shaking with the amplitude of the option. Several harmonics keep their shape."""
+def forcing_slug(frequency: float) -> str:
+    """Return a frequency (Hz) as a part of a file name, such as ``"2.5Hz"`` or ``"omega1"``."""
+    return forcing(frequency, 10).replace("ω = ", "omega").replace(" ", "")
+
+
+def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated | None:
+    """Return the shaking with the amplitude of the option. Several harmonics keep their shape.
+
+    With an amplitude of 0, nothing shakes the rig.
+    """
     if isinstance(shaking, Record):
         raise InputError(
             f"--amplitude: {amplitude!r}, but a record shakes this rig; to scale the record, use "
             "--peak of vibroimpact earthquake or vibroimpact design"
         )
     if isinstance(shaking, Periodic):
-        size, _ = sized(amplitude, shaking.of, "--amplitude", positive=True)
-        return shaking.replace(amplitude=size)
+        size, _ = sized(amplitude, shaking.of, "--amplitude")
+        return shaking.replace(amplitude=size) if size else None
+    if is_nothing(amplitude, "--amplitude"):
+        return None
     found, _ = as_periodic(amplitude, "--amplitude")
     return found if shaking is None else found.replace(phase=shaking.phase)
 
@@ -237,6 +262,8 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
     InputError
         If a value is invalid, or if a new bumper is not completely described.
     """
+    if options.no_isolator:
+        oscillator = _without_isolator(oscillator, options)
     changes: dict[str, Any] = {
         "mass": _mass(oscillator, options),
         "isolator": _isolator(oscillator, options),
@@ -287,6 +314,16 @@ def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
             bumper = _new_bumper(side, values)
         changes[side] = bumper
     return oscillator.replace(**changes)
+
+
+def _without_isolator(oscillator: Oscillator, options: RigOptions) -> Oscillator:
+    """Return the oscillator without its isolator."""
+    for option in ("stiffness", "damping", "isolator_period", "damping_ratio"):
+        if getattr(options, option) is not None:
+            raise InputError(
+                f"{_flag(option)}: given together with --no-isolator; remove one of the two options"
+            )
+    return oscillator.replace(isolator=None)
 
 
 def _mass(oscillator: Oscillator, options: RigOptions) -> float:

@@ -14,6 +14,7 @@ from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.names import kept_letters
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.written_units import unitless
 
 _LONGEST = 120
 """Largest number of bytes of a file name, without the ending that a command adds. File systems
@@ -69,10 +70,12 @@ def changes(
 def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
     flag = option.replace("_", "-")
     if isinstance(value, bool):
-        return Change(f"{flag.replace('-', ' ')} bumper", flag)
+        what = "" if option == "no_isolator" else " bumper"
+        return Change(f"{flag.replace('-', ' ')}{what}", flag)
     if option == "amplitude":
         size, of = sized(value, None, option)
-        text = f"{size / GRAVITY:.6g} g" if of == "acceleration" else pretty(size, QUANTITIES[of])
+        in_g = of == "acceleration" and not unitless()
+        text = f"{size / GRAVITY:.6g} g" if in_g else pretty(size, QUANTITIES[of])
     else:
         from vibroimpact.model.parameters import PARAMETERS
 

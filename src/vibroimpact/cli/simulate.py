@@ -74,15 +74,15 @@ def simulate(
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
-    from vibroimpact.cli.rig import subject
+    from vibroimpact.cli.rig import forcing_slug, subject
     from vibroimpact.cli.states import rig_at
     from vibroimpact.facts import trajectory as facts
     from vibroimpact.model import Record
     from vibroimpact.model.count_checks import whole
     from vibroimpact.model.quantities import DIMENSIONLESS
-    from vibroimpact.model.units import to_si
+    from vibroimpact.model.units import forcing, to_si
 
-    what = subject(rig, changes, output.name)
+    what = subject(rig, changes, output.name, unshaken=True)
     table = what.simulate_table
     start = _start(what, displacement, velocity)
     samples = table.samples if samples is None else whole(samples, "samples")
@@ -111,9 +111,10 @@ def simulate(
         if of_record:
             written.write(data, "history", figures.record_history)
         else:
-            hertz = f"{shaken.frequency:.10g}Hz"
-            title = f"{what.title}, {hertz[:-2]} Hz"
-            written.write(data, f"{hertz}-history", figures.time_history, title, cycles=last)
+            hertz = shaken.harmonic.frequency
+            title = f"{what.title}, {forcing(hertz, 10)}"
+            name = f"{forcing_slug(hertz)}-history"
+            written.write(data, name, figures.time_history, title, cycles=last)
     return written.tell(facts.facts(data), facts.text(data))
 
 

@@ -71,6 +71,8 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
         hertz = to_si(frequency, FREQUENCY, "--frequency", above=0.0)
     elif along == "frequency" or studied is not None:
         hertz = studied or 1.0
+    elif not what.rig.is_shaken:
+        hertz = what.repeated.frequency
     else:
         raise InputError("--frequency: missing; pass the forcing frequency, such as 2Hz")
     start = what.phase if phase is None else to_si(phase, ANGLE, "--phase")

@@ -29,7 +29,7 @@ from pydantic import Field, create_model, model_validator
 from vibroimpact.errors import InputError
 from vibroimpact.model import Model, study
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
-from vibroimpact.model.validation import Accepts
+from vibroimpact.model.validation import Accepts, NumberOrText, WholeNumber
 
 _MOST = 2**63 - 1
 """Largest accepted whole number: the engine counts with 64 bits."""
@@ -42,12 +42,14 @@ class _SweepTable(Model):
 
     to: _Frequency = None
     step: _Frequency = None
-    frequencies: list[Annotated[float, Accepts(FREQUENCY, above=0.0)]] | None = None
+    frequencies: list[Annotated[float, Accepts(FREQUENCY, above=0.0)]] | None = Field(
+        None, examples=['frequencies = ["1 Hz", "1.2 Hz"]']
+    )
     direction: Literal["forward", "backward", "both"] | None = None
     tolerance: Annotated[
         float | None, Accepts(DIMENSIONLESS, above=0.0, maximum=1.0, optional=True)
     ] = None
-    max_cycles: Annotated[int | None, Field(ge=1, le=_MOST)] = None
+    max_cycles: Annotated[WholeNumber | None, Field(ge=1, le=_MOST)] = None
 
     @property
     def start(self) -> float | None:
@@ -78,7 +80,7 @@ class SimulateTable(Model):
 
     frequency: _Frequency = None
     cycles: Annotated[float | None, Accepts(DIMENSIONLESS, above=0.0, optional=True)] = None
-    samples: Annotated[int | None, Field(ge=1, le=_MOST)] = None
+    samples: Annotated[WholeNumber | None, Field(ge=1, le=_MOST)] = None
     tail: Annotated[float | None, Accepts(TIME, minimum=0.0, optional=True)] = None
     displacement: Annotated[float | None, Accepts(LENGTH, optional=True)] = None
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
@@ -91,9 +93,11 @@ class DesignTable(Model):
     used. A range is a text LOW:HIGH[:log][:VALUES].
     """
 
-    records: list[str] | None = None
-    vary: dict[str, str] | None = None
-    limits: dict[str, float | str] | None = None
+    records: list[str] | None = Field(None, examples=['records = ["first.csv", "second.csv"]'])
+    vary: dict[str, str] | None = Field(None, examples=['vary = { gap = "5 mm:9 mm:5" }'])
+    limits: dict[str, NumberOrText] | None = Field(
+        None, examples=['limits = { peak_force = "5 MN" }']
+    )
     fractile: Annotated[
         float | None, Accepts(DIMENSIONLESS, minimum=0.0, maximum=1.0, optional=True)
     ] = None
@@ -105,10 +109,10 @@ class EnsembleTable(Model):
     A distribution is a text such as ``"normal:5%"`` or ``"uniform:5 mm:8 mm"``.
     """
 
-    uncertain: dict[str, str] | None = None
-    draws: Annotated[int | None, Field(ge=1, le=_MOST)] = None
+    uncertain: dict[str, str] | None = Field(None, examples=['uncertain = { gap = "7 mm:8 mm" }'])
+    draws: Annotated[WholeNumber | None, Field(ge=1, le=_MOST)] = None
     method: Literal["sobol", "latin", "random"] | None = None
-    seed: Annotated[int | None, Field(ge=0, le=_MOST)] = None
+    seed: Annotated[WholeNumber | None, Field(ge=0, le=_MOST)] = None
 
 
 class Study(study.RigStudy):

@@ -16,6 +16,7 @@ from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, Rig, Sta
 from vibroimpact.model.excitation import ON_THE_MASS
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.varied import Varied
+from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
 COMPONENTS = [*State.model_fields]
 """Components of a state in a dataset, in the order of `State`'s fields."""
@@ -33,7 +34,8 @@ def describe(
     Attributes that the dataset already has are kept. Pass None for the parameters if they are among
     these attributes. Assumptions about the input, and doubts about it, become the attribute
     ``notes``, one per line. The variables of parameters that were varied have the units that these
-    have in the rig.
+    have in the rig. If no rig has units, the variables have the units ``1``, and the attribute
+    ``unit_system`` is ``none``.
 
     Raises
     ------
@@ -65,6 +67,8 @@ def describe(
     if told := "\n".join(notes):
         dataset.attrs["notes"] = told
     dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
+    if parameters_without_units(dataset.attrs.get("parameters", "{}")):
+        _remove_units(dataset)
     return dataset
 
 
@@ -80,6 +84,19 @@ def base_at_rest(data: xr.Dataset) -> bool:
 def _stands(parameters: Mapping[str, Any]) -> bool:
     rigs = parameters.get("rigs", [parameters])
     return bool(rigs) and all(one.get("of") in ON_THE_MASS for one in rigs)
+
+
+def _remove_units(dataset: xr.Dataset) -> None:
+    """Mark a dataset of rigs without units, whose numbers are dimensionless."""
+    dataset.attrs[ATTRIBUTE] = NONE
+    for variable in dataset.variables.values():
+        units = variable.attrs["units"]
+        if units == "Hz":
+            variable.attrs["comment"] = "f = ω / 2π, in cycles per unit of time"
+        if units != "rad":
+            variable.attrs["units"] = "1"
+        if "m/s" in str(variable.attrs.get("comment")):
+            del variable.attrs["comment"]  # which lists the units of components
 
 
 def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:

@@ -9,7 +9,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import plain, shown_in
+from vibroimpact.facts.number_format import heading, plain
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
@@ -52,13 +52,12 @@ def text(data: xr.Dataset) -> RenderableType:
     """Return the same as a table, of the motions with the largest shares."""
     found = facts(data)
     along = found["parameter"]
-    unit = shown_in(data[along].attrs["units"], data[along].values)
+    unit, words = heading(along, data[along].attrs["units"], data[along].values)
     table = Table(box=None, pad_edge=False, padding=(0, 2))
     table.add_column("motion")
     table.add_column("kind and period")
-    words = along.replace("_", " ") + (f" ({unit.symbol})" if unit.symbol else "")
-    for heading in (words, "smallest share", "largest share", "95% interval of the largest"):
-        table.add_column(heading, justify="right")
+    for name in (words, "smallest share", "largest share", "95% interval of the largest"):
+        table.add_column(name, justify="right")
     motions = list(enumerate(found["motions"], 1))
     chosen = sorted(motions, key=lambda one: -max(one[1]["share"]))[:_MOST]
     for number, one in sorted(chosen):

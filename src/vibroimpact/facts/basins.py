@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import LENGTHS, fitting, plain
+from vibroimpact.facts.number_format import LENGTHS, fitting, plain, with_unit
 
 _MEASURES = (
     "basin_entropy",
@@ -60,10 +60,10 @@ def text(data: xr.Dataset) -> RenderableType:
         "motion",
         "kind",
         "period",
-        f"excursion ({unit.symbol})",
+        with_unit("excursion", unit.symbol),
         "share",
         "95% interval",
-        f"distance to border ({unit.symbol})",
+        with_unit("distance to border", unit.symbol),
     ):
         table.add_column(heading, justify="left" if heading in ("motion", "kind") else "right")
     for number, one in enumerate(motions):

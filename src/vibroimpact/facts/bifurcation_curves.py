@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
+
+from vibroimpact.model.written_units import unitless
 
 
 def facts(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> dict[str, Any]:
@@ -37,10 +40,16 @@ def text(kind: str, names: tuple[str, str], found: dict[str, xr.Dataset]) -> Ren
                 f"beginning: {data.attrs['ended_low']}; end: {data.attrs['ended_high']}"
             )
         )
-        lines += [
-            Text(f"    cusp at {names[0]} {p:.9g}, {names[1]} {q:.9g}") for p, q in _cusps(data)
-        ]
+        for cusp in _cusps(data):
+            place = ", ".join(map(_at, names, cusp))
+            lines.append(Text(f"    cusp at {place}"))
     return Group(*lines)
+
+
+def _at(name: str, value: float) -> str:
+    if name == "frequency" and unitless():
+        return f"ω {math.tau * value:.9g}"
+    return f"{name} {value:.9g}"
 
 
 def _cusps(data: xr.Dataset) -> list[tuple[float, float]]:

@@ -11,7 +11,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import plain, shown_in
+from vibroimpact.facts.number_format import heading, plain, with_unit
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
@@ -50,24 +50,23 @@ def text(data: xr.Dataset) -> RenderableType:
     """Return the ranges as tables, the widest of many."""
     told = facts(data)
     units = data[told["parameter"]].attrs["units"]
-    unit = shown_in(units, data[told["parameter"]].values)
+    unit, words = heading(told["parameter"], units, data[told["parameter"]].values)
     parts: list[RenderableType] = []
     for start, ranges in told["starts"].items():
         parts += [Text(), Text(start[:1].upper() + start[1:], style="bold")]
         chosen = sorted(ranges, key=lambda one: -one["values"])[:_MOST]
-        parts.append(_table([one for one in ranges if one in chosen], told["parameter"], unit))
+        parts.append(_table([one for one in ranges if one in chosen], words, unit))
         if len(ranges) > _MOST:
             more = len(ranges) - _MOST
             parts.append(Text(f"and {more} narrower range{'s' if more > 1 else ''}"))
     return Group(*parts)
 
 
-def _table(ranges: list[dict[str, Any]], parameter: str, unit: Any) -> Table:
+def _table(ranges: list[dict[str, Any]], words: str, unit: Any) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
     table.add_column("motion")
-    words = parameter.replace("_", " ")
-    table.add_column(f"{words}{f' ({unit.symbol})' if unit.symbol else ''}", justify="right")
-    for name in ("values", "largest exponent (1/s)"):
+    table.add_column(words, justify="right")
+    for name in ("values", with_unit("largest exponent", "1/s")):
         table.add_column(name, justify="right")
     for one in ranges:
         period = f", period {one['period']}" if one["period"] else ""

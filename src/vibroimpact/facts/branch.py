@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import plain, shown_in
+from vibroimpact.facts.number_format import heading, plain
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
@@ -75,9 +75,8 @@ def text(data: xr.Dataset) -> RenderableType:
 
 def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
     table = Table("bifurcation", box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    unit = shown_in(units, [one["value"] for one in found])
-    heading = f"{parameter.replace('_', ' ')}{f' ({unit.symbol})' if unit.symbol else ''}"
-    for name in (heading, "η_d", "largest multipliers", ""):
+    unit, words = heading(parameter, units, [one["value"] for one in found])
+    for name in (words, "η_d", "largest multipliers", ""):
         table.add_column(name, justify="right")
     for one in found:
         first, second = one["multipliers"][:2]

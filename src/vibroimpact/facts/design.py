@@ -23,6 +23,7 @@ from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import unitless
 
 _HEADS = {"stiffness_at_restitution": "bumper stiffness"}
 _SIDES = ("right", "left")
@@ -91,6 +92,8 @@ def text(
             f"{_value('bumper_damping', dampings.flat[0])}; --vary stiffness-at-restitution keeps "
             "their restitution instead."
         )
+    if len(rows) > _ROWS:
+        yield Text(f"{_ROWS} of the {len(rows)} designs that are not dominated:")
     if rows:
         yield _table(rows, [*dims, *beside])
     if least is not None:
@@ -237,7 +240,7 @@ def _table(rows: list[xr.Dataset], names: list[str]) -> Table:
         table.add_row(
             *(_value(name, float(one[name])) for name in names),
             _length(float(one["peak_displacement"])),
-            f"{plain(float(one['peak_acceleration']) / GRAVITY, 4)} g",
+            _acceleration(float(one["peak_acceleration"])),
             _force(float(one["peak_force"])),
         )
     return table
@@ -253,9 +256,8 @@ def _front(data: xr.Dataset) -> Iterator[xr.Dataset]:
 
 
 def _demands(one: xr.Dataset) -> str:
-    size = float(one["peak_acceleration"])
     return (
-        f"{plain(size / GRAVITY, 4)} g, with a displacement of "
+        f"{_acceleration(float(one['peak_acceleration']))}, with a displacement of "
         f"{_length(float(one['peak_displacement']))} and a contact force of "
         f"{_force(float(one['peak_force']))}"
     )
@@ -271,6 +273,10 @@ def _value(name: str, value: float) -> str:
 
 def _length(value: float) -> str:
     return pretty(float(f"{value:.4g}"), LENGTH)
+
+
+def _acceleration(value: float) -> str:
+    return plain(value, 4) if unitless() else f"{plain(value / GRAVITY, 4)} g"
 
 
 def _force(value: float) -> str:

@@ -19,7 +19,7 @@ from vibroimpact.model.quantities import (
     LENGTH,
     Quantity,
 )
-from vibroimpact.model.units import plain, pretty
+from vibroimpact.model.units import forcing, pretty
 
 _DIGITS = 4
 _SAME = 1e-9
@@ -83,6 +83,6 @@ def text(data: xr.Dataset) -> RenderableType:
     table.add_column()
     for name, one in facts(data).items():
         words, _, _, quantity = _ROWS[name]
-        where = f"at {plain(one['frequency'])} Hz, {one['direction']}"
+        where = f"at {forcing(one['frequency'])}, {one['direction']}"
         table.add_row(words, pretty(one["value"], quantity, _DIGITS), where)
     return table

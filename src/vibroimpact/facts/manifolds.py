@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import LENGTHS, SPEEDS, fitting, plain
+from vibroimpact.facts.number_format import LENGTHS, SPEEDS, fitting, plain, with_unit
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
@@ -49,8 +49,8 @@ def text(data: xr.Dataset) -> RenderableType:
     table = Table(box=None, pad_edge=False, padding=(0, 2))
     table.add_column("saddle")
     for heading in (
-        f"displacement ({far.symbol})",
-        f"velocity ({fast.symbol})",
+        with_unit("displacement", far.symbol),
+        with_unit("velocity", fast.symbol),
         "period",
         "multipliers",
     ):

@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.datasets.description import base_at_rest, noted
+from vibroimpact.facts.number_format import with_unit
 from vibroimpact.facts.status import status_facts
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -21,7 +22,8 @@ from vibroimpact.model.quantities import (
     VELOCITY,
     fitting,
 )
-from vibroimpact.model.units import plain
+from vibroimpact.model.units import forcing, plain
+from vibroimpact.model.written_units import unit
 from vibroimpact.response.motion_phases import touches
 from vibroimpact.response.plausibility import STIFF
 
@@ -78,7 +80,7 @@ def text(found: Found) -> RenderableType:
     parts: list[RenderableType] = []
     for hertz, motions in found.items():
         many = f"{len(motions)} motions coexist" if len(motions) > 1 else _only(motions)
-        parts += [Text(), Text(f"{plain(hertz, 10)} Hz: {many}", style="bold")]
+        parts += [Text(), Text(f"{forcing(hertz, 10)}: {many}", style="bold")]
         for name, data in motions.items():
             parts += [Text(), *_motion(name, data)]
     return Group(*parts)
@@ -87,10 +89,10 @@ def text(found: Found) -> RenderableType:
 def columns(found: Found, most: int) -> dict[str, dict[str, xr.Dataset]]:
     """Return the columns of a page: motions of one frequency (so many at most), or frequencies."""
     if len(found) > 1:
-        return {f"{hertz:.6g} Hz": motions for hertz, motions in found.items()}
+        return {forcing(hertz): motions for hertz, motions in found.items()}
     ((hertz, motions),) = found.items()
     named = list(motions.items())[:most]
-    return {f"{hertz:.6g} Hz, {name}": {name: data} for name, data in named}
+    return {f"{forcing(hertz)}, {name}": {name: data} for name, data in named}
 
 
 def _only(motions: dict[str, xr.Dataset]) -> str:
@@ -150,9 +152,12 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         ("evidence", data.attrs["evidence"]),
         *(("note", line) for line in noted(data) if line.startswith(STIFF)),
         ("exponents", _exponents(data)),
-        ("displacement", f"{plain(low / size, 5)} to {plain(high / size, 5)} {metres}"),
-        ("eccentricity", f"{plain(middle / size, 4)} {metres}"),
-        ("acceleration", f"{plain(floor / g, 5)} to {plain(ceiling / g, 5)} {gravity} (absolute)"),
+        ("displacement", f"{plain(low / size, 5)} to {plain(high / size, 5)}{_gap(metres)}"),
+        ("eccentricity", f"{plain(middle / size, 4)}{_gap(metres)}"),
+        (
+            "acceleration",
+            f"{plain(floor / g, 5)} to {plain(ceiling / g, 5)}{_gap(gravity)} (absolute)",
+        ),
         *_transmitted(data),
         (
             "impacts",
@@ -161,8 +166,8 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         ),
         (
             "energy",
-            f"{plain(supplied / joule, 4)} {joules} per cycle, "
-            f"{plain(lost / joule, 4)} {joules} of it lost in the bumpers",
+            f"{plain(supplied / joule, 4)}{_gap(joules)} per cycle, "
+            f"{plain(lost / joule, 4)}{_gap(joules)} of it lost in the bumpers",
         ),
     ]
     if data.attrs.get("starts"):
@@ -184,7 +189,7 @@ def _transmitted(data: xr.Dataset) -> list[tuple[str, str]]:
     low, high = (data[f"transmitted_force_{end}"].item() for end in ("min", "max"))
     _, size, newtons = fitting((low, high), FORCE.scales)
     ratio = data["transmissibility"].item()
-    told = f"{plain(low / size, 5)} to {plain(high / size, 5)} {newtons}"
+    told = f"{plain(low / size, 5)} to {plain(high / size, 5)}{_gap(newtons)}"
     return [("transmitted force", f"{told}, transmissibility {plain(ratio, 4)}")]
 
 
@@ -205,11 +210,17 @@ def _exponents(data: xr.Dataset) -> str:
     """The Lyapunov exponents, with their uncertainty where they are averages."""
     values, spreads = data["exponents"].values, data["exponents_uncertainty"].values
     if int(data["period"]) and int(data["exponents_cycles"]) <= 2 * int(data["period"]):
-        return f"{values[0]:+.5g} and {values[1]:+.5g} 1/s, from the multipliers of the orbit"
+        both = f"{values[0]:+.5g} and {values[1]:+.5g}"
+        return f"{both}{unit(' 1/s')}, from the multipliers of the orbit"
     first, second = (
         f"{value:+.4g} ± {spread:.1g}" for value, spread in zip(values, spreads, strict=True)
     )
-    return f"{first} and {second} 1/s, over {int(data['exponents_cycles'])} cycles"
+    return f"{first} and {second}{unit(' 1/s')}, over {int(data['exponents_cycles'])} cycles"
+
+
+def _gap(symbol: str) -> str:
+    """A unit that may be empty, after a number."""
+    return f" {symbol}" if symbol else ""
 
 
 def _rounded(value: float, scale: float) -> float:
@@ -244,7 +255,7 @@ def contact_tables(data: xr.Dataset) -> list[RenderableType]:
     speeds = fitting(values("start_velocity") + values("end_velocity"), VELOCITY.scales)
     for heading, name in (("u̇ in", "start_velocity"), ("u̇ out", "end_velocity")):
         texts = [f"{value / speeds.size:.2f}" for value in values(name)]
-        columns.append((f"{heading} ({speeds.symbol})", texts))
+        columns.append((with_unit(heading, speeds.symbol), texts))
     for heading, name, scales in (
         ("force", "peak_force", FORCE.scales),
         ("J", "impulse", IMPULSE.scales),
@@ -253,7 +264,7 @@ def contact_tables(data: xr.Dataset) -> list[RenderableType]:
     ):
         found = values(name)
         _, unit, symbol = fitting(found, scales)
-        columns.append((f"{heading} ({symbol})", [plain(value / unit, 3) for value in found]))
+        columns.append((with_unit(heading, symbol), [plain(value / unit, 3) for value in found]))
     columns.append(("e (–)", [f"{value:.3f}" for value in values("restitution")]))
     for heading, _ in columns:
         table.add_column(heading, justify="right")

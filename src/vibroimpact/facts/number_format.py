@@ -9,6 +9,7 @@ from vibroimpact.model.quantities import (
     ACCELERATION,
     ENERGY,
     FORCE,
+    FREQUENCY,
     IMPULSE,
     LENGTH,
     VELOCITY,
@@ -16,6 +17,7 @@ from vibroimpact.model.quantities import (
     fitting,
 )
 from vibroimpact.model.units import plain
+from vibroimpact.model.written_units import unit, unitless
 
 ACCELERATIONS, LENGTHS, SPEEDS = ACCELERATION.scales, LENGTH.scales, VELOCITY.scales
 FORCES, IMPULSES, ENERGIES = FORCE.scales, IMPULSE.scales, ENERGY.scales
@@ -29,6 +31,19 @@ def shown_in(units: str, values: Iterable[float]) -> Scale:
         return Scale(0.0, 1.0, units)
 
 
+def heading(parameter: str, units: str, values: Iterable[float]) -> tuple[Scale, str]:
+    """The unit of a column with the values of a parameter, and its heading with this unit."""
+    if parameter == "frequency" and unitless():
+        return fitting(values, FREQUENCY.scales), "ω"
+    scale = shown_in(units, values)
+    return scale, with_unit(parameter.replace("_", " "), scale.symbol)
+
+
+def with_unit(words: str, symbol: str) -> str:
+    """A heading with its unit in parentheses, unless it has none."""
+    return f"{words}{unit(f' ({symbol})')}" if symbol else words
+
+
 __all__ = [
     "ACCELERATIONS",
     "ENERGIES",
@@ -38,6 +53,8 @@ __all__ = [
     "SPEEDS",
     "Scale",
     "fitting",
+    "heading",
     "plain",
     "shown_in",
+    "with_unit",
 ]

@@ -27,14 +27,14 @@ from vibroimpact.model import (
     to_dimensionless,
 )
 from vibroimpact.model.quantities import (
-    ACCELERATION,
     DAMPING,
     FORCE,
     LENGTH,
     MASS,
     STIFFNESS,
 )
-from vibroimpact.model.units import pretty
+from vibroimpact.model.units import forcing, pretty
+from vibroimpact.model.written_units import NONE, unitless
 
 
 def facts(rig: Rig) -> dict[str, Any]:
@@ -60,11 +60,13 @@ def text(rig: Rig, shaking: bool = True) -> RenderableType:
     table.add_row(
         "mass",
         pretty(oscillator.mass, MASS),
-        f"natural frequency {plain(oscillator.natural_frequency, 4)} Hz" if sprung else "",
+        _natural(oscillator.natural_frequency) if sprung else "",
     )
     table.add_row(
         "isolator",
-        f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}"
+        "none"
+        if isolator == Isolator(0.0, 0.0)
+        else f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}"
         if isinstance(isolator, Isolator) and isolator.linear
         else _law(isolator),
         f"ξ = {plain(oscillator.damping_ratio, 4)}" if damped else "",
@@ -94,6 +96,8 @@ def text(rig: Rig, shaking: bool = True) -> RenderableType:
             if group
             else "",
         )
+    if oscillator.units == NONE:
+        table.add_row("units", "none; frequencies are angular, ω = 2π f", "")
     if oscillator.force:
         table.add_row("constant force", pretty(oscillator.force, FORCE), "")
     if shaking and rig.shaking is not None:
@@ -123,10 +127,18 @@ def _shaking_words(shaken: Repeated | Record) -> tuple[str, str]:
     if isinstance(shaken, Periodic):
         sizes = ", ".join(pretty(size, shaken.quantity) for size in shaken.amplitudes)
         return _SHAKEN[shaken.of], f"harmonics of {sizes}"
-    size = shaken.amplitude
+    if shaken.amplitude == 0.0:
+        return "base", "at rest: free vibration"
+    text = pretty(shaken.amplitude, shaken.quantity)
     if shaken.of == "acceleration":
-        return "base", f"A = {plain(size, 7)} m/s² = {pretty(size, ACCELERATION)}"
-    return _SHAKEN[shaken.of], pretty(size, shaken.quantity)
+        exact = "" if unitless() else f"{plain(shaken.amplitude, 7)} m/s² = "
+        text = f"A = {exact}{text}"
+    return _SHAKEN[shaken.of], text
+
+
+def _natural(frequency: float) -> str:
+    """The natural frequency; that of a rig without units is ω0."""
+    return f"natural frequency {forcing(frequency, 4).replace('ω', 'ω0')}"
 
 
 _SHAKEN = {

@@ -11,7 +11,7 @@ from rich.text import Text
 from vibroimpact.datasets.description import noted
 from vibroimpact.facts import largest
 from vibroimpact.facts.tables import titled_table
-from vibroimpact.model.units import plain
+from vibroimpact.model.units import forcing, forcing_heading, forcings, plain
 from vibroimpact.response.plausibility import STIFF, UNBOUNDED
 from vibroimpact.response.resonance import Features, Range
 
@@ -47,10 +47,10 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
     directions = " and ".join(str(d) for d in data["direction"].values)
     parts: list[RenderableType] = [
         Text(
-            f"{len(frequency)} frequencies from "
-            f"{_span(frequency[0], frequency[-1])} Hz, {directions}"
+            f"{len(frequency)} frequencies from {forcings(frequency[0], frequency[-1])}, "
+            f"{directions}"
             if len(frequency) > 1
-            else f"1 frequency, {plain(frequency[0])} Hz, {directions}"
+            else f"1 frequency, {forcing(frequency[0])}, {directions}"
         ),
         Text(),
         largest.text(data),
@@ -71,7 +71,8 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
 
 def _peaks(found: Features) -> RenderableType:
     table = titled_table("Resonances", "curve", "sweep", "kind")
-    for name in ("frequency (Hz)", "value", "prominence"):
+    turn, heading = forcing_heading()
+    for name in (heading, "value", "prominence"):
         table.add_column(name, justify="right")
     for curve, symbol in _CURVES.items():
         for peak in found.peaks:
@@ -81,7 +82,7 @@ def _peaks(found: Features) -> RenderableType:
                     symbol,
                     peak.direction,
                     f"{kind}, at the end of the range" if peak.at_end else kind,
-                    f"{plain(peak.frequency)}",
+                    f"{plain(turn * peak.frequency)}",
                     f"{plain(peak.value, 4)}",
                     f"{plain(peak.prominence, 3)}",
                 )
@@ -91,12 +92,14 @@ def _peaks(found: Features) -> RenderableType:
 def _jumps(found: Features) -> RenderableType:
     if not found.jumps:
         return Text("Jumps: none")
-    table = titled_table("Jumps", "sweep", "jump", "between (Hz)", "η_a", "η_d", "")
+    turn, heading = forcing_heading("between")
+    heading = heading if turn == 1.0 else f"between {heading}"
+    table = titled_table("Jumps", "sweep", "jump", heading, "η_a", "η_d", "")
     for jump in found.jumps:
         table.add_row(
             jump.direction,
             "upward" if jump.upward else "downward",
-            f"{plain(jump.before)} and {plain(jump.after)}",
+            f"{plain(turn * jump.before)} and {plain(turn * jump.after)}",
             f"{plain(jump.eta_a[0], 4)} → {plain(jump.eta_a[1], 4)}",
             f"{plain(jump.eta_d[0], 4)} → {plain(jump.eta_d[1], 4)}",
             "" if jump.settled else "not settled",
@@ -116,7 +119,7 @@ def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
             notes.append("continues beyond the swept range")
         if not item.settled:
             notes.append("not settled")
-        lines.append(f"  {_span(item.low, item.high)} Hz: {', '.join(notes)}")
+        lines.append(f"  {forcings(item.low, item.high)}: {', '.join(notes)}")
     return Text("\n".join(["Hysteresis", *lines]))
 
 
@@ -125,10 +128,16 @@ def _ranges(title: str, ranges: tuple[Range, ...]) -> RenderableType:
         return Text(f"{title}: at no frequency")
     lines = []
     for direction in dict.fromkeys(item.direction for item in ranges):
-        spans = [_span(item.low, item.high) for item in ranges if item.direction == direction]
-        lines.append(f"  {direction}: {', '.join(spans)} Hz")
+        mine = [item for item in ranges if item.direction == direction]
+        lines.append(f"  {direction}: {_spans([(item.low, item.high) for item in mine])}")
     return Text("\n".join([title, *lines]))
 
 
-def _span(low: float, high: float) -> str:
-    return f"{plain(low)}" if low == high else f"{plain(low)} to {plain(high)}"
+def _spans(ranges: list[tuple[float, float]]) -> str:
+    """Write ranges of frequencies, with the unit or the symbol once."""
+    spans = [forcings(low, high) for low, high in ranges]
+    last = len(spans) - 1
+    return ", ".join(
+        span.removeprefix("ω = " if i else "").removesuffix("" if i == last else " Hz")
+        for i, span in enumerate(spans)
+    )

@@ -14,6 +14,7 @@ from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import plain_table
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import unit
 
 _LAST_CYCLES = 10.0
 """Cycles at the end over which contacts are counted."""
@@ -81,12 +82,14 @@ def text(data: xr.Dataset) -> RenderableType:
         table.add_row(*row, "")
     if "cycles" not in found:
         return Group(
-            Text(f"State after {plain(found['time'], 6)} s"),
+            Text(f"State after {plain(found['time'], 6)}{unit(' s')}"),
             table,
             Text(f"Contacts: {contacts['right']} right, {contacts['left']} left"),
         )
     return Group(
-        Text(f"State after {plain(found['cycles'])} cycles ({plain(found['time'], 6)} s)"),
+        Text(
+            f"State after {plain(found['cycles'])} cycles ({plain(found['time'], 6)}{unit(' s')})"
+        ),
         table,
         Text(
             f"Contacts per cycle, over the last {plain(contacts['over_cycles'])}: "

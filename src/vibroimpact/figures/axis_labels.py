@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import xarray as xr
 
+from vibroimpact.figures.own_units import in_unit
 from vibroimpact.model.quantities import FORCE, GRAVITY
 
 _LABELS = {
@@ -28,9 +29,9 @@ def axis_label(values: xr.DataArray, quantity: str) -> tuple[float, str]:
         units = {"m": "mm", "m s-2": "m/s²", "1": "–"}
         unit = str(values.attrs.get("units", "1"))
         name = values.attrs.get("long_name", quantity.replace("_", " "))
-        return 1e3 if unit == "m" else 1.0, f"{name} ({units.get(unit, unit)})"
+        return in_unit(1e3) if unit == "m" else 1.0, f"{name} ({units.get(unit, unit)})"
     factor, label = _LABELS[quantity]
     if factor == 0.0:
         fits = FORCE.unit(*values.values.ravel())
         return 1.0 / fits.size, label.format(fits.symbol)
-    return factor, label
+    return in_unit(factor), label

@@ -12,12 +12,14 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.basins import colour_of
 from vibroimpact.figures.branches import axis_unit
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.style import LEGEND
 
 _ROUNDING = 1e-9
 """Rounding error of a sum of shares (per cent)."""
 
 
+@in_own_units
 def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw the basin stability of each motion over a parameter, as stacked areas.
 

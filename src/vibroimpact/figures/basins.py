@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units, in_unit
+from vibroimpact.model.written_units import unit
 
 COLOURS = (
     "#f6e7bd",
@@ -38,6 +40,7 @@ _ASIDE = np.array([0.024, 0.024])
 _BEHIND, _GIVEN_UP = "0.82", "white"
 
 
+@in_own_units
 def basin_portrait(
     data: xr.Dataset,
     ax: Axes | None = None,
@@ -72,7 +75,7 @@ def basin_portrait(
     if "basin" not in data or data["basin"].ndim != 2:
         raise InputError("data: it has no basins; pass the result of basins")
     ax = axes_or_new(ax, (6.6, 6.4), title)
-    u, v = 1e3 * data["displacement"].values, data["velocity"].values
+    u, v = in_unit(1e3) * data["displacement"].values, data["velocity"].values
     half = 0.5 * (u[1] - u[0]), 0.5 * (v[1] - v[0])
     ax.imshow(
         _image(data, shade),
@@ -157,18 +160,18 @@ def _label(one: xr.Dataset) -> str:
     what = str(one["motion"].values)
     if period:
         what = f"period {period}"
-    size = 1e3 * float(one["displacement_excursion"])
+    size = in_unit(1e3) * float(one["displacement_excursion"])
     wide = f"{size:.3g}" if size < 1000.0 else f"{size:.0f}"
     low, high = 100.0 * float(one["share_low"]), 100.0 * float(one["share_high"])
     return (
-        f"{int(one['attractor']) + 1}: {what}, excursion {wide} mm, "
+        f"{int(one['attractor']) + 1}: {what}, excursion {wide}{unit(' mm')}, "
         f"{100.0 * float(one['share']):.1f} % ({low:.1f}–{high:.1f})"
     )
 
 
 def _mark(ax: Axes, one: xr.Dataset, number: int) -> None:
     """Draw the points of a motion at the section."""
-    u, v = 1e3 * one["section_displacement"].values, one["section_velocity"].values
+    u, v = in_unit(1e3) * one["section_displacement"].values, one["section_velocity"].values
     if not int(one["period"]):
         ax.plot(u, v, linestyle="", marker=".", markersize=2.6, color="white", zorder=4)
         ax.plot(u, v, linestyle="", marker=".", markersize=1.2, color="black", zorder=5)
@@ -197,7 +200,7 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
         for number in np.flatnonzero(data["curve_kind"].values == kind):
             mine = data["curve_number"].values == number
             (line,) = ax.plot(
-                1e3 * data["curve_displacement"].values[mine],
+                in_unit(1e3) * data["curve_displacement"].values[mine],
                 data["curve_velocity"].values[mine],
                 color=colour,
                 linestyle=dashes,
@@ -214,7 +217,7 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
     ):
         if data.sizes[name]:
             (line,) = ax.plot(
-                1e3 * data[f"{name}_displacement"].values,
+                in_unit(1e3) * data[f"{name}_displacement"].values,
                 data[f"{name}_velocity"].values,
                 linestyle="",
                 marker=marker,
@@ -235,7 +238,7 @@ def _name(ax: Axes, motions: list[xr.Dataset]) -> None:
     places = [
         np.column_stack(
             [
-                (1e3 * one["section_displacement"].values - left) / (right - left),
+                (in_unit(1e3) * one["section_displacement"].values - left) / (right - left),
                 (one["section_velocity"].values - low) / (high - low),
             ]
         )

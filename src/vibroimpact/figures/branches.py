@@ -15,8 +15,10 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.labels import Names
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.style import LEGEND, SWEEPS
 from vibroimpact.model.parameters import in_units
+from vibroimpact.model.written_units import unitless
 from vibroimpact.stability.branch_styles import QUANTITIES, Quantity
 
 _Array = NDArray[np.float64]
@@ -46,6 +48,7 @@ MARKS = {
 }
 
 
+@in_own_units
 def branch_diagram(
     data: xr.Dataset,
     ax: Axes | None = None,
@@ -165,6 +168,8 @@ def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
 def axis_unit(values: xr.DataArray) -> tuple[float, str]:
     """Return factor and unit of the axis of a parameter: mm for lengths."""
     units = str(values.attrs["units"])
+    if unitless():
+        return 1.0, "–"
     if units == "m":
         return 1e3, "mm"
     if units in ("N", "N m-1", "N s m-1", "kg", "kg m"):

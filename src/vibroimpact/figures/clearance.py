@@ -13,6 +13,7 @@ import xarray as xr
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motion_style import Shown, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
 
 _LINES: dict[str, Any] = {
@@ -21,6 +22,7 @@ _LINES: dict[str, Any] = {
 }
 
 
+@in_own_units
 def clearances(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     axes: Any = None,
@@ -71,7 +73,7 @@ def clearances(
             for side in curve.gaps:
                 ax.plot(
                     curve.at,
-                    1e3 * curve.values[f"{side}_clearance"],
+                    in_unit(1e3) * curve.values[f"{side}_clearance"],
                     color=curve.look.colour
                     if len(curves) > 1
                     else ("#c8102e" if side == "right" else "#1f4fbf"),
@@ -110,9 +112,9 @@ def _shortest_flight(curves: list[Shown]) -> tuple[float, float, float]:
                 sides = [curve.values[f"{side}_clearance"][inside] for side in curve.gaps]
                 # That of the nearer bumper; the other may be far away all the time.
                 highest = min(float(side.max()) for side in sides)
-                best = (begin, end, 2e3 * highest)
+                best = (begin, end, in_unit(1e3) * 2.0 * highest)
     if best is None:  # no flight between two contacts: all there is
         at = np.concatenate([curve.at for curve in curves])
         highest = max(float(c.values[f"{s}_clearance"].max()) for c in curves for s in c.gaps)
-        best = (float(at.min()), float(at.max()), 1e3 * highest)
+        best = (float(at.min()), float(at.max()), in_unit(1e3) * highest)
     return best

@@ -11,6 +11,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import MARKS, axis_unit
 from vibroimpact.figures.labels import Names
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.style import LEGEND
 
 _DASHES = {
@@ -22,6 +23,7 @@ _DASHES = {
 }
 
 
+@in_own_units
 def bifurcation_curves(
     curves: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,

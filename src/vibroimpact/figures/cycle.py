@@ -17,8 +17,10 @@ from vibroimpact.figures.motion_style import (
     named,
     shown,
 )
+from vibroimpact.figures.own_units import in_own_units, in_unit
 
 
+@in_own_units
 def hysteresis_cycle(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -61,7 +63,7 @@ def hysteresis_cycle(
     for curve in curves:
         long = curve.at[-1] - curve.at[0] > 20.0
         ax.plot(
-            1e3 * curve.values["displacement"],
+            in_unit(1e3) * curve.values["displacement"],
             factor * curve.values[name],
             color=curve.look.colour,
             linestyle="-" if long else curve.look.dashes,

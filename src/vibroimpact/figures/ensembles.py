@@ -15,6 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, fit_x_axis, panels
 from vibroimpact.model.parameters import PARAMETERS
 
@@ -22,6 +23,7 @@ _HATCHES = {"forward": "", "backward": "////"}
 _LIGHT = {"forward": 0.25, "backward": 0.0}
 
 
+@in_own_units
 def resonance_bands(
     data: xr.Dataset,
     axes: Any = None,
@@ -117,6 +119,7 @@ def resonance_bands(
     return drawn
 
 
+@in_own_units
 def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw the Sobol indices of each parameter, of first order and of total order.
 

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.style import LEGEND, MOTIONS, fit_x_axis
 from vibroimpact.model.names import literal
 
@@ -18,6 +19,7 @@ _WIDE = 2.0
 """Half width of the band, in standard uncertainties."""
 
 
+@in_own_units
 def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw the largest Lyapunov exponent of one or several rigs, with a band of two uncertainties.
 

@@ -15,6 +15,7 @@ from matplotlib.patches import FancyArrowPatch
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import FREE, LEGEND, SWEEPS, fit_x_axis
 from vibroimpact.model.names import literal
 from vibroimpact.response.resonance import features
@@ -68,6 +69,7 @@ _LEAST_ARROW = 0.03
 would consist only of its head."""
 
 
+@in_own_units
 def resonance_family(
     data: xr.Dataset,
     ax: Axes | None = None,
@@ -136,6 +138,7 @@ def resonance_family(
                 )
     ax = axes_or_new(ax, (8.4, 5.0), title)
     factor, label, flight, normalised = _QUANTITIES[quantity]
+    factor = in_unit(factor)
     frequency = data["frequency"].values
     references = factor * data[flight].values
     if normalised:

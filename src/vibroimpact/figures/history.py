@@ -24,6 +24,7 @@ from vibroimpact.figures.motion_style import (
     shown,
 )
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import EDGE, LEGEND, panels
 
 
@@ -45,6 +46,7 @@ _APPLIED: dict[str, Any] = {"color": "0.5", "linewidth": 0.9}
 BANDS = {"right": ("#f7dc8b", ""), "left": ("#b9dcec", r"\\")}
 
 
+@in_own_units
 def time_history(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     axes: Any = None,
@@ -131,7 +133,7 @@ def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
                 label=f"{name} contact",
                 zorder=0,
             )
-        values = panel.factor * curve.values[panel.variable]
+        values = in_unit(panel.factor) * curve.values[panel.variable]
         ax.plot(
             curve.at,
             values,
@@ -157,7 +159,7 @@ def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
         if panel.variable == "acceleration":
             ax.scatter(
                 curve.peaks[0],
-                panel.factor * curve.peaks[1],
+                in_unit(panel.factor) * curve.peaks[1],
                 s=42,
                 marker="*",
                 color=curve.look.colour,

@@ -14,6 +14,8 @@ from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.motion_style import axes_or_new, looks
+from vibroimpact.figures.own_units import in_own_units, in_unit
+from vibroimpact.model.written_units import unitless
 
 _LABELS = {
     "displacement": (1e3, "amplitude of $u$ (mm)"),
@@ -22,6 +24,7 @@ _LABELS = {
 }
 
 
+@in_own_units
 def spectrum_lines(
     spectra: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -69,6 +72,7 @@ def spectrum_lines(
                 f"spectra: {which} is not a spectrum; pass the result of fourier_spectrum"
             )
     factor, label = _LABELS[quantity]
+    factor = in_unit(factor)
     ax = axes_or_new(ax, (5.6, 3.6), title)
     frequency = None
     for i, (data, look) in enumerate(zip(given.values(), looks(list(given)), strict=True)):
@@ -77,7 +81,7 @@ def spectrum_lines(
         height = factor * data[f"{quantity}_amplitude"].values[kept]
         # Side by side, so that the lines of one do not hide those of the other.
         shift = (i - 0.5 * (len(given) - 1)) * 0.12
-        frequency = motion_parameters(data)["frequency"]
+        frequency = motion_parameters(data)["frequency"] * (math.tau if unitless() else 1.0)
         if len(order) > 30 * highest:  # nearly continuous
             ax.plot(order, height, color=look.colour, linewidth=0.8, label=look.label)
             continue

@@ -16,6 +16,7 @@ from vibroimpact.figures.history import PANELS, history_legend, history_panel, p
 from vibroimpact.figures.lines import spectrum_lines
 from vibroimpact.figures.motion_style import Shown, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Grid, new_axes
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.portrait import phase_portrait
 from vibroimpact.response.spectrum import fourier_spectrum
 
@@ -42,6 +43,7 @@ _PAPERS = (
 )
 
 
+@in_own_units
 def motion_page(
     columns: Mapping[str, xr.Dataset | Mapping[str, xr.Dataset]],
     axes: Any = None,

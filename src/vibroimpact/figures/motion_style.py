@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vibroimpact import errors
 from vibroimpact.errors import InputError
 from vibroimpact.figures.notebook import new_axes
+from vibroimpact.figures.own_units import in_unit
 from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
 from vibroimpact.measurements.read import is_measured
 from vibroimpact.model import Record
@@ -330,4 +331,4 @@ def gap_lines(ax: Axes, curves: list[Shown], *, horizontal: bool) -> None:
     }
     for gap in sorted(gaps):
         draw = ax.axhline if horizontal else ax.axvline
-        draw(1e3 * gap, color="black", linestyle="--", linewidth=0.8, zorder=2)
+        draw(in_unit(1e3) * gap, color="black", linestyle="--", linewidth=0.8, zorder=2)

@@ -10,12 +10,14 @@ from matplotlib.axes import Axes
 
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
+from vibroimpact.figures.own_units import in_own_units, in_unit
 
 _MOST_VECTORS = 50_000
 """Number of points from which a curve is rasterised in SVG and PDF files, which otherwise would be
 very large."""
 
 
+@in_own_units
 def phase_portrait(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -47,7 +49,7 @@ def phase_portrait(
     ax = axes_or_new(ax, (5.2, 4.4), title)
     curves = shown(given)
     for curve, motion in zip(curves, given.values(), strict=True):
-        u, v = 1e3 * curve.values["displacement"], curve.values["velocity"]
+        u, v = in_unit(1e3) * curve.values["displacement"], curve.values["velocity"]
         long = curve.at[-1] - curve.at[0] > 20.0
         ax.plot(
             u,
@@ -66,7 +68,7 @@ def phase_portrait(
         whole = np.flatnonzero(np.isclose(at, np.round(at), rtol=0.0, atol=1e-9))
         whole = whole[:-1] if len(whole) > 1 else whole
         ax.scatter(
-            1e3 * motion["displacement"].values[whole],
+            in_unit(1e3) * motion["displacement"].values[whole],
             motion["velocity"].values[whole],
             s=7 if long else 26,
             marker="o" if long else "D",

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.history import BANDS
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import EDGE, LEGEND, also_in_g, panels
 
 _ROWS = (
@@ -26,6 +27,7 @@ _ROWS = (
 _SIDES = {"right": 1, "left": -1}
 
 
+@in_own_units
 def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
     """Draw the motion of a rig through a record over time, with the record above it.
 
@@ -58,7 +60,9 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
     time = motion["time"].values
     for ax, (variable, factor, label) in zip(given, _ROWS, strict=True):
         ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
-        ax.plot(time, factor * motion[variable].values, color="black", linewidth=0.9, zorder=3)
+        ax.plot(
+            time, in_unit(factor) * motion[variable].values, color="black", linewidth=0.9, zorder=3
+        )
         ax.set_ylabel(label)
         ax.set_xlim(time[0], time[-1])
         if variable != "base_acceleration":
@@ -69,7 +73,7 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
     hit = motion["event_contact"].values == 2
     given[1].scatter(
         motion["event_time"].values[hit],
-        1e3 * motion["event_displacement"].values[hit],
+        in_unit(1e3) * motion["event_displacement"].values[hit],
         s=10,
         color="black",
         zorder=4,
@@ -106,7 +110,7 @@ def stops_of(motion: xr.Dataset) -> dict[str, dict[str, Any]]:
 def gap_lines(ax: Axes, stops: dict[str, dict[str, Any]]) -> None:
     """Draw lines at the positions of the stops, for a displacement in mm."""
     for side, stop in stops.items():
-        gap = 1e3 * _SIDES[side] * stop["gap"]
+        gap = in_unit(1e3) * _SIDES[side] * stop["gap"]
         ax.axhline(gap, color="black", linestyle="--", linewidth=0.8, zorder=2)
 
 

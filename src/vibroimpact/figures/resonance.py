@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.figures.measured import halves_of, measured_curves, measured_points
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.resonance_panels import Drawn, divides, normalised, physical_curves
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
 from vibroimpact.measurements.read import as_measured, is_measured
@@ -36,6 +37,7 @@ _PLAIN = {"marker": "none"}
 points."""
 
 
+@in_own_units
 def resonance_curves(
     data: xr.Dataset,
     axes: Any = None,

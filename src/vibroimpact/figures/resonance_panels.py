@@ -14,11 +14,13 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import base_at_rest, excitation_from
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
+from vibroimpact.figures.own_units import in_unit
 from vibroimpact.model import Oscillator, equilibrium
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE, Scale
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound
 from vibroimpact.model.units import plain
+from vibroimpact.model.written_units import unit as unit_of
 from vibroimpact.response.analytic_free_response import exciting_excursion
 
 _Array = NDArray[np.float64]
@@ -140,22 +142,22 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
     rig = _rig(data)
     spike = _spikes(data)
     rest = _rest(rig)
-    swing = 0.5e3 * data["free_displacement_excursion"].values
-    swings = _curves(data, "peak_displacement", 1e3)
+    swing = in_unit(1e3) * 0.5 * data["free_displacement_excursion"].values
+    swings = _curves(data, "peak_displacement", in_unit(1e3))
     gaps = _gaps(rig, _SEEN * max(np.nanmax(one, initial=0.0) for one in swings.values()))
     found = [
         Drawn(
             "acceleration",
             "largest absolute\nacceleration (g)",
-            _curves(data, "peak_acceleration", 1.0 / GRAVITY),
-            0.5 / GRAVITY * data["free_acceleration_excursion"].values,
+            _curves(data, "peak_acceleration", in_unit(1.0 / GRAVITY)),
+            0.5 * in_unit(1.0 / GRAVITY) * data["free_acceleration_excursion"].values,
             spike=spike,
         ),
         Drawn(
             "displacement",
             base_label("largest relative\ndisplacement (mm)", [data]),
             swings,
-            None if rest is None else swing + 1e3 * abs(rest),
+            None if rest is None else swing + in_unit(1e3) * abs(rest),
             gaps,
             spike,
         ),
@@ -163,13 +165,13 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
     if "acceleration" in halves:
         found[0] = found[0]._replace(
             label="half the excursion of\nabsolute acceleration (g)",
-            curves=_curves(data, "acceleration_excursion", 0.5 / GRAVITY),
+            curves=_curves(data, "acceleration_excursion", 0.5 * in_unit(1.0 / GRAVITY)),
         )
     if "displacement" in halves:  # whose middle is that between the stops where all is symmetric
         even = rig is not None and rig.left == rig.right and rest is not None and abs(rest) < _NIL
         found[1] = found[1]._replace(
             label=base_label("half the excursion of\nrelative displacement (mm)", [data]),
-            curves=_curves(data, "displacement_excursion", 0.5e3),
+            curves=_curves(data, "displacement_excursion", 0.5 * in_unit(1e3)),
             free=swing,
             levels=gaps if even else (),
         )
@@ -226,14 +228,14 @@ def _gaps(rig: Oscillator | None, farthest: float) -> tuple[Level, ...]:
     if rig is None:
         return ()
     gaps = {side: getattr(rig, side) for side in ("right", "left")}
-    known = {side: 1e3 * stop.gap for side, stop in gaps.items() if stop is not None}
+    known = {side: in_unit(1e3) * stop.gap for side, stop in gaps.items() if stop is not None}
     if len(known) == 2 and known["right"] == known["left"]:
         known = {"": known["right"]}
     dashes = {"": ":", "right": ":", "left": (0, (1, 3))}
     return tuple(
         Level(
             gap,
-            f"{side} gap, {plain(gap, 4)} mm".strip(),
+            f"{side} gap, {plain(gap, 4)}{unit_of(' mm')}".strip(),
             {"color": "0.3", "linewidth": 1.1, "linestyle": dashes[side]},
         )
         for side, gap in known.items()

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from collections.abc import Mapping
+from typing import Any, Literal
 
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import LEGEND, also_in_g, fit_x_axis
+from vibroimpact.model import Record
+from vibroimpact.model.names import literal
 
 _LABELS = {
     "spectral_displacement": (1e3, "largest $|u|$ (mm)"),
@@ -24,7 +28,7 @@ _MOST = len(_DASHES) * len(_COLOURS)
 
 
 def response_spectra(
-    spectrum: xr.Dataset,
+    spectrum: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
     *,
     quantity: Literal[
@@ -36,12 +40,13 @@ def response_spectra(
     ] = "pseudo_acceleration",
     title: str | None = None,
 ) -> Axes:
-    """Draw a response spectrum, with one curve per damping ratio and orientation.
+    """Draw response spectra, with one curve per record, damping ratio and orientation.
 
     Parameters
     ----------
     spectrum
-        Dataset of `response_spectrum` with several natural periods. The period 0 is not drawn.
+        Dataset of `response_spectrum` with several natural periods. The period 0 is not drawn. For
+        several records, pass a mapping from names to datasets.
     ax
         Axes to draw on. Default: a new figure.
     quantity
@@ -57,45 +62,66 @@ def response_spectra(
     """
     if quantity not in _LABELS:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(_LABELS)} is accepted")
-    dims = getattr(spectrum, "sizes", {})
-    if not isinstance(spectrum, xr.Dataset) or dims.get("natural_period", 0) < 2:
-        raise InputError(
-            "spectrum: this is not a response spectrum over natural periods; pass the result of "
-            "response_spectrum with at least two periods"
-        )
+    given = _named(spectrum)
     factor, label = _LABELS[quantity]
-    others = [dim for dim in ("orientation", "damping_ratio") if dim in dims]
-    curves = spectrum[quantity].stack(curve=others) if others else spectrum[quantity]
-    every = [curves.isel(curve=i) for i in range(curves.sizes["curve"])] if others else [curves]
+    every = [(name, curve) for name, one in given.items() for curve in _curves(one[quantity])]
     if len(every) > _MOST:
         raise InputError(
             f"spectrum: {len(every)} curves; at most {_MOST} can be distinguished, so select fewer "
-            f"values of {' or '.join(others)}"
+            "records, orientations or damping ratios"
         )
     ax = axes_or_new(ax, (5.6, 3.6), title)
-    dampings = dims.get("damping_ratio", 1)
-    for i, curve in enumerate(every):
+    # Colours tell records or orientations apart, and dashes the rest; alone, both change together.
+    groups = [(name, str(curve.coords.get("orientation", ""))) for name, curve in every]
+    numbers = {group: number for number, group in enumerate(dict.fromkeys(groups))}
+    grouped = len(numbers) > 1
+    periods = np.concatenate([one["natural_period"].values for one in given.values()])
+    for i, (group, (name, curve)) in enumerate(zip(groups, every, strict=True)):
         shown = curve["natural_period"].values > 0.0
-        turned, damped = divmod(i, dampings)
-        words = [str(curve["orientation"].values)] if "orientation" in others else []
-        words.append(f"$\\zeta$ = {float(curve['damping_ratio']):g}")
+        words = [literal(name), group[1], f"$\\zeta$ = {float(curve['damping_ratio']):g}"]
+        within = groups[:i].count(group)
         ax.plot(
             curve["natural_period"].values[shown],
             factor * curve.values[shown],
-            color=_COLOURS[(turned if "orientation" in others else i) % len(_COLOURS)],
-            linestyle=_DASHES[(damped if "orientation" in others else i) % len(_DASHES)],
+            color=_COLOURS[(numbers[group] if grouped else i) % len(_COLOURS)],
+            linestyle=_DASHES[(within if grouped else i) % len(_DASHES)],
             linewidth=1.1,
-            label=", ".join(words),
+            label=", ".join(filter(None, words)),
         )
     ax.set_xscale("log")
     ax.xaxis.set_major_formatter("{x:g}")
     ax.set_ylim(bottom=0.0)
-    periods = spectrum["natural_period"].values
     fit_x_axis(ax, periods[periods > 0.0])
     ax.set_xlabel("natural period (s)")
     ax.set_ylabel(label)
     if "acceleration" in quantity:
         also_in_g(ax)
     ax.grid(True, which="major", linewidth=0.4, color="0.85")
-    ax.legend(ncols=2 if "orientation" in others else min(len(every), 5), **LEGEND)
+    ax.legend(ncols=2 if grouped else min(len(every), 5), **LEGEND)
     return ax
+
+
+def _named(spectrum: Any) -> dict[str, xr.Dataset]:
+    """Return the spectra by name, a single one without a name."""
+    # A dataset is a mapping, too.
+    several = isinstance(spectrum, Mapping) and not isinstance(spectrum, xr.Dataset)
+    given = {str(name): one for name, one in spectrum.items()} if several else {"": spectrum}
+    if not given:
+        raise InputError("spectrum: empty; pass at least one result of response_spectrum")
+    for name, one in given.items():
+        if not isinstance(one, xr.Dataset) or one.sizes.get("natural_period", 0) < 2:
+            what = "a Record" if isinstance(one, Record) else "not a response spectrum over periods"
+            raise InputError(
+                f"spectrum{f'[{name!r}]' if name else ''}: this is {what}; pass the result of "
+                "response_spectrum with at least two periods"
+            )
+    return given
+
+
+def _curves(values: xr.DataArray) -> list[xr.DataArray]:
+    """Return the curves over the natural period, by orientation and damping ratio."""
+    others = [dim for dim in ("orientation", "damping_ratio") if dim in values.dims]
+    if not others:
+        return [values]
+    stacked = values.stack(curve=others)
+    return [stacked.isel(curve=i) for i in range(stacked.sizes["curve"])]

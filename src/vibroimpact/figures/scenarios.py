@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.plane import node_edges, plane_axes
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.scenarios.scenario import Scenario
@@ -33,6 +34,7 @@ class Mark(NamedTuple):
     """Colour of the inside of the symbol."""
 
 
+@in_own_units
 def scenario_map(
     data: xr.Dataset,
     ax: Axes | None = None,

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import MARKS, axis_unit
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import LEGEND, SWEEPS, Look, fit_x_axis, panels
 
 _Array = NDArray[np.float64]
@@ -37,6 +38,7 @@ _NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")
 """Types of motions that have their own row on the axis of periods, below the period 1."""
 
 
+@in_own_units
 def section_diagram(
     data: xr.Dataset,
     axes: Any = None,
@@ -92,6 +94,7 @@ def section_diagram(
     scale, unit = axis_unit(data[name])
     x = scale * data[name].values
     factor, label = _LABELS[quantity]
+    factor = in_unit(factor)
     # What is drawn last must leave the dots below it seen: those that go up come last.
     rows = _rows(data["motion"].values, data["period"].values)
     for start in reversed(data["start"].values):

@@ -16,6 +16,7 @@ from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError
 from vibroimpact.figures.notebook import Panels, new_axes
 from vibroimpact.model import GRAVITY
+from vibroimpact.model.written_units import unitless
 
 FORMATS = ("png", "pdf", "svg")
 
@@ -169,6 +170,8 @@ def fit_x_axis(ax: Axes, values: ArrayLike) -> None:
 
 def also_in_g(ax: Axes) -> None:
     """Add a second scale in g on the right of axes with an acceleration in m/s²."""
+    if unitless():
+        return
     scale = ax.secondary_yaxis("right", functions=(_in_g, _from_g))
     scale.set_ylabel("(g)")
 

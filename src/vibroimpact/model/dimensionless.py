@@ -24,13 +24,14 @@ from vibroimpact.model.access import scale_of
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.largest_free_response import peak_displacement, peak_of
 from vibroimpact.model.law_registry import Kinds, Named
-from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.oscillator import Oscillator, Units
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
-from vibroimpact.model.units import to_si
+from vibroimpact.model.units import has_unit, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.written_units import SI
 
 PerSide: TypeAlias = "float | str | tuple[float | str | None, float | str | None] | None"
 """One value for both sides, or a pair (right, left). None is a side without a bumper."""
@@ -167,7 +168,8 @@ class Dimensionless(Model):
         k = to_si(stiffness, STIFFNESS, "stiffness", above=0.0)
         a = to_si(amplitude, ACCELERATION, "amplitude", minimum=0.0)
         damping = 2.0 * self.damping_ratio * math.sqrt(k * m)
-        free = Oscillator(m, Isolator(k, damping))
+        units: Units | None = SI if any(map(has_unit, (mass, stiffness, amplitude))) else None
+        free = Oscillator(m, Isolator(k, damping), units=units)
 
         def stop(side: DimensionlessStop | None) -> Stop | None:
             if side is None:

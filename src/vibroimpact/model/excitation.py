@@ -26,8 +26,9 @@ from vibroimpact.model.quantities import (
     Quantity,
 )
 from vibroimpact.model.sizes import check_size
-from vibroimpact.model.units import one_of, pretty, to_si
+from vibroimpact.model.units import one_of, plain, pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.written_units import unitless
 
 Of = Literal["acceleration", "displacement", "force", "unbalance"]
 """Quantity of an amplitude."""
@@ -95,7 +96,9 @@ class _Repeated(Model):
 
     def _read(self) -> Iterator[tuple[str, Any, str]]:
         for name, value, text in super()._read():
-            if name == "amplitude":
+            if name == "frequency" and unitless():
+                yield "angular_frequency", math.tau * value, plain(math.tau * value)
+            elif name == "amplitude":
                 yield name, value, pretty(value, self.quantity)
             elif name == "amplitudes":
                 parts = ", ".join(pretty(part, self.quantity) for part in value)

@@ -10,6 +10,17 @@ SHOWN = 60
 """Largest number of characters of a key in a message."""
 
 
+_ELSEWHERE = (
+    (("frequency", "natural_frequency"), "period", "write its reciprocal, the period"),
+    (
+        ("frequency", "forcing_frequency"),
+        "amplitude",
+        "write the frequency in the table [simulate] or as --frequency",
+    ),
+)
+"""Keys that users expect in a table, a key by which the table is recognised, and what to do."""
+
+
 def listed(keys: list[str]) -> str:
     """Return keys as a list in words, such as ``"mass, right and left"``."""
     return " and ".join(filter(None, (", ".join(keys[:-1]), keys[-1])))
@@ -17,6 +28,9 @@ def listed(keys: list[str]) -> str:
 
 def unknown_key(keys: list[str], name: str) -> str:
     """Describe the error of an unknown key, with the accepted keys and a suggestion."""
+    for names, beside, advice in _ELSEWHERE:
+        if name in names and beside in keys:
+            return f"unknown key; {listed(keys)} are accepted; {advice}"
     close = difflib.get_close_matches(name[:SHOWN], keys, n=1, cutoff=0.7)
     hint = f"; did you mean {close[0]}?" if close else ""
     return f"unknown key; {listed(keys)} are accepted{hint}"

@@ -8,20 +8,31 @@ base. The other isolators have their own forces. A stop can push the mass, but n
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Self
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeAlias, cast
 
-from pydantic import ValidationInfo, field_validator, model_validator
+from pydantic import (
+    Field,
+    SerializerFunctionWrapHandler,
+    ValidationInfo,
+    field_validator,
+    model_serializer,
+    model_validator,
+)
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.built_in import as_isolator, as_stop
-from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
+from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, Isolator, IsolatorLaw
 from vibroimpact.model.isolators.design import designed
 from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
 from vibroimpact.model.stops import STOPS, Bumper, RigidStop, Stop
 from vibroimpact.model.stops.bumper import returning
-from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.units import has_unit, pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.written_units import NONE, SI, written_for
+
+Units: TypeAlias = Literal["SI", "none"]
+"""Units of the numbers of a rig."""
 
 _LEAST, _MOST = 1e-50, 1e50
 """Natural frequencies (rad/s) and damping ratios whose powers are floating-point numbers."""
@@ -40,7 +51,7 @@ class Oscillator(Model):
         `BoucWenIsolator`, `ExponentialIsolator` or `Law`. A mapping with the fields of such an
         object is also accepted. It must have the key ``kind`` if the isolator is not linear. It may
         have the arguments of ``from_period`` or ``from_strength`` (without the mass) instead of the
-        fields.
+        fields. Default: no isolator, that is, ``Isolator(0, 0)``; then a stop must hold the mass.
     right
         Stop at positive displacement: a `Bumper`, `RigidStop`, `PowerBumper`, `JankowskiBumper`, or
         a `Law` with a gap. A mapping with the fields of such an object is also accepted. It must
@@ -52,6 +63,11 @@ class Oscillator(Model):
     force
         Constant force on the mass in N, positive to the right; or text such as ``"-5.4 kN"``.
         Examples are the weight of the mass and wind. Default: 0.
+    units
+        ``"SI"``, or ``"none"`` if the numbers are dimensionless. Results of a rig without units are
+        printed and drawn without units, and with the angular frequency ω = 2π f. Default:
+        ``"none"`` if the mass and the initial stiffness are 1 and no unit is stated; otherwise
+        ``"SI"``.
 
     Raises
     ------
@@ -64,21 +80,25 @@ class Oscillator(Model):
     _quiet: ClassVar[Mapping[str, Any]] = {"force": 0.0}
 
     mass: Annotated[float, Accepts(MASS, above=0.0)]
-    isolator: Annotated[AnyIsolator, ISOLATORS]
+    isolator: Annotated[AnyIsolator, ISOLATORS] = Isolator(0.0, 0.0)
     right: Annotated[Stop | None, STOPS] = None
     left: Annotated[Stop | None, STOPS] = None
     force: Annotated[float, Accepts(FORCE)] = 0.0
+    units: Units = Field(default=cast("Units", None), validate_default=True)
 
     @constructor
     def __init__(
         self,
         mass: float | str,
-        isolator: AnyIsolator | Mapping[str, Any],
+        isolator: AnyIsolator | Mapping[str, Any] | None = None,
         right: Stop | Mapping[str, Any] | None = None,
         left: Stop | Mapping[str, Any] | None = None,
         force: float | str = 0.0,
+        units: Units | None = None,
     ) -> None:
-        super().__init__(mass=mass, isolator=isolator, right=right, left=left, force=force)
+        super().__init__(
+            mass=mass, isolator=isolator, right=right, left=left, force=force, units=units
+        )
 
     @classmethod
     def table_keys(cls) -> list[str]:
@@ -95,9 +115,39 @@ class Oscillator(Model):
         rest = {name: value for name, value in data.items() if name != "weight"}
         return {"mass": to_si(data["weight"], FORCE, "weight", above=0.0) / GRAVITY, **rest}
 
+    @model_validator(mode="before")
+    @classmethod
+    def _stated_units(cls, data: Any) -> Any:
+        """Let a value with a unit decide about the units of the rig."""
+        if not isinstance(data, Mapping):
+            return data
+        units = data.get("units")
+        if units == NONE:
+            for path, value in _values(data):
+                if has_unit(value):
+                    raise InputError(
+                        f'{path}: {shown(value)} has a unit, but units is "none"; pass a number '
+                        "without a unit, or remove units"
+                    )
+        elif units is None and _is_one(data.get("mass")):
+            stated = any(has_unit(value) for _, value in _values(data))
+            return {**data, "units": SI if stated else None}
+        return data
+
+    @field_validator("units", mode="before")
+    @classmethod
+    def _recognised_units(cls, value: Any, info: ValidationInfo) -> Any:
+        if value is not None:
+            return value
+        mass, isolator = info.data.get("mass"), info.data.get("isolator")
+        ones = mass == 1.0 and isolator is not None and isolator.initial_stiffness == 1.0
+        return NONE if ones else SI
+
     @field_validator("isolator", mode="before")
     @classmethod
     def _for_this_mass(cls, value: Any, info: ValidationInfo) -> Any:
+        if value is None:
+            return Isolator(0.0, 0.0)
         law = ISOLATORS.classes.get(ISOLATORS.kind_of(value))
         if not isinstance(value, Mapping) or law is None:
             return value
@@ -275,6 +325,32 @@ class Oscillator(Model):
         """Whether the oscillator is its own mirror image."""
         return self.right == self.left and self.force == 0.0
 
+    def _read(self) -> Iterator[tuple[str, Any, str]]:
+        with written_for(self):
+            yield from list(super()._read())
+
+    def rows(self) -> list[tuple[str, str]]:
+        """Return the paths of the fields and their values, with units unless the rig has none."""
+        with written_for(self):
+            return super().rows()
+
+    def _unsaid(self, name: str | None, value: Any) -> bool:
+        if name == "units":  # what would be recognised anyway
+            return bool(value == SI and not self.of_ones)
+        return super()._unsaid(name, value)
+
+    @model_serializer(mode="wrap")
+    def _dumped(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        table: dict[str, Any] = handler(self)
+        if self._unsaid("units", self.units):
+            del table["units"]
+        return table
+
+    @property
+    def of_ones(self) -> bool:
+        """Whether the mass and the initial stiffness of the isolator are 1."""
+        return self.mass == self.isolator.initial_stiffness == 1.0
+
     def mirrored(self) -> Oscillator:
         """Return the mirror image: the stops are exchanged, and the constant force is reversed."""
         return self.replace(right=self.left, left=self.right, force=-self.force + 0.0)
@@ -282,3 +358,19 @@ class Oscillator(Model):
     def without_bumpers(self) -> Oscillator:
         """Return a copy with the same mass and isolator, but without stops."""
         return self.replace(right=None, left=None)
+
+
+def _values(table: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield the values of nested tables, with their paths."""
+    for name, value in table.items():
+        if isinstance(value, Mapping):
+            yield from _values(value, f"{path}{name}.")
+        else:
+            yield f"{path}{name}", value
+
+
+def _is_one(mass: object) -> bool:
+    try:
+        return to_si(mass, MASS, "mass") == 1.0
+    except InputError:  # reported with the field
+        return False

@@ -119,10 +119,38 @@ def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> P
     """
     key = name.replace("-", "_") if isinstance(name, str) else ""
     if key not in PARAMETERS:
+        symbol = name.strip().lower().replace("_", "") if isinstance(name, str) else ""
+        if symbol in _SYMBOLS:
+            raise InputError(
+                f"{field}: {name!r} is not a name of a parameter; use {_SYMBOLS[symbol]}"
+            )
         raise InputError(f"{field}: {unknown(name, PARAMETERS)}")
     if key == "amplitude" and of != "acceleration":
         return PARAMETERS[key]._replace(quantity=QUANTITIES[of], long_name=_PEAKS[of])
     return PARAMETERS[key]
+
+
+_SYMBOLS = {
+    **dict.fromkeys(
+        ("omega", "ω", "w", "angular frequency", "angularfrequency"),
+        "'frequency', in Hz or with a unit, such as '6.3 rad/s'",
+    ),
+    **dict.fromkeys(("f", "ν", "nu"), "'frequency'"),
+    **dict.fromkeys(
+        ("a", "a0", "f0", "p", "p0", "pga", "forceamplitude", "forcingamplitude", "acceleration"),
+        "'amplitude', the amplitude of the shaking: of an acceleration, a displacement or a force",
+    ),
+    "k": "'stiffness' (isolator) or 'bumper_stiffness'",
+    "c": "'damping' (isolator) or 'bumper_damping'",
+    **dict.fromkeys(("xi", "ξ", "zeta", "ζ"), "'damping_ratio'"),
+    **dict.fromkeys(("lambda", "λ"), "'stiffness_ratio'"),
+    **dict.fromkeys(("delta", "δ", "delta0", "δ0"), "'gap_ratio'"),
+    **dict.fromkeys(("tau", "τ"), "'relaxation_time'"),
+    **dict.fromkeys(("e", "cor", "coefficientofrestitution"), "'restitution'"),
+    **dict.fromkeys(("g", "g0", "clearance"), "'gap'"),
+    **dict.fromkeys(("t", "period", "naturalperiod"), "'isolator_period'"),
+}
+"""The usual symbol of a parameter, and what to write instead."""
 
 
 def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[float, float]:

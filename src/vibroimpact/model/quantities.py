@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import NamedTuple
 
+from vibroimpact.model.written_units import unitless
+
 GRAVITY = 9.80665
 """Standard acceleration of gravity in m/s² (the *g* of ``"0.05 g"``)."""
 
@@ -23,7 +25,12 @@ class Scale(NamedTuple):
 
 
 def fitting(values: Iterable[float], scales: tuple[Scale, ...]) -> Scale:
-    """Return the unit in which the largest of the values is written; the SI unit for zeros."""
+    """Return the unit in which the largest of the values is written; the SI unit for zeros.
+
+    The values of a rig without units are written as they are, and a frequency f as ω = 2π f.
+    """
+    if unitless() and scales is not ANGLE.scales:
+        return Scale(0.0, 1.0 / math.tau if scales is FREQUENCY.scales else 1.0, "")
     largest = max((abs(value) for value in values if math.isfinite(value)), default=0.0)
     if largest == 0.0:
         return next((scale for scale in scales if scale.size == 1.0), scales[0])

@@ -13,6 +13,7 @@ from vibroimpact.model import laboratory
 from vibroimpact.model.excitation import Harmonic, Periodic
 from vibroimpact.model.laboratory import Case
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.study import read_rig_study
@@ -126,8 +127,13 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
 
 
 def from_lowest(rig: Rig, parameter: str, span: Any) -> Rig:
-    """Return the rig. If its frequency is open and varied, set the lowest frequency of the span."""
-    open_and_varied = isinstance(parameter, str) and parameter == "frequency"
-    if rig.frequency is None and open_and_varied and is_pair(span):
+    """Return the rig. If its frequency is open and varied, set the lowest frequency of the span.
+
+    Raises
+    ------
+    InputError
+        If the frequency is open, and no parameter has this name.
+    """
+    if rig.frequency is None and registered(parameter).name == "frequency" and is_pair(span):
         return rig.at(next(iter(span)))
     return rig

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, cast
 
@@ -13,7 +14,8 @@ from vibroimpact.model.html_table import table
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.record import Record
-from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.units import has_unit, pretty, to_si
+from vibroimpact.model.written_units import NONE, SI, written_for
 
 Shaking: TypeAlias = float | str | Harmonic | Periodic | Record | Sequence[float | str]
 """Accepted values for the shaking of a rig: an amplitude, a text with a unit, one amplitude per
@@ -43,7 +45,8 @@ class Rig:
           frequency is open: it is set later, by ``frequency`` or by a function such as `sweep`;
         - a `Harmonic`, a `Periodic` or a `Record`;
         - for a sweep: a list with one amplitude per frequency;
-        - None, if a function gets the shaking from another argument.
+        - None or 0, if nothing shakes the rig, or if a function gets the shaking from another
+          argument. `simulate` then computes the free vibration.
     frequency
         Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: the frequency of the shaking.
         If the shaking is only an amplitude, the frequency is open.
@@ -94,10 +97,13 @@ class Rig:
             raise InputError(f"oscillator: {_misplaced(oscillator)}; write {_EXAMPLE}")
         if isinstance(shaking, Oscillator | Rig):
             raise InputError(f"shaking: {shown(shaking)} is not an excitation; write {_EXAMPLE}")
+        oscillator = with_stated_units(oscillator, {"shaking": shaking})
         amplitudes: tuple[float, ...] | None = None
         own: float | None = None
         if isinstance(shaking, Harmonic | Periodic):
             own = shaking.frequency
+        elif is_nothing(shaking, "shaking"):
+            shaking = None
         elif shaking is not None and not isinstance(shaking, Record):
             shaking, amplitudes = as_periodic(shaking, "shaking")
         if frequency is not None:
@@ -217,6 +223,23 @@ class Rig:
         """Return a copy of the rig with another forcing frequency (Hz, or text with a unit)."""
         return Rig(self.oscillator, self.periodic, frequency, self.name)
 
+    @property
+    def is_shaken(self) -> bool:
+        """Whether a record, or an amplitude greater than 0, shakes the rig."""
+        if isinstance(self.shaking, Record):
+            return True
+        return self.shaking is not None and self.shaking.amplitude > 0.0
+
+    def vibrating_freely(self) -> Rig:
+        """Return the rig with an excitation of amplitude 0, in whose cycles time is counted.
+
+        If the frequency is open, a cycle is one natural period, or 1 s without a spring.
+        """
+        natural = self.oscillator.angular_frequency / math.tau
+        hertz = self.frequency or natural or 1.0
+        phase = 0.0 if self.shaking is None else self.periodic.phase
+        return self.with_parts(self.oscillator, Harmonic(0.0, hertz, phase), keep_open=False)
+
     def with_parts(
         self,
         oscillator: Oscillator,
@@ -248,11 +271,13 @@ class Rig:
         return f"Rig({', '.join(parts)})"
 
     def __str__(self) -> str:
-        return f"Rig(oscillator={self.oscillator}, shaking={self._shaking_text()})"
+        with written_for(self):
+            return f"Rig(oscillator={self.oscillator}, shaking={self._shaking_text()})"
 
     def _repr_html_(self) -> str:
         title = "Rig" if self.name is None else f"Rig {self.name}"
-        return table(title, [*self.oscillator.rows(), ("shaking", self._shaking_text())])
+        with written_for(self):
+            return table(title, [*self.oscillator.rows(), ("shaking", self._shaking_text())])
 
     def _open(self) -> object:
         """Return the shaking with an open frequency, as its amplitude if it is a plain sine."""
@@ -265,6 +290,19 @@ class Rig:
         if isinstance(self.shaking, Harmonic) and self.frequency is None:
             return pretty(self.shaking.amplitude, self.shaking.quantity)
         return "open" if self.shaking is None else str(self.shaking)
+
+
+def is_nothing(shaking: object, where: str) -> bool:
+    """Return whether a shaking is an amplitude of 0, such as ``"0 g"``, so that nothing shakes.
+
+    Raises
+    ------
+    InputError
+        If it is a text or a number, but not a valid amplitude.
+    """
+    if not isinstance(shaking, str | float | int) or isinstance(shaking, bool):
+        return False
+    return sized(shaking, None, where)[0] == 0.0
 
 
 def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] | None]:
@@ -293,7 +331,9 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
         )
     if isinstance(value, Harmonic | Periodic):
         if value.amplitude == 0.0:
-            raise InputError(f"{where}: 0; an amplitude greater than 0 is accepted")
+            raise InputError(
+                f"{where}: 0; pass an amplitude greater than 0 (simulate computes free vibrations)"
+            )
         return value, None
     if is_list(value):
         sizes, of = [], None
@@ -312,3 +352,33 @@ def _misplaced(value: object) -> str:
     if isinstance(value, Harmonic | Periodic | Record):
         return f"a {type(value).__name__} is a shaking, which is the second argument"
     return f"{shown(value)} is not an Oscillator"
+
+
+def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> Oscillator:
+    """Return the oscillator for values that may state units, such as its shaking, by their names.
+
+    A mass and a stiffness of 1 are 1 kg and 1 N/m after all if another value has a unit.
+
+    Raises
+    ------
+    InputError
+        If a value states a unit, but the rig has none for another reason.
+    """
+    if oscillator.units != NONE:
+        return oscillator
+    for name, value in values.items():
+        parts = cast("Sequence[object]", value) if is_list(value) else [value]
+        if not any(map(_states_unit, parts)):
+            continue
+        if not oscillator.of_ones:
+            raise InputError(
+                f'{name}: {shown(value)} has a unit, but the rig has none (units is "none"); pass '
+                "a number without a unit, or remove units"
+            )
+        return oscillator.replace(units=SI)
+    return oscillator
+
+
+def _states_unit(value: object) -> bool:
+    """Return whether a value states a unit. The file of a record always has one."""
+    return bool(value.about.source) if isinstance(value, Record) else has_unit(value)

@@ -10,7 +10,7 @@ import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Self, TypeVar
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from vibroimpact.errors import InputError, printable
 from vibroimpact.model import laboratory
@@ -20,8 +20,8 @@ from vibroimpact.model.names import check_name
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ANGLE, TIME
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import Rig, as_periodic
-from vibroimpact.model.validation import Accepts, Model, validate
+from vibroimpact.model.rig import Rig, as_periodic, is_nothing, with_stated_units
+from vibroimpact.model.validation import Accepts, Model, NumberOrText, validate
 
 _Study = TypeVar("_Study", bound="RigStudy")
 
@@ -39,15 +39,22 @@ class ExcitationTable(Model):
     them. The unit may be a unit of length.
     """
 
-    amplitude: float | str | None = None
-    amplitudes: list[float | str] | None = None
-    phases: list[Annotated[float, Accepts(ANGLE)]] | None = None
+    amplitude: NumberOrText | None = Field(
+        None,
+        examples=['amplitude = "0.05 g"; for several harmonics, amplitudes = ["1 mm", "2 mm"]'],
+    )
+    amplitudes: list[NumberOrText] | None = Field(
+        None, examples=['amplitudes = ["1 mm", "0.5 mm"]']
+    )
+    phases: list[Annotated[float, Accepts(ANGLE)]] | None = Field(
+        None, examples=['phases = ["0 deg", "90 deg"]']
+    )
     phase: Annotated[float, Accepts(ANGLE)] = 0.0
-    record: str | None = None
-    component: str | None = None
+    record: str | None = Field(None, examples=['record = "quake.csv"'])
+    component: str | None = Field(None, examples=['component = "1"'])
     step: Annotated[float | None, Accepts(TIME, above=0.0, optional=True)] = None
-    unit: str | None = None
-    decimal: str | None = None
+    unit: str | None = Field(None, examples=['unit = "g"'])
+    decimal: str | None = Field(None, examples=['decimal = ","'])
 
     @model_validator(mode="after")
     def _one_of_them(self) -> Self:
@@ -79,7 +86,7 @@ class ExcitationTable(Model):
             )
         if self.amplitudes is not None:
             return Periodic(1.0, self.amplitudes, self.phases, self.phase)
-        if self.amplitude is None:
+        if self.amplitude is None or is_nothing(self.amplitude, "amplitude"):
             return None
         shaken, _ = as_periodic(self.amplitude, "amplitude")
         return shaken.replace(phase=self.phase)
@@ -88,8 +95,8 @@ class ExcitationTable(Model):
 class RigStudy(Model):
     """A study file. The tables of the commands are not checked."""
 
-    name: str | None = None
-    case: str | None = None
+    name: str | None = Field(None, examples=['name = "wall"'])
+    case: str | None = Field(None, examples=['case = "B2-G1-A3"'])
     parameters: Parameters | None = None
     oscillator: Oscillator | None = None
     excitation: ExcitationTable = ExcitationTable()
@@ -138,7 +145,16 @@ class RigStudy(Model):
             raise InputError(f"{where}: excitation.{error}") from None
         if self.case is None:
             assert self.oscillator is not None  # one of the two is there
-            return Rig.of_open_frequency(self.oscillator, shaking, name)
+            stated: dict[str, object] = {
+                "excitation.amplitude": self.excitation.amplitude,
+                "excitation.amplitudes": self.excitation.amplitudes,
+                "excitation.record": shaking,
+            }
+            try:
+                oscillator = with_stated_units(self.oscillator, stated)
+            except InputError as error:
+                raise InputError(f"{where}: {error}") from None
+            return Rig.of_open_frequency(oscillator, shaking, name)
         try:
             case = laboratory.case(self.case, parameters or self.parameters or "table")
         except InputError as error:

@@ -11,10 +11,11 @@ import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias, TypeVar, cast, get_args
 
 from pydantic import (
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     GetCoreSchemaHandler,
     ValidationError,
@@ -86,6 +87,23 @@ class Accepts:
             return self.of(info.data)(value)
 
         return core_schema.with_info_before_validator_function(beside, handler(source))
+
+
+def _number_or_text(value: object) -> object:
+    if isinstance(value, bool) or not isinstance(value, int | float | str):
+        raise InputError(f"{shown(value)} is not a number or text with a unit")
+    return value
+
+
+def _whole_number(value: object) -> object:
+    if isinstance(value, bool) or not isinstance(value, int | float) or value != value // 1:
+        raise InputError(f"{shown(value)} is not a whole number")
+    return value
+
+
+NumberOrText: TypeAlias = Annotated[float | str, BeforeValidator(_number_or_text)]
+"""A value that is read later, because its quantity depends on other values."""
+WholeNumber: TypeAlias = Annotated[int, BeforeValidator(_whole_number)]
 
 
 class Choice:
@@ -332,6 +350,8 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
         problem = str(mistake["ctx"]["error"])
         if path and _FIELD.match(problem):
             return f"{path}.{problem}"
+        if ";" not in problem:  # it does not state what to do
+            problem += _example(model, location)
     elif kind == "missing":
         problem = _missing(holder, str(location[-1]))
     elif kind == "extra_forbidden":
@@ -343,9 +363,44 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     elif kind in ("model_type", "model_attributes_type"):
         problem = f"{value} is not a table; pass a table of {listed(in_order(wanted))}"
     else:
-        message = mistake["msg"]
-        problem = f"{value} is invalid: {message[:1].lower()}{message[1:]}"
+        problem = f"{value} {_wrong(mistake)}{_example(model, location)}"
     return f"{path}: {problem}" if path else problem
+
+
+def _wrong(mistake: ErrorDetails) -> str:
+    """Describe what is wrong with a value, in the words of this package instead of pydantic's."""
+    kind, context = mistake["type"], mistake.get("ctx", {})
+    if kind == "literal_error":
+        return f"is unknown; {context['expected']} is accepted"
+    if kind == "greater_than_equal":
+        return f"is less than {context['ge']}"
+    if kind == "less_than_equal":
+        return f"is greater than {context['le']}"
+    for start, words in _NOT.items():
+        if kind.startswith(start):
+            return words
+    message = mistake["msg"]
+    return f"is invalid: {message[:1].lower()}{message[1:]}"
+
+
+_NOT = {
+    "string_": "is not text in quotes",
+    "list_": "is not a list in brackets",
+    "dict_": "is not a table of names and values",
+    "int_": "is not a whole number",
+    "float_": "is not a number",
+    "bool_": "is not true or false",
+}
+"""What is wrong with a value, by the beginning of pydantic's name of the error."""
+
+
+def _example(model: type[BaseModel], location: tuple[int | str, ...]) -> str:
+    """Return the example of the field at a path, if it has one."""
+    for end in range(len(location), 0, -1):
+        field = _along(model, location[: end - 1])[1].model_fields.get(str(location[end - 1]))
+        if field is not None:
+            return f"; write it as in {field.examples[0]}" if field.examples else ""
+    return ""
 
 
 def _path(where: str, steps: list[int | str]) -> str:

@@ -14,6 +14,7 @@ from vibroimpact.model.quantities import FREQUENCY, LENGTH
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound, undamped_frequency
 from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import NONE, written_for
 from vibroimpact.response.analytic_free_response import reference_excursions
 from vibroimpact.response.engine_input import engine_rig
 
@@ -68,6 +69,8 @@ def doubt_gaps(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int 
         known = known[np.isfinite(known)]
         if len(known):
             reach, whose = float(known.max()), "that was computed"
+    if oscillator.units == NONE:
+        return []  # a factor of 1000 is a mix-up of units
     notes = [
         f"{pretty(gap, LENGTH)} is {gap / reach:.3g} times the largest displacement {whose}, "
         f"{pretty(float(f'{reach:.4g}'), LENGTH)}; is {pretty(gap / _FACTOR, LENGTH)} meant?"
@@ -88,11 +91,12 @@ def note_unbounded(rig: Rig) -> list[str]:
         return []
     natural = undamped_frequency(oscillator)
     size = 0.5 * reference_excursions(rig)[0]
-    return [
-        f"{UNBOUNDED} at {pretty(natural, FREQUENCY)}, because the isolator has almost no damping; "
-        f"η is divided by {pretty(float(f'{size:.4g}'), LENGTH)}, the value for a slow excitation "
-        "of this size"
-    ]
+    with written_for(rig):
+        return [
+            f"{UNBOUNDED} at {pretty(natural, FREQUENCY)}, because the isolator has almost no "
+            f"damping; η is divided by {pretty(float(f'{size:.4g}'), LENGTH)}, the value for a "
+            "slow excitation of this size"
+        ]
 
 
 def note_stiff_stops(rig: Rig, frequency: float) -> list[str]:
@@ -129,11 +133,12 @@ def note_stiff_stops(rig: Rig, frequency: float) -> list[str]:
         rise = stop.static_force(deep + step) - stop.static_force(deep - step)
         own = math.sqrt(rise / (2.0 * step) / oscillator.mass) / (2.0 * math.pi)
         if own >= _STIFF * frequency:
+            with written_for(rig):
+                high, low = pretty(float(f"{own:.3g}"), FREQUENCY), pretty(frequency, FREQUENCY)
             notes.append(
-                f"{STIFF}: the {name} stop is pressed at rest and vibrates at "
-                f"{pretty(float(f'{own:.3g}'), FREQUENCY)}, {own / frequency:.3g} times the "
-                f"forcing frequency of {pretty(frequency, FREQUENCY)}, and every vibration must "
-                "be computed; a smaller stiffness of this stop makes the computation faster"
+                f"{STIFF}: the {name} stop is pressed at rest and vibrates at {high}, "
+                f"{own / frequency:.3g} times the forcing frequency of {low}, and every vibration "
+                "must be computed; a smaller stiffness of this stop makes the computation faster"
             )
     return notes
 

@@ -22,7 +22,7 @@ that it hides between two neighbouring frequencies.
 
 from __future__ import annotations
 
-from typing import Literal, NamedTuple
+from typing import Literal, NamedTuple, TypeVar
 
 import numpy as np
 import xarray as xr
@@ -121,6 +121,9 @@ class Range(NamedTuple):
     """How many frequencies."""
 
 
+_Feature = TypeVar("_Feature", Peak, Jump, Hysteresis, Range)
+
+
 class Features(NamedTuple):
     """All that a sweep shows."""
 
@@ -131,6 +134,23 @@ class Features(NamedTuple):
     """Where the motion did not become periodic within the cycle limit."""
     contact: tuple[Range, ...]
     """Where the mass touches a bumper."""
+
+    def scaled(self, factor: float) -> Features:
+        """Return the same with all frequencies multiplied by a factor, as for ω = 2π f."""
+
+        def times(one: _Feature, *names: str) -> _Feature:
+            values = {name: getattr(one, name) for name in names}
+            known = {name: factor * f for name, f in values.items() if f is not None}
+            return one._replace(**known)
+
+        ends = ("low", "high")
+        return Features(
+            tuple(times(one, "frequency") for one in self.peaks),
+            tuple(times(one, "before", "after") for one in self.jumps),
+            tuple(times(one, *ends, "below", "above") for one in self.hysteresis),
+            tuple(times(one, *ends) for one in self.unsettled),
+            tuple(times(one, *ends) for one in self.contact),
+        )
 
 
 def features(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -171,6 +171,11 @@ def _dataset(
 
 def _components(record: Any) -> tuple[Record, ...]:
     """Read one record, or two matching components."""
+    if isinstance(record, Mapping):
+        raise InputError(
+            "record: a mapping of records; call response_spectrum for each of them, such as "
+            "{name: response_spectrum(one, periods) for name, one in records.items()}"
+        )
     given = tuple(record) if isinstance(record, list | tuple) else (record,)
     if not 1 <= len(given) <= 2 or not all(isinstance(one, Record) for one in given):
         raise InputError(

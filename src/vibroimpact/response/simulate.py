@@ -56,14 +56,17 @@ def simulate(
 ) -> xr.Dataset:
     """Simulate the motion of a rig for a number of forcing cycles, or through a record.
 
+    If nothing shakes the rig, this is its free vibration from the initial state, or its fall.
+
     Parameters
     ----------
     rig
         The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
         path of a study file.
     cycles
-        Duration in forcing cycles, greater than 0. It need not be a whole number. If a record
-        shakes the rig, do not pass ``cycles``: the record has its own duration.
+        Duration in forcing cycles, greater than 0. It need not be a whole number. If nothing shakes
+        the rig, a cycle is one period of ``frequency``. If a record shakes the rig, do not pass
+        ``cycles``: the record has its own duration.
     start
         Initial state: a `State`, the dataset of an earlier call, or its ``final_state``. The latter
         two also continue the phase of the excitation. Default: the mass at rest in its equilibrium.
@@ -72,7 +75,9 @@ def simulate(
         computed motion. If it is 0, only ``final_state`` is returned, and the memory does not grow
         with ``cycles``. Default: 256 per forcing cycle, or 1 per step of a record.
     frequency
-        Forcing frequency (Hz). Default: the frequency of the rig.
+        Forcing frequency (Hz). Default: the frequency of the rig. If nothing shakes the rig, it
+        is only the unit of time, and its default is the natural frequency, or 1 Hz without a
+        spring.
     tail
         Duration of free vibration after a record, in seconds or as text such as ``"10s"``. Default:
         0.
@@ -100,7 +105,9 @@ def simulate(
     InputError
         If a value is invalid, or if an undamped mass without stops is shaken at resonance.
     """
-    rig = as_rig(rig, frequency)
+    rig = as_rig(rig)
+    if frequency is not None:
+        rig = (rig if rig.is_shaken else rig.vibrating_freely()).at(frequency)
     data = compute_history(rig, cycles, start, samples, tail, max_events, progress)
     # A short motion shows nothing: only the closed form of free flight counts.
     notes = [*noted(data), *doubt_gaps(rig, stacklevel=4)]
@@ -118,6 +125,8 @@ def compute_history(
 ) -> xr.Dataset:
     """Do what `simulate` does, without doubts about the rig."""
     oscillator = rig.oscillator
+    if not rig.is_shaken:
+        rig = rig.vibrating_freely()
     excitation = rig.shaking if isinstance(rig.shaking, Record) else rig.harmonic
     max_events = check_max_events(max_events)
     check_progress(progress)

@@ -12,6 +12,7 @@ from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError
 from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.written_units import written_for
 from vibroimpact.response.sweep import sweep
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.classification import alternatives, confidence, scenario
@@ -189,10 +190,12 @@ def classify(
     found = with_kinds(found, rig, ended, check=check)
     check()
     found = with_folds(found, rig, ended)
+    with written_for(rig):
+        words = in_words(found, used)
     return Classification(
         scenario(found, used),
         confidence(found, used),
-        in_words(found, used),
+        words,
         {varied: other.label for varied, other in alternatives(found, used).items()},
         found,
         used,

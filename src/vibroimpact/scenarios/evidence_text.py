@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.model.units import forcing, forcings
 from vibroimpact.response.resonance import Hysteresis
 from vibroimpact.scenarios.evidence import Evidence
 from vibroimpact.scenarios.thresholds import Thresholds
@@ -37,7 +38,7 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
         parts.append(f"right hysteresis {hidden}, between two frequencies of the sweep")
     parts += _irregular(found, thresholds)
     parts += [
-        f"secondary resonance at {frequency:.3g} Hz (prominence {share:.0%})"
+        f"secondary resonance at {forcing(frequency, 3)} (prominence {share:.0%})"
         for frequency, share in found.secondary_resonances(thresholds.prominence)
     ]
     parts += [f"non-regular motion where contact begins, {_span(*span)}" for span in found.onset]
@@ -88,5 +89,4 @@ def _span(low: float, high: float) -> str:
     digits = 3
     while digits < 8 and low != high and f"{low:.{digits}g}" == f"{high:.{digits}g}":
         digits += 1
-    first, last = f"{low:.{digits}g}", f"{high:.{digits}g}"
-    return f"{first} Hz" if first == last else f"{first}–{last} Hz"
+    return forcings(low, high, digits, to="–")

@@ -36,7 +36,7 @@ from vibroimpact.engine.observers import record
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.count_checks import whole
-from vibroimpact.model.parameters import read_span
+from vibroimpact.model.parameters import parameter, read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
@@ -103,12 +103,14 @@ def bifurcation_curve(
     """
     check_progress(progress)
     rig = as_rig(rig, frequency)
-    oscillator, excitation = rig.oscillator, rig.harmonic
     names = check_list(parameters, "parameters", 2, "a list of two parameters")
     for name in (one for one in names if not isinstance(one, str)):
         raise InputError(f"parameters: {shown(name)} is not a name; {_NAMES}")
     if len(names) != 2:
         raise InputError(f"parameters: {shown(parameters)} is not a pair; {_NAMES}")
+    for name in names:
+        parameter(name, "parameters")
+    oscillator, excitation = rig.oscillator, rig.harmonic
     parameters = (names[0], names[1])
     if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
         raise InputError(

@@ -33,6 +33,7 @@ from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, share,
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
+from vibroimpact.model.rig import as_periodic
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.sweep_dataset import sizes
@@ -146,7 +147,7 @@ def bifurcation_diagram(
     """
     check_progress(progress)
     rig = from_lowest(as_rig(rig, frequency), parameter, span)
-    oscillator, excitation = rig.oscillator, rig.harmonic
+    oscillator, excitation = rig.oscillator, as_periodic(rig.harmonic, "shaking")[0]
     varied = registered(parameter, of=excitation.of).of(oscillator)
     ends = read_span(varied, span)
     log = check_flag(log, "log")

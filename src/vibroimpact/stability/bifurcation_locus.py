@@ -12,6 +12,8 @@ from vibroimpact.continuation.arclength import TURN, distance, predicted, strays
 from vibroimpact.continuation.closing import SAME, returned
 from vibroimpact.continuation.zero import zero_within
 from vibroimpact.engine.section_map import PARAMETER
+from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import written_for
 from vibroimpact.stability.bifurcations import GRAZING
 from vibroimpact.stability.defining_system import SEEN, Defining, Spot, solve
 from vibroimpact.stability.fixed_points import Orbit, beyond, images, margin_of, seen_at
@@ -113,9 +115,11 @@ class Locus:
             value = there.y[PARAMETER + i]
             if not low <= value <= high:
                 bound = low if value < low else high
-                name = (over.family.parameter, over.other)[i].name
+                varied = (over.family.parameter, over.other)[i]
+                with written_for(over.family.rig):
+                    text = pretty(bound, varied.quantity, 9)
                 return self._on_bound(here, there, PARAMETER + i, bound), (
-                    f"the range of {name} ends at {bound:.9g}"
+                    f"the range of {varied.name} ends at {text}"
                 )
         return ([there], CLOSED) if self._returned(here, there) else None
 

@@ -12,7 +12,6 @@ from vibroimpact.model import Rig, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
-from vibroimpact.model.units import pretty
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
 from vibroimpact.stability.fixed_points import HELD, Orbit
@@ -146,7 +145,7 @@ def _first_orbit(
     fam = family(Rig(rig.oscillator, rig.harmonic), parameter)
     ends = read_span(fam.parameter, span)
     if not ends[0] <= fam.value <= ends[1]:
-        low, high, own = (pretty(value, fam.parameter.quantity) for value in (*ends, fam.value))
+        low, high, own = (fam.written(value) for value in (*ends, fam.value))
         raise InputError(
             f"span: {low} to {high} does not contain the rig's {parameter} of {own}, at which the "
             "first orbit lies; widen this range"

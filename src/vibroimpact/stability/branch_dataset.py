@@ -19,7 +19,6 @@ from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator
-from vibroimpact.model.units import pretty
 from vibroimpact.response import sweep_dataset
 from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
 from vibroimpact.response.hold_rows import HoldRows
@@ -85,7 +84,7 @@ def as_dataset(
         unexplained = bifurcations.unexplained(one.stations, one.bifurcations)
         if unexplained:
             data.attrs[f"{prefix}unexplained_changes"] = [v for pair in unexplained for v in pair]
-            low, high = (pretty(end, fam.parameter.quantity, 9) for end in unexplained[0])
+            low, high = (fam.written(end, 9) for end in unexplained[0])
             often = "once" if len(unexplained) == 1 else f"{len(unexplained)} times"
             warnings.warn(
                 f"stability changes {often} along this branch without a detected bifurcation, "
@@ -180,8 +179,7 @@ def _measured(one: Orbit) -> _Array:
     )
     if outcome != Status.DONE:
         result[:] = np.nan
-        varied = one.section.family.parameter
-        where = f"{varied.name} = {pretty(one.value, varied.quantity, 9)}"
+        where = one.section.family.equation(one.value, 9)
         warnings.warn(
             f"the largest values of the orbit at {where} are unknown: {Status(outcome).advice}",
             RuntimeWarning,

@@ -14,6 +14,8 @@ from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import State, equilibrium
+from vibroimpact.model.units import forcing
+from vibroimpact.model.written_units import written_for
 from vibroimpact.response.engine_input import as_state, engine_state
 from vibroimpact.stability.bifurcations import own_mirror
 from vibroimpact.stability.chatter import placed_at_rest
@@ -119,8 +121,10 @@ def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Or
     if rest.status not in (Status.DONE, Status.NOT_SETTLED):
         raise InputError(f"start: the motion from rest could not be computed: {rest.status.advice}")
     if period is None and not rest.period:
+        with written_for(fam.rig):
+            hertz = forcing(fam.excitation.frequency)
         raise InputError(
-            f"start: the motion from rest does not settle at {fam.excitation.frequency:g} Hz; "
+            f"start: the motion from rest does not settle at {hertz}; "
             "pass a start near an orbit, and the period of this orbit"
         )
     period = period or rest.period

@@ -9,6 +9,8 @@ import xarray as xr
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.units import forcing
+from vibroimpact.model.written_units import written_for
 from vibroimpact.response.sections import stroboscopic_section
 from vibroimpact.response.spectrum import fourier_spectrum
 from vibroimpact.response.sweep_starts import arrivals
@@ -64,8 +66,10 @@ def named_motions(
     name = f"{branch} branch"
     starts = arrivals(rig)
     if name not in starts:
+        with written_for(rig):
+            there = forcing(rig.harmonic.frequency)
         raise InputError(
-            f"branch: no {branch} sweep reaches {rig.frequency:g} Hz; use a frequency within "
+            f"branch: no {branch} sweep reaches {there}; use a frequency within "
             "0.3 to 6 times the natural frequency, or branch='all'"
         )
     data = steady(rig, starts[name], samples, window=window, progress=progress)

@@ -105,6 +105,9 @@ class Branch:
         """Sizes of the state's components and the parameter."""
         return self.first.orbit.section.scale
 
+    def _range_end(self, value: float) -> str:
+        return f"the range ends at {self.first.orbit.section.family.written(value, 9)}"
+
     def stepped(self, here: Station, length: float) -> Orbit | None:
         """Predict and correct: an orbit of the same branch, whatever its contacts."""
         section = here.orbit.section
@@ -140,9 +143,9 @@ class Branch:
         value = there.orbit.value
         if not self.low <= value <= self.high:
             bound = self.low if value < self.low else self.high
-            return self._on_bound(here, bound), f"the range ends at {bound:.9g}"
+            return self._on_bound(here, bound), self._range_end(bound)
         if value in (self.low, self.high):
-            return [there], f"the range ends at {value:.9g}"
+            return [there], self._range_end(value)
         if slid(there.orbit):
             # The impacts by which it differed are gone: beyond, the same orbits come again.
             return [replace(there, tangent=-here.tangent)], _born_grazing(simplest(there.orbit))

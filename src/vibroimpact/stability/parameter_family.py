@@ -16,7 +16,9 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, as_periodic
+from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import written_for
 from vibroimpact.response.engine_input import system_vector
 
 _Array = NDArray[np.float64]
@@ -54,6 +56,16 @@ class Family(NamedTuple):
     def excitation(self) -> Repeated:
         """What shakes it."""
         return self.rig.periodic
+
+    def written(self, value: float, digits: int = 6) -> str:
+        """Return a value of the parameter as text, with its unit unless the rig has none."""
+        with written_for(self.rig):
+            return pretty(value, self.parameter.quantity, digits)
+
+    def equation(self, value: float, digits: int = 6) -> str:
+        """Return the parameter and its value as text, such as ``"gap = 5 mm"`` or ``"ω = 2"``."""
+        text = self.written(value, digits)
+        return text if "=" in text else f"{self.parameter.name} = {text}"
 
     def near(self, value: float) -> Family:
         """The same family with the line that touches at a value of the parameter."""
@@ -133,7 +145,8 @@ def family(rig: Rig, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    varied = parameter(name, of=rig.periodic.of).of(rig.oscillator)
+    shaking, _ = as_periodic(rig.shaking, "shaking")
+    varied = parameter(name, of=shaking.of).of(rig.oscillator)
     value = varied.read(rig)
     step = varied.beside(value) - value
     here = system_vector(rig)

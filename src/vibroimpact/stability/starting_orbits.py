@@ -15,7 +15,6 @@ from vibroimpact.engine import batch
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, State
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import extremes, harmonics
 from vibroimpact.response.engine_input import engine_rig, state_from, system_vector
 from vibroimpact.response.hold_rows import Settling
@@ -210,7 +209,7 @@ def _value_of(fam: Family, span: tuple[float, float], one: xr.Dataset, field: st
             f"for this rig, in which only the {fam.parameter.name} may differ"
         )
     if not span[0] <= value <= span[1]:
-        low, high, own = (pretty(x, fam.parameter.quantity) for x in (*span, value))
+        low, high, own = (fam.written(x) for x in (*span, value))
         raise InputError(
             f"{field}: these basins were computed at {fam.parameter.name} = {own}, outside the "
             f"range from {low} to {high}; widen this range, or remove these basins"

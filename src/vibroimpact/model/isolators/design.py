@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from vibroimpact.errors import InputError, shown
+from vibroimpact.model.keys import unknown_key
 from vibroimpact.model.quantities import (
     DIMENSIONLESS,
     FORCE,
@@ -102,17 +103,30 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
     given = [p.name for p in own if p.name in table]
     if not given:
         return table
+    _check_keys(table, law)
     if mass is None:
         raise InputError(
             f'{given[0]}: requires the mass of the oscillator; add the mass, such as "550 kg"'
         )
     for p in own:
         if p.default is p.empty and p.name not in table:
+            if p.name == "period" and "stiffness" in table:
+                raise InputError(
+                    f"{given[0]}: given together with stiffness; replace stiffness by period, or "
+                    f"{given[0]} by damping"
+                )
             raise InputError(
                 f"{p.name}: missing, but {given[0]} requires it; {_ACCEPTS[p.name].words()}"
             )
     values = {key: value for key, value in table.items() if key != "kind"}
     return getattr(law, name)(mass, **values)
+
+
+def _check_keys(table: Mapping[str, Any], law: type[IsolatorLaw]) -> None:
+    """Raise an error if a table has an unknown key, which may be a misspelt one of the design."""
+    for key in table:
+        if key != "kind" and key not in law.table_keys():
+            raise InputError(f"{key}: {unknown_key(law.table_keys(), key)}")
 
 
 def design_keys(law: type[IsolatorLaw]) -> list[str]:

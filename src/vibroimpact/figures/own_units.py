@@ -1,0 +1,87 @@
+"""Figures of rigs without units: their axes have no units, and ω = 2π f instead of f.
+
+A figure function draws millimetres, g or kN. If it has the decorator `in_own_units`, and if its
+data were computed from rigs without units, `in_unit` returns 1, the labels of the axes lose their
+units, and the frequencies in the data are angular.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping
+from functools import wraps
+from typing import Any, TypeVar, cast
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+
+from vibroimpact.model.written_units import unitless, written_for
+from vibroimpact.response.resonance import Features
+
+_Draw = TypeVar("_Draw", bound=Callable[..., Any])
+
+_UNIT = re.compile(r"\s\((?:mm|m|m/s²|m s-2|g|m/s|mm/s|s|ms|1/s|–|1|[kM]?N(?: s)?|[mk]?J|)\)")
+_HERTZ = re.compile(r"(?: \$f\$)? \(Hz\)")
+
+
+def in_own_units(draw: _Draw) -> _Draw:
+    """Draw the data of the first argument without units if their rigs have none."""
+
+    @wraps(draw)
+    def drawn(*arguments: Any, **options: Any) -> Any:
+        data = arguments[0] if arguments else next(iter(options.values()), None)
+        with written_for(data):
+            if not unitless():
+                return draw(*arguments, **options)
+            made = draw(
+                *(_turned(one) for one in arguments),
+                **{name: _turned(one) for name, one in options.items()},
+            )
+            for ax in _axes(made):
+                ax.set_xlabel(without_unit(ax.get_xlabel()))
+                ax.set_ylabel(without_unit(ax.get_ylabel()))
+            return made
+
+    return cast("_Draw", drawn)
+
+
+def in_unit(factor: float) -> float:
+    """Return the factor from SI to the unit of an axis; 1 if the rigs have no units."""
+    return 1.0 if unitless() else factor
+
+
+def without_unit(label: str) -> str:
+    """Return the label of an axis without its unit, and with ω for a frequency."""
+    return _UNIT.sub("", _HERTZ.sub(r" $\\omega$", label))
+
+
+def _turned(value: Any) -> Any:
+    """Return data with angular frequencies, anything else as it is."""
+    if isinstance(value, Features):
+        return value.scaled(math.tau)
+    if isinstance(value, Mapping) and not isinstance(value, xr.Dataset):
+        return {name: _turned(one) for name, one in value.items()}
+    if not isinstance(value, xr.Dataset):
+        return value
+    names = ["frequency"]
+    if value.attrs.get("parameter") == "frequency":
+        names += ["bifurcation_value", "cusp_first"]
+    if value.attrs.get("other_parameter") == "frequency":
+        names += ["cusp_second"]
+    turned = value.copy()
+    for name in names:
+        if name in value.variables:
+            turned[name] = value[name].copy(data=math.tau * value[name].values)
+    if "frequency" in turned.variables:
+        turned["frequency"].attrs["long_name"] = "excitation frequency $\\omega$"
+    return turned
+
+
+def _axes(made: Any) -> Iterator[Any]:
+    """Yield the axes that a figure function returns, and their second scales."""
+    for ax in np.ravel(cast("Any", made)):
+        if isinstance(ax, Axes):
+            yield ax
+            yield from ax.child_axes  # such as a second scale

@@ -1,0 +1,88 @@
+"""Whether printed values and figures have units: those of a rig without units have none.
+
+A rig without units is one whose numbers are dimensionless (see `Oscillator.units`). Its values are
+written as plain numbers, and its forcing frequency f as the angular frequency ω = 2π f, because
+dimensionless equations contain ω and not f. Datasets keep f under its usual name.
+
+The choice applies to everything that is written inside ``with written_for(rig)``. It is a context
+variable, so that each thread and each command has its own.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any, Final
+
+NONE: Final = "none"
+SI: Final = "SI"
+
+ATTRIBUTE: Final = "unit_system"
+"""Attribute of a dataset that was computed from rigs without units. Its value is `NONE`."""
+
+_unitless: ContextVar[bool] = ContextVar("unitless", default=False)
+
+
+def unitless() -> bool:
+    """Return whether values are written without units at present."""
+    return _unitless.get()
+
+
+def unit(text: str) -> str:
+    """Return a unit as it follows a number or a name, or nothing if units are not written."""
+    return "" if unitless() else text
+
+
+@contextmanager
+def written_for(*subjects: object) -> Iterator[None]:
+    """Write values as these rigs, oscillators or datasets have them: with or without units.
+
+    If some of them have units, all are written with units.
+    """
+    known = [has_no_units(one) for one in subjects]
+    token = _unitless.set(bool(known) and all(known))
+    try:
+        yield
+    finally:
+        _unitless.reset(token)
+
+
+def write_for(subject: object) -> None:
+    """Write values as `written_for` does, from here to the end of the context."""
+    _unitless.set(has_no_units(subject))
+
+
+def has_no_units(subject: Any) -> bool:
+    """Return whether a rig, an oscillator, or a dataset that was computed from them has no units.
+
+    A mapping of such objects has no units if none of them has units.
+    """
+    attributes = getattr(subject, "attrs", None)
+    if isinstance(attributes, Mapping):
+        return attributes.get(ATTRIBUTE) == NONE
+    if isinstance(subject, Mapping):
+        return bool(subject) and all(has_no_units(one) for one in subject.values())
+    return getattr(getattr(subject, "oscillator", subject), "units", SI) == NONE
+
+
+def parameters_without_units(parameters: str | Mapping[str, Any]) -> bool:
+    """Return whether all oscillators in the parameters of a dataset have no units."""
+    found = list(
+        _oscillators(json.loads(parameters) if isinstance(parameters, str) else parameters)
+    )
+    return bool(found) and all(one.get("units") == NONE for one in found)
+
+
+def _oscillators(value: object) -> Iterator[Mapping[str, Any]]:
+    """Yield the oscillators of nested parameters, such as those of several rigs."""
+    if isinstance(value, Mapping):
+        for name, one in value.items():
+            if name == "oscillator" and isinstance(one, Mapping):
+                yield one
+            else:
+                yield from _oscillators(one)
+    elif isinstance(value, list | tuple):
+        for one in value:
+            yield from _oscillators(one)

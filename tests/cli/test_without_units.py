@@ -1,0 +1,82 @@
+"""What commands print and draw of a rig without units."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+
+from vibroimpact.cli import main
+from vibroimpact.model.written_units import unitless
+
+ONE = """
+[oscillator]
+mass = 1
+isolator = { stiffness = 1, damping = 0.1 }
+right = { stiffness = 20, damping = 0, gap = 2 }
+
+[excitation]
+amplitude = 0.5
+"""
+UNIT = re.compile(r"\d (?:mm|m|µm|kg|g|mg|t|[kM]?N|[kM]?N/m|k?N s/m|m/s|mm/s|m/s²|Hz|s|[mk]?J)\b")
+"""A number with a unit."""
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    path = tmp_path_factory.mktemp("none") / "one.toml"
+    path.write_text(ONE)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        (("sweep", "--from", "0.1", "--to", "0.3", "--step", "0.02"), "frequencies from ω = 0.628"),
+        (("simulate", "--frequency", "0.2", "--cycles", "5"), "State after 5 cycles (25)"),
+        (("motion", "--frequency", "1 rad/s", "--random", "2"), "ω = 1: "),
+        (("branch", "--from", "0.1", "--to", "0.25"), "the range ends at ω = 1.57079633"),
+        (("branch", "--parameter", "gap", "--from", "1", "--to", "3", "--frequency", "0.2"), "gap"),
+        (("basins", "--frequency", "0.2", "--nodes", "12"), "excursion "),
+        (("bifurcation", "--from", "0.1", "--to", "0.2", "--steps", "4"), "largest exponent\n"),
+    ],
+    ids=lambda words: " ".join(words[:2]) if isinstance(words, tuple) else "",
+)
+def test_no_unit_is_printed(study, tmp_path, capsys, words, expected):
+    command, *options = words
+    assert main([command, str(study), *options, "-o", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    summary = printed.partition("\nFiles\n")[0]
+    assert "none; frequencies are angular, ω = 2π f" in summary
+    assert expected in summary
+    assert not UNIT.findall(summary)
+    assert not re.search(r"\((?:mm|m/s|mm/s|N|kN|Hz|g|J|mJ|1/s|N s)\)", summary)
+    assert "Hz" not in printed
+    assert not unitless()  # any more
+
+
+def test_the_same_rig_in_si_units(study, tmp_path, capsys):
+    study = tmp_path / "si.toml"
+    study.write_text(ONE.replace("[excitation]", 'units = "SI"\n[excitation]'))
+    words = ("--from", "0.1", "--to", "0.3", "--step", "0.02")
+    assert main(["sweep", str(study), *words, "-o", str(tmp_path)]) == 0
+    assert "gap 2 m" in capsys.readouterr().out
+
+
+def test_a_unit_of_an_option_makes_a_kilogram_of_1(study, tmp_path, capsys):
+    words = ("--gap", "2 m", "--from", "0.1", "--to", "0.3", "--step", "0.02")
+    assert main(["sweep", str(study), *words, "-o", str(tmp_path)]) == 0
+    assert re.search(r"mass +1 kg", capsys.readouterr().out)
+    stated = tmp_path / "two.toml"
+    stated.write_text(ONE.replace("mass = 1", 'mass = 2\nunits = "none"'))
+    assert main(["sweep", str(stated), *words, "-o", str(tmp_path)]) == 2
+    assert "--gap: '2 m' has a unit, but the rig has none" in capsys.readouterr().err
+
+
+def test_json_keeps_hertz_and_says_that_there_are_no_units(study, tmp_path, capsys):
+    words = ("--frequency", "0.2", "--cycles", "5", "--json")
+    assert main(["simulate", str(study), *words, "-o", str(tmp_path)]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["oscillator"]["units"] == "none"
+    assert found["frequency"] == 0.2
