@@ -92,11 +92,14 @@ def excitation_parameters(shaken: Repeated, *left_out: str) -> dict[str, Any]:
 
 
 def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
-    """Return a rig as plain numbers (SI units), for the attributes of a dataset."""
-    return {
-        "oscillator": oscillator_parameters(rig.oscillator),
-        **excitation_parameters(rig.periodic, *left_out),
-    }
+    """Return a rig as plain numbers (SI units), for the attributes of a dataset.
+
+    The amplitude of a rig with one amplitude per frequency of a sweep is a list.
+    """
+    numbers = excitation_parameters(rig.hardest.periodic, *left_out)
+    if rig.amplitudes is not None:
+        numbers["amplitude"] = list(rig.amplitudes)
+    return {"oscillator": oscillator_parameters(rig.oscillator), **numbers}
 
 
 def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:

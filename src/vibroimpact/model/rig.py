@@ -6,6 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, cast
 
+import numpy as np
+from numpy.typing import NDArray
+
 from vibroimpact.arguments import is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
@@ -42,7 +45,8 @@ class Rig:
           ``"120 N"`` (force on the mass). In this case the frequency is open: it is set later, by
           ``frequency`` or by a function such as `sweep`;
         - a `Harmonic`, a `Periodic` or a `Record`;
-        - for a sweep: a list with one amplitude per frequency;
+        - for `sweep`, `sweeps` and `lyapunov_exponents`: a list with one amplitude per frequency.
+          Functions of one motion do not accept it, because the list does not state its frequencies;
         - None, if a function gets the shaking from another argument.
     frequency
         Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: the frequency of the shaking.
@@ -55,7 +59,7 @@ class Rig:
     oscillator : Oscillator
     shaking : Harmonic, Periodic, Record or None
         The excitation. If the frequency of the rig is open, the frequency of this object has no
-        meaning.
+        meaning. If the rig has a list of amplitudes, this object has the largest one.
     frequency : float or None
         Forcing frequency in Hz. None if it is open, or if a record shakes the rig.
     amplitudes : tuple of float or None
@@ -66,6 +70,7 @@ class Rig:
     ------
     InputError
         If ``oscillator`` is not an `Oscillator`, or if the shaking or the frequency is invalid.
+        Also if the shaking is a list of amplitudes and a frequency is passed.
 
     Examples
     --------
@@ -102,6 +107,8 @@ class Rig:
             shaking, amplitudes = as_periodic(shaking, "shaking")
         if frequency is not None:
             own = to_si(frequency, FREQUENCY, "frequency", above=0.0)
+            if amplitudes is not None:
+                raise InputError(_several(amplitudes))
             if isinstance(shaking, Record):
                 raise InputError(
                     f"frequency: {own:g} Hz, but the shaking is a Record, which has no frequency; "
@@ -130,7 +137,13 @@ class Rig:
 
     @property
     def amplitude(self) -> float:
-        """Amplitude of the periodic shaking, the largest one of its harmonics (m/s², m or N)."""
+        """Amplitude of the periodic shaking, the largest one of its harmonics (m/s², m or N).
+
+        Raises
+        ------
+        InputError
+            As in `periodic`.
+        """
         return self.periodic.amplitude
 
     @property
@@ -140,8 +153,11 @@ class Rig:
         Raises
         ------
         InputError
-            If a record shakes the rig, or if the rig has no shaking.
+            If a record shakes the rig, if the rig has no shaking, or if it has a list of
+            amplitudes.
         """
+        if self.amplitudes is not None:
+            raise InputError(_several(self.amplitudes))
         if isinstance(self.shaking, Harmonic | Periodic):
             return self.shaking
         return as_periodic(self.shaking, "shaking")[0]  # which says what is wrong
@@ -155,8 +171,9 @@ class Rig:
         InputError
             As in `periodic`. Also if the frequency is open.
         """
+        shaking = self.periodic
         self.check_frequency()
-        return self.periodic
+        return shaking
 
     def check_frequency(self) -> None:
         """Raise an error if the rig has no forcing frequency.
@@ -166,8 +183,7 @@ class Rig:
         InputError
             If the frequency is open, or if the shaking is not periodic.
         """
-        if not isinstance(self.shaking, Harmonic | Periodic):
-            as_periodic(self.shaking, "shaking")  # which says what is wrong
+        _ = self.periodic  # which says what is wrong
         if self.frequency is None:
             raise InputError(
                 "frequency: missing, and the rig does not state it; pass it, such as "
@@ -214,8 +230,45 @@ class Rig:
         return self.shaking
 
     def at(self, frequency: float | str) -> Rig:
-        """Return a copy of the rig with another forcing frequency (Hz, or text with a unit)."""
+        """Return a copy of the rig with another forcing frequency (Hz, or text with a unit).
+
+        Raises
+        ------
+        InputError
+            As in `periodic`. Also if the frequency is invalid.
+        """
         return Rig(self.oscillator, self.periodic, frequency, self.name)
+
+    @property
+    def hardest(self) -> Rig:
+        """The rig with the largest of its amplitudes alone; a rig with one amplitude as it is."""
+        if self.amplitudes is None:
+            return self
+        hardest = object.__new__(Rig)
+        hardest._set(self.oscillator, self.shaking, self.frequency, None, self.name)
+        return hardest
+
+    def levels(self, count: int) -> NDArray[np.float64]:
+        """Return the amplitude at each of the frequencies of a sweep (m/s², m or N).
+
+        Parameters
+        ----------
+        count
+            Number of frequencies.
+
+        Raises
+        ------
+        InputError
+            If the rig has a list with another number of amplitudes. Also as in `periodic`.
+        """
+        if self.amplitudes is None:
+            return np.full(count, self.amplitude)
+        if len(self.amplitudes) != count:
+            raise InputError(
+                f"shaking: {len(self.amplitudes)} amplitudes for {count} "
+                f"frequenc{'y' if count == 1 else 'ies'}; pass one amplitude, or {count}"
+            )
+        return np.array(self.amplitudes)
 
     def with_parts(
         self,
@@ -262,6 +315,9 @@ class Rig:
         return shaking
 
     def _shaking_text(self) -> str:
+        if self.amplitudes is not None:
+            quantity = self.hardest.periodic.quantity
+            return f"({', '.join(pretty(size, quantity) for size in self.amplitudes)})"
         if isinstance(self.shaking, Harmonic) and self.frequency is None:
             return pretty(self.shaking.amplitude, self.shaking.quantity)
         return "open" if self.shaking is None else str(self.shaking)
@@ -305,6 +361,14 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
         return Harmonic(max(sizes), ANY_FREQUENCY, of=of), tuple(sizes)
     size, of = sized(value, None, where, positive=True)
     return Harmonic(size, ANY_FREQUENCY, of=of), None
+
+
+def _several(amplitudes: tuple[float, ...]) -> str:
+    """Say that one amplitude is needed where a rig has a list of them."""
+    return (
+        f"shaking: a list of {len(amplitudes)} amplitudes belongs to the frequencies of a sweep, "
+        'but one amplitude is needed here; pass one amplitude, such as Rig(oscillator, "0.05 g")'
+    )
 
 
 def _misplaced(value: object) -> str:

@@ -213,13 +213,13 @@ def sweeps(
     del done  # as large as both
     doubts: list[str] = []
     for r, rig in enumerate(pairs):
-        oscillator, held = rig.oscillator, HoldRows(results[r])
+        oscillator, held, hardest = rig.oscillator, HoldRows(results[r]), rig.hardest
         swing = held.peak_displacement
         held.status[...] = judged(oscillator, held.status, swing)
         doubts += [
-            *doubt_gaps(rig, swing),
-            *note_unbounded(rig),
-            *note_stiff_stops(rig, float(grid[0])),
+            *doubt_gaps(hardest, swing),
+            *note_unbounded(hardest),
+            *note_stiff_stops(hardest, float(grid[0])),
         ]
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)
@@ -231,13 +231,7 @@ def sweeps(
         data,
         "vibroimpact.sweeps",
         {
-            "rigs": [
-                {
-                    **rig_parameters(rig, "frequency", "phase"),
-                    **({} if rig.amplitudes is None else {"amplitude": list(rig.amplitudes)}),
-                }
-                for rig in pairs
-            ],
+            "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
             "phase": angle,
             "tolerance": tolerance,
             "max_cycles": max_cycles,

@@ -104,8 +104,6 @@ def resonance_diagram(
     """
     check_progress(progress)
     rig = as_rig(rig, frequency)
-    if rig.amplitudes is not None:
-        raise InputError("shaking: a list of amplitudes is given; pass one amplitude")
     if registered(parameter).name == "frequency":
         if frequency is not None:
             raise InputError(
