@@ -434,6 +434,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "period": 1,
             "spacing": 0.1,
             "longest": 1.0,
+            "curve_cycles": 2000,
             "threads": 1,
             "progress": None,
         },
