@@ -233,7 +233,7 @@ def test_work_is_bounded_and_what_is_left_out_is_told(monkeypatch):
 
 
 def test_a_strong_stretch_is_refined_only_up_to_the_length():
-    """A piece that the map stretches to hundreds of thousands of windows has the points of its beginning."""
+    """A piece that the map stretches to hundreds of thousands of windows keeps its beginning."""
     measure = Measure(np.zeros(2), np.ones(2), 0.01, 3.0, 400, 10**9)
     asked = []
 

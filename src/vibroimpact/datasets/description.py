@@ -9,12 +9,11 @@ from typing import Any
 import xarray as xr
 
 from vibroimpact._version import __version__
-from vibroimpact.datasets.variable import Variable
+from vibroimpact.datasets.variable import Described, Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, Rig, State
-from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.varied import Varied
+from vibroimpact.model.parameters import parameter
 
 COMPONENTS = [*State.model_fields]
 """Components of a state in a dataset, in the order of `State`'s fields."""
@@ -25,14 +24,14 @@ def describe(
     created_by: str,
     parameters: dict[str, Any] | None = None,
     notes: Iterable[str] = (),
-    varied: Iterable[Parameter | Varied] = (),
+    varied: Iterable[Described] = (),
 ) -> xr.Dataset:
     """Give every variable its units and meaning, and the dataset its parameters and origin.
 
     Attributes that the dataset already has are kept. Pass None for the parameters if they are among
     these attributes. Assumptions about the input, and doubts about it, become the attribute
     ``notes``, one per line. The variables of parameters that were varied have the units that these
-    have in the rig.
+    have in the rig. An own output is described by itself.
 
     Raises
     ------
@@ -67,6 +66,11 @@ def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]
         "vibroimpact_version": __version__,
         **({} if parameters is None else {"parameters": json.dumps(parameters)}),
     }
+
+
+def own_outputs(data: xr.Dataset) -> list[str]:
+    """Return the names of the own outputs in a dataset."""
+    return [str(name) for name in data.data_vars if "output" in data[name].attrs]
 
 
 def noted(data: xr.Dataset) -> list[str]:

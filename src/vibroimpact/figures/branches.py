@@ -11,13 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import own_outputs
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.labels import Names
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import LEGEND, SWEEPS
 from vibroimpact.model.parameters import in_units
-from vibroimpact.stability.branch_styles import QUANTITIES, Quantity
+from vibroimpact.stability.branch_styles import QUANTITIES
 
 _Array = NDArray[np.float64]
 
@@ -50,7 +51,7 @@ def branch_diagram(
     data: xr.Dataset,
     ax: Axes | None = None,
     *,
-    quantity: Quantity = "eta_d",
+    quantity: str = "eta_d",
     sweep: xr.Dataset | None = None,
     title: str | None = None,
 ) -> Axes:
@@ -69,7 +70,7 @@ def branch_diagram(
     quantity
         Quantity on the vertical axis: ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"``,
         ``"eccentricity"``, ``"peak_displacement"``, ``"peak_acceleration"``, ``"peak_force_right"``
-        or ``"peak_force_left"``.
+        or ``"peak_force_left"``; or the name of an own output.
     sweep
         Dataset of `sweep` over the same frequencies, which is drawn as marks. Default: no sweep.
     title
@@ -86,8 +87,9 @@ def branch_diagram(
         if "start" in data.dims:
             wrong = "a bifurcation diagram; draw it with figures.section_diagram, or"
         raise InputError(f"data: this is {wrong} pass the result of branch or resonance_diagram")
-    if quantity not in QUANTITIES:
-        raise InputError(f"quantity: {quantity!r}; pass one of {', '.join(QUANTITIES)}")
+    known = (*QUANTITIES, *own_outputs(data))
+    if quantity not in known:
+        raise InputError(f"quantity: {quantity!r}; pass one of {', '.join(known)}")
     name = data.attrs["parameter"]
     if sweep is not None and name != "frequency":
         raise InputError(
@@ -96,6 +98,10 @@ def branch_diagram(
         )
     if sweep is not None and "direction" not in sweep.coords:
         raise InputError("sweep: this is not a sweep; pass the result of the function sweep")
+    if sweep is not None and quantity not in sweep:
+        raise InputError(
+            f"sweep: it has no output {quantity!r}; pass the same outputs to the function sweep"
+        )
     factor, label = axis_label(data[quantity], quantity)
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])

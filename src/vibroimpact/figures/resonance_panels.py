@@ -11,8 +11,9 @@ import xarray as xr
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import excitation_from
+from vibroimpact.datasets.description import excitation_from, own_outputs
 from vibroimpact.errors import InputError
+from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.model import Oscillator, equilibrium
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
 from vibroimpact.model.rig import Rig
@@ -54,6 +55,11 @@ class Drawn(NamedTuple):
     """Whether the motion without stops is unbounded, so that its curve leaves the panel."""
 
     @property
+    def bottom(self) -> float:
+        """Smallest value of all curves, at most 0."""
+        return min(float(np.nanmin(curve, initial=0.0)) for curve in self.curves.values())
+
+    @property
     def top(self) -> float:
         """Largest value of all curves."""
         free = [] if self.free is None or self.spike else [self.free]
@@ -78,6 +84,15 @@ def normalised(data: xr.Dataset) -> list[Drawn]:
                 data[free].values / data[f"largest_{free}"].values,
             )
         )
+    return found
+
+
+def outputs(data: xr.Dataset) -> list[Drawn]:
+    """Return the panels of own outputs."""
+    found = []
+    for name in own_outputs(data):
+        factor, label = axis_label(data[name], name)
+        found.append(Drawn(name, label, _curves(data, name, factor), None))
     return found
 
 
