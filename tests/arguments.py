@@ -124,6 +124,7 @@ _SWEEP: dict[str, Any] = {
     "tolerance": 1e-6,
     **_SMALL,
     "window": 5,
+    "outputs": None,
     "threads": 1,
 }
 
@@ -173,6 +174,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "Isolator": {"stiffness": 1.0, "damping": 1.0, "damping_exponent": 1.0},
         "JankowskiBumper": {"stiffness": 1.0, "gap": 0.1, "restitution": 0.5, "mass": 1.0},
         "Law": {"formula": "k*u + c*v", "gap": None, "k": 100.0, "c": 1.0},
+        "Output": {"function": "max(velocity)", "units": "m/s", "long_name": "top speed"},
         "Oscillator": {
             "mass": 1.0,
             "isolator": vi.Isolator(1.0, 0.1),
@@ -273,6 +275,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "tolerance": 1e-6,
             "threads": 1,
             "where": "threads",
+            "outputs": None,
             "progress": None,
         },
         "branch": {
@@ -282,6 +285,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "span": (1.49, 1.51),
             "period": None,
             "most_points": 4,
+            "outputs": None,
             "progress": None,
         },
         "classify_scenario": {
@@ -434,6 +438,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "period": 1,
             "spacing": 0.1,
             "longest": 1.0,
+            "curve_cycles": 2000,
             "threads": 1,
             "progress": None,
         },
@@ -482,6 +487,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "random": 0,
             "seed": 0,
             "basins": (),
+            "outputs": None,
             "progress": None,
         },
         "response_spectrum": {

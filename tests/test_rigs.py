@@ -9,6 +9,7 @@ import pint
 import pytest
 import xarray as xr
 
+import arguments
 import vibroimpact as vi
 from vibroimpact.scenarios.classify import classify
 
@@ -198,6 +199,78 @@ def test_what_is_not_a_rig(call, message):
     with pytest.raises(vi.InputError, match=message) as caught:
         call()
     assert "\n" not in str(caught.value)
+
+
+LISTED = [2.0, 1.0]
+TAKES_A_LIST = {"sweep", "sweeps", "lyapunov_exponents"}
+"""Functions with frequencies, to which the amplitudes of a list belong one by one."""
+IGNORES_SHAKING = {
+    "demands",
+    "design_chart",
+    "identify",
+    "least_acceleration",
+    "required_gap",
+    "seismic_response",
+}
+"""Functions of records or measured data, as they are called here."""
+
+
+def _takes_a_rig():
+    for name in arguments.public():
+        keys = {"rig", "rigs"} & set(arguments.parameters(name))
+        if keys and name not in TAKES_A_LIST | IGNORES_SHAKING | {"Rig"}:
+            yield name, *keys
+
+
+@pytest.mark.parametrize(("name", "key"), [*_takes_a_rig()])
+def test_one_of_several_amplitudes_is_never_chosen(name, key, tmp_path):
+    """A list has one amplitude for each frequency of a sweep, and no other function knows which."""
+    function, given = arguments.calls(tmp_path).get(name, (getattr(vi, name), {}))
+    given = {**given, key: vi.Rig(arguments.rig(), LISTED)}
+    with pytest.raises(
+        vi.InputError, match=r"^(shaking|amplitude): (a list of )?2 ampl.* pass one"
+    ):
+        function(**given)
+
+
+def test_functions_of_a_motion_need_one_amplitude():
+    assert {name for name, _ in _takes_a_rig()} >= {"steady", "simulate", "orbit", "branch"}
+    rig = vi.Rig(arguments.rig(), LISTED)
+    for call in (
+        lambda: rig.at("5 Hz"),
+        lambda: rig.amplitude,
+        lambda: vi.Rig(arguments.rig(), LISTED, "5 Hz"),
+        lambda: vi.required_gap(rig),
+        lambda: vi.design_chart(rig, {"gap": [0.01, 0.02]}),
+    ):
+        with pytest.raises(vi.InputError, match=r"2 amplitudes.*pass one amplitude"):
+            call()
+    with pytest.raises(vi.InputError, match=r"^shaking: 2 amplitudes for 3 frequencies"):
+        vi.lyapunov_exponents(rig, [1.0, 1.2, 1.5], cycles=10, transient=0)
+
+
+def test_exponents_have_the_amplitude_of_each_frequency():
+    grid = [1.2, 1.5]
+    growth = vi.lyapunov_exponents(vi.Rig(OSCILLATOR, [0.4, 0.1]), grid, cycles=40, transient=300)
+    for frequency, size in zip(grid, (0.4, 0.1), strict=True):
+        alone = vi.lyapunov_exponents(
+            vi.Rig(OSCILLATOR, size), [frequency], cycles=40, transient=300
+        )
+        here = growth.sel(frequency=[frequency])
+        np.testing.assert_array_equal(here["exponents"], alone["exponents"])
+    assert '"amplitude": [0.4, 0.1]' in growth.attrs["parameters"]
+
+
+def test_a_list_is_shown_as_one():
+    rig = vi.Rig(OSCILLATOR, ["0.05 g", "0.04 g"])
+    assert str(rig).endswith("shaking=(0.05 g, 0.04 g))")
+    assert "(0.05 g, 0.04 g)" in rig._repr_html_()
+
+
+def test_a_sweep_of_a_list_states_no_amplitude_of_a_fit():
+    swept = vi.sweep(vi.Rig(OSCILLATOR, [0.3, 0.4]), GRID)
+    with pytest.raises(vi.InputError, match=r"^data: 2 amplitudes.*one amplitude"):
+        vi.identify(vi.Rig(OSCILLATOR, 0.4), swept, "stiffness", tried=0, starts=1, profiles=False)
 
 
 def test_a_rig_shows_what_it_is_and_travels():

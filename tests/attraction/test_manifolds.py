@@ -12,8 +12,17 @@ from scipy.spatial import KDTree
 
 import vibroimpact as vi
 from samples import sample
+from vibroimpact.attraction.adaptive_curve import (
+    CYCLES,
+    LONGEST,
+    LOST,
+    Allowance,
+    Measure,
+    refined,
+)
 from vibroimpact.attraction.crossings import crossings
 from vibroimpact.attraction.label_states import NO_TRAPS, Stage, follow, images
+from vibroimpact.attraction.saddles import _places
 from vibroimpact.datasets.vocabulary import VARIABLES
 
 CASE = vi.laboratory.case("B3-10mm-A3")
@@ -35,10 +44,13 @@ def found() -> xr.Dataset:
     return vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION), None, *WINDOW, progress=tell)
 
 
-def test_progress_counts_states_and_then_curves():
+def test_progress_counts_states_then_places_then_parts_of_curves():
     curves = found().sizes["curve"]
-    assert TOLD[-curves - 1 :] == [(number, curves) for number in range(curves + 1)]
-    assert TOLD[-curves - 2] == (1600, 1600)
+    ends = [one for one, later in zip(TOLD, [*TOLD[1:], (0, 0)], strict=True) if later < one]
+    states, places, parts = ends[-3:]
+    assert states == (1600, 1600)
+    assert places == (6, 6)
+    assert parts == (100 * curves, 100 * curves)
 
 
 def curve(data: xr.Dataset, number: int, scale: object = SIDES) -> np.ndarray:
@@ -185,6 +197,87 @@ def test_tangles_are_found_where_curves_cross():
         nearest = np.minimum(nearest, away)
         states = follow(stage, None, states, NO_TRAPS, 1).states
     assert np.quantile(nearest, 0.9) < 0.01, np.quantile(nearest, [0.1, 0.5, 0.9, 1.0])
+
+
+TANGLE = vi.Rig(
+    vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), vi.Bumper(30.0, 0.6, 0.5), None),
+    vi.Harmonic(1.0, 3.3 / (2.0 * np.pi)),
+)
+
+
+def tangle(cycles: int, longest: float = 3.0) -> xr.Dataset:
+    window, start = ((-1.1, 1.0), (-1.8, 1.8)), vi.State(0.4624, 0.4448)
+    return vi.manifolds(TANGLE, start, *window, period=3, longest=longest, curve_cycles=cycles)
+
+
+def test_work_is_bounded_and_what_is_left_out_is_told(monkeypatch):
+    """With few cycles, each curve is the beginning of the one with many."""
+    used = []
+    use = Allowance.use
+    monkeypatch.setattr(Allowance, "use", lambda one, n: (used.append(n), use(one, n)))
+    short = tangle(12_000)
+    # One point more may cost the preimages of all levels, or those of a piece refined once.
+    assert sum(used) < 2 * 12_000
+    long = tangle(100_000)
+    ended = short["curve_ended"].values
+    assert (ended == CYCLES).any()
+    (line,) = [one for one in short.attrs["notes"].splitlines() if "curve_cycles" in one]
+    count = int((ended == CYCLES).sum())
+    assert line.startswith(f"{count} of {len(ended)} curves continue beyond their ends")
+    for number in np.flatnonzero(ended == CYCLES):
+        part, whole = curve(short, int(number), 1.0), curve(long, int(number), 1.0)
+        assert 2 < len(part) < len(whole)
+        # The last piece of the longer one may have been refined more.
+        away, _ = KDTree(whole).query(part)
+        assert away.max() < 1e-6
+
+
+def test_a_strong_stretch_is_refined_only_up_to_the_length():
+    """A piece that the map stretches to hundreds of thousands of windows keeps its beginning."""
+    measure = Measure(np.zeros(2), np.ones(2), 0.01, 3.0, 400, 10**9)
+    asked = []
+
+    def at(parameters: np.ndarray) -> np.ndarray:
+        asked.append(len(parameters))
+        angle = 1e6 * (parameters - 7.0)  # never whole turns apart
+        return 0.5 + 0.3 * np.column_stack([np.cos(angle), np.sin(angle)])
+
+    points, ended = refined(at, 7.0, 8.0, measure, 3.0, Allowance(measure))
+    assert ended == LONGEST
+    assert measure.length(points) == pytest.approx(3.0, abs=0.02)
+    assert sum(asked) < 5_000
+
+
+def test_what_was_given_up_ends_a_piece():
+    measure = Measure(np.zeros(2), np.ones(2), 0.01, 3.0, 400, 10**9)
+
+    def at(parameters: np.ndarray) -> np.ndarray:
+        lost = parameters > 7.5
+        return np.column_stack([np.where(lost, np.nan, parameters - 7.0), parameters - 7.0])
+
+    points, ended = refined(at, 7.0, 8.0, measure, 3.0, Allowance(measure))
+    assert ended == LOST
+    np.testing.assert_allclose(points[-1], [0.5, 0.5], atol=0.01)
+
+
+def test_all_borders_are_searched_before_any_is_searched_again():
+    labels = np.repeat(np.arange(12, dtype=np.int8), 20).reshape(12, 20).T
+    places, borders = _places(labels)
+    assert borders == 11
+    flat = labels.ravel()
+    kinds = [(flat[a], flat[b]) for a, b in places]
+    assert len(set(kinds[:11])) == 11
+    assert len(kinds) == 36
+    mixed = np.random.default_rng(0).integers(0, 12, (40, 40)).astype(np.int8)
+    places, borders = _places(mixed)
+    assert (len(places), borders) == (36, 66)
+
+
+def test_saddles_and_borders_that_were_left_out_are_told(monkeypatch):
+    monkeypatch.setattr("vibroimpact.attraction.saddles._MOST", 0)
+    data = vi.manifolds(vi.Rig(CASE.oscillator, EXCITATION), None, *WINDOW)
+    assert data.sizes["saddle"] == 0
+    assert data.attrs["notes"].startswith("1 saddle orbits were found; only the 0 of the shortest")
 
 
 def test_crossings_of_lines_that_are_known():

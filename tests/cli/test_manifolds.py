@@ -20,6 +20,7 @@ def test_text_and_files(run, tmp_path):
     first = next(line for line in out.splitlines() if line.startswith("1 "))
     assert first.split() == ["1", "5.304", "1.984", "1", "5.856,", "0.005038"]
     assert "  2 of 2: the curve reaches the maximum length" in out
+    assert "2 of 4 curves continue beyond their ends" in out
     assert "  2 of 2: the curve ends at a steady motion" in out
     assert "stable and unstable manifolds do not cross" in out
     assert {p.name for p in (tmp_path / "out").iterdir()} == {f"{NAME}.nc", f"{NAME}.png"}

@@ -88,8 +88,10 @@ def test_curves_of_saddles_are_drawn_over_basins():
     )
     ax = basin_portrait(made(), manifolds=curves)
     legend = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert legend[2:] == ["stable manifolds of saddles", "unstable manifolds of saddles", "saddles"]
-    drawn = [line for line in ax.lines if line.get_label() == "stable manifolds of saddles"]
+    stable, *others = legend[2:]
+    assert stable == "stable manifolds of saddles (2 of 2 continue)"
+    assert others == ["unstable manifolds of saddles", "saddles"]
+    drawn = [line for line in ax.lines if line.get_label() == stable]
     assert [line.get_linestyle() for line in drawn] == ["-", "-"]
     mine = curves["curve_number"].values == 0
     np.testing.assert_allclose(drawn[0].get_ydata(), curves["curve_velocity"].values[mine])

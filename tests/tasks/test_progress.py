@@ -8,6 +8,7 @@ import sys
 import numpy as np
 
 import vibroimpact as vi
+from vibroimpact.tasks.progress import shown_by_default
 
 CASE = vi.laboratory.case("B2-G1-A3")
 
@@ -45,6 +46,24 @@ def test_a_terminal_has_one_line_that_is_cleared_at_the_end(monkeypatch):
     assert "4/4" in screen.getvalue()
     assert "\n" not in screen.getvalue()
     assert screen.getvalue().split("\r")[-1].strip() == ""
+
+
+def test_by_default_a_terminal_shows_what_takes_longer_than_a_moment(monkeypatch):
+    now, screen = [0.0], Terminal()
+    monkeypatch.setattr("vibroimpact.tasks.progress.time.monotonic", lambda: now[0])
+    monkeypatch.setattr(sys, "stderr", screen)
+    show = shown_by_default("manifolds")
+    show(1, 4)
+    assert screen.getvalue() == ""
+    now[0] = 3.0
+    show(2, 4)
+    assert "manifolds 2/4" in screen.getvalue()
+    show(4, 4)
+    assert screen.getvalue().split("\r")[-1].strip() == ""
+    monkeypatch.setattr(sys, "stderr", io.StringIO())
+    assert shown_by_default("manifolds") is None
+    monkeypatch.setattr("vibroimpact.tasks.progress._notebook", lambda: Notebook().display)
+    assert shown_by_default("manifolds") is not None
 
 
 def test_a_log_has_a_line_now_and_then_with_the_time_left(monkeypatch, capsys):

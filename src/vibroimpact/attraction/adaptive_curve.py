@@ -12,8 +12,12 @@ _Array = NDArray[np.float64]
 
 _FINEST = 1e-11
 """Of the parameter: two points as close as this are neighbours however far they are apart."""
-_MOST = 400_000
-"""Points of one piece."""
+LONGEST = "the curve reaches the maximum length"
+CYCLES = "the curve used its share of curve_cycles"
+IMAGES = "the curve grows too slowly to be continued further"
+LOST = "the computation of a state on the curve was given up"
+CONTINUES = (LONGEST, CYCLES, IMAGES)
+"""Reasons for an end beyond which the curve continues."""
 
 
 class Curve(NamedTuple):
@@ -33,6 +37,8 @@ class Measure(NamedTuple):
     """Largest distance of two neighbours within it."""
     longest: float
     images: int
+    cycles: int
+    """Forcing cycles that may be simulated for one curve."""
 
     def scaled(self, difference: NDArray[np.floating[Any]]) -> _Array:
         """A difference of points over the window's sides."""
@@ -62,15 +68,39 @@ def broken(points: _Array, measure: Measure) -> _Array:
     return found
 
 
+class Allowance:
+    """Forcing cycles that may still be simulated for a curve."""
+
+    def __init__(self, measure: Measure) -> None:
+        self.all, self.used = measure.cycles, 0
+
+    def use(self, cycles: int) -> None:
+        """Count cycles that are simulated."""
+        self.used += cycles
+
+    @property
+    def spent(self) -> bool:
+        """Whether nothing is left."""
+        return self.used >= self.all
+
+
 def refined(
-    at: Callable[[_Array], _Array], begin: float, end: float, measure: Measure
+    at: Callable[[_Array], _Array],
+    begin: float,
+    end: float,
+    measure: Measure,
+    longest: float,
+    allowance: Allowance,
 ) -> tuple[_Array, str]:
     """Points between two parameters, neighbours in the window closer than its spacing.
+
+    Only the part up to the length `longest` is refined, so that the number of points does not grow
+    with the stretching of the map.
 
     Returns
     -------
     points, ended
-        The part up to where the curve cannot be continued, and the reason; "" if it is complete.
+        The part up to where the curve ends, and the reason; "" if it is complete.
     """
     parameters = np.linspace(begin, end, 17)
     points = at(parameters)
@@ -79,16 +109,23 @@ def refined(
         seen = measure.within(points, 0.5)
         wide = ~(gaps <= measure.spacing) & (seen[1:] | seen[:-1])
         wide &= np.diff(parameters) > _FINEST * max(end, 1.0)
-        if not wide.any() or len(points) > _MOST:
+        lost = np.flatnonzero(np.isnan(points).any(axis=1))
+        wide[lost[0] if len(lost) else len(wide) :] = False
+        # A line through few points is shorter than the curve: what lies beyond it does so finally.
+        lengths = np.cumsum(np.nan_to_num(gaps))
+        wide[1:] &= lengths[:-1] <= longest
+        if not wide.any():
             break
+        if allowance.spent:
+            return points[: int(wide.argmax()) + 1], CYCLES
         middle = 0.5 * (parameters[1:] + parameters[:-1])[wide]
         parameters = np.concatenate([parameters, middle])
         points = np.vstack([points, at(middle)])
         order = np.argsort(parameters, kind="stable")
         parameters, points = parameters[order], points[order]
-    lost = np.flatnonzero(np.isnan(points).any(axis=1))
+    beyond = np.flatnonzero(lengths > longest)
+    if len(beyond) and not (len(lost) and lost[0] <= beyond[0] + 1):
+        return points[: beyond[0] + 2], LONGEST
     if len(lost):
-        return points[: lost[0]], "the computation of a state on the curve was given up"
-    if len(points) > _MOST:
-        return points, "the curve has too many points"
+        return points[: lost[0]], LOST
     return points, ""

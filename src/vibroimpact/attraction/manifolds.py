@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-import itertools
+from collections import Counter
 from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_list, check_progress
-from vibroimpact.attraction.adaptive_curve import Curve, Measure
+from vibroimpact.attraction.adaptive_curve import (
+    CONTINUES,
+    CYCLES,
+    IMAGES,
+    LONGEST,
+    Curve,
+    Measure,
+)
 from vibroimpact.attraction.basins import span_of
 from vibroimpact.attraction.crossings import crossings
 from vibroimpact.attraction.find_attractors import Search
@@ -32,10 +40,15 @@ from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.units import to_si
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import placed
-from vibroimpact.tasks.threads import Progress, Workers
+from vibroimpact.tasks.progress import shown_by_default
+from vibroimpact.tasks.threads import DONE, Progress, Tally, Workers, each
 
 _IMAGES = 400
 """Largest number of images of the first piece of a curve."""
+_SIDES = (("stable", 1), ("stable", -1), ("unstable", 1), ("unstable", -1))
+"""The curves of a saddle."""
+_PARTS = 100
+"""Steps of progress of a curve."""
 
 
 def manifolds(
@@ -48,6 +61,7 @@ def manifolds(
     period: int = 1,
     spacing: float = 0.01,
     longest: float = 30.0,
+    curve_cycles: int = 400_000,
     max_cycles: int = 2000,
     max_events: int = 1000,
     threads: int | None = None,
@@ -82,13 +96,17 @@ def manifolds(
     longest
         Largest length of a curve. The length is dimensionless: displacement and velocity are each
         divided by the width of their range.
+    curve_cycles
+        Largest number of forcing cycles that are simulated for all curves together. Each curve has
+        the same share, and ends where its share is used.
     max_cycles, max_events, threads
         As in `basins`.
     progress
         Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread. During the search for saddles it gets the number of completed states and the
-        number of all states. After that it gets the number of completed curves and the number of
-        all curves.
+        calling thread. During the search for saddles it gets the number of completed states (then:
+        of places on borders) and the number of all. After that it gets the completed part and the
+        total of all curves, in hundredths of a curve. Default: `progress_bar` on a terminal or in a
+        notebook, if the computation takes more than two seconds; otherwise, nothing is shown.
 
     Returns
     -------
@@ -103,6 +121,8 @@ def manifolds(
           reason why the curve ends).
         - ``saddle`` counts the points of the saddle orbits. Its variables are displacement,
           velocity, period and Floquet multipliers.
+          If curves continue beyond their ends, or if not all saddles were found or used, the
+          attribute ``notes`` reports it.
         - ``crossing`` counts the points at which a stable and an unstable curve cross. Its
           variables are the displacement and the velocity there, and the numbers of both curves.
 
@@ -118,11 +138,13 @@ def manifolds(
     rig.check_frequency()
     check_bounded(rig)
     check_progress(progress)
+    progress = progress or shown_by_default("manifolds")
     period = whole(period, "period", most=MOST_CYCLES)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads)
     spacing = share(spacing, "spacing")
     longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)
+    curve_cycles = whole(curve_cycles, "curve_cycles")
     stage = Stage(rig, max_events)
     *bumpers, isolator = remembered(stage)[2:]
     if isolator or any(bumpers):
@@ -138,18 +160,21 @@ def manifolds(
     fast = span_of(velocity, VELOCITY, "velocity")
     search = Search(stage, max_cycles, workers)
     if wide is None or fast is None:
-        found = window(search)
+        found = window(search, progress)
         wide, fast = wide or found[0], fast or found[1]
     corners = np.array([wide, fast])
-    measure = Measure(corners[:, 0], corners[:, 1], spacing, longest, _IMAGES)
+    left_out: list[str] = []
     if saddles is None:
-        orbits = border_saddles(search, (wide, fast), progress)
+        orbits, left_out = border_saddles(search, (wide, fast), progress)
     else:
         alone = isinstance(saddles, xr.Dataset | State)
         given: list[Any] = [saddles] if alone else list(check_list(saddles, "saddles"))
         orbits = [given_saddle(stage, one, period, f"saddles[{i}]") for i, one in enumerate(given)]
     points = [p for i, one in enumerate(orbits) for p in saddle_points(one, f"saddles[{i}]")]
-    data = _dataset(points, _curves(stage, points, measure, workers, progress), measure)
+    share_of_cycles = max(curve_cycles // max(len(_SIDES) * len(points), 1), 1)
+    measure = Measure(corners[:, 0], corners[:, 1], spacing, longest, _IMAGES, share_of_cycles)
+    curves = _curves(stage, points, measure, workers, progress)
+    data = _dataset(points, curves, measure)
     return describe(
         data,
         "vibroimpact.manifolds",
@@ -159,7 +184,9 @@ def manifolds(
             "velocity": list(fast),
             "spacing": spacing,
             "longest": longest,
+            "curve_cycles": curve_cycles,
         },
+        [*left_out, *_continuing(curves)],
     )
 
 
@@ -171,22 +198,60 @@ def _curves(
     progress: Progress | None,
 ) -> list[list[tuple[str, Curve]]]:
     """Return both sides of the stable curve of each saddle, then both sides of the unstable one."""
+    total = _PARTS * len(_SIDES) * len(saddles)
+
+    def stable(item: tuple[Saddle, int], tally: Tally) -> Curve:
+        saddle, side = item
+        curve = stable_curve(saddle, side, measure, partial(_tell, tally))
+        tally[DONE] = _PARTS
+        return curve
+
+    # Stable curves are long computations, which run at once; an unstable one uses all threads.
+    sides = [(saddle, side) for saddle in saddles for kind, side in _SIDES if kind == "stable"]
+    first = each(
+        stable,
+        sides,
+        steps=_PARTS * len(sides),
+        threads=workers,
+        progress=progress and (lambda done, _: progress(done, total)),
+    )
     found: list[list[tuple[str, Curve]]] = []
-    done, total = 0, 4 * len(saddles)
-    for saddle in saddles:
-        found.append([])
-        for kind, side in itertools.product(("stable", "unstable"), (1, -1)):
+    done = _PARTS * len(sides)
+    for number, saddle in enumerate(saddles):
+        found.append([("stable", curve) for curve in first[2 * number : 2 * number + 2]])
+        for kind, side in _SIDES:
+            if kind == "stable":
+                continue
+
+            def tell(share: float, done: int = done) -> None:
+                if progress:
+                    progress(done + int(_PARTS * min(share, 1.0)), total)
+
+            curve = unstable_curve(stage, saddle, side, measure, workers, tell)
+            found[-1].append((kind, curve))
+            done += _PARTS
             if progress:
                 progress(done, total)
-            if kind == "stable":
-                curve = stable_curve(saddle, side, measure)
-            else:
-                curve = unstable_curve(stage, saddle, side, measure, workers)
-            found[-1].append((kind, curve))
-            done += 1
-    if progress:
-        progress(done, total)
     return found
+
+
+def _tell(tally: Tally, share: float) -> None:
+    tally[DONE] = int(_PARTS * min(share, 1.0))
+
+
+def _continuing(curves: list[list[tuple[str, Curve]]]) -> list[str]:
+    """Say how many curves continue beyond their ends, and what to do."""
+    every = [curve.ended for some in curves for _, curve in some]
+    what = {
+        LONGEST: "reach the maximum length; raise longest",
+        CYCLES: "used their share of curve_cycles; raise curve_cycles",
+        IMAGES: f"were ended after {_IMAGES} images of their first piece",
+    }
+    return [
+        f"{count} of {len(every)} curves continue beyond their ends, because they {what[ended]}"
+        for ended, count in Counter(every).items()
+        if ended in CONTINUES
+    ]
 
 
 def _dataset(

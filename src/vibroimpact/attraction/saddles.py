@@ -33,6 +33,8 @@ _LATTICE = 40
 """States along each axis among which borders are sought."""
 _TRIED = 6
 """Places of each border from which it is followed."""
+_ALL_TRIED = 36
+"""Places of all borders: the six borders of four basins in full."""
 _HALVINGS = 48
 _SHADOWED = 40
 """Cycles that the border is followed."""
@@ -137,15 +139,31 @@ def given_saddle(stage: Stage, orbit: xr.Dataset | State, period: int, where: st
     return found
 
 
-def border_saddles(search: Search, window: Window, progress: Progress | None = None) -> list[Orbit]:
-    """The saddles that the borders between basins lead to, each once."""
+class BorderSaddles(NamedTuple):
+    """Saddles on the borders between basins, each once."""
+
+    orbits: list[Orbit]
+    left_out: list[str]
+    """What was not searched or is not among the orbits, in words."""
+
+
+def border_saddles(
+    search: Search, window: Window, progress: Progress | None = None
+) -> BorderSaddles:
+    """The saddles that the borders between basins lead to.
+
+    Progress counts states of a lattice, and then places of the borders.
+    """
     shape = (_LATTICE, _LATTICE)
     points = np.array(lattice(*window, shape))
     labels = search.label(points, progress).owner.reshape(shape)
     span = np.ptp(np.array(window), axis=1)
     found: list[Orbit] = []
     known: list[_Array] = []
-    for inside, outside in _pairs(labels):
+    places, borders = _places(labels)
+    for number, (inside, outside) in enumerate(places):
+        if progress:
+            progress(number, len(places))
         edge = _edge(search, points[inside], points[outside])
         orbit = _near(search, edge, span)
         if orbit is None:
@@ -159,11 +177,27 @@ def border_saddles(search: Search, window: Window, progress: Progress | None = N
             continue
         found.append(orbit)
         known += [one.point for one in cycle]
-    return sorted(found, key=lambda one: one.section.count)[:_MOST]
+    if progress and places:
+        progress(len(places), len(places))
+    left_out = []
+    if borders > _ALL_TRIED:
+        left_out.append(
+            f"{borders - _ALL_TRIED} of {borders} borders between two basins were not searched for "
+            "saddles; narrow the window to search them"
+        )
+    if len(found) > _MOST:
+        left_out.append(
+            f"{len(found)} saddle orbits were found; only the {_MOST} of the shortest period have "
+            "curves; pass others as saddles"
+        )
+    return BorderSaddles(sorted(found, key=lambda one: one.section.count)[:_MOST], left_out)
 
 
-def _pairs(labels: NDArray[np.int8]) -> list[tuple[int, int]]:
-    """Neighbours that lead to different motions, some of each two motions."""
+def _places(labels: NDArray[np.int8]) -> tuple[list[tuple[int, int]], int]:
+    """Neighbours that lead to different motions, some on each border; and the number of borders.
+
+    All borders come once before any comes again.
+    """
     kinds: dict[tuple[int, int], list[tuple[int, int]]] = {}
     index = np.arange(labels.size).reshape(labels.shape)
     for a, b in ((index[:, :-1], index[:, 1:]), (index[:-1], index[1:])):
@@ -172,10 +206,11 @@ def _pairs(labels: NDArray[np.int8]) -> list[tuple[int, int]]:
             kind = (min(one[k], other[k]), max(one[k], other[k]))
             kinds.setdefault(kind, []).append((int(a.ravel()[k]), int(b.ravel()[k])))
     every = []
-    for pairs in kinds.values():
-        pick = np.linspace(0, len(pairs) - 1, min(_TRIED, len(pairs))).astype(int)
-        every += [pairs[k] for k in pick]
-    return every
+    for number in range(_TRIED):
+        for pairs in kinds.values():
+            pick = np.linspace(0, len(pairs) - 1, min(_TRIED, len(pairs))).astype(int)
+            every += [pairs[k] for k in pick[number : number + 1]]
+    return every[:_ALL_TRIED], len(kinds)
 
 
 def _edge(search: Search, one: _Array, other: _Array) -> _Array:

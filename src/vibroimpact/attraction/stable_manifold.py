@@ -7,15 +7,25 @@ that derivative grows without bound, at the grazing of a rigid stop, the curve e
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.attraction.adaptive_curve import Curve, Measure
+from vibroimpact.attraction.adaptive_curve import (
+    CYCLES,
+    IMAGES,
+    LONGEST,
+    Allowance,
+    Curve,
+    Measure,
+)
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.saddles import Saddle
 from vibroimpact.attraction.section_coordinates import met
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import Section, evaluated
+from vibroimpact.tasks.threads import stop_if_unwanted
 
 _Array = NDArray[np.float64]
 
@@ -32,34 +42,44 @@ _FINEST = 1e-9
 """Of the parameter: where neighbours as close as this do not meet, the curve ends."""
 
 
-def stable_curve(saddle: Saddle, side: int, measure: Measure) -> Curve:
+def stable_curve(
+    saddle: Saddle, side: int, measure: Measure, tell: Callable[[float], None]
+) -> Curve:
     """One side of a saddle's stable curve, preimage by preimage.
 
     A point has the parameter s in [0, 1] and the level k: its k-th image lies at the distance
-    short · |λ|^(1 − s) from the saddle in the direction that dies out.
+    short · |λ|^(1 − s) from the saddle in the direction that dies out. `tell` is called with the
+    share of the work that is done at least.
     """
     twice = 2 if saddle.dying < 0.0 else 1
     section = saddle.orbit.section.simpler(saddle.orbit.section.count * twice, mirror=False)
-    chains = _Chains(saddle, section, side, measure, abs(saddle.dying) ** twice)
+    chains = _Chains(saddle, section, side, measure, abs(saddle.dying) ** twice, tell)
     parts = [saddle.point[None], chains.level(0)]
     total = measure.length(parts[1])
     for level in range(1, measure.images + 1):
-        ended = chains.extend(level, measure.longest - total)
+        ended = chains.extend(level, total)
         points = chains.level(level)
         parts.append(points[1:])
         total += measure.length(points)
         if ended:
             return Curve(np.vstack(parts), ended)
-    return Curve(np.vstack(parts), "the requested number of images was computed")
+    return Curve(np.vstack(parts), IMAGES)
 
 
 class _Chains:
     """Points of the first piece, each with its preimages."""
 
     def __init__(
-        self, saddle: Saddle, section: Section, side: int, measure: Measure, factor: float
+        self,
+        saddle: Saddle,
+        section: Section,
+        side: int,
+        measure: Measure,
+        factor: float,
+        tell: Callable[[float], None],
     ) -> None:
         self.section, self.measure, self.factor = section, measure, factor
+        self.allowance, self.tell = Allowance(measure), tell
         self.value = saddle.orbit.value
         along = section.family
         # Where an image presses such a stop it has more to it than the plane of its preimages.
@@ -73,12 +93,19 @@ class _Chains:
         """The points that have so many preimages before them."""
         return np.array([chain[number] for chain in self.chains if len(chain) > number])
 
-    def extend(self, level: int, longest: float) -> str:
-        """Find the preimages of the last level, in order; why they end, or ""."""
+    def extend(self, level: int, total: float) -> str:
+        """Find the preimages of the last level, in order; why they end, or "".
+
+        `total` is the length of the curve up to there.
+        """
         # The piece goes on where the last one ended.
         self.chains[0].append(self.chains[-1][level - 1])
-        i, total = 1, 0.0
+        i = 1
         while i < len(self.chains):
+            self.tell(max(total / self.measure.longest, self.allowance.used / self.allowance.all))
+            if self.allowance.spent:
+                self._cut(i)
+                return CYCLES
             before, here = self.chains[i - 1], self.chains[i]
             found = self._preimage(here[level - 1], before[level], before[level - 1])
             gap = 0.0
@@ -97,9 +124,9 @@ class _Chains:
             if not self.measure.within(found[None], _ROOM)[0]:
                 self._cut(i + 1)
                 return "the curve runs too far out of the window"
-            if total > longest:
+            if total > self.measure.longest:
                 self._cut(i + 1)
-                return "the curve reaches the maximum length"
+                return LONGEST
             i += 1
         return ""
 
@@ -170,6 +197,8 @@ class _Chains:
     def _map(self, point: _Array) -> tuple[_Array, _Array] | None:
         """Image and derivative; None if a limit is met, or the image lies beside the plane."""
         begun = np.array([point[0], point[1], 0.0, 0.0, 0.0, self.value])
+        stop_if_unwanted()
+        self.allowance.use(self.section.count)
         status, here, image = evaluated(self.section, begun, 0.0)
         if status is not Status.DONE or image[:5][self.hidden].any():
             return None

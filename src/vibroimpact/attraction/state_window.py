@@ -12,6 +12,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import RigidStop, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.stability.settle import approach, reach, reach_at_rest
+from vibroimpact.tasks.threads import Progress
 
 Window = tuple[tuple[float, float], tuple[float, float]]
 """Ranges of displacement (m) and velocity (m/s)."""
@@ -33,8 +34,10 @@ def walls(stage: Stage) -> tuple[float, float]:
     )
 
 
-def window(search: Search) -> Window:
+def window(search: Search, progress: Progress | None = None) -> Window:
     """A window around all motions that starts in a larger one lead to.
+
+    Progress counts these starts.
 
     Raises
     ------
@@ -55,9 +58,10 @@ def window(search: Search) -> Window:
         )
     low, high = walls(stage)
     fast = size * excitation.angular_frequency
-    search.label(lattice((max(-size, low), min(size, high)), (-fast, fast), (_LATTICE, _LATTICE)))
+    wide = max(-size, low), min(size, high)
+    search.label(lattice(wide, (-fast, fast), (_LATTICE, _LATTICE)), progress)
     if not search.known:
-        return (max(-size, low), min(size, high)), (-fast, fast)
+        return wide, (-fast, fast)
     most = max(float(one.motion["displacement_max"]) for one in search.known)
     least = min(float(one.motion["displacement_min"]) for one in search.known)
     fast = _WIDER * max(float(np.abs(one.motion["velocity"]).max()) for one in search.known)

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.attraction.adaptive_curve import Curve, Measure, broken, refined
+from vibroimpact.attraction.adaptive_curve import (
+    IMAGES,
+    Allowance,
+    Curve,
+    Measure,
+    broken,
+    refined,
+)
 from vibroimpact.attraction.label_states import Stage, images
 from vibroimpact.attraction.saddles import Saddle
 from vibroimpact.tasks.threads import Workers
@@ -19,42 +28,98 @@ _ARRIVED = 0.02
 
 
 def unstable_curve(
-    stage: Stage, saddle: Saddle, side: int, measure: Measure, workers: Workers
+    stage: Stage,
+    saddle: Saddle,
+    side: int,
+    measure: Measure,
+    workers: Workers,
+    tell: Callable[[float], None],
 ) -> Curve:
     """One side of a saddle's unstable curve, image by image.
 
     A point has the parameter k + s: the k-th image of that at the distance short · |λ|^(s − 1) from
-    the saddle in the direction that grows.
+    the saddle in the direction that grows. `tell` is called with the share of the work that is done
+    at least.
     """
-    twice = 2 if saddle.growing < 0.0 else 1
-    factor = abs(saddle.growing) ** twice
-    cycles = saddle.orbit.section.count * twice
-    way = saddle.unstable / np.linalg.norm(measure.scaled(saddle.unstable)) * side
-
-    def at(parameters: _Array) -> _Array:
-        found = np.empty((len(parameters), 2))
-        levels = np.floor(parameters).astype(int)
-        for level in np.unique(levels):
-            mine = levels == level
-            begun = np.zeros((int(mine.sum()), 5))
-            share = factor ** (parameters[mine] - level - 1.0)
-            begun[:, :2] = saddle.point + _SHORT * share[:, None] * way
-            went, known = images(stage, begun, cycles * int(level), workers)
-            found[mine] = np.where(known[:, None], went[:, :2], np.nan)
-        return found
-
+    allowance = Allowance(measure)
+    piece = _Images(stage, saddle, side, measure, workers, allowance)
     parts: list[_Array] = [saddle.point[None]]
     total = last = 0.0
+    ended = ""
     for level in range(measure.images):
-        piece, ended = refined(at, float(level), float(level + 1), measure)
-        length = measure.length(piece)
+        if level:
+            piece.advance()
+        points, ended = refined(
+            piece.at, float(level), float(level + 1), measure, measure.longest - total, allowance
+        )
+        length = measure.length(points)
         total += length
-        parts.append(piece[:-1])
+        parts.append(points if ended else points[:-1])
+        if not ended and length < min(last, _ARRIVED * measure.spacing):
+            ended = "the curve ends at a steady motion"
         if ended:
-            return Curve(broken(np.vstack(parts), measure), ended)
-        if length < min(last, _ARRIVED * measure.spacing):
-            return Curve(broken(np.vstack(parts), measure), "the curve ends at a steady motion")
+            break
         last = length
-        if total > measure.longest:
-            return Curve(broken(np.vstack(parts), measure), "the curve reaches the maximum length")
-    return Curve(broken(np.vstack(parts), measure), "the requested number of images was computed")
+        tell(max(total / measure.longest, allowance.used / allowance.all))
+    return Curve(broken(np.vstack(parts), measure), ended or IMAGES)
+
+
+class _Images:
+    """Images of the first piece. Those of one level are kept: they lead to the next level."""
+
+    def __init__(
+        self,
+        stage: Stage,
+        saddle: Saddle,
+        side: int,
+        measure: Measure,
+        workers: Workers,
+        allowance: Allowance,
+    ) -> None:
+        twice = 2 if saddle.growing < 0.0 else 1
+        self.stage, self.workers, self.allowance = stage, workers, allowance
+        self.origin, self.factor = saddle.point, abs(saddle.growing) ** twice
+        self.cycles = saddle.orbit.section.count * twice
+        self.way = saddle.unstable / np.linalg.norm(measure.scaled(saddle.unstable)) * side
+        self.level = 0
+        self.before: dict[float, _Array] = {}
+        self.here: dict[float, _Array] = {}
+
+    def advance(self) -> None:
+        """Go on to the next level."""
+        self.level, self.before, self.here = self.level + 1, self.here, {}
+
+    def at(self, parameters: _Array) -> _Array:
+        """Displacement and velocity of points of this level; NaN if they were given up."""
+        shares = parameters - self.level
+        within = shares < 1.0
+        found = np.empty((len(parameters), 2))
+        found[within] = self._states(shares[within])[:, :2]
+        if not within.all():  # where the next level begins
+            found[~within] = self._mapped(self.here[0.0][None], 1)[:, :2]
+        return found
+
+    def _states(self, shares: _Array) -> _Array:
+        states = np.empty((len(shares), 5))
+        known = np.array([share in self.before for share in shares], dtype=bool)
+        if known.any():
+            states[known] = self._mapped(np.array([self.before[s] for s in shares[known]]), 1)
+        if not known.all():
+            states[~known] = self._mapped(self._seeds(shares[~known]), self.level)
+        self.here.update(zip(shares.tolist(), states, strict=True))
+        return states
+
+    def _seeds(self, shares: _Array) -> _Array:
+        begun = np.zeros((len(shares), 5))
+        away = _SHORT * self.factor ** (shares - 1.0)
+        begun[:, :2] = self.origin + away[:, None] * self.way
+        return begun
+
+    def _mapped(self, states: _Array, times: int) -> _Array:
+        found = states.copy()
+        mapped = ~np.isnan(states).any(axis=1)
+        if times and mapped.any():
+            went, known = images(self.stage, states[mapped], self.cycles * times, self.workers)
+            found[mapped] = np.where(known[:, None], went, np.nan)
+            self.allowance.use(self.cycles * times * int(mapped.sum()))
+        return found

@@ -10,6 +10,7 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
+from vibroimpact.cli.own_outputs import Compute, own_outputs
 from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import rig_at
 
@@ -22,7 +23,7 @@ _SHOWN = {
 _DIRECTIONS = {"both": ("up", "down"), "up": ("up",), "down": ("down",), "none": ()}
 
 
-@calls("bifurcation_diagram", "Diagram", direction="directions")
+@calls("bifurcation_diagram", "Diagram", direction="directions", compute="outputs")
 def bifurcation(
     rig: opt.RigName,
     /,
@@ -40,6 +41,7 @@ def bifurcation(
     ),
     phase: opt.Text = None,
     branches: opt.Flag = False,
+    compute: Compute = (),
     threads: opt.Threads = None,
     where: opt.Where = "threads",
     max_cycles: Annotated[opt.Whole, Parameter(group=opt.COMPUTATION)],
@@ -95,6 +97,7 @@ def bifurcation(
     along = parameter.replace("-", "_")
     span = option_range(what, along, start, stop)
     shaken = rig_at(what, frequency, phase, along)
+    outputs = own_outputs(compute)
     with results(what, output) as written:
         with progress_bar("computing motions") as progress:
             data = vi.bifurcation_diagram(
@@ -107,6 +110,7 @@ def bifurcation(
                 section="impacts" if quantity.startswith("impact") else "stroboscopic",
                 log=log,
                 max_cycles=max_cycles,
+                outputs=outputs,
                 threads=threads,
                 where=where,
                 progress=progress,

@@ -10,6 +10,7 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
+from vibroimpact.cli.own_outputs import Compute, own_outputs
 from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import rig_at, state
 from vibroimpact.stability.branch_styles import Quantity
@@ -22,7 +23,7 @@ _HOLDS = 120
 """Number of frequencies of the stepped sweep in the figure."""
 
 
-@calls("resonance_diagram", "Branch", start="span")
+@calls("resonance_diagram", "Branch", start="span", compute="outputs")
 def branch(
     rig: opt.RigName,
     /,
@@ -36,6 +37,7 @@ def branch(
     longest: opt.Whole,
     random: opt.Whole,
     basins: opt.Whole = 0,
+    compute: Compute = (),
     begin: Annotated[opt.Text, Parameter(name="--start")] = None,
     period: opt.Whole | None = None,
     changes: opt.RigOptions = opt.AS_DESCRIBED,
@@ -60,6 +62,7 @@ def branch(
     - NAME-PARAMETER-branches.nc: the orbits and the bifurcations of all branches
     - NAME-PARAMETER-branches.png: the branches. If the parameter is the frequency, the figure also
       shows a simulated sweep.
+    - NAME-PARAMETER-branches-OUTPUT.png: the branches over each output of --compute
 
     For example:
 
@@ -111,12 +114,18 @@ def branch(
     is_one = begin is not None or period is not None
     shaken = rig_at(what, frequency, along="" if is_one else along)
     near = None if begin is None else state("--start", begin)
-    swept = None
+    swept, outputs = None, own_outputs(compute)
     with results(what, output) as written:
         with progress_bar("following branches") as progress:
             if is_one:
                 data = vi.branch(
-                    shaken, near, parameter=along, span=span, period=period, progress=progress
+                    shaken,
+                    near,
+                    parameter=along,
+                    span=span,
+                    period=period,
+                    outputs=outputs,
+                    progress=progress,
                 )
             else:
                 data = vi.resonance_diagram(
@@ -127,14 +136,18 @@ def branch(
                     longest=longest,
                     random=random,
                     basins=basins_along(shaken, along, span, basins, progress),
+                    outputs=outputs,
                     progress=progress,
                 )
                 if along == "frequency":
                     values = data["frequency"].values
                     grid = np.linspace(values.min(), values.max(), _HOLDS)
-                    swept = vi.sweep(what.rig, grid)
+                    swept = vi.sweep(what.rig, grid, outputs=outputs)
         if physical or not has_normalised_curves(data, shaken):
             quantity = _PHYSICAL.get(quantity, quantity)
         ending = f"{along.replace('_', '-')}-branches"
         written.write(data, ending, figures.branch_diagram, quantity=quantity, sweep=swept)
+        for name in outputs or ():
+            drawn = figures.branch_diagram(data, quantity=name, sweep=swept, title=what.title)
+            written.draw(f"figure of {name}", f"{ending}-{name}", drawn)
     return written.tell(facts.facts(data), facts.text(data))

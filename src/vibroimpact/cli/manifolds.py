@@ -23,6 +23,7 @@ def manifolds(
     period: opt.Whole,
     spacing: float,
     longest: float,
+    curve_cycles: opt.Whole,
     nodes: opt.Whole = 300,
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     threads: opt.Threads = None,
@@ -62,6 +63,9 @@ def manifolds(
         --velocity.
     longest
         Largest length of a curve. The length is dimensionless, as in --spacing.
+    curve_cycles
+        Largest number of forcing cycles that are simulated for all curves together. Each curve has
+        the same share, and ends where its share is used.
     nodes
         Number of initial states along each axis of the grid on which the basins in the figure are
         computed. Default: 300.
@@ -86,6 +90,7 @@ def manifolds(
                 period=period,
                 spacing=spacing,
                 longest=longest,
+                curve_cycles=curve_cycles,
                 threads=threads,
                 progress=progress,
             )

@@ -10,9 +10,10 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
+from vibroimpact.cli.own_outputs import Compute, own_outputs
 
 
-@calls("sweep", "Frequencies", direction="directions")
+@calls("sweep", "Frequencies", direction="directions", compute="outputs")
 def sweep(
     rig: opt.RigName,
     /,
@@ -23,6 +24,7 @@ def sweep(
     frequencies: opt.Text = None,
     direction: Literal["forward", "backward", "both"] | None = None,
     physical: opt.Physical = False,
+    compute: Compute = (),
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     threads: opt.Threads = None,
     tolerance: Annotated[float | None, Parameter(group=opt.COMPUTATION)] = None,
@@ -45,6 +47,7 @@ def sweep(
         vibroimpact sweep B3-10mm-A3 --from 0.3Hz --to 4Hz --step 0.01Hz
         vibroimpact sweep B2-G1-A3 --left-gap 9mm --no-right --output one-sided
         vibroimpact sweep building.toml --physical --direction forward --json
+        vibroimpact sweep B2-G1-A3 --compute 'power [W] = mean(damping*velocity**2)'
 
     Parameters
     ----------
@@ -97,6 +100,7 @@ def sweep(
     what = subject(rig, changes, output.name)
     table = what.sweep_table
     grid = list_frequencies(start, stop, step, frequencies, table, default_range(what))
+    outputs = own_outputs(compute)
     way = direction or table.direction or "both"
     with results(what, output) as written:
         with progress_bar("sweeping") as progress:
@@ -109,6 +113,7 @@ def sweep(
                     tolerance=table.tolerance if tolerance is None else tolerance,
                     max_cycles=table.max_cycles if max_cycles is None else max_cycles,
                     threads=threads,
+                    outputs=outputs,
                 ),
                 progress=progress,
             )

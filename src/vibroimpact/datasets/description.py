@@ -9,13 +9,12 @@ from typing import Any
 import xarray as xr
 
 from vibroimpact._version import __version__
-from vibroimpact.datasets.variable import Variable
+from vibroimpact.datasets.variable import Described, Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, Rig, State
 from vibroimpact.model.excitation import ON_THE_MASS
-from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.varied import Varied
+from vibroimpact.model.parameters import parameter
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
 COMPONENTS = [*State.model_fields]
@@ -27,15 +26,15 @@ def describe(
     created_by: str,
     parameters: dict[str, Any] | None = None,
     notes: Iterable[str] = (),
-    varied: Iterable[Parameter | Varied] = (),
+    varied: Iterable[Described] = (),
 ) -> xr.Dataset:
     """Give every variable its units and meaning, and the dataset its parameters and origin.
 
     Attributes that the dataset already has are kept. Pass None for the parameters if they are among
     these attributes. Assumptions about the input, and doubts about it, become the attribute
     ``notes``, one per line. The variables of parameters that were varied have the units that these
-    have in the rig. If no rig has units, the variables have the units ``1``, and the attribute
-    ``unit_system`` is ``none``.
+    have in the rig. An own output is described by itself. If no rig has units, the variables have
+    the units ``1``, and the attribute ``unit_system`` is ``none``.
 
     Raises
     ------
@@ -108,6 +107,11 @@ def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]
     }
 
 
+def own_outputs(data: xr.Dataset) -> list[str]:
+    """Return the names of the own outputs in a dataset."""
+    return [str(name) for name in data.data_vars if "output" in data[name].attrs]
+
+
 def noted(data: xr.Dataset) -> list[str]:
     """Return the notes of a dataset, as a list of lines."""
     return str(data.attrs.get("notes", "")).splitlines()
@@ -131,11 +135,14 @@ def excitation_parameters(shaken: Repeated, *left_out: str) -> dict[str, Any]:
 
 
 def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
-    """Return a rig as plain numbers (SI units), for the attributes of a dataset."""
-    return {
-        "oscillator": oscillator_parameters(rig.oscillator),
-        **excitation_parameters(rig.periodic, *left_out),
-    }
+    """Return a rig as plain numbers (SI units), for the attributes of a dataset.
+
+    The amplitude of a rig with one amplitude per frequency of a sweep is a list.
+    """
+    numbers = excitation_parameters(rig.hardest.periodic, *left_out)
+    if rig.amplitudes is not None:
+        numbers["amplitude"] = list(rig.amplitudes)
+    return {"oscillator": oscillator_parameters(rig.oscillator), **numbers}
 
 
 def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:

@@ -2,7 +2,26 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
+
+
+class Described(Protocol):
+    """A variable that is described outside the vocabulary, such as a parameter that is varied."""
+
+    @property
+    def name(self) -> str:
+        """Name of the variable."""
+        ...
+
+    @property
+    def units(self) -> str:
+        """Its units."""
+        ...
+
+    @property
+    def long_name(self) -> str:
+        """Its meaning."""
+        ...
 
 
 class Variable(NamedTuple):

@@ -10,6 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from vibroimpact.datasets.description import noted
 from vibroimpact.facts.number_format import LENGTHS, SPEEDS, fitting, plain, with_unit
 
 
@@ -35,6 +36,7 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
             for number in range(data.sizes["curve"])
         ],
         "crossings": data.sizes["crossing"],
+        "notes": noted(data),
     }
 
 
@@ -43,7 +45,8 @@ def text(data: xr.Dataset) -> RenderableType:
     found = facts(data)
     saddles, curves = found["saddles"], found["curves"]
     if not saddles:
-        return Text("\nno saddle was found on the borders between basins")
+        none = "\nno saddle was found on the borders between basins"
+        return Text("\n".join([none, *found["notes"]]))
     far = fitting((one["displacement"] for one in saddles), LENGTHS)
     fast = fitting((one["velocity"] for one in saddles), SPEEDS)
     table = Table(box=None, pad_edge=False, padding=(0, 2))
@@ -77,4 +80,4 @@ def text(data: xr.Dataset) -> RenderableType:
         if crossed
         else "stable and unstable manifolds do not cross"
     )
-    return Group(Text(), table, Text(), Text("\n".join(lines)))
+    return Group(Text(), table, Text(), Text("\n".join([*lines, *found["notes"]])))

@@ -11,6 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from vibroimpact.attraction.adaptive_curve import CONTINUES
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.motion_style import axes_or_new
@@ -60,7 +61,7 @@ def basin_portrait(
     manifolds
         Dataset of `vibroimpact.manifolds` for the same rig. Stable curves are drawn solid, and
         unstable curves dashed. Crosses mark the saddles, and dots mark the points where curves
-        cross. Default: no curves.
+        cross. The legend counts the curves that continue beyond their ends. Default: no curves.
     shade
         Whether the colour of a state is darker if more forcing cycles were required to find out
         to which motion the state leads.
@@ -205,7 +206,7 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
                 color=colour,
                 linestyle=dashes,
                 linewidth=width,
-                label=f"{kind} manifolds of saddles",
+                label=f"{kind} manifolds of saddles{_cut(data, kind)}",
                 path_effects=[patheffects.withStroke(linewidth=width + 1.2, foreground="white")],
                 zorder=3,
             )
@@ -230,6 +231,13 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
             )
             handles.append(line)
     return handles
+
+
+def _cut(data: xr.Dataset, kind: str) -> str:
+    """Count the curves of a kind that continue beyond their ends."""
+    ends = data["curve_ended"].values[data["curve_kind"].values == kind]
+    count = int(np.isin(ends, CONTINUES).sum())
+    return f" ({count} of {len(ends)} continue)" if count else ""
 
 
 def _name(ax: Axes, motions: list[xr.Dataset]) -> None:

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import own_outputs
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.labels import Names
@@ -19,7 +20,7 @@ from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.style import LEGEND, SWEEPS
 from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
-from vibroimpact.stability.branch_styles import QUANTITIES, Quantity
+from vibroimpact.stability.branch_styles import QUANTITIES
 
 _Array = NDArray[np.float64]
 
@@ -53,7 +54,7 @@ def branch_diagram(
     data: xr.Dataset,
     ax: Axes | None = None,
     *,
-    quantity: Quantity = "eta_d",
+    quantity: str = "eta_d",
     sweep: xr.Dataset | None = None,
     title: str | None = None,
 ) -> Axes:
@@ -73,7 +74,7 @@ def branch_diagram(
         Quantity on the vertical axis: ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"``,
         ``"eccentricity"``, ``"peak_displacement"``, ``"peak_acceleration"``,
         ``"peak_transmitted_force"``, ``"transmissibility"``, ``"peak_force_right"`` or
-        ``"peak_force_left"``.
+        ``"peak_force_left"``; or the name of an own output.
     sweep
         Dataset of `sweep` over the same frequencies, which is drawn as marks. Default: no sweep.
     title
@@ -90,8 +91,9 @@ def branch_diagram(
         if "start" in data.dims:
             wrong = "a bifurcation diagram; draw it with figures.section_diagram, or"
         raise InputError(f"data: this is {wrong} pass the result of branch or resonance_diagram")
-    if quantity not in QUANTITIES:
-        raise InputError(f"quantity: {quantity!r}; pass one of {', '.join(QUANTITIES)}")
+    known = (*QUANTITIES, *own_outputs(data))
+    if quantity not in known:
+        raise InputError(f"quantity: {quantity!r}; pass one of {', '.join(known)}")
     name = data.attrs["parameter"]
     if sweep is not None and name != "frequency":
         raise InputError(
@@ -100,6 +102,10 @@ def branch_diagram(
         )
     if sweep is not None and "direction" not in sweep.coords:
         raise InputError("sweep: this is not a sweep; pass the result of the function sweep")
+    if sweep is not None and quantity not in sweep:
+        raise InputError(
+            f"sweep: it has no output {quantity!r}; pass the same outputs to the function sweep"
+        )
     factor, label = axis_label(data[quantity], quantity)
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])

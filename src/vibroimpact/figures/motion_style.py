@@ -272,7 +272,8 @@ def _signed(peaks: _Array, peak_at: _Array, at: _Array, values: _Array) -> _Arra
     beside = np.searchsorted(at, peak_at)[:, np.newaxis] + np.arange(-2, 3)
     found = values[np.clip(beside, 0, len(values) - 1)]
     nearest = np.argmin(np.abs(np.abs(found) - peaks[:, np.newaxis]), axis=1)
-    return np.copysign(peaks, found[np.arange(len(peaks)), nearest])
+    signed: _Array = np.copysign(peaks, found[np.arange(len(peaks)), nearest])
+    return signed
 
 
 def _repeated(curve: Shown, period: float, cycles: float) -> Shown:

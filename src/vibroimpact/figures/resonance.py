@@ -17,7 +17,13 @@ from numpy.typing import NDArray
 from vibroimpact.figures.measured import halves_of, measured_curves, measured_points
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.figures.resonance_panels import Drawn, divides, normalised, physical_curves
+from vibroimpact.figures.resonance_panels import (
+    Drawn,
+    divides,
+    normalised,
+    outputs,
+    physical_curves,
+)
 from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
 from vibroimpact.measurements.read import as_measured, is_measured
 from vibroimpact.response.resonance import Features, Hysteresis, Jump, features
@@ -56,7 +62,7 @@ def resonance_curves(
     squares. The motion without stops is black. Vertical arrows mark the jumps of a sweep. Ranges
     with hysteresis are shaded; ranges with left hysteresis are also hatched. Crosses mark motions
     that did not become periodic. If many such motions are close together, some crosses are omitted.
-    In physical units, dotted lines are the gaps.
+    In physical units, dotted lines are the gaps. Own outputs have further panels.
 
     Parameters
     ----------
@@ -64,7 +70,8 @@ def resonance_curves(
         Dataset of `vibroimpact.sweep`, one rig of a dataset of `vibroimpact.sweeps`, or measured
         curves.
     axes
-        Axes to draw on, one per panel. Default: a new figure.
+        Axes to draw on: two for η_a and η_d, or one per physical quantity; and one for each own
+        output. Default: a new figure.
     found
         Features (resonances, jumps and hysteresis) that are marked. Default: the features are
         computed from the curves.
@@ -85,8 +92,8 @@ def resonance_curves(
     Returns
     -------
     tuple of Axes
-        The Axes of η_a and η_d, or of acceleration, displacement and forces. ``axes[0].figure`` is
-        the figure.
+        The Axes of η_a and η_d, or of acceleration, displacement and forces; then those of own
+        outputs. ``axes[0].figure`` is the figure.
 
     Raises
     ------
@@ -102,6 +109,8 @@ def resonance_curves(
         physical = not divides(data)
     halves = halves_of(measured) if measured is not None else set()
     drawn = physical_curves(data, halves) if physical else normalised(data)
+    names = [one.name for one in drawn]
+    drawn += outputs(data)
     what = " and ".join(one.name for one in drawn)
     given = panels(axes, len(drawn), what, (7.2, 0.4 + 3.2 * len(drawn)), title)
     for ax, one in zip(given, drawn, strict=True):
@@ -116,8 +125,7 @@ def resonance_curves(
     entries = _legend(data, sides, marked=measured is None)
     entries += [line.entry() for one in drawn for line in one.levels]
     if measured is not None:
-        names = [one.name for one in drawn]
-        entries += measured_points(given, names, data, measured)
+        entries += measured_points(given[: len(names)], names, data, measured)
     upper.legend(handles=entries, ncols=2 if len(entries) <= 4 else 3, **LEGEND)
     return given
 
@@ -134,7 +142,7 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked:
     frequency = data["frequency"].values
     margin = 0.02 * (frequency[-1] - frequency[0]) or 0.05 * frequency[0]
     ax.set_xlim(frequency[0] - margin, frequency[-1] + margin)
-    ax.set_ylim(0.0, 1.06 * drawn.top)
+    ax.set_ylim(1.06 * drawn.bottom, 1.06 * drawn.top)
 
     for item in found.hysteresis:
         if item.settled:

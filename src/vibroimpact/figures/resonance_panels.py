@@ -11,8 +11,9 @@ import xarray as xr
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import base_at_rest, excitation_from
+from vibroimpact.datasets.description import base_at_rest, excitation_from, own_outputs
 from vibroimpact.errors import InputError
+from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.own_units import in_unit
 from vibroimpact.model import Oscillator, equilibrium
@@ -58,6 +59,11 @@ class Drawn(NamedTuple):
     """Whether the motion without stops is unbounded, so that its curve leaves the panel."""
 
     @property
+    def bottom(self) -> float:
+        """Smallest value of all curves, at most 0."""
+        return min(float(np.nanmin(curve, initial=0.0)) for curve in self.curves.values())
+
+    @property
     def top(self) -> float:
         """Largest value of all curves."""
         free = [] if self.free is None or self.spike else [self.free]
@@ -100,6 +106,15 @@ def _exciting_excursion(data: xr.Dataset) -> _Array:
     excursion = exciting_excursion(Rig(oscillator, shaken), data["frequency"].values)
     shares = 1.0 if sizes is None else np.array(sizes) / max(sizes)
     return np.asarray(oscillator.mass * excursion * shares)
+
+
+def outputs(data: xr.Dataset) -> list[Drawn]:
+    """Return the panels of own outputs."""
+    found = []
+    for name in own_outputs(data):
+        factor, label = axis_label(data[name], name)
+        found.append(Drawn(name, label, _curves(data, name, factor), None))
+    return found
 
 
 def divides(data: xr.Dataset) -> bool:

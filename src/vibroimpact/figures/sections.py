@@ -11,7 +11,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, NullLocator
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import own_outputs
 from vibroimpact.errors import InputError
+from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.branches import MARKS, axis_unit
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
@@ -34,6 +36,7 @@ _WAYS = {
 _ELSE = Look("from other initial states", "0.35", "-.", 0.8, "x", 4.0, True)
 
 _HEIGHTS = (3.2, 1.0, 1.4)
+_OF_AN_OUTPUT = 1.4
 _NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")
 """Types of motions that have their own row on the axis of periods, below the period 1."""
 
@@ -49,12 +52,15 @@ def section_diagram(
 ) -> Panels:
     """Draw a bifurcation diagram: section, period and largest Lyapunov exponent over a parameter.
 
+    Own outputs have further panels below the section.
+
     Parameters
     ----------
     data
         Dataset of `bifurcation_diagram`.
     axes
-        Three Axes to draw on, from top to bottom. Default: a new figure.
+        Three Axes to draw on, from top to bottom, and one for each own output. Default: a new
+        figure.
     quantity
         Quantity of the section. For a stroboscopic section: ``"section_displacement"`` or
         ``"section_velocity"``. For a section at impacts: ``"contact_start_velocity"`` or
@@ -89,8 +95,13 @@ def section_diagram(
             f"branches: their parameter is {branches.attrs.get('parameter')!r}, but that of data "
             f"is {name!r}; pass branches along {name!r}"
         )
-    drawn = panels(axes, 3, "section, periods and exponents", (7.2, 6.4), title, _HEIGHTS)
-    top, middle, bottom = drawn
+    own = own_outputs(data)
+    what = " and ".join([", ".join(["section", *own, "periods"]), "exponents"])
+    first, *others = _HEIGHTS
+    heights = (first, *[_OF_AN_OUTPUT] * len(own), *others)
+    size = (7.2, 6.4 + 1.6 * len(own))
+    drawn = panels(axes, len(heights), what, size, title, heights)
+    top, *between, middle, bottom = drawn
     scale, unit = axis_unit(data[name])
     x = scale * data[name].values
     factor, label = _LABELS[quantity]
@@ -100,11 +111,13 @@ def section_diagram(
     for start in reversed(data["start"].values):
         one, look = data.sel(start=start), _WAYS.get(str(start), _ELSE)
         _points(top, x, factor * one[quantity].values, look)
-        heights = [
+        levels = [
             rows.get(str(motion), float(period))
             for motion, period in zip(one["motion"].values, one["period"].values, strict=True)
         ]
-        _line(middle, x, np.array(heights), look)
+        for ax, output in zip(between, own, strict=True):
+            _line(ax, x, axis_label(data[output], output)[0] * one[output].values, look)
+        _line(middle, x, np.array(levels), look)
         _line(bottom, x, one["exponents"].values[:, 0], look, dots=False)
     spacing = np.diff(x)
     for ax in drawn:
@@ -121,6 +134,8 @@ def section_diagram(
     above = {**LEGEND, "bbox_to_anchor": (0.5, 1.03)}
     top.legend(handles=handles, ncols=4, **above)
     top.set_ylabel(label)
+    for ax, output in zip(between, own, strict=True):
+        ax.set_ylabel(axis_label(data[output], output)[1].replace(" (", "\n("))
     _periods(middle, data["period"].values, rows)
     bottom.axhline(0.0, color="0.3", linewidth=0.7, zorder=1)
     bottom.set_ylabel("largest\nexponent (1/s)")

@@ -125,11 +125,22 @@ def _shaken_rig(rig: Rig, data: xr.Dataset, where: str) -> tuple[Rig, str]:
 
 
 def _of_sweep(data: xr.Dataset) -> Harmonic | None:
-    """The sine of a computed sweep, which its dataset states; None of other data."""
+    """The sine of a computed sweep, which its dataset states; None of other data.
+
+    Raises
+    ------
+    InputError
+        If the sweep has one amplitude per frequency.
+    """
     if data.attrs.get("created_by") != "vibroimpact.sweep":
         return None
     (rig,) = json.loads(data.attrs["parameters"])["rigs"]
     size = rig.get("amplitude")
+    if isinstance(size, list):
+        raise InputError(
+            f"data: {len(size)} amplitudes, one per frequency of the sweep, but a fit needs a "
+            "sweep of one amplitude; sweep the frequencies of each amplitude separately"
+        )
     return (
         Harmonic(size, ANY_FREQUENCY, of=rig.get("of", "acceleration"))
         if isinstance(size, float)

@@ -7,6 +7,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, cast
 
+import numpy as np
+from numpy.typing import NDArray
+
 from vibroimpact.arguments import is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
@@ -44,7 +47,8 @@ class Rig:
           ``"120 N"`` (force on the mass) or ``"0.4 kg m"`` (rotating unbalance). In this case the
           frequency is open: it is set later, by ``frequency`` or by a function such as `sweep`;
         - a `Harmonic`, a `Periodic` or a `Record`;
-        - for a sweep: a list with one amplitude per frequency;
+        - for `sweep`, `sweeps` and `lyapunov_exponents`: a list with one amplitude per frequency.
+          Functions of one motion do not accept it, because the list does not state its frequencies;
         - None or 0, if nothing shakes the rig, or if a function gets the shaking from another
           argument. `simulate` then computes the free vibration.
     frequency
@@ -58,7 +62,7 @@ class Rig:
     oscillator : Oscillator
     shaking : Harmonic, Periodic, Record or None
         The excitation. If the frequency of the rig is open, the frequency of this object has no
-        meaning.
+        meaning. If the rig has a list of amplitudes, this object has the largest one.
     frequency : float or None
         Forcing frequency in Hz. None if it is open, or if a record shakes the rig.
     amplitudes : tuple of float or None
@@ -69,6 +73,7 @@ class Rig:
     ------
     InputError
         If ``oscillator`` is not an `Oscillator`, or if the shaking or the frequency is invalid.
+        Also if the shaking is a list of amplitudes and a frequency is passed.
 
     Examples
     --------
@@ -108,6 +113,8 @@ class Rig:
             shaking, amplitudes = as_periodic(shaking, "shaking")
         if frequency is not None:
             own = to_si(frequency, FREQUENCY, "frequency", above=0.0)
+            if amplitudes is not None:
+                raise InputError(_several(amplitudes))
             if isinstance(shaking, Record):
                 raise InputError(
                     f"frequency: {own:g} Hz, but the shaking is a Record, which has no frequency; "
@@ -136,7 +143,13 @@ class Rig:
 
     @property
     def amplitude(self) -> float:
-        """Amplitude of the periodic shaking (m/s², m, N or kg m), the largest of its harmonics."""
+        """Amplitude of the periodic shaking, the largest one of its harmonics (m/s², m, N or kg m).
+
+        Raises
+        ------
+        InputError
+            As in `periodic`.
+        """
         return self.periodic.amplitude
 
     @property
@@ -146,8 +159,11 @@ class Rig:
         Raises
         ------
         InputError
-            If a record shakes the rig, or if the rig has no shaking.
+            If a record shakes the rig, if the rig has no shaking, or if it has a list of
+            amplitudes.
         """
+        if self.amplitudes is not None:
+            raise InputError(_several(self.amplitudes))
         if isinstance(self.shaking, Harmonic | Periodic):
             return self.shaking
         return as_periodic(self.shaking, "shaking")[0]  # which says what is wrong
@@ -161,8 +177,9 @@ class Rig:
         InputError
             As in `periodic`. Also if the frequency is open.
         """
+        shaking = self.periodic
         self.check_frequency()
-        return self.periodic
+        return shaking
 
     def check_frequency(self) -> None:
         """Raise an error if the rig has no forcing frequency.
@@ -172,8 +189,7 @@ class Rig:
         InputError
             If the frequency is open, or if the shaking is not periodic.
         """
-        if not isinstance(self.shaking, Harmonic | Periodic):
-            as_periodic(self.shaking, "shaking")  # which says what is wrong
+        _ = self.periodic  # which says what is wrong
         if self.frequency is None:
             raise InputError(
                 "frequency: missing, and the rig does not state it; pass it, such as "
@@ -220,7 +236,13 @@ class Rig:
         return self.shaking
 
     def at(self, frequency: float | str) -> Rig:
-        """Return a copy of the rig with another forcing frequency (Hz, or text with a unit)."""
+        """Return a copy of the rig with another forcing frequency (Hz, or text with a unit).
+
+        Raises
+        ------
+        InputError
+            As in `periodic`. Also if the frequency is invalid.
+        """
         return Rig(self.oscillator, self.periodic, frequency, self.name)
 
     @property
@@ -239,6 +261,37 @@ class Rig:
         hertz = self.frequency or natural or 1.0
         phase = 0.0 if self.shaking is None else self.periodic.phase
         return self.with_parts(self.oscillator, Harmonic(0.0, hertz, phase), keep_open=False)
+
+    @property
+    def hardest(self) -> Rig:
+        """The rig with the largest of its amplitudes alone; a rig with one amplitude as it is."""
+        if self.amplitudes is None:
+            return self
+        hardest = object.__new__(Rig)
+        hardest._set(self.oscillator, self.shaking, self.frequency, None, self.name)
+        return hardest
+
+    def levels(self, count: int) -> NDArray[np.float64]:
+        """Return the amplitude at each of the frequencies of a sweep (m/s², m or N).
+
+        Parameters
+        ----------
+        count
+            Number of frequencies.
+
+        Raises
+        ------
+        InputError
+            If the rig has a list with another number of amplitudes. Also as in `periodic`.
+        """
+        if self.amplitudes is None:
+            return np.full(count, self.amplitude)
+        if len(self.amplitudes) != count:
+            raise InputError(
+                f"shaking: {len(self.amplitudes)} amplitudes for {count} "
+                f"frequenc{'y' if count == 1 else 'ies'}; pass one amplitude, or {count}"
+            )
+        return np.array(self.amplitudes)
 
     def with_parts(
         self,
@@ -287,6 +340,9 @@ class Rig:
         return shaking
 
     def _shaking_text(self) -> str:
+        if self.amplitudes is not None:
+            quantity = self.hardest.periodic.quantity
+            return f"({', '.join(pretty(size, quantity) for size in self.amplitudes)})"
         if isinstance(self.shaking, Harmonic) and self.frequency is None:
             return pretty(self.shaking.amplitude, self.shaking.quantity)
         return "open" if self.shaking is None else str(self.shaking)
@@ -345,6 +401,14 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
         return Harmonic(max(sizes), ANY_FREQUENCY, of=of), tuple(sizes)
     size, of = sized(value, None, where, positive=True)
     return Harmonic(size, ANY_FREQUENCY, of=of), None
+
+
+def _several(amplitudes: tuple[float, ...]) -> str:
+    """Say that one amplitude is needed where a rig has a list of them."""
+    return (
+        f"shaking: a list of {len(amplitudes)} amplitudes belongs to the frequencies of a sweep, "
+        'but one amplitude is needed here; pass one amplitude, such as Rig(oscillator, "0.05 g")'
+    )
 
 
 def _misplaced(value: object) -> str:

@@ -6,8 +6,9 @@ motion at the next frequency starts from the final state and phase.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -28,8 +29,16 @@ from vibroimpact.model.count_checks import check_max_events, share, whole
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.read_rig import AnyRig, as_rig, as_rigs
 from vibroimpact.model.rig import Rig, as_periodic
-from vibroimpact.response.engine_input import as_state
+from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.hold_rows import HoldRows, Settling
+from vibroimpact.response.outputs import (
+    NamedOutput,
+    Outputs,
+    about,
+    add_outputs,
+    computed,
+    read_outputs,
+)
 from vibroimpact.response.plausibility import doubt_gaps, note_stiff_stops, note_unbounded
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
@@ -51,6 +60,7 @@ def sweep(
     max_cycles: int = 2000,
     window: int = 500,
     max_events: int = 10_000,
+    outputs: Outputs | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -66,7 +76,7 @@ def sweep(
     directions
         Sweep directions: ``"forward"`` (rising frequency), ``"backward"`` (falling frequency) or
         both. Each of the two sweeps starts from ``start``.
-    start, phase, tolerance, max_cycles, window, max_events, threads, progress
+    start, phase, tolerance, max_cycles, window, max_events, outputs, threads, progress
         As in `sweeps`.
 
     Returns
@@ -95,6 +105,7 @@ def sweep(
         - ``peak_impulse_right`` and ``peak_impulse_left``: the largest impulses of impacts on rigid
           stops;
         - ``section``: the state at the end of the hold;
+        - the ``outputs``, by their names;
         - ``status`` and ``motion``: how the hold ended, and the type of the motion. A motion that
           does not settle is ``"undecided"``, and its status is 1. To find its type, start `steady`
           from ``section``.
@@ -116,6 +127,7 @@ def sweep(
         max_cycles=max_cycles,
         window=window,
         max_events=max_events,
+        outputs=outputs,
         threads=threads,
         progress=progress,
     )
@@ -135,6 +147,7 @@ def sweeps(
     max_cycles: int = 2000,
     window: int = 500,
     max_events: int = 10_000,
+    outputs: Outputs | None = None,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -166,6 +179,10 @@ def sweeps(
     max_events
         Largest number of contacts and detachments in one forcing cycle. When a motion reaches this
         number, its computation is given up.
+    outputs
+        Own outputs, as a mapping from names to formulas, functions, or `Output` objects, such as
+        ``{"top_speed": "max(abs(velocity))"}``. Each is computed from one period of the motion at
+        each frequency, or from ``window`` cycles of a motion that did not settle.
     threads
         Number of threads (default: one per processor). The number does not affect the result.
     where
@@ -200,17 +217,20 @@ def sweeps(
     max_events = check_max_events(max_events)
     workers = placed(threads, where)
 
+    own = [read_outputs(outputs, rig) for rig in pairs]
     ready = [plan_sweep(rig, grid, state) for rig in pairs]
     settling = Settling(tolerance, max_cycles, window, max_events)
 
     batch.sweep.prepare(*(one.rig for one in ready))  # once, before the threads would queue for it
     items = [(one, direction) for one in ready for direction in directions]
+    steps = len(grid) * len(items)
+    total = 2 * steps if outputs else steps
     done = each(
         lambda item, tally: rows(*item, angle, settling, tally),
         items,
-        steps=len(grid) * len(items),
+        steps=steps,
         threads=workers,
-        progress=progress,
+        progress=progress and (lambda done, _: progress(done, total)),
     )
     shape = (len(pairs), len(directions), len(grid))
     results = np.array([found for found, _ in done]).reshape(*shape, hold.RESULTS)
@@ -218,13 +238,13 @@ def sweeps(
     del done  # as large as both
     doubts: list[str] = []
     for r, rig in enumerate(pairs):
-        oscillator, held = rig.oscillator, HoldRows(results[r])
+        oscillator, held, hardest = rig.oscillator, HoldRows(results[r]), rig.hardest
         swing = held.peak_displacement
         held.status[...] = judged(oscillator, held.status, swing)
         doubts += [
-            *doubt_gaps(rig, swing),
-            *note_unbounded(rig),
-            *note_stiff_stops(rig, float(grid[0])),
+            *doubt_gaps(hardest, swing),
+            *note_unbounded(hardest),
+            *note_stiff_stops(hardest, float(grid[0])),
         ]
     free = np.stack([one.free for one in ready], axis=1)
     largest = np.stack([one.largest for one in ready], axis=1)
@@ -235,25 +255,61 @@ def sweeps(
     data = data.assign_coords(
         rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
     )
+    if outputs:
+        holds = [
+            _Hold(r, rig, float(ready[r].levels[i]), float(grid[i]), angle, states[r, d, i])
+            for r, rig in enumerate(pairs)
+            for d in range(len(directions))
+            for i in range(len(grid))
+        ]
+        rows_of = HoldRows(results.reshape(-1, hold.RESULTS))
+        lengths = np.where(rows_of.period > 0, rows_of.period, window)
+        lengths[~np.isin(rows_of.status, (Status.DONE, Status.NOT_SETTLED))] = 0
+        # Functions travel to other processes with the task, which may be any code; items may not.
+        values = each(
+            lambda item, _: item[0].outputs(own[item[0].number], item[1]),
+            list(zip(holds, lengths.tolist(), strict=True)),
+            threads=workers,
+            progress=progress and (lambda done, _: progress(steps + done, total)),
+        )
+        add_outputs(data, own[0], np.reshape(values, (*shape, len(own[0]))))
     return describe(
         data,
         "vibroimpact.sweeps",
         {
-            "rigs": [
-                {
-                    **rig_parameters(rig, "frequency", "phase"),
-                    **({} if rig.amplitudes is None else {"amplitude": list(rig.amplitudes)}),
-                }
-                for rig in pairs
-            ],
+            "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
             "phase": angle,
             "tolerance": tolerance,
             "max_cycles": max_cycles,
             "window": window,
             "max_events": max_events,
+            **about(own[0]),
         },
         dict.fromkeys(doubts),
+        own[0],
     )
+
+
+class _Hold(NamedTuple):
+    """The motion at which a hold of a sweep ended."""
+
+    number: int
+    """Number of the rig."""
+    rig: Rig
+    amplitude: float
+    frequency: float
+    phase: float
+    state: NDArray[np.float64]
+
+    def outputs(self, own: tuple[NamedOutput, ...], cycles: int) -> tuple[float, ...]:
+        """Compute own outputs over some forcing cycles; NaN if there are none."""
+        if not cycles:
+            return (math.nan,) * len(own)
+        shaken = self.rig.hardest.periodic.replace(
+            amplitude=self.amplitude, frequency=self.frequency, phase=self.phase
+        )
+        start = state_from(self.state, self.phase)
+        return computed(own, Rig(self.rig.oscillator, shaken), start, cycles)
 
 
 def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]:

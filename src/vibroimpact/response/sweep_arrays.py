@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import hold
-from vibroimpact.errors import InputError
-from vibroimpact.model import Repeated, Rig, State, equilibrium
+from vibroimpact.model import Rig, State, equilibrium
 from vibroimpact.response.analytic_free_response import (
     check_each_bounded,
     exciting_excursion,
@@ -53,9 +52,10 @@ def plan_sweep(rig: Rig, frequencies: _Array, state: State | None = None) -> Swe
     InputError
         If the sizes do not go with the frequencies, or the state or a frequency not with the rig.
     """
-    oscillator, shaken, sizes = rig.oscillator, rig.periodic, rig.amplitudes
-    levels = _levels(sizes, shaken, frequencies)
-    least = shaken if sizes is None else shaken.replace(amplitude=levels.min())
+    levels = rig.levels(len(frequencies))
+    rig = rig.hardest
+    oscillator, shaken = rig.oscillator, rig.periodic
+    least = shaken.replace(amplitude=levels.min())
     check_each_bounded(Rig(oscillator, least), frequencies)
     if oscillator.isolator.linear:
         flying = Rig(oscillator, shaken)
@@ -65,14 +65,13 @@ def plan_sweep(rig: Rig, frequencies: _Array, state: State | None = None) -> Swe
         free *= levels / shaken.amplitude
     else:
         free = np.array(swept_flight(Rig(oscillator, shaken), frequencies, levels))
-    most = shaken if sizes is None else shaken.replace(amplitude=levels.max())
     return SweepPlan(
         frequencies,
         engine_rig(rig),
         levels,
         engine_state(oscillator, state or equilibrium(oscillator)),
         free,
-        np.array(reference_excursions(Rig(oscillator, most))),
+        np.array(reference_excursions(Rig(oscillator, shaken))),
         exciting_excursion(rig, frequencies) * (levels / shaken.amplitude),
     )
 
@@ -106,15 +105,3 @@ def rows(
         transient,
     )
     return found.array[order], reached[order]
-
-
-def _levels(sizes: tuple[float, ...] | None, shaken: Repeated, grid: _Array) -> _Array:
-    """The amplitude at each frequency."""
-    if sizes is None:
-        return np.full(len(grid), shaken.amplitude)
-    if len(sizes) != len(grid):
-        raise InputError(
-            f"amplitude: {len(sizes)} amplitudes for {len(grid)} frequencies; pass one amplitude, "
-            f"or {len(grid)} amplitudes"
-        )
-    return np.array(sizes)

@@ -36,6 +36,7 @@ from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
 from vibroimpact.model.rig import as_periodic
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
+from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
 from vibroimpact.response.sweep_dataset import sizes
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
@@ -68,6 +69,7 @@ def bifurcation_diagram(
     tolerance: float = 1e-12,
     max_cycles: int = 2000,
     max_events: int = 10_000,
+    outputs: Outputs | None = None,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -117,6 +119,9 @@ def bifurcation_diagram(
         not become periodic.
     tolerance, max_cycles, max_events
         As in `sweeps`.
+    outputs
+        Own outputs, as in `sweeps`, of each motion: over one period, or over ``points`` cycles of a
+        motion that did not become periodic.
     threads
         Number of threads (default: one per processor). The number does not affect the result.
     where
@@ -137,8 +142,8 @@ def bifurcation_diagram(
 
         ``motion`` and ``period`` describe the type of each motion. ``exponents`` (1/s) are its two
         largest Lyapunov exponents, with ``exponents_uncertainty``. Extremes and forces are the same
-        as in `sweep`. ``section`` is the final state of each motion. You can pass it to `branch` as
-        the start.
+        as in `sweep`; the ``outputs`` have their names. ``section`` is the final state of each
+        motion. You can pass it to `branch` as the start.
 
     Raises
     ------
@@ -171,6 +176,7 @@ def bifurcation_diagram(
     )
     random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
     workers = placed(threads, where)
+    own = read_outputs(outputs, rig)
     ways = _ways(directions, starts, random, oscillator)
     every = rigs_along(varied, rig, values)
     vectors = [engine_rig(one) for one in every]
@@ -185,7 +191,7 @@ def bifurcation_diagram(
             mine[order],
             part.start,
             settling,
-            lambda held: found.append(look_at(held, look)),
+            lambda held: found.append(look_at(held, look, own)),
             tally,
             carry=part.start is None,
         )
@@ -209,6 +215,8 @@ def bifurcation_diagram(
         drawn = {f"random {i}": state for i, state in enumerate(states, start=1)}
         found |= done(_parts(drawn, count), count * len(ways))
     data = _dataset(oscillator, varied.name, values, found, section, excitation.phase)
+    numbers = [one.outputs for some in found.values() for one in some]
+    add_outputs(data, own, np.reshape(numbers, (*data["period"].shape, len(own))))
     data.attrs["parameter"] = varied.name
     return describe(
         data,
@@ -222,8 +230,9 @@ def bifurcation_diagram(
             "seed": seed,
             **settling._asdict(),
             **look._asdict(),
+            **about(own),
         },
-        varied=[varied],
+        varied=[varied, *own],
     )
 
 

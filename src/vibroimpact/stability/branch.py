@@ -12,6 +12,7 @@ from vibroimpact.model import Rig, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
+from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
 from vibroimpact.stability.fixed_points import HELD, Orbit
@@ -34,6 +35,7 @@ def branch(
     span: tuple[float | str, float | str],
     period: int | None = None,
     most_points: int = 5000,
+    outputs: Outputs | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Continue a branch of periodic orbits along a parameter, in both directions from one orbit.
@@ -75,6 +77,8 @@ def branch(
         from rest, or 1 if there is a ``start``.
     most_points
         Largest number of orbits in each direction along the branch.
+    outputs
+        Own outputs, as in `sweeps`, of one period of each orbit and of each bifurcation.
     progress
         Function that reports progress, such as the result of `progress_bar`. It is called with the
         number of computed orbits and None, because the total is unknown until the end.
@@ -90,7 +94,7 @@ def branch(
         - ``transmissibility``, as in `sweep`;
         - ``eta_d`` and ``eta_a``, the excursions divided by the largest excursion without stops at
           any frequency;
-        - the impacts per cycle;
+        - the impacts per cycle, and the ``outputs`` by their names;
         - ``multiplier_real`` and ``multiplier_imag``, the Floquet multipliers (dim ``multiplier``,
           the largest first), and ``stable``;
         - ``section``, the state of the orbit at the stroboscopic section.
@@ -108,7 +112,9 @@ def branch(
     rig = from_lowest(as_rig(rig, frequency), parameter, span)
     fam, ends, first = _first_orbit(rig, start, parameter, span, period)
     most_points = whole(most_points, "most_points")
-    data = as_dataset([follow_both_ways(first, ends, most_points, progress)], fam, ends)
+    own = read_outputs(outputs, rig)
+    followed = follow_both_ways(first, ends, most_points, progress)
+    data = as_dataset([followed], fam, ends, own=own)
     if progress is not None:
         progress(data.sizes["point"], data.sizes["point"])
     return data

@@ -21,12 +21,14 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator
 from vibroimpact.response import sweep_dataset
 from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
+from vibroimpact.response.engine_input import state_from
 from vibroimpact.response.hold_rows import HoldRows
+from vibroimpact.response.outputs import NamedOutput, about, add_outputs, computed
 from vibroimpact.response.plausibility import note_unbounded
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.bifurcations import Bifurcation
 from vibroimpact.stability.branch_styles import QUANTITIES
-from vibroimpact.stability.fixed_points import MAX_EVENTS, Orbit
+from vibroimpact.stability.fixed_points import MAX_EVENTS, Orbit, vector_of
 from vibroimpact.stability.orbit_curve import Station
 from vibroimpact.stability.parameter_family import Family
 
@@ -44,9 +46,13 @@ class Followed(NamedTuple):
 
 
 def as_dataset(
-    followed: list[Followed], fam: Family, span: tuple[float, float], created: str = "branch"
+    followed: list[Followed],
+    fam: Family,
+    span: tuple[float, float],
+    created: str = "branch",
+    own: tuple[NamedOutput, ...] = (),
 ) -> xr.Dataset:
-    """Branches as one labelled dataset."""
+    """Branches as one labelled dataset, with own outputs of the orbits and the bifurcations."""
     name = fam.parameter.name
     stations = [
         (i, s)
@@ -77,6 +83,10 @@ def as_dataset(
     coordinates = {name: ("point", [one.value for one in orbits]), "component": COMPONENTS}
     data = xr.Dataset(variables, coordinates)
     data.attrs["parameter"] = name
+    add_outputs(data, own, _own(own, orbits))
+    critical = _own(own, [b.orbit for one in followed for b in one.bifurcations])
+    for k, output in enumerate(own):
+        data[f"bifurcation_{output.name}"] = ("bifurcation", critical[:, k])
     for i, one in enumerate(followed):
         prefix = f"branch_{i}_" if created == "resonance_diagram" else ""
         data.attrs[f"{prefix}ended_low"], data.attrs[f"{prefix}ended_high"] = one.ended
@@ -102,10 +112,25 @@ def as_dataset(
             "parameter": name,
             "low": span[0],
             "high": span[1],
+            **about(own),
         },
         note_unbounded(fam.rig),
-        [fam.parameter],
+        [fam.parameter, *own, *(one._replace(name=f"bifurcation_{one.name}") for one in own)],
     )
+
+
+def _own(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Array:
+    """Own outputs of orbits over one period each."""
+    values = [
+        computed(
+            outputs,
+            one.rig,
+            state_from(vector_of(one), one.section.family.phase),
+            one.section.period,
+        )
+        for one in orbits
+    ]
+    return np.reshape(values, (len(orbits), len(outputs)))
 
 
 def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:

@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
+from vibroimpact.response.engine_input import state_from
+from vibroimpact.response.outputs import NamedOutput, computed
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_exponents import judge_orbit
 from vibroimpact.stability.motion_type import Judgement, judge
@@ -56,10 +58,22 @@ class Seen(NamedTuple):
     points: _Array
     """Points of the section, a row each; of a periodic motion those of one period."""
     status: Status
+    outputs: tuple[float, ...] = ()
+    """Own outputs."""
 
 
-def look_at(held: Held, look: Look) -> Seen:
-    """Name a motion, and take its section."""
+def look_at(held: Held, look: Look, outputs: tuple[NamedOutput, ...] = ()) -> Seen:
+    """Name a motion, take its section, and compute own outputs."""
+    seen = _looked_at(held, look)
+    if seen.status not in (Status.DONE, Status.NOT_SETTLED):
+        return seen._replace(outputs=(math.nan,) * len(outputs))
+    found = seen.held.found
+    start = state_from(found.state, found.excitation.phase)
+    cycles = seen.kind.period or look.points
+    return seen._replace(outputs=computed(outputs, found.rig, start, cycles))
+
+
+def _looked_at(held: Held, look: Look) -> Seen:
     found = held.found
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
         return _nothing(held, look, found.status)

@@ -239,7 +239,8 @@ def _rig_at(
 ) -> Rig:
     """Return the rig at one of the frequencies and one value of each parameter."""
     numbers = [(PARAMETERS[one.name], float(one.values[k])) for one, k in values]
-    here = rig.periodic.replace(frequency=float(grid[i]), phase=phase)
+    size = float(rig.levels(len(grid))[i])
+    here = rig.hardest.periodic.replace(amplitude=size, frequency=float(grid[i]), phase=phase)
     moved = vary_all(Rig(rig.oscillator, here), numbers)
     check_bounded(moved, f"frequencies[{i}]")
     return moved

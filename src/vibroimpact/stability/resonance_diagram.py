@@ -18,6 +18,7 @@ from vibroimpact.model.parameters import PARAMETERS, read_span
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
+from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
 from vibroimpact.stability.branch import follow_both_ways
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
@@ -46,6 +47,7 @@ def resonance_diagram(
     random: int = 8,
     seed: int = 0,
     basins: xr.Dataset | Sequence[xr.Dataset] = (),
+    outputs: Outputs | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Compute all branches of periodic orbits over a range of the frequency or another parameter.
@@ -85,6 +87,8 @@ def resonance_diagram(
     basins
         Datasets of `basins` at some values of the parameter. Their steady motions are continued as
         well. Default: none.
+    outputs
+        Own outputs, as in `sweeps`, of one period of each orbit and of each bifurcation.
     progress
         Function that reports progress, such as the result of `progress_bar`. It is called at each
         point with the number of completed branches and the number of branches that are known so
@@ -104,8 +108,6 @@ def resonance_diagram(
     """
     check_progress(progress)
     rig = as_rig(rig, frequency)
-    if rig.amplitudes is not None:
-        raise InputError("shaking: a list of amplitudes is given; pass one amplitude")
     if registered(parameter).name == "frequency":
         if frequency is not None:
             raise InputError(
@@ -119,6 +121,7 @@ def resonance_diagram(
     starts = whole(starts, "starts", most=MOST_STARTS)
     most_branches = whole(most_branches, "most_branches")
     most_points = whole(most_points, "most_points")
+    own = read_outputs(outputs, rig)
     random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
     given = [basins] if isinstance(basins, xr.Dataset) else check_list(basins, "basins")
     begin = values(fam, ends, starts)
@@ -160,7 +163,7 @@ def resonance_diagram(
             f"span: no periodic orbit was found between {between}; widen this range, or pass a "
             "larger number of starts"
         )
-    data = as_dataset(followed, fam, ends, "resonance_diagram")
+    data = as_dataset(followed, fam, ends, "resonance_diagram", own)
     data.attrs["complete"] = int(complete)
     return data
 

@@ -17,7 +17,7 @@ _WIDTH = 24
 LINES = 30.0
 """Seconds between two lines if standard error is not a terminal."""
 _TOO_EARLY = 2.0
-"""Seconds before the remaining time is estimated."""
+"""Seconds before the remaining time is estimated, and before progress is shown by default."""
 
 
 def _as_duration(seconds: float) -> str:
@@ -112,6 +112,25 @@ def progress_bar(what: str = "done", *, every: float = 0.2) -> Progress:
             longest = max(longest, len(line))
             end = f"\r{' ' * longest}\r" if ended else ""
             print(f"\r{line:{longest}}{end}", end="", file=sys.stderr, flush=True)
+
+    return show
+
+
+def shown_by_default(what: str) -> Progress | None:
+    """Return `progress_bar` on a terminal or in a notebook, silent for the first seconds.
+
+    Elsewhere, such as in a script whose output is a file, return None.
+    """
+    if _notebook() is None and not (sys.stderr and sys.stderr.isatty()):
+        return None
+    bar, begin = progress_bar(what), time.monotonic()
+    visible = False
+
+    def show(done: int, total: int | None) -> None:
+        nonlocal visible
+        visible = visible or time.monotonic() - begin >= _TOO_EARLY
+        if visible:
+            bar(done, total)
 
     return show
 

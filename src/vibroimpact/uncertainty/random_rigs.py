@@ -124,8 +124,6 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     """
     alone = isinstance(rig, Oscillator)
     base = as_rig(rig, oscillator_alone=True)
-    if base.amplitudes is not None:
-        raise InputError("shaking: a list of amplitudes is given; pass one amplitude")
     oscillator, shaken = base.oscillator, None if alone else base.periodic
     given = check_names(distributions)
     parameters, made = [], []

@@ -1,0 +1,213 @@
+"""Formulas of own outputs: one number from the time histories of a motion.
+
+Python's parser reads the text, which is never run as code. Only arithmetic, comparisons and the
+functions below are accepted.
+"""
+
+from __future__ import annotations
+
+import ast
+import functools
+import math
+import operator
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError, meant, shown
+
+_Value = NDArray[np.float64]
+
+_LONGEST = 300
+"""Largest number of characters of a formula."""
+
+HISTORIES = (
+    "displacement",
+    "velocity",
+    "acceleration",
+    "base_acceleration",
+    "applied_force",
+    "right_bumper",
+    "left_bumper",
+    "right_clearance",
+    "left_clearance",
+    "isolator_memory",
+    "contact",
+    "time",
+)
+"""Time histories in a dataset of `simulate`."""
+CONSTANTS = {"pi": math.pi}
+
+_ELEMENTWISE: dict[str, Callable[..., Any]] = {
+    "abs": np.abs,
+    "sqrt": np.sqrt,
+    "exp": np.exp,
+    "log": np.log,
+    "sin": np.sin,
+    "cos": np.cos,
+    "tanh": np.tanh,
+    "sign": np.sign,
+}
+_OVER_TIME = ("max", "min", "mean", "rms", "integral")
+FUNCTIONS = (*_OVER_TIME, *_ELEMENTWISE)
+
+_OPERATORS: dict[type[ast.AST], Callable[..., Any]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+    ast.Pow: operator.pow,
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.USub: operator.neg,
+    ast.UAdd: operator.pos,
+}
+
+
+class OutputFormula(NamedTuple):
+    """A formula that has been checked."""
+
+    text: str
+    names: tuple[str, ...]
+    """Names of time histories and parameters that it contains."""
+
+    def value(self, time: _Value, values: Mapping[str, Any]) -> float:
+        """Return the number.
+
+        Parameters
+        ----------
+        time
+            Times of the samples (s), of which `mean`, `rms` and `integral` need the spacing.
+        values
+            Values of the names, in SI units.
+
+        Raises
+        ------
+        InputError
+            If the result is a time history instead of a number.
+        """
+        with np.errstate(all="ignore"):
+            result = np.asarray(_value(ast.parse(self.text, mode="eval").body, time, values))
+        if result.ndim:
+            raise InputError(
+                f"{self.text!r} is a time history, not a number; apply max, min, mean, rms or "
+                "integral"
+            )
+        return float(result)
+
+
+def read_output_formula(text: str, known: tuple[str, ...]) -> OutputFormula:
+    """Parse a formula and check its names.
+
+    Parameters
+    ----------
+    text
+        The formula, such as ``"mean(damping*velocity**2)"``.
+    known
+        Names of the time histories and parameters that the rig has.
+
+    Raises
+    ------
+    InputError
+        If the formula cannot be read, contains an unknown name, or is not one number.
+    """
+    text = text.strip()
+    if not 0 < len(text) <= _LONGEST:
+        raise InputError(f"it has {len(text)} characters; 1 to {_LONGEST} are accepted")
+    try:
+        tree = ast.parse(text, mode="eval").body
+    except SyntaxError as error:
+        raise InputError(
+            f"{shown(text)} cannot be read ({error.msg}); a formula such as 'max(abs(velocity))' "
+            "is accepted"
+        ) from None
+    except (ValueError, RecursionError, MemoryError):
+        raise InputError(
+            f"{shown(text)} cannot be read; a formula such as 'max(abs(velocity))' is accepted"
+        ) from None
+    made = OutputFormula(text, tuple(dict.fromkeys(_names(tree, known))))
+    some = np.array([0.0, 1.0])
+    made.value(some, {name: some if name in HISTORIES else 1.0 for name in made.names})
+    return made
+
+
+def _names(part: ast.AST, known: tuple[str, ...]) -> list[str]:
+    """Return the names in a part of the tree, and refuse what formulas do not accept."""
+    match part:
+        case ast.Constant(value=bool()):
+            pass
+        case ast.Constant(value=int() | float()):
+            return []
+        case ast.Name(id=name):
+            if name in CONSTANTS:
+                return []
+            if name not in known:
+                histories = [one for one in known if one in HISTORIES]
+                raise InputError(
+                    f"{name!r} is neither a time history nor a parameter of the rig; "
+                    f"{meant(name, known)}{', '.join(histories)}, and parameters such as mass, "
+                    "damping and frequency are accepted"
+                )
+            return [name]
+        case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=one):
+            return _names(one, known)
+        case ast.BinOp(op=ast.BitXor()):
+            raise InputError(f"{ast.unparse(part)!r}: ^ is not a power here; write **")
+        case ast.BinOp(left=one, op=op, right=other) if type(op) in _OPERATORS:
+            return [*_names(one, known), *_names(other, known)]
+        case ast.Compare(left=one, ops=[op], comparators=[other]) if type(op) in _OPERATORS:
+            return [*_names(one, known), *_names(other, known)]
+        case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
+            if name not in FUNCTIONS:
+                raise InputError(
+                    f"{name!r} is not a function that outputs accept; "
+                    f"{meant(name, FUNCTIONS)}{', '.join(FUNCTIONS)} are accepted"
+                )
+            if not (len(args) == 1 or (name in ("max", "min") and len(args) > 1)):
+                raise InputError(f"{ast.unparse(part)!r}: {name} has one argument")
+            return [found for one in args for found in _names(one, known)]
+        case _:
+            pass
+    raise InputError(
+        f"{ast.unparse(part)!r} is not accepted; + - * / ** ( ), comparisons with < and >, and "
+        "functions are accepted"
+    )
+
+
+def _value(part: ast.AST, time: _Value, values: Mapping[str, Any]) -> Any:
+    match part:
+        case ast.Constant(value=int() | float() as value):
+            return np.float64(value)
+        case ast.Name(id=name):
+            return CONSTANTS[name] if name in CONSTANTS else values[name]
+        case ast.UnaryOp(op=op, operand=one):
+            return _OPERATORS[type(op)](_value(one, time, values))
+        case ast.BinOp(left=one, op=op, right=other):
+            both = _value(one, time, values), _value(other, time, values)
+            return _OPERATORS[type(op)](*map(np.asarray, both))
+        case ast.Compare(left=one, ops=[op], comparators=[other]):
+            both = _value(one, time, values), _value(other, time, values)
+            return np.asarray(_OPERATORS[type(op)](*both), dtype=np.float64)
+        case ast.Call(func=ast.Name(id=name), args=args):
+            given = [np.asarray(_value(one, time, values), dtype=np.float64) for one in args]
+            if name in _ELEMENTWISE:
+                return _ELEMENTWISE[name](given[0])
+            if len(given) > 1:  # the larger of two, sample by sample
+                return functools.reduce(np.maximum if name == "max" else np.minimum, given)
+            return _over_time(name, given[0], time)
+    raise AssertionError(ast.dump(part))
+
+
+def _over_time(name: str, values: _Value, time: _Value) -> Any:
+    if not values.ndim:
+        return values * (time[-1] - time[0]) if name == "integral" else values
+    if name in ("max", "min"):
+        return values.max() if name == "max" else values.min()
+    if name == "rms":
+        return np.sqrt(_over_time("mean", values**2, time))
+    integral = np.trapezoid(values, time)
+    return integral if name == "integral" else integral / (time[-1] - time[0])
