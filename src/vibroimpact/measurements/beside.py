@@ -9,7 +9,7 @@ from vibroimpact.measurements.columns import Columns
 from vibroimpact.measurements.sampling import is_sampling
 from vibroimpact.model.quantities import ACCELERATION, FREQUENCY, GRAVITY
 from vibroimpact.model.units import to_si
-from vibroimpact.records.stated import ended, spelled
+from vibroimpact.tables.units import ended, spelled
 
 _BARE = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?", re.IGNORECASE)
 """A number without a unit."""

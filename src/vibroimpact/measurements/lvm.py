@@ -9,9 +9,9 @@ import numpy as np
 from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.scaling import agreed
-from vibroimpact.records.file import File
 from vibroimpact.records.lvm import recognises, segments
-from vibroimpact.records.stated import parted
+from vibroimpact.tables.file import File
+from vibroimpact.tables.units import parted
 
 
 def read(path: Path) -> list[Columns] | None:

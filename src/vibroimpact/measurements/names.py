@@ -20,7 +20,7 @@ from vibroimpact.model.quantities import (
     Quantity,
 )
 from vibroimpact.model.units import to_si
-from vibroimpact.records.stated import ending, plain, spelled, words_of
+from vibroimpact.tables.units import ending, plain, spelled, words_of
 
 Direction = Literal["forward", "backward"]
 

@@ -21,8 +21,8 @@ from vibroimpact.measurements.histories import history
 from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
 from vibroimpact.measurements.sampling import timed
 from vibroimpact.measurements.scaling import completed, is_channel
-from vibroimpact.records.commas import Decimal, checked
-from vibroimpact.records.guard import regular
+from vibroimpact.tables.decimal_mark import Decimal, checked
+from vibroimpact.tables.limits import regular
 
 _READERS = {
     ".mat": mat.read,

@@ -19,9 +19,9 @@ from vibroimpact.errors import InputError
 from vibroimpact.measurements.beside import is_number, with_unit
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.scaling import agreed
-from vibroimpact.records.commas import Decimal, decimal_mark
-from vibroimpact.records.guard import few_columns
-from vibroimpact.records.stated import are_units, parted
+from vibroimpact.tables.decimal_mark import Decimal, decimal_mark
+from vibroimpact.tables.limits import few_columns
+from vibroimpact.tables.units import are_units, parted
 
 _SAID = re.compile(r"^\s*([A-Za-z][\w ()\[\]/^²]*?)\s*([=:;])\s*(.+?)\s*$")
 _COMMA = re.compile(r"[+-]?\d+,\d+(?![\d,.])")

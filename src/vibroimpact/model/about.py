@@ -13,9 +13,9 @@ from vibroimpact.errors import InputError, in_one_line
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME, Quantity
 from vibroimpact.model.units import one_of, pretty, to_si
 from vibroimpact.records.channel import Channel
-from vibroimpact.records.commas import Decimal
 from vibroimpact.records.doubts import of_end, of_times
 from vibroimpact.records.read import read_channel
+from vibroimpact.tables.decimal_mark import Decimal
 
 NO_UNIT = "the unit m/s² was assumed, because the file states no unit"
 """Note if neither the file nor the user states a unit."""

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.records.file import File
+from vibroimpact.tables.file import File
 
 
 class Channel(NamedTuple):

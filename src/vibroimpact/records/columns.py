@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.commas import Decimal, decimal_mark, pointed
-from vibroimpact.records.file import File
-from vibroimpact.records.guard import few_columns
-from vibroimpact.records.stated import (
+from vibroimpact.tables.decimal_mark import Decimal, decimal_mark, pointed
+from vibroimpact.tables.file import File
+from vibroimpact.tables.limits import few_columns
+from vibroimpact.tables.units import (
     Units,
     are_units,
     is_acceleration,

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
-from vibroimpact.records.stated import spelled, units_of
+from vibroimpact.tables.file import File
+from vibroimpact.tables.units import spelled, units_of
 
 _MARKS = {"tab": "\t", "comma": ",", "space": " ", "semicolon": ";"}
 _END = "***end_of_header***"

@@ -15,8 +15,8 @@ from __future__ import annotations
 import re
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
-from vibroimpact.records.stated import stated_acceleration, stated_unit
+from vibroimpact.tables.file import File
+from vibroimpact.tables.units import stated_acceleration, stated_unit
 
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?)"
 _COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)

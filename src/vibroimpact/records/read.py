@@ -8,9 +8,9 @@ from typing import NamedTuple
 from vibroimpact.errors import InputError, in_one_line
 from vibroimpact.records import columns, cosmos, csmip, esm, geonet, knet, lvm, peer, seismic, smc
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.commas import Decimal
 from vibroimpact.records.doubts import of_last_line
-from vibroimpact.records.file import File
+from vibroimpact.tables.decimal_mark import Decimal
+from vibroimpact.tables.file import File
 
 FORMATS: tuple[Format, ...] = (
     seismic.MINISEED,

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.records.commas import Decimal
-from vibroimpact.records.guard import regular, unpacked
+from vibroimpact.tables.decimal_mark import Decimal
+from vibroimpact.tables.limits import regular, unpacked
 
 _PACKED = b"\x1f\x8b"
 
