@@ -27,11 +27,11 @@ _FACTOR = rf"[A-Za-zµμ%]+{_POWER}"
 _PER_SQUARE = r"[ .·*]+s(?:ec)?(?:(?:\^|\*\*)?-[1-9]|⁻[¹²])"
 _UNIT = rf"{_FACTOR}(?: ?[/*·] ?\(?{_FACTOR}\)?)*(?:{_PER_SQUARE})?"
 _AFTER = re.compile(
-    r"\b(?:units?|einheit(?:en)?)\b\s*(?:of\s+(?:measure(?:ment)?|accel\w*|data)\s*)?"
-    r"(?:(?:are|is|of|in|ist|[:=])\s*|(?=[\[(]))(?P<stated>[\[(\"']?.*)",
-    re.IGNORECASE,
+    r"(?:(?<![A-Za-z])|(?<=[a-z])(?=U))(?i:units?|einheit(?:en)?)(?![A-Za-z])(?:_\w+)?\s*"
+    r"(?i:of\s+(?:measure(?:ment)?|accel\w*|data|times?)\s*)?"
+    r"(?P<mark>(?:(?i:(?:are|is|of|ist)\b|in(?=\s+[A-Za-z(])|[:=;,])\s*)+|(?=[\[(]))(?P<stated>.*)"
 )
-_WHOLE = re.compile(rf"[\[(\"']?\s*({_UNIT})(?:'s)?\s*(?:[\])\"'.,;:]|\s|$)")
+_WHOLE = re.compile(rf"[\[(\"']?\s*({_UNIT})(?:'s)?\s*(?:[\[(\])\"'.,;:]|\s|$)")
 _BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]*?)\s*[\])]")
 _AT_END = re.compile(_BRACKETS.pattern + r"\s*$")
 _IN = re.compile(rf"\bin\s+({_UNIT})(?=\s|$|[.,;])", re.IGNORECASE)
@@ -62,6 +62,8 @@ def stated_unit(line: str) -> str | None:
         return None
     text = found["stated"].strip()
     whole = _WHOLE.match(text)
+    if found["mark"].strip() in (",", ";"):  # of a sentence, unless what follows is a unit
+        return spelled(whole[1]) if whole and are_units([whole[1]]) else None
     return spelled(whole[1]) if whole else text[:_SHOWN] or None
 
 
