@@ -271,7 +271,7 @@ def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
         ("1,2\n2,3\n", "does not name its 2 columns"),
         ("f,Ed (kg)\n1,2\n", "is a mass"),
         ("f,Ed,dir\n1,2,sideways\n", "the direction 'sideways'"),
-        ("f,Ed\n1,2\n2,3,4\n", "line 3: 3 values"),
+        ("f,Ed\n1,2\n2,3,4\n", "line 3: the row has 3 numbers, but the rows above have 2"),
         ("f,Ed\n1,nan\n", "no row has both a frequency greater than 0 and a measured value"),
         ("time,u\n1,2\n1,3\n", "occurs twice"),
     ],

@@ -22,6 +22,7 @@ from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, Meaning, in_
 from vibroimpact.measurements.sampling import timed
 from vibroimpact.measurements.scaling import completed, is_channel
 from vibroimpact.tables.decimal_mark import Decimal, checked
+from vibroimpact.tables.file import File
 from vibroimpact.tables.limits import regular
 
 _READERS = {
@@ -145,8 +146,9 @@ def _tables(file: Path, decimal: Decimal | None) -> list[Columns]:
     reader = _READERS.get(file.suffix.lower())
     if reader is not None:
         return reader(file)
-    found = lvm.read(file)
-    return text.read(file, decimal) if found is None else found
+    opened = File(file, decimal, "measurement")
+    found = lvm.read(opened)
+    return text.read(opened) if found is None else found
 
 
 def _clean(name: str) -> str:

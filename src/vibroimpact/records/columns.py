@@ -25,7 +25,9 @@ def read(file: File) -> list[Channel]:
     check_count(file, table.statements, (rows, rows * len(values), rows * len(table.columns)))
     time = None if table.time is None else table.columns[table.time].units
     found = sampling(table, time.unit if time else None)
-    problem = found.problem
+    problem = found.uneven
+    if found.contradiction:
+        problem = f"{found.contradiction}, or pass step= (--step)"
     others = (time.other, time.of_name) if time else ()
     if time and any(one and one != time.unit for one in others):
         other = next(one for one in others if one and one != time.unit)
@@ -57,6 +59,7 @@ def _components(table: Table) -> list[int]:
         i
         for i in numeric
         if is_row_number(table.columns[i])
+        and len(numeric) > 1
         and (is_index(table.columns[i].name) or (counted and i == 0))
     ]
     return [i for i in numeric if i not in repeats and i not in rows]

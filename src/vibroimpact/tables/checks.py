@@ -25,8 +25,10 @@ class Sampling(NamedTuple):
     """In s. None if neither times nor a statement give one."""
     note: str = ""
     """What is assumed of the times."""
-    problem: str = ""
-    """Why there is no one step: uneven times, or statements that contradict each other."""
+    uneven: str = ""
+    """Where the times are uneven, if no step fits them."""
+    contradiction: str = ""
+    """Which statement differs from another one or from the times."""
 
 
 def check_count(file: File, stated: Statements, found: Iterable[int]) -> None:
@@ -77,23 +79,21 @@ def sampling(table: Table, unit: str | None = None) -> Sampling:
     """
     stated = table.statements
     step = stated.step
-    problem = ""
+    contradiction = ""
     if step is not None and (other := stated.other_step):
-        problem = (
+        contradiction = (
             f"line {step.line + 1} states {step.text!r}, but line {other.line + 1} states "
-            f"{other.text!r}: {step.value:g} s or {other.value:g} s; correct one of them, or pass "
-            "step= (--step)"
+            f"{other.text!r}: {step.value:g} s or {other.value:g} s; correct one of them"
         )
     if table.time is None:
-        found = Sampling(step.value if step else None, "", problem)
+        found = Sampling(step.value if step else None)
     else:
         times = np.asarray(table.columns[table.time].values, dtype=float)
         found = _of_times(table, times, unit or stated.time_unit or "s")
-        found = found._replace(problem=found.problem or problem)
-    if found.step is not None and not found.problem:
-        count = len(table.lines)
-        found = found._replace(problem=_of_duration(stated, found.step, count))
-    return found
+    contradiction = found.contradiction or contradiction
+    if found.step is not None and not contradiction:
+        contradiction = _of_duration(stated, found.step, len(table.lines))
+    return found._replace(contradiction=contradiction)
 
 
 def _of_times(table: Table, times: NDArray[np.float64], unit: str) -> Sampling:
@@ -115,18 +115,19 @@ def _of_times(table: Table, times: NDArray[np.float64], unit: str) -> Sampling:
             )
         return Sampling(None, "", _uneven(table, times, even.worst, mean))
     step = even.step / each
-    problem = ""
+    contradiction = ""
     if stated is not None and not same(step, stated.value):
-        problem = (
+        contradiction = (
             f"line {stated.line + 1} states {stated.text!r}, a step of {stated.value:g} s, but the "
-            f"times have steps of {step:.6g} s; correct one of them, or pass step= (--step)"
+            f"times have steps of {step:.6g} s; correct one of them"
         )
     if even.is_exact:
-        return Sampling(step, "", problem)
+        return Sampling(step, contradiction=contradiction)
     told = f"its times are uneven by up to {even.off / each:.3g} s"
-    if stated is not None and not problem:
+    if stated is not None and not contradiction:
         return Sampling(stated.value, f"{told}, so the stated step is used")
-    return Sampling(step, f"{told}, so the average step of {step:.6g} s is used", problem)
+    used = f"{told}, so the average step of {step:.6g} s is used"
+    return Sampling(step, used, contradiction=contradiction)
 
 
 def _are_rounded(times: NDArray[np.float64], step: float) -> bool:
@@ -162,5 +163,5 @@ def _of_duration(stated: Statements, step: float, count: int) -> str:
     one = stated.durations[0]
     return (
         f"line {one.line + 1} states {one.text!r}, but {count} samples in steps of {step:g} s last "
-        f"{step * (count - 1):g} s; correct this line, or pass step= (--step)"
+        f"{step * (count - 1):g} s; correct this line"
     )

@@ -22,6 +22,9 @@ _NUMBER = re.compile(
     r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?|inf(?:inity)?)", re.IGNORECASE
 )
 
+_LONGEST = 60
+"""Largest number of characters of a number."""
+
 
 class Heading(NamedTuple):
     """A line that is not a row of values."""
@@ -61,7 +64,7 @@ def number_in(cell: str, decimal: Decimal) -> float | None:
     if decimal == ",":
         cell = cell.replace(",", ".")
     cell = cell.replace("−", "-")
-    if not _NUMBER.fullmatch(cell):
+    if len(cell) > _LONGEST or not _NUMBER.fullmatch(cell):
         return None
     return (
         float(re.sub("[dD]", "E", cell)) if cell[-1].isdigit() or cell[-1] == "." else float(cell)

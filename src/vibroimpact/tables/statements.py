@@ -103,6 +103,8 @@ _OWN_STEP = re.compile(
 )
 """A time that nothing else is stated of: a step if it is as short as one."""
 _LONGEST_STEP = 0.1
+_LONGEST = 1000
+"""Largest number of characters of a line that are read."""
 _BARE_RATE = re.compile(
     rf"(?P<number>{_NUMBER}) ?(?:(?:samples|pts|points|scans|values) ?{_A_SECOND}|sps)(?![a-z])"
     rf"|(?:sampled|digiti[sz]ed|recorded|logged) at (?P<at>{_NUMBER}) ?k?hz",
@@ -195,7 +197,7 @@ def read_statements(lines: Iterable[tuple[int, str]]) -> Statements:
     hints: list[str] = []
     time_unit = None
     for at, line in lines:
-        text = " ".join(re.sub(r'["\t]', " ", line).split())
+        text = " ".join(re.sub(r'["\t]', " ", line[:_LONGEST]).split())
         text, found = _peaks(at, text)
         peaks += found
         unit = stated_unit(text)

@@ -87,6 +87,8 @@ STAMPS = re.compile(
     r"|\d{1,2}:\d{2}:\d{2}(?:[.,]\d+)?)"
 )
 """Dates and times of day within a line."""
+_LONGEST = 60
+"""Largest number of characters of a stamp."""
 _ORDERS = {"ymd": (0, 1, 2), "dmy": (2, 1, 0), "mdy": (2, 0, 1)}
 """Where year, month and day stand in a date."""
 _STATED = re.compile(r"\b(?:(?P<dmy>dd?([-/.])mm?\2y+)|(?P<mdy>mm?([-/.])dd?\4y+))", re.IGNORECASE)
@@ -107,7 +109,7 @@ class Stamp(NamedTuple):
 
 def stamp(text: str) -> Stamp | None:
     """Read a date, a time of day or both, or return None."""
-    found = _STAMP.fullmatch(text)
+    found = _STAMP.fullmatch(text) if len(text) <= _LONGEST else None
     if found is None or not (found["a"] or found["h"]):
         return None
     date = None
