@@ -220,5 +220,5 @@ def test_a_sentence_above_the_numbers_names_no_columns(tmp_path):
     path = tmp_path / "sentence.txt"
     rows = [f"{0.01 * i:.4f} {math.sin(i):.6f}" for i in range(60)]
     path.write_text("\n".join(["Kobe station", *rows]), encoding="utf-8")
-    with pytest.raises(vi.InputError, match="^unit: missing"):
+    with pytest.raises(vi.InputError, match=r"^unit: missing"):
         vi.Record.read(path)

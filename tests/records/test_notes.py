@@ -106,7 +106,12 @@ def test_a_unit_after_a_single_column(tmp_path):
 @pytest.mark.parametrize(
     ("factor", "step", "said", "told"),
     [
-        (1000.0, 0.01, {"unit": "m/s^2"}, "the peak is 30.3 g, more than the 5 g of usual records: is its unit c"),
+        (
+            1000.0,
+            0.01,
+            {"unit": "m/s^2"},
+            "the peak is 30.3 g, more than the 5 g of usual records: is its unit c",
+        ),
         (0.02, 0.01, {"unit": "m/s^2"}, "is its unit g?"),
         (0.01, 0.01, {"unit": "g"}, ""),
         (1e-6, 0.01, {"unit": "g"}, "less than the 0.001 g of usual records"),

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Columns
 from vibroimpact.measurements.sampling import is_sampling
-from vibroimpact.model.quantities import ACCELERATION, FREQUENCY, GRAVITY
+from vibroimpact.model.quantities import ACCELERATION, FREQUENCY
 from vibroimpact.model.units import to_si
 from vibroimpact.tables.units import ended, spelled
 
@@ -31,7 +32,8 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
     Raises
     ------
     InputError
-        If a value cannot be read, or if it is not greater than 0.
+        If a value cannot be read, if it is not greater than 0, or if an amplitude in the file has
+        no unit.
     """
     written: dict[str, str] = {}
     left = []
@@ -46,11 +48,15 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
         value, said = given.get(name), written.get(name, "")
         if value is None and not said:
             continue
+        is_bare = value is None and _BARE.fullmatch(said.strip()) is not None
+        if is_bare and quantity is ACCELERATION:
+            raise InputError(
+                f"measurement: {table.path!r}: {name} = {said} has no unit; pass {name}= "
+                f"(--{name}) with a unit, such as '0.05 g', or write the unit in the file"
+            )
         found[name] = to_si(said if value is None else value, quantity, name, above=0.0)
-        if value is None and _BARE.fullmatch(said.strip()):
-            told = f"{found[name]:.6g} {quantity.symbol}"
-            told += f" ({found[name] / GRAVITY:.3g} g)" if quantity is ACCELERATION else ""
-            notes.append(f"{name} has no unit, so {told} was assumed")
+        if is_bare:
+            notes.append(f"{name} has no unit, so {found[name]:.6g} {quantity.symbol} was assumed")
     if left:
         notes.append(
             f"entries outside the columns were not understood and were left out: {', '.join(left)}"

@@ -18,7 +18,15 @@ from vibroimpact.measurements.beside import shaking
 from vibroimpact.measurements.columns import Array, Column, Columns
 from vibroimpact.measurements.curves import curves
 from vibroimpact.measurements.histories import history
-from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
+from vibroimpact.measurements.names import (
+    AXES,
+    CURVES,
+    HISTORIES,
+    Meaning,
+    in_si,
+    meaning,
+    missing_unit,
+)
 from vibroimpact.measurements.sampling import timed
 from vibroimpact.measurements.scaling import completed, is_channel
 from vibroimpact.tables.decimal_mark import Decimal, checked
@@ -118,14 +126,23 @@ def read_measurement(
     facts: list[str] = []
     table = _chosen(str(path), tables, group, set(columns.values()), notes)
     notes += table.notes
-    known, left = _known(table, columns, units, notes)
-    variables = {found.variable for found, _ in known.values()}
+    meanings, left, repeated = _known(table, columns, units)
+    variables = {found.variable for found in meanings.values()}
     if "frequency" in variables and variables & set(CURVES):
+        known = _converted(table, meanings, {"frequency", "direction", *CURVES}, units, notes)
         data, kind = curves(table, known, direction, notes, facts), "curves"
     elif "time" in variables and variables & set(HISTORIES):
+        known = _converted(table, meanings, {"time", *HISTORIES}, units, notes)
         data, kind = history(table, known, notes, facts), "history"
     else:
-        raise InputError(f"measurement: {str(path)!r}{_untold(table, known, left)}")
+        raise InputError(
+            f"measurement: {str(path)!r}{_untold(table, meanings, [*left, *repeated])}"
+        )
+    if repeated:
+        notes.append(
+            f"columns of a quantity that another column has were left out: {', '.join(repeated)}; "
+            "columns= (--columns) selects the column of a quantity"
+        )
     if left:
         notes.append(f"columns were not understood and were left out: {', '.join(left)}")
     data.attrs |= shaking(table, {"amplitude": amplitude, "frequency": frequency}, notes)
@@ -135,7 +152,7 @@ def read_measurement(
         "source": _clean(file.name),
         "kind": kind,
         "notes": "\n".join([*facts, *notes]),
-        "left_out": "\n".join(left),
+        "left_out": "\n".join([*left, *repeated]),
     }
     warn_of_input(f"measurement {str(path)!r}", notes)
     return describe(data, CREATED_BY)
@@ -276,9 +293,13 @@ def _has_axis(table: Columns, wanted: set[str]) -> bool:
 
 
 def _known(
-    table: Columns, columns: Mapping[str, str], units: Mapping[str, str], notes: list[str]
-) -> tuple[dict[int, tuple[Meaning, Array]], list[str]]:
-    """Return the content of each column in SI units, and the columns that are not understood."""
+    table: Columns, columns: Mapping[str, str], units: Mapping[str, str]
+) -> tuple[dict[int, Meaning], list[str], list[str]]:
+    """Return the meaning of each column, by its number.
+
+    The lists contain the columns that are not understood, and those whose quantity another column
+    holds.
+    """
     names = [column.name for column in table.columns]
     chosen = {}
     accepted = [*AXES, "direction", *CURVES, *HISTORIES]
@@ -301,19 +322,45 @@ def _known(
                 f"units: {key!r} is neither a variable nor a column of {table.path!r}; use one of "
                 f"its columns: {', '.join(names)}"
             )
-    found: dict[int, tuple[Meaning, Array]] = {}
-    left = []
+    found: dict[int, Meaning] = {}
+    left: list[str] = []
+    repeated: list[str] = []
     for i, column in enumerate(table.columns):
-        said = chosen.get(i) or meaning(column.name)
-        if said is None or (i not in chosen and _taken(said, chosen, found)):
+        said = chosen.get(i) or meaning(column.name, column.unit)
+        if said is None:
             left.append(column.name)
+        elif i not in chosen and _taken(said, chosen, found):
+            repeated.append(column.name)
+        elif said.variable != "direction" and column.values.dtype.kind not in "fiub":
+            kind = " (complex numbers)" if column.values.dtype.kind == "c" else ""
+            left.append(f"{column.name}{kind}")
+        else:
+            found[i] = said
+    return found, left, repeated
+
+
+def _converted(
+    table: Columns,
+    meanings: Mapping[int, Meaning],
+    used: set[str],
+    units: Mapping[str, str],
+    notes: list[str],
+) -> dict[int, tuple[Meaning, Array]]:
+    """Return the values of the used columns in SI units.
+
+    Raises
+    ------
+    InputError
+        If a unit is not stated or not clear, or if a value is not finite.
+    """
+    found: dict[int, tuple[Meaning, Array]] = {}
+    missing: dict[str, str] = {}
+    for i, said in meanings.items():
+        column = table.columns[i]
+        if said.variable not in used:
             continue
         if said.variable == "direction":
             found[i] = (said, np.empty(0))
-            continue
-        if column.values.dtype.kind not in "fiub":
-            kind = " (complex numbers)" if column.values.dtype.kind == "c" else ""
-            left.append(f"{column.name}{kind}")
             continue
         unit = units.get(said.variable) or units.get(column.name)
         if column.doubt and unit is None:
@@ -322,6 +369,9 @@ def _known(
                 f"{column.doubt}; pass the unit that the values in the file have, as "
                 f"units={{{column.name!r}: UNIT}} (--units)"
             )
+        if usual := missing_unit(column, said, unit):
+            missing[column.name] = usual
+            continue
         values, told = in_si(column, said, unit, table.path)
         for row in np.flatnonzero(np.isinf(values))[:1]:
             raise InputError(
@@ -332,13 +382,20 @@ def _known(
         if told:
             notes.append(told)
         found[i] = (said, values)
-    return found, left
+    if missing:
+        pairs = ", ".join(f"{name!r}: {unit!r}" for name, unit in missing.items())
+        typed = " ".join(f"--units {name!r} {unit}" for name, unit in missing.items())
+        raise InputError(
+            f"measurement: {table.path!r} states no unit of {', '.join(map(repr, missing))}; pass "
+            f"it, such as units={{{pairs}}} ({typed})"
+        )
+    return found
 
 
-def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: list[str]) -> str:
+def _untold(table: Columns, known: Mapping[int, Meaning], left: list[str]) -> str:
     """Describe how each column is read, what is missing, and how the user can specify it."""
     names = [column.name for column in table.columns]
-    read = {names[i]: found.variable for i, (found, _) in known.items()}
+    read = {names[i]: found.variable for i, found in known.items()}
     variables = set(read.values())
     moving = [name for name, found in read.items() if found in HISTORIES]
     if variables & set(CURVES):
@@ -366,9 +423,7 @@ def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: li
     )
 
 
-def _taken(
-    said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, tuple[Meaning, Array]]
-) -> bool:
+def _taken(said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, Meaning]) -> bool:
     """Return whether another column holds the same quantity."""
-    others = [*chosen.values(), *(one for one, _ in found.values())]
+    others = [*chosen.values(), *found.values()]
     return any((one.variable, one.direction) == (said.variable, said.direction) for one in others)

@@ -35,8 +35,15 @@ def _announced(file: File, first: int = 0, last: int = _SEARCHED) -> int | None:
 
 
 def recognises(file: File) -> bool:
-    """Return whether a file has this format: one of its first lines contains NPTS."""
-    return _announced(file) is not None
+    """Return whether a file has this format: one of its first lines contains NPTS.
+
+    It is no comment, and no further line of words follows it.
+    """
+    at = _announced(file)
+    if at is None or file.lines[at].lstrip().startswith(("#", "%", "!", "//")):
+        return False
+    behind = next((line for line in file.lines[at + 1 :] if line.strip()), "")
+    return not re.search(r"(?i)[a-z]*[a-df-z][a-z]{2}", behind.lower().replace("nan", ""))
 
 
 def read(file: File) -> list[Channel]:

@@ -36,7 +36,7 @@ from vibroimpact.tables.times import (
     stamp,
     stated_order,
 )
-from vibroimpact.tables.units import Units
+from vibroimpact.tables.units import Units, parted
 
 Arrangement = Literal["columns", "lines", "pairs", "rows"]
 Array = NDArray[np.float64]
@@ -207,7 +207,7 @@ def _values(
     if len(words) >= 0.5 * len(cells):
         return np.array(cells)
     i = words[0]
-    of = f", column {name!r}" if name else ""
+    of = f", column {parted(name)[0]!r}" if name else ""
     raise InputError(
         f"{file.what}: {file.path!r}, line {lines[i] + 1}{of}: {cells[i][:40]!r} is not a number; "
         "correct it, or leave the cell empty if the value is missing"
