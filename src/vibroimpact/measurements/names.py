@@ -195,6 +195,8 @@ def _of_letters(words: list[str], unit: str | None) -> str | None:
         for what, quantity in (("acceleration", ACCELERATION), ("velocity", VELOCITY)):
             if _size(unit, quantity) is not None:
                 return what
+    if letters == ["u"] and unit is not None and _size(unit, ACCELERATION) is not None:
+        return None  # upwards, beside N and E
     return _LETTERS.get(letters[0])
 
 

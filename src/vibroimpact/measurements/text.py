@@ -51,8 +51,10 @@ def read(file: File) -> list[Columns]:
         )
     said = _entries(table)
     columns = []
-    for column in table.columns:
+    for i, column in enumerate(table.columns):
         bare, own = parted(column.name)
+        if i == table.stamps and _variable(bare) != "time":
+            bare = "time"
         of_name = unit_of(column.name)
         below = column.units.other if own else column.units.unit
         unit, doubt = agreed(own, None if not own and below == of_name else below)
@@ -62,14 +64,27 @@ def read(file: File) -> list[Columns]:
     return [_sampled(table, found)]
 
 
+def _variable(name: str) -> str | None:
+    known = meaning(name)
+    return known.variable if known else None
+
+
 def _entries(table: Table) -> dict[str, str]:
-    """The entries above and beside the table, by their names; later comments come first."""
+    """The entries above and beside the table, by their names. Comments take precedence.
+
+    Counts and durations of time histories, which are compared with the values, are left out.
+    """
+    stated = table.statements
+    of_time = all(_variable(parted(one.name)[0]) != "frequency" for one in table.columns)
+    checked = {one.line for one in (*stated.counts, *stated.durations) if of_time}
     said: dict[str, str] = {}
-    for line in table.headings:
-        if line.is_comment and (pair := _said(line, table.decimal)):
+    for line in sorted(table.headings, key=lambda one: not one.is_comment):
+        pair = _said(line, table.decimal)
+        if pair is None or line.at in checked:
+            continue
+        if line.is_comment:
             said[pair[0]] = pair[1]
-    for line in table.headings:
-        if not line.is_comment and (pair := _said(line, table.decimal)):
+        else:
             said.setdefault(*pair)
     return said
 
@@ -110,17 +125,19 @@ def _in_stated_unit(
         if kind_of(key)[0] == "unit" and kind_of(key)[1] in _OF_VALUES
         and kind_of(key)[1] not in said and is_acceleration(text.partition(" ")[0].strip(".,;"))
     ]  # fmt: skip
-    if not stated or not any(map(_may_accelerate, columns)):
+    free = [one for one in columns if stated and _may_accelerate(one, stated[0])]
+    if not free:
         return columns, said
     unit, doubt = agreed(*stated)
     return [
-        one._replace(unit=unit, doubt=doubt) if _may_accelerate(one) else one for one in columns
+        one._replace(unit=unit, doubt=doubt) if any(one is each for each in free) else one
+        for one in columns
     ], {key: text for key, text in said.items() if key not in used}
 
 
-def _may_accelerate(column: Column) -> bool:
-    """Return whether a column without a unit may hold accelerations."""
-    known = meaning(column.name)
+def _may_accelerate(column: Column, unit: str) -> bool:
+    """Return whether a column without a unit may hold accelerations in this unit."""
+    known = meaning(column.name, unit)
     quantity = QUANTITIES.get(known.variable) if known else ACCELERATION
     is_free = column.unit is None and (known is None or known.unit is None)
     return is_free and column.values.dtype.kind == "f" and quantity is ACCELERATION
@@ -144,6 +161,14 @@ def _sampled(table: Table, found: Columns) -> Columns:
         return found
     if at is not None and rows < 2:
         return found
+    if at is not None and at == table.stamps and stated.step is None:
+        again = np.flatnonzero(np.diff(found.columns[at].values) == 0.0)
+        if len(again):
+            raise table.refused(
+                int(again[0]) + 1,
+                "its time is that of the line above, as times are rounded; state the sampling rate "
+                "above the table, such as '# fs = 200 Hz'",
+            )
     step = sampling(table._replace(time=at), unit)
     if step.contradiction:
         raise InputError(f"measurement: {found.path!r}, {step.contradiction}")

@@ -229,7 +229,7 @@ def read_statements(lines: Iterable[tuple[int, str]]) -> Statements:
             hints.insert(0, hint)
     return Statements(
         tuple(counts),
-        tuple(steps or bare_steps),
+        tuple(dict.fromkeys(steps or bare_steps)),
         tuple(durations),
         tuple(peaks),
         tuple(units),

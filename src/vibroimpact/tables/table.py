@@ -77,8 +77,8 @@ class Table(NamedTuple):
     names_columns: bool
     notes: tuple[str, ...]
     """What was assumed."""
-    start: str
-    """Date and time of the first row, if the times are stamps."""
+    stamps: int | None
+    """Number of the column whose times were stamps with dates or times of day."""
     decimal: str
 
     def refused(self, row: int, why: str) -> InputError:
@@ -103,7 +103,8 @@ def read_table(file: File) -> Table:
     width = Counter(map(len, cells)).most_common(1)[0][0]
     few_columns(width, file.path, file.what)
     head = column_headings(rows.above, width, rows.delimiter)
-    named = frozenset() if head is None else head.lines
+    # The line above a single column may state all of it, as a sentence.
+    named = frozenset() if head is None or width == 1 else head.lines
     headings = tuple(h for h in (*rows.above, *rows.comments) if h.at not in named)
     statements = _with_announced(read_statements((h.at, h.text) for h in headings), announced)
     notes: tuple[str, ...] = ()
@@ -130,18 +131,18 @@ def read_table(file: File) -> Table:
             for i, (name, units) in enumerate(zip(head.names, head.units, strict=True))
         ]
         places = lines
-    found, start = _with_stamps(file, found, headings, lines)
+    found, stamps = _with_stamps(file, found, headings, lines)
     return Table(
         file,
         tuple(found),
         np.array(places),
         statements,
         headings,
-        _time(found, statements, arrangement),
+        _time(found, statements, arrangement) if stamps is None else stamps,
         arrangement,
         has_names,
         notes,
-        start,
+        stamps,
         rows.decimal,
     )
 
@@ -156,9 +157,11 @@ def _without_empty_end(cells: list[list[str]]) -> list[list[str]]:
 def _announced(rows: Rows, cells: list[list[str]], lines: list[int]) -> list[tuple[int, float]]:
     """Lines and numbers of the count and the step that stand above the values, without words."""
     numbers = [[rows.number(cell) for cell in row] for row in cells[:3]]
-    if len(cells) < 3 or any(one is None for row in numbers for one in row):
+    if len(cells) < 2 or any(one is None for row in numbers for one in row):
         return []
     first = [one for one in numbers[0] if one is not None]
+    if len(cells) == 2 and len(cells[1]) not in first:
+        return []
     width = Counter(map(len, cells[1:])).most_common(1)[0][0]
     left = len(cells) - 1
     if len(first) == 1 == width:
@@ -294,8 +297,8 @@ def _rearranged(
 
 def _with_stamps(
     file: File, columns: list[Column], headings: tuple[Heading, ...], lines: list[int]
-) -> tuple[list[Column], str]:
-    """Return columns in which dates and times of day are times in s, and the first stamp.
+) -> tuple[list[Column], int | None]:
+    """Return columns in which dates and times of day are times in s, and the number of the column.
 
     A column of dates beside one of times of day is joined with it.
     """
@@ -307,7 +310,7 @@ def _with_stamps(
                 found[i] = [one for one in read if one]
     clocks = [i for i, read in found.items() if all(one.seconds is not None for one in read)]
     if not clocks:
-        return columns, ""
+        return columns, None
     at = clocks[0]
     stamps = found[at]
     days = [i for i, read in found.items() if all(one.seconds is None for one in read)]
@@ -330,7 +333,7 @@ def _with_stamps(
         )
     joined = Column(columns[at].name or "time", Units("s"), times)
     kept = [joined if i == at else one for i, one in enumerate(columns) if i not in days[:1]]
-    return kept, first
+    return kept, next(i for i, c in enumerate(kept) if c is joined)
 
 
 _OTHER_AXES = re.compile(r"f(?:req(?:uency)?)?|hz|period", re.IGNORECASE)

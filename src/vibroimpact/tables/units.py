@@ -100,11 +100,16 @@ def ended(name: str) -> tuple[str, str | None]:
 def ending(words: list[str], *, sure: bool) -> str | None:
     """Return the unit at the end of words, or None.
 
-    Unless `sure` is true, the g of ``ag`` and the n of a number of items are not units.
+    Unless `sure` is true, the g of ``ag``, the n of a number of items and the S of ``N-S`` are not
+    units.
     """
     if len(words) < 2 or words[-1] not in _ENDS:
         return None
-    a_word = words == ["a", "g"] or (words[-1] == "n" and "force" not in words)
+    a_word = (
+        words == ["a", "g"]
+        or words[-2:] == ["n", "s"]
+        or (words[-1] == "n" and "force" not in words)
+    )
     return None if a_word and not sure else _ENDS[words[-1]]
 
 
