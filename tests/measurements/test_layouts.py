@@ -118,7 +118,7 @@ UNSTATED = (scope, rate, compound, rate_beside)
 def test_units_that_are_not_stated_are_asked_for(write, tmp_path):
     path = tmp_path / ("test.mat" if write in (scope, rate) else "test.h5")
     write(path)
-    with pytest.raises(vi.InputError, match=r"states no unit of '\w+\W\w+', '\w+\W\w+'; pass it"):
+    with pytest.raises(vi.InputError, match=r"states no unit of '[^']+', '[^']+'; pass it"):
         vi.read_measurement(path)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 
 from vibroimpact.errors import InputError
@@ -10,10 +9,9 @@ from vibroimpact.measurements.columns import Columns
 from vibroimpact.measurements.sampling import is_sampling
 from vibroimpact.model.quantities import ACCELERATION, FREQUENCY
 from vibroimpact.model.units import to_si
+from vibroimpact.tables.headings import BARE, is_number
 from vibroimpact.tables.units import ended, spelled
 
-_BARE = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?", re.IGNORECASE)
-"""A number without a unit."""
 _SHAKEN = {"amplitude": ACCELERATION, "frequency": FREQUENCY}
 
 
@@ -48,7 +46,7 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
         value, said = given.get(name), written.get(name, "")
         if value is None and not said:
             continue
-        is_bare = value is None and _BARE.fullmatch(said.strip()) is not None
+        is_bare = value is None and BARE.fullmatch(said.strip()) is not None
         if is_bare and quantity is ACCELERATION:
             raise InputError(
                 f"measurement: {table.path!r}: {name} = {said} has no unit; pass {name}= "
@@ -64,15 +62,9 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
     return found
 
 
-def is_number(text: str) -> bool:
-    """Return whether a text is a number, with or without a unit. A date is not a number."""
-    begin = _BARE.match(text)
-    return begin is not None and re.fullmatch(r" *([^\W\d_].*|%)?", text[begin.end() :]) is not None
-
-
 def with_unit(text: str, unit: str | None) -> str:
     """Return a number with the unit at the end of its name, if the number has no unit."""
-    return f"{text} {spelled(unit)}" if unit and _BARE.fullmatch(text.strip()) else text
+    return f"{text} {spelled(unit)}" if unit and BARE.fullmatch(text.strip()) else text
 
 
 def _odd(key: str, text: str) -> bool:

@@ -36,6 +36,9 @@ _SIGN = re.compile(r"\s*[(\[]\s*[+-]\s*[)\]]\s*$")
 """A mark of the positive direction, as in ``U(+)``."""
 _ENTRY = re.compile(r"^\s*([A-Za-z][\w ()\[\]/^²]*?)\s*([=:;])\s*(.+?)\s*$")
 
+BARE = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?", re.IGNORECASE)
+"""A number without a unit."""
+
 
 class Headings(NamedTuple):
     """Names and units of the columns of a table."""
@@ -152,14 +155,17 @@ def entry(text: str) -> tuple[str, str] | None:
     found = _ENTRY.match(text)
     if found is None:
         return None
-    begin = re.match(r"[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?", found[3], re.IGNORECASE)
-    rest = found[3][begin.end() :] if begin else ""
-    is_number = begin is not None and re.fullmatch(r" *(?:[^\W\d_].*|%)?", rest) is not None
-    if found[2] == ";" and not is_number:
+    if found[2] == ";" and not is_number(found[3]):
         return None
     if found[2] == ":" and found[1][-1].isdigit():  # a time of day
         return None
     return found[1], found[3].strip().strip('"')
+
+
+def is_number(text: str) -> bool:
+    """Return whether a text is a number, with or without a unit. A date is not a number."""
+    begin = BARE.match(text)
+    return begin is not None and re.fullmatch(r" *([^\W\d_].*|%)?", text[begin.end() :]) is not None
 
 
 def listed_units(above: Sequence[Heading], width: int) -> list[str] | None:

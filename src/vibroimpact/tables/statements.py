@@ -32,6 +32,8 @@ _STEP_NAME = (
     r"|abtastintervall|interval|spacing|(?:sampl(?:ing|e)|digiti[sz](?:ation|ing)|recording|scan)"
     r"[ _-]*(?:interval|period|increment|step)|(?:wf_?)?increment)"
 )
+_UNCLEAR = ("step", "interval", "spacing")
+"""Names that may be of other steps than that of times."""
 _RATE_NAME = (
     r"(?:(?:sampl(?:ing|es?)|scan|data|digiti[sz](?:ation|ing)|acquisition|logging|recording)"
     r"[ _-]*(?:rate|freq(?:uency)?)|f_?s(?:ample)?|abtast(?:rate|frequenz)|sps"
@@ -241,6 +243,8 @@ def read_statements(lines: Iterable[tuple[int, str]]) -> Statements:
 def sampling_of(name: str) -> str | None:
     """Return ``"step"`` or ``"rate"`` if a name is that of a sampling step or rate, or None."""
     bare = re.sub(r" *[(\[][^)\]]*[)\]] *$", "", name).strip()
+    if bare.lower() in _UNCLEAR:
+        return None
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", bare)
     for kind, pattern, suffix in (
         ("rate", _RATE_NAME, "k?hz"),

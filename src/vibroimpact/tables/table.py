@@ -160,7 +160,7 @@ def _announced(rows: Rows, cells: list[list[str]], lines: list[int]) -> list[tup
     if len(cells) < 2 or any(one is None for row in numbers for one in row):
         return []
     first = [one for one in numbers[0] if one is not None]
-    if len(cells) == 2 and len(cells[1]) not in first:
+    if len(cells) == 2 and (len(cells[1]) <= 2 or len(cells[1]) not in first):
         return []
     width = Counter(map(len, cells[1:])).most_common(1)[0][0]
     left = len(cells) - 1
