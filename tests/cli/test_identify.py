@@ -90,19 +90,22 @@ def test_an_amplitude_of_the_study_that_the_file_replaces_is_reported(file, tmp_
     assert line in " ".join(printed.out.split())
 
 
-def test_an_amplitude_without_a_unit_is_told_and_named_where_nothing_fits(file, tmp_path, capsys):
+def test_an_amplitude_without_a_unit_is_asked_for(file, tmp_path, capsys):
     path = tmp_path / "bare.csv"
     path.write_text(file.read_text().replace("0.04 g", "0.04", 1))
     words = ["identify", str(path), "--rig", "B2-G2-A2", "--free", "stiffness", "--starts", "1"]
-    assert main([*words, "-o", str(tmp_path)]) == 0
-    told = " ".join(capsys.readouterr().out.split())
-    assert "amplitude of bare: 0.004079 g, from bare.csv" in told
-    assert "amplitude has no unit, so 0.04 m/s² (0.00408 g) was assumed" in told
-    assert "the fit used the amplitude 0.004079 g, from bare.csv" in told
+    assert main([*words, "-o", str(tmp_path)]) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert "amplitude = 0.04 has no unit; pass amplitude= (--amplitude) with a unit" in told
     assert main([*words, "-o", str(tmp_path), "--amplitude", "0.04 g", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["amplitudes"] == {"bare": "0.04 g, from the call"}
     assert not any("the fit used the amplitude" in line for line in found["findings"])
+    path.write_text(file.read_text().replace("0.04 g", "0.04 m/s^2", 1))
+    assert main([*words, "-o", str(tmp_path)]) == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert "amplitude of bare: 0.004079 g, from bare.csv" in told
+    assert "the fit used the amplitude 0.004079 g, from bare.csv" in told
 
 
 def test_the_model_that_wins_has_values_a_report_and_a_study(tmp_path, capsys):

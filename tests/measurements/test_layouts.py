@@ -110,6 +110,18 @@ def settings(path):
         writer.write_segment([*written, scaling])
 
 
+UNSTATED = (scope, rate, compound, rate_beside)
+"""Layouts in which the accelerations have no unit."""
+
+
+@pytest.mark.parametrize("write", UNSTATED)
+def test_units_that_are_not_stated_are_asked_for(write, tmp_path):
+    path = tmp_path / ("test.mat" if write in (scope, rate) else "test.h5")
+    write(path)
+    with pytest.raises(vi.InputError, match=r"states no unit of '[^']+', '[^']+'; pass it"):
+        vi.read_measurement(path)
+
+
 @pytest.mark.parametrize(
     ("write", "ending"),
     [
@@ -120,7 +132,8 @@ def settings(path):
 def test_the_same_channels(write, ending, tmp_path):
     path = tmp_path / f"test.{ending}"
     write(path)
-    data = vi.read_measurement(path)
+    used = {"acceleration": "m/s^2", "base_acceleration": "m/s^2"}
+    data = vi.read_measurement(path, units=used if write in UNSTATED else None)
     rough = {"rtol": 1e-5, "atol": 1e-7}  # a universal file has single precision
     np.testing.assert_allclose(data["time"], TIME, **rough)
     np.testing.assert_allclose(data["displacement"], U, **rough)

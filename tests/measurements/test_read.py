@@ -140,7 +140,7 @@ def test_decimal_commas_and_an_amplitude_beside_the_numbers(tmp_path):
         ("# amplitude = 0,04 g", ";", 0.04 * 9.80665),
         ("# amplitude = 0.04 g", ";", 0.04 * 9.80665),
         ("amplitude;0,04 g", ";", 0.04 * 9.80665),
-        ("# amplitude: 0,392", "\t", 0.392),
+        ("# amplitude (m/s²): 0,392", "\t", 0.392),
         ("# amplitude = 1,000 g", ";", 9.80665),
         ("# amplitude = 0,04 g", ",", 0.04 * 9.80665),
     ],
@@ -153,7 +153,6 @@ def test_an_amplitude_with_a_decimal_comma(tmp_path, said, mark, amplitude):
 @pytest.mark.parametrize(
     ("said", "amplitude", "told"),
     [
-        ("# amplitude = 0.04", 0.04, "amplitude has no unit, so 0.04 m/s² (0.00408 g) was assumed"),
         ("Amplitude;0,04 g", 0.392266, ""),
         ("# amplitude_g = 0.04", 0.392266, ""),
         ("# amplitude (m/s²) = 0.4", 0.4, ""),
@@ -177,13 +176,22 @@ def test_numbers_beside_the_columns_are_read_or_told(tmp_path, said, amplitude, 
     assert data.attrs["amplitude_source"] == "the call"
 
 
+def test_an_amplitude_without_a_unit_is_refused(tmp_path):
+    path = written(tmp_path, "# amplitude = 0.04\nf (Hz);direction;Ed (mm)\n1;up;2\n2;down;3\n")
+    scipy.io.savemat(tmp_path / "a.mat", {"f_Hz": [1.0, 2.0], "Ed_mm": [1.0, 2], "amplitude": 0.04})
+    for file in (path, tmp_path / "a.mat"):
+        with pytest.raises(vi.InputError, match=r"amplitude = 0\.04 has no unit; pass amplitude= "):
+            vi.read_measurement(file)
+        data = vi.read_measurement(file, amplitude="0.04 g")
+        assert data.attrs["amplitude"] == pytest.approx(0.392266)
+
+
 @pytest.mark.parametrize("group", ["", "test"])
 @pytest.mark.parametrize(
     ("beside", "amplitude", "told"),
     [
         ({"amplitude_g": 0.04}, 0.392266, ""),
         ({"amplitude": "0.04 g"}, 0.392266, ""),
-        ({"amplitude": 0.04}, 0.04, "amplitude has no unit, so 0.04 m/s² (0.00408 g) was assumed"),
         ({"A_g": 0.04, "name": "B2"}, None, "left out: A_g = 0.04"),
     ],
 )
@@ -234,16 +242,16 @@ def test_a_comma_that_may_part_thousands_is_refused(tmp_path):
     ],
 )
 def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
-    data = vi.read_measurement(written(tmp_path, "f (Hz),Ed\n" + rows))
+    data = vi.read_measurement(written(tmp_path, "f (Hz),Ed (mm)\n" + rows))
     assert data.direction.values.tolist() == directions
     assert told in data.attrs["notes"]
-    assert "millimetres" in data.attrs["notes"]
 
 
 @pytest.mark.parametrize(
     ("text", "told"),
     [
-        ("f,Ed\n1,2\n3,4\n2,3\n5,6\n", "direction='forward'"),
+        ("f,Ed (mm)\n1,2\n3,4\n2,3\n5,6\n", "direction='forward'"),
+        ("f,Ed\n1,2\n3,4\n", "states no unit of 'Ed'; pass it, such as units={'Ed': 'mm'} (--u"),
         ("f,Ed\n1,2\n2,x\n3,4\n4,5\n", "line 3, column 'Ed': 'x' is not a number"),
         (
             "b,c\n1,2\n",
@@ -270,10 +278,10 @@ def test_a_direction_that_no_column_tells(tmp_path, rows, directions, told):
         ("", "is empty"),
         ("1,2\n2,3\n", "does not name its 2 columns"),
         ("f,Ed (kg)\n1,2\n", "is a mass"),
-        ("f,Ed,dir\n1,2,sideways\n", "the direction 'sideways'"),
-        ("f,Ed\n1,2\n2,3,4\n", "line 3: 3 values"),
-        ("f,Ed\n1,nan\n", "no row has both a frequency greater than 0 and a measured value"),
-        ("time,u\n1,2\n1,3\n", "occurs twice"),
+        ("f,Ed (mm),dir\n1,2,sideways\n", "the direction 'sideways'"),
+        ("f,Ed\n1,2\n2,3,4\n", "line 3: the row has 3 numbers, but the rows above have 2"),
+        ("f,Ed (mm)\n1,nan\n", "no row has both a frequency greater than 0 and a measured value"),
+        ("time,u (mm)\n1,2\n1,3\n", "occurs twice"),
     ],
 )
 def test_what_cannot_be_read_is_refused_with_its_place(tmp_path, text, told):
@@ -308,7 +316,7 @@ def test_matlab(tmp_path):
     time, u, base = channels()
     record = {"time": time, "u": u, "ag": base, "amplitude": "0.05 g"}
     scipy.io.savemat(tmp_path / "a.mat", {"test1": record})
-    data = vi.read_measurement(tmp_path / "a.mat")
+    data = vi.read_measurement(tmp_path / "a.mat", units={"u": "m", "ag": "m/s^2"})
     assert data.displacement.values == pytest.approx(u)
     assert data.base_acceleration.values == pytest.approx(base)
     assert data.attrs["amplitude"] == pytest.approx(0.4903325)
@@ -320,6 +328,7 @@ def test_hdf5_with_units_and_absolute_displacements(tmp_path):
         file["time"], file["table_acc"] = time, base
         file["table_acc"].attrs["units"] = "g"
         file["mass displacement"], file["base displacement"] = 3.0 * u, u
+        file["mass displacement"].attrs["units"] = file["base displacement"].attrs["units"] = "m"
     data = vi.read_measurement(tmp_path / "a.h5")
     assert data.displacement.values == pytest.approx(2.0 * u)
     assert data.base_acceleration.values == pytest.approx(9.80665 * base)

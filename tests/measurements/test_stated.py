@@ -346,7 +346,7 @@ def test_an_empty_channel_hides_no_other(tmp_path, name, about):
 
 
 def test_names_of_files_steer_no_terminal(tmp_path):
-    name = "u\x1b[31m\n[x]\u2028_mm"
+    name = "disp\x1b[31m\n[x]\u2028_mm"
     spare = ("spare\x1b[2J\n|<b>", U, {"wf_increment": 0.004})
     path = tdms(tmp_path / "a.tdms", (name, U, {"wf_increment": 0.004}), spare, group="r\n\x07")
     data = vi.read_measurement(path)
@@ -405,7 +405,13 @@ def test_units_of_universal_files(tmp_path):
 def test_a_file_that_was_cut_is_refused(tmp_path, ending):
     path = tmp_path / f"whole.{ending}"
     if ending == "uff":
-        uff(path, function(8, TIME, U, ordinate_axis_units_lab="mm"), function(12, TIME, U))
+        uff(
+            path,
+            *(
+                function(kind, TIME, U, ordinate_axis_units_lab=unit)
+                for kind, unit in ((8, "mm"), (12, "g"))
+            ),
+        )
     elif ending == "tdms":
         tdms(path, ("u_mm", U, {"wf_increment": 0.004}), ("acc_g", U, {"wf_increment": 0.004}))
     elif ending == "mat":

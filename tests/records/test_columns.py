@@ -31,7 +31,7 @@ def written(tmp_path, text: str):
     ],
 )
 def test_all_say_the_same(tmp_path, text, step):
-    record = vi.Record.read(written(tmp_path, text), step=step)
+    record = vi.Record.read(written(tmp_path, text), step=step, unit="m/s^2")
     np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0])
     assert record.step == pytest.approx(0.1, rel=1e-12)
 
@@ -68,8 +68,9 @@ def test_units(tmp_path):
         ("1,2\n3,4\n5\n", None, "m/s^2", r"record: .*, line 3: the row has 1 number, but the rows"),
         ("0,1\n0.1,2\n0.5,3\n", None, "m/s^2", r"record: .*, line 2: .* not evenly spaced"),
         ("0,0.1,0.5\n1,2,3\n", None, "m/s^2", r"record: .*, sample 1: .* not evenly spaced"),
-        ("0,1\n-0.1,2\n-0.2,3\n", None, "m/s^2", r"record: .*not evenly spaced"),
-        ("0,1\n0,2\n0,3\n", None, "m/s^2", r"record: .*not evenly spaced"),
+        ("t,a\n0,1\n-0.1,2\n-0.2,3\n", None, "m/s^2", r"record: .*not evenly spaced"),
+        ("0,1\n-0.1,2\n-0.2,3\n", None, "m/s^2", r"record: .*neither names nor times"),
+        ("0,1\n0,2\n0,3\n", None, "m/s^2", r"record: .*neither names nor times"),
         ("1\n2\n", 0.1, "N", r"unit: .*"),
         ("1\n2\n", 0.1, "nonsense", r"unit: .*"),
         (
@@ -110,10 +111,13 @@ def test_names_and_units_above_the_columns(tmp_path):
 
 @pytest.mark.parametrize("line", ["# dt = 0.01", "dt: 10 ms", "Sampling interval=1e-2 s", "4 0.01"])
 def test_a_step_above_the_values(tmp_path, line):
-    record = vi.Record.read(written(tmp_path, f"made up\n{line}\n1\n2\n-3\n0\n"))
+    path = written(tmp_path, f"made up\n{line}\n1\n2\n-3\n0\n")
+    record = vi.Record.read(path, unit="m/s^2")
     np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0, 0.0])
     assert record.step == pytest.approx(0.01, rel=1e-14)
-    assert record.about.notes == ("the unit m/s² was assumed, because the file states no unit",)
+    assert record.about.notes == ()
+    with pytest.raises(vi.InputError, match=r"^unit: missing, because .* states no unit .* is 3; "):
+        vi.Record.read(path)
 
 
 COMMAS = {
@@ -127,23 +131,23 @@ COMMAS = {
 
 @pytest.mark.parametrize("how", COMMAS)
 def test_decimal_commas(tmp_path, how):
-    record = vi.Record.read(written(tmp_path, COMMAS[how]))
+    record = vi.Record.read(written(tmp_path, COMMAS[how]), unit="m/s^2")
     np.testing.assert_array_equal(record.acceleration, [1.5, -2.5, 3.0])
     assert record.step == pytest.approx(0.01, rel=1e-12)
 
 
 def test_a_comma_that_may_mean_two_things(tmp_path):
     path = written(tmp_path, "1,5\n-2,5\n3,0\n")
-    record = vi.Record.read(path, step=0.01, decimal=",")
+    record = vi.Record.read(path, step=0.01, decimal=",", unit="m/s^2")
     np.testing.assert_array_equal(record.acceleration, [1.5, -2.5, 3.0])
-    with pytest.raises(vi.InputError, match=r"not evenly spaced .*decimal=','"):
+    with pytest.raises(vi.InputError, match=r"neither names nor times.*decimal=','"):
         vi.Record.read(path)
     path = written(tmp_path, "0,001 1,500\n0,002 -2,500\n")
-    assert vi.Record.read(path).peak == 2.5
+    assert vi.Record.read(path, unit="m/s^2").peak == 2.5
     path = written(tmp_path, "1,000 1,500\n2,000 -2,500\n")
     with pytest.raises(vi.InputError, match=r"the comma in '1,000' may be .* pass decimal=','"):
         vi.Record.read(path)
-    assert vi.Record.read(path, decimal=",").peak == 2.5
+    assert vi.Record.read(path, decimal=",", unit="m/s^2").peak == 2.5
     with pytest.raises(
         vi.InputError, match=r"^decimal: ';' is not a decimal mark; pass '\.' or ','"
     ):
@@ -152,10 +156,10 @@ def test_a_comma_that_may_mean_two_things(tmp_path):
 
 def test_the_end_of_the_data_is_no_row(tmp_path):
     text = "1\n2\n-3\n*** End Data ***\n"
-    record = vi.Record.read(written(tmp_path, text), step=0.1)
+    record = vi.Record.read(written(tmp_path, text), step=0.1, unit="m/s^2")
     np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0])
     with pytest.raises(vi.InputError, match="line 5: numbers follow the end of the data"):
-        vi.Record.read(written(tmp_path, text + "4\n"), step=0.1)
+        vi.Record.read(written(tmp_path, text + "4\n"), step=0.1, unit="m/s^2")
 
 
 def test_times_that_are_rounded_or_jitter(tmp_path):
@@ -187,15 +191,15 @@ def test_a_sample_that_is_missing_is_no_jitter(tmp_path, gone):
         path = written(tmp_path, rows)
         with pytest.raises(vi.InputError, match=r"not evenly spaced .*step= \(--step\)"):
             vi.Record.read(path)
-        record = vi.Record.read(path, step=0.01)
+        record = vi.Record.read(path, step=0.01, unit="m/s^2")
         assert len(record.acceleration) == 299
         assert "the step 10 ms replaces the uneven times in the file" in record.about.notes
 
 
 def test_a_step_beside_even_times(tmp_path):
     path = written(tmp_path, "0,1\n0.1,2\n0.2,-3\n")
-    assert vi.Record.read(path, step=0.1).step == 0.1
-    record = vi.Record.read(path, step=0.05)
+    assert vi.Record.read(path, step=0.1, unit="m/s^2").step == 0.1
+    record = vi.Record.read(path, step=0.05, unit="m/s^2")
     assert record.step == 0.05
     assert "the step 50 ms replaces the step in the file, 0.1 s" in record.about.notes
 
@@ -216,5 +220,5 @@ def test_a_sentence_above_the_numbers_names_no_columns(tmp_path):
     path = tmp_path / "sentence.txt"
     rows = [f"{0.01 * i:.4f} {math.sin(i):.6f}" for i in range(60)]
     path.write_text("\n".join(["Kobe station", *rows]), encoding="utf-8")
-    with pytest.warns(vi.InputWarning, match="the file states no unit"):
+    with pytest.raises(vi.InputError, match=r"^unit: missing"):
         vi.Record.read(path)

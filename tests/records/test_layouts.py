@@ -285,7 +285,7 @@ def test_whatever_is_damaged_is_read_or_refused_in_one_line(tmp_path, name):
 
 def test_a_text_that_begins_with_blanks_is_no_miniseed(written):
     words = ["      Record of nothing", "dt = 0.1", *map(str, VALUES)]
-    assert vi.Record.read(written(words)).about.format == "columns"
+    assert vi.Record.read(written(words), unit="g").about.format == "columns"
 
 
 def test_without_obspy_it_is_named(tmp_path, monkeypatch):
@@ -304,7 +304,7 @@ def test_sac_in_either_order_of_bytes_and_miniseed(tmp_path):
     trace = obspy.Trace(values, head)
     for order in ("<", ">"):
         trace.write(str(tmp_path / "record.sac"), format="SAC", byteorder=order)
-        record = vi.Record.read(tmp_path / "record.sac")
+        record = vi.Record.read(tmp_path / "record.sac", unit="m/s^2")
         np.testing.assert_array_equal(record.acceleration, values)
         assert record.step == pytest.approx(0.01, rel=1e-7)
         assert (record.about.station, record.about.component) == ("XX.NWH", "HNE")
@@ -318,7 +318,7 @@ def test_sac_in_either_order_of_bytes_and_miniseed(tmp_path):
     other = obspy.Trace(2 * values, {**head, "channel": "HNN"})
     both = tmp_path / "both.mseed"
     obspy.Stream([trace, other]).write(str(both), format="MSEED", encoding="FLOAT32")
-    assert vi.Record.read(both, "HNN").peak == 7.0
+    assert vi.Record.read(both, "HNN", unit="m/s^2").peak == 7.0
     late = obspy.Trace(values, {**head, "starttime": trace.stats.endtime + 5.0})
     obspy.Stream([trace, late]).write(str(both), format="MSEED", encoding="FLOAT32")
     with pytest.raises(vi.InputError, match="has gaps"):

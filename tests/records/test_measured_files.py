@@ -148,7 +148,7 @@ def test_what_is_read_is_what_the_file_states(name):
         pytest.skip("obspy is not installed")
     path = measured(f"records/{name}")
     for stated in components:
-        said = "m/s^2" if form == "miniSEED" else None
+        said = "m/s^2" if form in ("miniSEED", "SAC") else None  # neither states a unit
         record = vi.Record.read(path, stated.component, unit=said)
         assert record.about.format == form
         values = record.acceleration
@@ -185,14 +185,14 @@ def test_counts_need_a_unit():
     assert "mean subtracted: -0.16298" in record.levelled().about.notes[-1]
 
 
-def test_a_record_of_sac_says_that_its_unit_was_taken_for_granted():
+def test_the_unit_of_a_sac_file_is_asked_for():
     pytest.importorskip("obspy")
-    record = vi.Record.read(measured("records/sac/BRIHN1.GS..sac"))
-    assert "the unit m/s² was assumed, because the file states no unit" in record.about.notes
+    with pytest.raises(vi.InputError, match=r"^unit: missing, because .* the largest .* is 0\.901"):
+        vi.Record.read(measured("records/sac/BRIHN1.GS..sac"))
 
 
 def test_a_record_of_one_header_line_with_count_and_step():
-    record = vi.Record.read(measured("eqsig/test_motion_dt0p01.txt"))
+    record = vi.Record.read(measured("eqsig/test_motion_dt0p01.txt"), unit="m/s^2")
     assert len(record.acceleration) == 4684
     assert record.step == 0.01
     assert record.peak == pytest.approx(1.41, rel=1e-2)

@@ -99,15 +99,20 @@ def test_a_unit_after_a_single_column(tmp_path):
     for head in ("Acceleration in g\n", "# units: g\n", "made up\nAcc (g)\n"):
         record, told = noted(written(tmp_path, head + "# dt: 10 ms\n" + rows))
         assert (record.about.unit, told) == ("g", "")
-    _, told = noted(written(tmp_path, "# dt: 10 ms\n" + rows))
-    assert told == "the unit m/s² was assumed, because the file states no unit"
+    with pytest.raises(vi.InputError, match=r'^unit: missing, .* unit="g" \(--unit g\)$'):
+        vi.Record.read(written(tmp_path, "# dt: 10 ms\n" + rows))
 
 
 @pytest.mark.parametrize(
     ("factor", "step", "said", "told"),
     [
-        (1000.0, 0.01, {}, "the peak is 30.3 g, more than the 5 g of usual records: is its unit c"),
-        (0.02, 0.01, {}, "is its unit g?"),
+        (
+            1000.0,
+            0.01,
+            {"unit": "m/s^2"},
+            "the peak is 30.3 g, more than the 5 g of usual records: is its unit c",
+        ),
+        (0.02, 0.01, {"unit": "m/s^2"}, "is its unit g?"),
         (0.01, 0.01, {"unit": "g"}, ""),
         (1e-6, 0.01, {"unit": "g"}, "less than the 0.001 g of usual records"),
         (1.0, 10.0, {"unit": "m/s^2"}, "the step is 10 s, more than the 0.1 s of usual records; i"),
@@ -161,8 +166,8 @@ def test_a_record_that_ends_in_motion_is_not_doubted(tmp_path):
 
 def test_datasets_keep_what_was_noted(tmp_path):
     rows = "".join(f"{a!r}\n" for a in SWAY.tolist())
-    record, told = noted(written(tmp_path, rows), step=0.01)
-    assert told == "the unit m/s² was assumed, because the file states no unit"
+    record, told = noted(written(tmp_path, "# dt = 20 ms\n" + rows), step=0.01, unit="m/s^2")
+    assert told == "the step 10 ms replaces the step in the file, 0.02 s"
     motion = vi.simulate(vi.Rig(RIG, record), tail=1.0)
     demands = vi.demands(RIG, {"quake": record, "made": vi.Record(SWAY, 0.01)})
     made = {

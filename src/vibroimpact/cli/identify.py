@@ -106,7 +106,12 @@ def identify(
         Other models that are fitted for comparison: hertz (Hertzian contacts), softening (a
         softening isolator) or hertz,softening (both models). Default: none.
     """
-    from vibroimpact.cli.measured import pair, shaking_of_tests, with_amplitude
+    from vibroimpact.cli.measured import (
+        base_acceleration,
+        pair,
+        shaking_of_tests,
+        with_amplitude,
+    )
     from vibroimpact.cli.output import progress_bar, tell
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
@@ -120,6 +125,7 @@ def identify(
         "units": opt.by_name("--units", units),
         "group": group,
         "decimal": decimal,
+        "amplitude": base_acceleration(changes.amplitude),
     }
     tests = [vi.read_measurement(path, **reading) for path in data]
     tests = [with_amplitude(test, changes.amplitude) for test in tests]

@@ -18,6 +18,21 @@ def shaking_of_tests(tests: list[xr.Dataset]) -> vi.Harmonic | None:
     return vi.Harmonic(float(tests[0].attrs.get("amplitude", 1.0)), 1.0)
 
 
+def base_acceleration(amplitude: str | None) -> str | None:
+    """Return the amplitude of the option if it is an acceleration, as `read_measurement` takes it.
+
+    An amplitude of a displacement or of a force is set by `with_amplitude` only.
+    """
+    from vibroimpact.model.quantities import ACCELERATION
+    from vibroimpact.model.units import to_si
+
+    try:
+        to_si(amplitude, ACCELERATION, "--amplitude")
+    except InputError:
+        return None
+    return amplitude
+
+
 def with_amplitude(test: xr.Dataset, amplitude: str | None) -> xr.Dataset:
     """Return a test with the amplitude of the option, which replaces the amplitude in the file."""
     from vibroimpact.measurements.read import CALL

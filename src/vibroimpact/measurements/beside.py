@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 
+from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Columns
 from vibroimpact.measurements.sampling import is_sampling
-from vibroimpact.model.quantities import ACCELERATION, FREQUENCY, GRAVITY
+from vibroimpact.model.quantities import ACCELERATION, FREQUENCY
 from vibroimpact.model.units import to_si
-from vibroimpact.records.stated import ended, spelled
+from vibroimpact.tables.headings import BARE, is_number
+from vibroimpact.tables.units import ended, spelled
 
-_BARE = re.compile(r"[+-]?(\d+[.,]?\d*|[.,]\d+)(e[+-]?\d+)?", re.IGNORECASE)
-"""A number without a unit."""
 _SHAKEN = {"amplitude": ACCELERATION, "frequency": FREQUENCY}
 
 
@@ -31,7 +30,8 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
     Raises
     ------
     InputError
-        If a value cannot be read, or if it is not greater than 0.
+        If a value cannot be read, if it is not greater than 0, or if an amplitude in the file has
+        no unit.
     """
     written: dict[str, str] = {}
     left = []
@@ -46,11 +46,15 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
         value, said = given.get(name), written.get(name, "")
         if value is None and not said:
             continue
+        is_bare = value is None and BARE.fullmatch(said.strip()) is not None
+        if is_bare and quantity is ACCELERATION:
+            raise InputError(
+                f"measurement: {table.path!r}: {name} = {said} has no unit; pass {name}= "
+                f"(--{name}) with a unit, such as '0.05 g', or write the unit in the file"
+            )
         found[name] = to_si(said if value is None else value, quantity, name, above=0.0)
-        if value is None and _BARE.fullmatch(said.strip()):
-            told = f"{found[name]:.6g} {quantity.symbol}"
-            told += f" ({found[name] / GRAVITY:.3g} g)" if quantity is ACCELERATION else ""
-            notes.append(f"{name} has no unit, so {told} was assumed")
+        if is_bare:
+            notes.append(f"{name} has no unit, so {found[name]:.6g} {quantity.symbol} was assumed")
     if left:
         notes.append(
             f"entries outside the columns were not understood and were left out: {', '.join(left)}"
@@ -58,15 +62,9 @@ def shaking(table: Columns, given: Mapping[str, object], notes: list[str]) -> di
     return found
 
 
-def is_number(text: str) -> bool:
-    """Return whether a text is a number, with or without a unit. A date is not a number."""
-    begin = _BARE.match(text)
-    return begin is not None and re.fullmatch(r" *([^\W\d_].*|%)?", text[begin.end() :]) is not None
-
-
 def with_unit(text: str, unit: str | None) -> str:
     """Return a number with the unit at the end of its name, if the number has no unit."""
-    return f"{text} {spelled(unit)}" if unit and _BARE.fullmatch(text.strip()) else text
+    return f"{text} {spelled(unit)}" if unit and BARE.fullmatch(text.strip()) else text
 
 
 def _odd(key: str, text: str) -> bool:

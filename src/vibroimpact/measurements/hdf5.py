@@ -11,7 +11,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Columns
 from vibroimpact.measurements.stated import Stated, as_text, kind_of, known, stated
 from vibroimpact.measurements.tables import damaged, tables
-from vibroimpact.records.guard import within
+from vibroimpact.tables.limits import within
 
 _HEAP = b"GCOL\x01\0\0\0"
 """Signature of a heap of texts."""

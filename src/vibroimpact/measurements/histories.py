@@ -9,9 +9,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Columns
 from vibroimpact.measurements.curves import Known
 from vibroimpact.measurements.names import HISTORIES
-
-_EVEN = 0.01
-"""Largest deviation of a time from an even step, as a share of the step."""
+from vibroimpact.tables.times import spacing
 
 
 def history(table: Columns, known: Known, notes: list[str], facts: list[str]) -> xr.Dataset:
@@ -78,7 +76,7 @@ def history(table: Columns, known: Known, notes: list[str], facts: list[str]) ->
             "displacement of the base"
         )
     step = np.diff(data["time"].values)
-    if len(step) > 1 and np.ptp(step) > _EVEN * np.median(step):
+    if len(step) > 1 and not spacing(data["time"].values).is_exact:
         notes.append(
             f"times are unevenly spaced, in steps of {step.min():.4g} to {step.max():.4g} s"
         )

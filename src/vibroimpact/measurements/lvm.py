@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
-from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.scaling import agreed
-from vibroimpact.records.file import File
 from vibroimpact.records.lvm import recognises, segments
-from vibroimpact.records.stated import parted
+from vibroimpact.tables.file import File
+from vibroimpact.tables.units import parted
 
 
-def read(path: Path) -> list[Columns] | None:
+def read(file: File) -> list[Columns] | None:
     """Read the tables of a file. Return None if it has another format.
 
     Raises
@@ -22,14 +19,9 @@ def read(path: Path) -> list[Columns] | None:
     InputError
         If the file is damaged.
     """
-    file = File(path)
     if not recognises(file):
         return None
-    try:
-        found = segments(file)
-    except InputError as error:
-        told = str(error).removeprefix("record: ")
-        raise InputError(f"measurement: {told}") from None
+    found = segments(file)
     tables: list[tuple[str, list[Column]]] = []
     for number, signals in enumerate(found, 1):
         begun = len(tables)
@@ -47,6 +39,6 @@ def read(path: Path) -> list[Columns] | None:
                 tables.append((str(number), [axis, column]))
     said = [{"group": name} if len(tables) > 1 else {} for name, _ in tables]
     return [
-        Columns(str(path), tuple(columns), one)
+        Columns(file.path, tuple(columns), one)
         for (_, columns), one in zip(tables, said, strict=True)
     ]

@@ -15,7 +15,7 @@ from vibroimpact.measurements import hdf5
 from vibroimpact.measurements.columns import Columns
 from vibroimpact.measurements.stated import Stated, stated
 from vibroimpact.measurements.tables import damaged, tables
-from vibroimpact.records.guard import MOST_BYTES, unpacked, within
+from vibroimpact.tables.limits import MOST_BYTES, unpacked, within
 
 _HEADER, _TAG = 128, 8
 _DIMENSIONS, _ARRAY, _PACKED = 5, 14, 15

@@ -20,7 +20,7 @@ from vibroimpact.model.quantities import (
     Quantity,
 )
 from vibroimpact.model.units import to_si
-from vibroimpact.records.stated import ending, plain, spelled, words_of
+from vibroimpact.tables.units import ending, plain, spelled, words_of
 
 Direction = Literal["forward", "backward"]
 
@@ -62,15 +62,31 @@ _KINDS = {
 }
 _WHAT = {
     "displacement": {
-        "displacement", "displacements", "disp", "displ", "d", "u", "x", "ed", "position", "pos",
-        "defl", "deflection",
+        "displacement", "displacements", "disp", "displ", "ed", "position", "pos", "defl",
+        "deflection",
     },
-    "acceleration": {"acceleration", "acc", "accel", "a", "ea", "accn", "accelerations"},
-    "velocity": {"velocity", "vel", "v"},
+    "acceleration": {
+        "acceleration", "acc", "accel", "ea", "accn", "accelerations", "accelerometer",
+    },
+    "velocity": {"velocity", "vel"},
     "force": {"force", "f_contact"},
 }  # fmt: skip
+_LETTERS = {
+    "d": "displacement", "u": "displacement", "x": "displacement", "a": "acceleration",
+    "v": "velocity",
+}  # fmt: skip
+"""Quantities of one letter. After a quantity, an x is the axis of a sensor."""
+_ALONG = {"x", "y", "z"}
 _BASE = {"base", "table", "ground", "input", "shaker", "shaketable", "g", "t"}
 _MASS = {"mass", "absolute", "abs"}
+_BESIDE = {"rel", "relative", "channel", "ch", "sensor", "axis", "measured", "p2p"}
+"""Words beside a letter that leave its meaning."""
+_NOT_LINEAR = {"angular", "rotation", "rotational", "gyro", "gyroscope"}
+_GLUED = re.compile(
+    r"(acceleration|accelerometer|accel|acc|displacement|displ|disp|velocity|vel|force)([xyz])"
+)
+_NO_UNIT = ("-", "–", "1", "")
+_EXAMPLES = {LENGTH: "mm", ACCELERATION: "g", VELOCITY: "mm/s", FORCE: "N"}
 
 
 class Meaning(NamedTuple):
@@ -86,8 +102,16 @@ class Meaning(NamedTuple):
     """Factor of the values: 2 for an amplitude, because it is half an excursion."""
 
 
-def meaning(name: str) -> Meaning | None:
-    """Return the meaning of a column from its name, or None if it is not understood."""
+def meaning(name: str, stated: str | None = None) -> Meaning | None:
+    """Return the meaning of a column from its name, or None if it is not understood.
+
+    Parameters
+    ----------
+    name
+        The name, which may end in a unit.
+    stated
+        Unit that the file states elsewhere. It tells an acceleration along x from a displacement x.
+    """
     sure = re.search(r"/ *[A-Za-z0-9]+$", plain(name)) is not None
     words = words_of(name)
     key = "_".join(words)
@@ -112,7 +136,11 @@ def meaning(name: str) -> Meaning | None:
     said = set(words)
     if said & {"frequency", "freq", "fexc", "frequenz"} or words in (["f"], ["hz"]):
         return Meaning("frequency", None, "Hz" if words == ["hz"] else unit)
-    if said & {"time", "zeit"} or words in (["t"], ["s"], ["sec"]):
+    if said & {"time", "zeit", "timestamp", "timestamps", "datetime"} or words in (
+        ["t"],
+        ["s"],
+        ["sec"],
+    ):
         return Meaning("time", None, unit)
     if "eta" in said or said & {"etad", "etaa"}:
         end = words[-1][-1]
@@ -121,11 +149,17 @@ def meaning(name: str) -> Meaning | None:
     if glued:
         words = [glued[1], glued[2]]
         said = set(words)
+    words = [part for word in words for part in _axis_apart(word, len(words))]
+    said = set(words)
     what = next((key for key, some in _WHAT.items() if said & some), None)
+    if said & _NOT_LINEAR:
+        return None
     if words in (["ag"], ["at"], ["a", "t"], ["a", "g"]):
         return Meaning("base_acceleration", None, unit)
     if what is None:
-        if "accelerometer" not in said and not said & (_BASE - {"t", "g"}):
+        what = _of_letters(words, stated or unit)
+    if what is None:
+        if not said & (_BASE - {"t", "g"}) or said & _ALONG:
             return None
         what = "acceleration"
     kind = next((key for key, some in _KINDS.items() if said & some), None)
@@ -142,8 +176,34 @@ def meaning(name: str) -> Meaning | None:
     return Meaning(what, direction, unit)
 
 
+def _axis_apart(word: str, count: int) -> list[str]:
+    """A word without the axis at its end, as in ``accx`` or, alone, ``ax``; and the axis."""
+    found = _GLUED.fullmatch(word) or (
+        re.fullmatch("([uadv])([xyz])", word) if count == 1 else None
+    )
+    return [found[1], found[2]] if found else [word]
+
+
+def _of_letters(words: list[str], unit: str | None) -> str | None:
+    """The quantity of which a name has only a letter, or None."""
+    usual = set().union(*_KINDS.values(), _BASE, _MASS, _BESIDE, _ALONG, _LETTERS)
+    letters = [word for word in words if word in {*_LETTERS, *_ALONG}]
+    if not letters or any(word not in usual and not word.isdigit() for word in words):
+        return None
+    if set(letters) <= _ALONG and unit is not None:
+        # The axis of a sensor, whose unit tells what it measures.
+        for what, quantity in (("acceleration", ACCELERATION), ("velocity", VELOCITY)):
+            if _size(unit, quantity) is not None:
+                return what
+    if letters == ["u"] and unit is not None and _size(unit, ACCELERATION) is not None:
+        return None  # upwards, beside N and E
+    return _LETTERS.get(letters[0])
+
+
 def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[Array, str | None]:
-    """Return the values of a column in SI units, and a note if the unit was guessed.
+    """Return the values of a column in SI units, and what is noted of its unit.
+
+    Times without a unit are in s, and frequencies in Hz, which is noted.
 
     Raises
     ------
@@ -160,23 +220,25 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
         notes.append(f"{column.name!r} was read as an amplitude, which is half an excursion")
     if unit == column.unit and unit and found.unit and not alike(unit, found.unit):
         notes.append(f"{column.name!r} was read in {unit}, although its name states {found.unit}")
-    if unit is not None and unit.strip() not in ("-", "–", "1", ""):
+    if unit is not None and unit.strip() not in _NO_UNIT:
         where = f"measurement: {path!r}, column {column.name!r}"
         if quantity is DIMENSIONLESS and unit.strip() == "%":
             return values / 100.0, None
         size = to_si(f"1 {spelled(unit)}", quantity, where)
         return values * size, "; ".join(notes) or None
     if quantity is not DIMENSIONLESS:
-        largest = float(np.nanmax(np.abs(values), initial=0.0))
-        if quantity is LENGTH and largest > 2.0:
-            notes.append(
-                f"{column.name!r} has no unit, and its values reach {largest:.4g}, so millimetres "
-                "were assumed"
-            )
-            values = values * 1e-3
-        else:
-            notes.append(f"{column.name!r} has no unit, so {quantity.symbol} was assumed")
+        notes.append(f"{column.name!r} has no unit, so {quantity.symbol} was assumed")
     return values, "; ".join(notes) or None
+
+
+def missing_unit(column: Column, found: Meaning, said: str | None) -> str | None:
+    """Return a usual unit of a column if its unit is needed and not stated, or None.
+
+    Times are in s, frequencies in Hz and ratios have no unit, if none is stated.
+    """
+    quantity = QUANTITIES[found.variable]
+    unit = said or column.unit or found.unit
+    return None if unit and unit.strip() not in _NO_UNIT else _EXAMPLES.get(quantity)
 
 
 def alike(one: str, other: str) -> bool:

@@ -12,17 +12,19 @@ import xarray as xr
 from vibroimpact.arguments import check_path, check_texts
 from vibroimpact.datasets.description import describe
 from vibroimpact.datasets.files import load
-from vibroimpact.errors import InputError, printable, shown, unknown, warn_of_input
+from vibroimpact.errors import InputError, printable, shown, warn_of_input
 from vibroimpact.measurements import hdf5, lvm, mat, tdms, text, uff
 from vibroimpact.measurements.beside import shaking
-from vibroimpact.measurements.columns import Array, Column, Columns
+from vibroimpact.measurements.column_meanings import converted, known_columns, missing_columns
+from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.curves import curves
 from vibroimpact.measurements.histories import history
-from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, Meaning, in_si, meaning
+from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, meaning
 from vibroimpact.measurements.sampling import timed
 from vibroimpact.measurements.scaling import completed, is_channel
-from vibroimpact.records.commas import Decimal, checked
-from vibroimpact.records.guard import regular
+from vibroimpact.tables.decimal_mark import Decimal, checked
+from vibroimpact.tables.file import File
+from vibroimpact.tables.limits import regular
 
 _READERS = {
     ".mat": mat.read,
@@ -117,14 +119,23 @@ def read_measurement(
     facts: list[str] = []
     table = _chosen(str(path), tables, group, set(columns.values()), notes)
     notes += table.notes
-    known, left = _known(table, columns, units, notes)
-    variables = {found.variable for found, _ in known.values()}
+    meanings, left, repeated = known_columns(table, columns, units)
+    variables = {found.variable for found in meanings.values()}
     if "frequency" in variables and variables & set(CURVES):
+        known = converted(table, meanings, {"frequency", "direction", *CURVES}, units, notes)
         data, kind = curves(table, known, direction, notes, facts), "curves"
     elif "time" in variables and variables & set(HISTORIES):
+        known = converted(table, meanings, {"time", *HISTORIES}, units, notes)
         data, kind = history(table, known, notes, facts), "history"
     else:
-        raise InputError(f"measurement: {str(path)!r}{_untold(table, known, left)}")
+        raise InputError(
+            f"measurement: {str(path)!r}{missing_columns(table, meanings, [*left, *repeated])}"
+        )
+    if repeated:
+        notes.append(
+            f"columns of a quantity that another column has were left out: {', '.join(repeated)}; "
+            "columns= (--columns) selects the column of a quantity"
+        )
     if left:
         notes.append(f"columns were not understood and were left out: {', '.join(left)}")
     data.attrs |= shaking(table, {"amplitude": amplitude, "frequency": frequency}, notes)
@@ -134,7 +145,7 @@ def read_measurement(
         "source": _clean(file.name),
         "kind": kind,
         "notes": "\n".join([*facts, *notes]),
-        "left_out": "\n".join(left),
+        "left_out": "\n".join([*left, *repeated]),
     }
     warn_of_input(f"measurement {str(path)!r}", notes)
     return describe(data, CREATED_BY)
@@ -145,8 +156,9 @@ def _tables(file: Path, decimal: Decimal | None) -> list[Columns]:
     reader = _READERS.get(file.suffix.lower())
     if reader is not None:
         return reader(file)
-    found = lvm.read(file)
-    return text.read(file, decimal) if found is None else found
+    opened = File(file, decimal, "measurement")
+    found = lvm.read(opened)
+    return text.read(opened) if found is None else found
 
 
 def _clean(name: str) -> str:
@@ -271,102 +283,3 @@ def _has_axis(table: Columns, wanted: set[str]) -> bool:
     said = [meaning(column.name) for column in table.columns]
     known = any(one is not None and one.variable in AXES for one in said)
     return known or bool(wanted & {column.name for column in table.columns})
-
-
-def _known(
-    table: Columns, columns: Mapping[str, str], units: Mapping[str, str], notes: list[str]
-) -> tuple[dict[int, tuple[Meaning, Array]], list[str]]:
-    """Return the content of each column in SI units, and the columns that are not understood."""
-    names = [column.name for column in table.columns]
-    chosen = {}
-    accepted = [*AXES, "direction", *CURVES, *HISTORIES]
-    for variable, name in columns.items():
-        bare, way = variable, None
-        for end in ("forward", "backward"):
-            if variable.endswith(f"_{end}"):
-                bare, way = variable.removesuffix(f"_{end}"), end
-        if bare not in accepted:
-            raise InputError(f"columns: {unknown(variable, accepted)}")
-        if name not in names:
-            raise InputError(
-                f"columns[{variable!r}]: {shown(name)} is not a column of {table.path!r}; one of "
-                f"{', '.join(names)} is accepted"
-            )
-        chosen[names.index(name)] = Meaning(bare, way)  # type: ignore[arg-type]
-    for key in units:
-        if key not in accepted and key not in names:
-            raise InputError(
-                f"units: {key!r} is neither a variable nor a column of {table.path!r}; use one of "
-                f"its columns: {', '.join(names)}"
-            )
-    found: dict[int, tuple[Meaning, Array]] = {}
-    left = []
-    for i, column in enumerate(table.columns):
-        said = chosen.get(i) or meaning(column.name)
-        if said is None or (i not in chosen and _taken(said, chosen, found)):
-            left.append(column.name)
-            continue
-        if said.variable == "direction":
-            found[i] = (said, np.empty(0))
-            continue
-        if column.values.dtype.kind not in "fiub":
-            kind = " (complex numbers)" if column.values.dtype.kind == "c" else ""
-            left.append(f"{column.name}{kind}")
-            continue
-        unit = units.get(said.variable) or units.get(column.name)
-        if column.doubt and unit is None:
-            raise InputError(
-                f"measurement: {table.path!r}, column {column.name!r}: the file states "
-                f"{column.doubt}; pass the unit that the values in the file have, as "
-                f"units={{{column.name!r}: UNIT}} (--units)"
-            )
-        values, told = in_si(column, said, unit, table.path)
-        for row in np.flatnonzero(np.isinf(values))[:1]:
-            raise InputError(
-                f"measurement: {table.path!r}, {table.row(int(row))}, column {column.name!r}: "
-                f"{values[row]} is not finite; correct it, or leave the cell empty if the value is "
-                "missing"
-            )
-        if told:
-            notes.append(told)
-        found[i] = (said, values)
-    return found, left
-
-
-def _untold(table: Columns, known: Mapping[int, tuple[Meaning, Array]], left: list[str]) -> str:
-    """Describe how each column is read, what is missing, and how the user can specify it."""
-    names = [column.name for column in table.columns]
-    read = {names[i]: found.variable for i, (found, _) in known.items()}
-    variables = set(read.values())
-    moving = [name for name, found in read.items() if found in HISTORIES]
-    if variables & set(CURVES):
-        missing, wanted, listed = "the frequency is", ["frequency"], []
-    elif "frequency" in variables:
-        missing, listed = "the measured quantity is", list(CURVES)
-        wanted = ["displacement_excursion"]
-    elif "time" in variables:
-        missing, wanted, listed = "the measured quantity is", ["displacement"], list(HISTORIES)
-    elif moving:
-        missing, wanted, listed = "the time, or a sampling rate fs, is", ["time"], []
-    else:
-        missing = "the frequency or the time, and the measured quantity, are"
-        wanted, listed = ["frequency", "displacement_excursion"], []
-    spare = [*left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
-    told = [f"{name!r} is read as {found}" for name, found in read.items()]
-    told += [f"{name!r} is not understood" for name in left]
-    pairs = list(zip(wanted, spare, strict=False))
-    said = ", ".join(f"{key!r}: {name!r}" for key, name in pairs)
-    typed = " ".join(f"--columns {key.replace('_', '-')} {name!r}" for key, name in pairs)
-    accepted = f"; accepted quantities: {', '.join(listed)}" if listed else ""
-    return (
-        f": {', '.join(told)}; {missing} missing, so name the column"
-        f"{'s' if len(pairs) > 1 else ''} as in columns={{{said}}} ({typed}){accepted}"
-    )
-
-
-def _taken(
-    said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, tuple[Meaning, Array]]
-) -> bool:
-    """Return whether another column holds the same quantity."""
-    others = [*chosen.values(), *(one for one, _ in found.values())]
-    return any((one.variable, one.direction) == (said.variable, said.direction) for one in others)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 
 import numpy as np
@@ -12,13 +11,7 @@ from vibroimpact.measurements.columns import Column, Columns, of_one_length
 from vibroimpact.measurements.names import meaning
 from vibroimpact.model.quantities import FREQUENCY, TIME
 from vibroimpact.model.units import to_si
-
-_RATES = {"fs", "samplerate", "samplingrate", "samplefrequency", "samplingfrequency", "fsample"}
-_STEPS = {"dt", "ts", "deltat", "timestep", "samplinginterval", "sampleinterval",
-          "samplingperiod", "timeincrement", "increment", "wfincrement"}  # fmt: skip
-
-_SAME = 1e-3
-"""Largest relative difference of two steps that are the same except for rounding."""
+from vibroimpact.tables.statements import same, sampling_of
 
 
 def timed(table: Columns) -> list[Columns]:
@@ -69,7 +62,7 @@ def timed(table: Columns) -> list[Columns]:
 
 def is_sampling(name: str) -> bool:
     """Return whether a name is the name of a sampling rate or of a sampling step."""
-    return re.sub(r"[^a-z]", "", name.lower()) in _RATES | _STEPS
+    return sampling_of(name) is not None
 
 
 def _stated(said: Mapping[str, str]) -> tuple[str, float] | None:
@@ -99,7 +92,7 @@ def one_step(said: Mapping[str, str], unit: str | None = None) -> float:
         found[name] = step_of(name, f"{text} {unit}" if bare and unit else text)
     (first, step), *others = found.items()
     for name, other in others:
-        if abs(other - step) > _SAME * step:
+        if not same(other, step):
             raise InputError(
                 f"{name}: {said[name]!r:.40} and {first} = {said[first]!r:.40} state two "
                 f"different time steps; correct or remove {name} or {first}"
@@ -122,7 +115,7 @@ def step_of(name: str, value: str) -> float:
 
 def is_rate(name: str) -> bool:
     """Return whether a name is the name of a sampling rate."""
-    return re.sub(r"[^a-z]", "", name.lower()) in _RATES
+    return sampling_of(name) == "rate"
 
 
 def _number(text: str) -> float | str:

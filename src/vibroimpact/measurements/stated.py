@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import shown
-from vibroimpact.measurements.beside import is_number
 from vibroimpact.measurements.names import alike
 from vibroimpact.measurements.sampling import is_sampling, one_step, step_of
-from vibroimpact.records.stated import spelled
+from vibroimpact.tables.headings import is_number
+from vibroimpact.tables.units import spelled
 
 Kind = Literal["unit", "time_unit", "scale", "offset", "unclear"]
 

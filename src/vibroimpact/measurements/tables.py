@@ -15,8 +15,8 @@ from vibroimpact.measurements.beside import with_unit
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.scaling import agreed, completed, doubtful
 from vibroimpact.measurements.stated import Stated, as_text, kind_of, known
-from vibroimpact.records.guard import few_columns
-from vibroimpact.records.stated import parted
+from vibroimpact.tables.limits import few_columns
+from vibroimpact.tables.units import parted
 
 
 def tables(

@@ -15,8 +15,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.stated import kind_of, stated
 from vibroimpact.measurements.tables import damaged, described, library, told
-from vibroimpact.records.guard import within
-from vibroimpact.records.stated import parted
+from vibroimpact.tables.limits import within
+from vibroimpact.tables.units import parted
 
 _LEAD = 28
 """Lead-in of each segment: its signature, and the distance to the next segment."""

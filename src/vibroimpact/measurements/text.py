@@ -1,104 +1,108 @@
-"""Text tables: CSV and similar formats.
+"""Text tables of measurements: CSV and similar formats, with named columns.
 
-Columns are separated by commas, semicolons, tabs or blanks. Decimal commas are accepted if commas
-do not separate the columns. Lines that begin with ``#`` may contain ``amplitude = 0.05 g`` or
-``amplitude; 0.05 g``. The last line of words before the numbers contains the names of the columns.
-A line of units may follow it.
+Lines above the table may contain ``amplitude = 0.05 g`` or ``amplitude; 0.05 g``.
 """
 
 from __future__ import annotations
 
-import csv
 import re
-from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.measurements.beside import is_number, with_unit
+from vibroimpact.measurements.beside import with_unit
 from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.names import QUANTITIES, meaning
 from vibroimpact.measurements.scaling import agreed
-from vibroimpact.records.commas import Decimal, decimal_mark
-from vibroimpact.records.guard import few_columns
-from vibroimpact.records.stated import are_units, parted
+from vibroimpact.measurements.stated import kind_of
+from vibroimpact.model.quantities import ACCELERATION
+from vibroimpact.tables.checks import check_count, sampling
+from vibroimpact.tables.file import File
+from vibroimpact.tables.headings import entry
+from vibroimpact.tables.rows import Heading, cut_heading
+from vibroimpact.tables.table import Table, read_table
+from vibroimpact.tables.times import IN_A_SECOND
+from vibroimpact.tables.units import is_acceleration, parted, unit_of
 
-_SAID = re.compile(r"^\s*([A-Za-z][\w ()\[\]/^²]*?)\s*([=:;])\s*(.+?)\s*$")
 _COMMA = re.compile(r"[+-]?\d+,\d+(?![\d,.])")
-_ABSENT = {"", "nan", "na", "n/a", "none", "null", "-", "--", "#n/a", "missing"}
+_OF_VALUES = {"", "amplitude", "acceleration", "acc", "accel", "data", "value", "values"}
+"""What a stated unit of acceleration may be of, apart from one channel."""
 
 
-def read(path: Path, decimal: Decimal | None = None) -> list[Columns]:
+def read(file: File) -> list[Columns]:
     """Read the table of a text file.
 
     Parameters
     ----------
-    path
+    file
         The file.
-    decimal
-        The decimal mark. Default: detected from the table.
 
     Raises
     ------
     InputError
-        If the file has no table of numbers, or if a row has another number of columns.
+        If the file has no table of numbers, if its columns have no names, if a row has another
+        number of columns, or if a stated count or step contradicts the values.
     """
-    lines = _decoded(path).splitlines()
-    said: dict[str, str] = {}
-    kept: list[tuple[int, str]] = []
-    for number, line in enumerate(lines, 1):
-        bare = line.strip()
-        if bare.startswith(("#", "%", "//")):
-            if pair := _said(bare.lstrip("#%/ ")):
-                said[pair[0]] = pair[1]
-        elif bare:
-            kept.append((number, line))
-    if not kept:
+    table = read_table(file)
+    if not table.names_columns:
         raise InputError(
-            f"measurement: {str(path)!r} is empty; pass a file with column names and numbers"
+            f"measurement: {file.path!r} does not name its {len(table.columns)} columns; add a "
+            "first line such as 'frequency (Hz), direction, displacement excursion (mm)'"
         )
-    texts = [line for _, line in kept]
-    found = decimal or decimal_mark(texts, f"measurement: {str(path)!r}")
-    mark = _delimiter(texts, found)
-    few_columns(texts[-1].count(mark or " ") + 1, path, "measurement")
-    rows = [(number, _parts(line, mark)) for number, line in kept]
-    decimal = "," if mark != "," else found
-    said = {key: _pointed(value, decimal) for key, value in said.items()}
-    first = next((i for i, (_, cells) in enumerate(rows) if _is_data(cells, decimal)), None)
-    if first is None:
-        raise InputError(
-            f"measurement: {str(path)!r} has no row of numbers; pass a file with a table of numbers"
-        )
-    head = [cells for _, cells in rows[:first]]
-    for cells in head:
-        if len(cells) <= 2 and (pair := _said("; ".join(c for c in cells if c))):
-            said.setdefault(pair[0], _pointed(pair[1], decimal))
-    width = len(rows[first][1])
-    named = [cells for cells in head if len(cells) == width and any(cells)]
-    units: list[str] = []
-    if len(named) > 1 and are_units(named[-1]):
-        units = [cell.strip("[]() ") for cell in named.pop()]
-    if not named:
-        raise InputError(
-            f"measurement: {str(path)!r} does not name its {width} columns; add a first line such "
-            "as 'frequency (Hz), direction, displacement excursion (mm)'"
-        )
-    body = rows[first:]
-    for number, cells in body:
-        if len(cells) != width:
-            raise InputError(
-                f"measurement: {str(path)!r}, line {number}: {len(cells)} values, but the first "
-                f"row of numbers has {width}; write the same number of values in every row"
-            )
+    said = _entries(table)
     columns = []
-    for j, name in enumerate(named[-1]):
-        cells = [row[j] for _, row in body]
-        bare, own = parted(name)
-        unit, doubt = agreed(own, units[j] if units else None)
-        values = _values(str(path), bare, cells, [number for number, _ in body], decimal)
-        columns.append(Column(bare, unit, values, doubt=doubt))
-    numbers = np.array([number for number, _ in body])
-    return [Columns(str(path), tuple(columns), said, numbers)]
+    for i, column in enumerate(table.columns):
+        bare, own = parted(column.name)
+        if i == table.stamps and _variable(bare) != "time":
+            bare = "time"
+        of_name = unit_of(column.name)
+        below = column.units.other if own else column.units.unit
+        unit, doubt = agreed(own, None if not own and below == of_name else below)
+        columns.append(Column(bare, unit, column.values, doubt=doubt))
+    columns, said = _in_stated_unit(table, columns, said)
+    found = Columns(file.path, tuple(columns), said, table.lines + 1, table.notes)
+    return [_sampled(table, found)]
+
+
+def _variable(name: str) -> str | None:
+    known = meaning(name)
+    return known.variable if known else None
+
+
+def _entries(table: Table) -> dict[str, str]:
+    """The entries above and beside the table, by their names. Comments take precedence.
+
+    Counts and durations of time histories, which are compared with the values, are left out.
+    """
+    stated = table.statements
+    of_time = all(_variable(parted(one.name)[0]) != "frequency" for one in table.columns)
+    checked = {one.line for one in (*stated.counts, *stated.durations) if of_time}
+    said: dict[str, str] = {}
+    for line in sorted(table.headings, key=lambda one: not one.is_comment):
+        pair = _said(line, table.decimal)
+        if pair is None or line.at in checked:
+            continue
+        if line.is_comment:
+            said[pair[0]] = pair[1]
+        else:
+            said.setdefault(*pair)
+    return said
+
+
+def _said(line: Heading, decimal: str) -> tuple[str, str] | None:
+    """The name and the value of an entry."""
+    text = line.text
+    if not line.is_comment:
+        for mark in (";", "\t", ","):
+            cells = [cell for cell in cut_heading(text, mark) if cell]
+            if mark in text and len(cells) == 2 and (pair := entry("; ".join(cells))):
+                text = "; ".join(cells)
+                break
+    pair = entry(text)
+    if pair is None:
+        return None
+    name, unit = parted(pair[0])
+    return name, with_unit(_pointed(pair[1], decimal), unit)
 
 
 def _pointed(text: str, decimal: str) -> str:
@@ -109,73 +113,71 @@ def _pointed(text: str, decimal: str) -> str:
     return found[0].replace(",", ".") + text[found.end() :]
 
 
-def _said(text: str) -> tuple[str, str] | None:
-    """Return the name and the value of an entry. After a semicolon the value must be a number."""
-    found = _SAID.match(text)
-    if found is None or (found[2] == ";" and not is_number(found[3])):
-        return None
-    if found[2] == ":" and found[1][-1].isdigit():  # a time of day
-        return None
-    name, unit = parted(found[1])
-    return name, with_unit(found[3].strip().strip('"'), unit)
+def _in_stated_unit(
+    table: Table, columns: list[Column], said: dict[str, str]
+) -> tuple[list[Column], dict[str, str]]:
+    """Give channels without a unit the unit of acceleration that a line states of the values."""
+    stated = [unit for unit in (*table.statements.units, *table.statements.hints)
+              if is_acceleration(unit)]  # fmt: skip
+    used = [
+        key
+        for key, text in said.items()
+        if kind_of(key)[0] == "unit" and kind_of(key)[1] in _OF_VALUES
+        and kind_of(key)[1] not in said and is_acceleration(text.partition(" ")[0].strip(".,;"))
+    ]  # fmt: skip
+    free = [one for one in columns if stated and _may_accelerate(one, stated[0])]
+    if not free:
+        return columns, said
+    unit, doubt = agreed(*stated)
+    return [
+        one._replace(unit=unit, doubt=doubt) if any(one is each for each in free) else one
+        for one in columns
+    ], {key: text for key, text in said.items() if key not in used}
 
 
-def _decoded(path: Path) -> str:
-    data = path.read_bytes()
-    for encoding in ("utf-8-sig", "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8"):
-        try:
-            return data.decode(encoding)
-        except UnicodeDecodeError:
-            continue
-    return data.decode("latin-1")
+def _may_accelerate(column: Column, unit: str) -> bool:
+    """Return whether a column without a unit may hold accelerations in this unit."""
+    known = meaning(column.name, unit)
+    quantity = QUANTITIES.get(known.variable) if known else ACCELERATION
+    is_free = column.unit is None and (known is None or known.unit is None)
+    return is_free and column.values.dtype.kind == "f" and quantity is ACCELERATION
 
 
-def _delimiter(lines: list[str], decimal: Decimal) -> str | None:
-    """Return the separator of the columns, or None for blanks."""
-    last = lines[-1]
-    for mark in (";", "\t"):
-        if mark in last:
-            return mark
-    # A decimal comma parts columns only where the numbers stand in quotes.
-    return "," if "," in last and (decimal == "." or '"' in last) else None
-
-
-def _parts(line: str, mark: str | None) -> list[str]:
-    if mark is None:
-        return line.split()
-    try:
-        return [cell.strip() for cell in next(csv.reader([line.strip("\r\n")], delimiter=mark))]
-    except csv.Error:  # a cell of more letters than any number has
-        return line.split(mark)
-
-
-def _number(cell: str, decimal: str) -> float | None:
-    if cell.strip().lower() in _ABSENT:
-        return float("nan")
-    try:
-        return float(cell.replace(",", ".") if decimal == "," else cell)
-    except ValueError:
-        return None
-
-
-def _is_data(cells: list[str], decimal: str) -> bool:
-    """Return whether a line has at least one number, and at least as many numbers as words."""
-    numbers = [_number(cell, decimal) for cell in cells if cell.lower() not in _ABSENT]
-    known = [number for number in numbers if number is not None]
-    return len(known) >= max(1, len(numbers) - 1 - len(known))
-
-
-def _values(
-    path: str, name: str, cells: list[str], lines: list[int], decimal: str
-) -> NDArray[np.float64] | NDArray[np.str_]:
-    found = [_number(cell, decimal) for cell in cells]
-    words = [i for i, number in enumerate(found) if number is None]
-    if not words:
-        return np.array(found, dtype=float)
-    if len(words) >= 0.5 * len(cells):
-        return np.array(cells)
-    i = words[0]
-    raise InputError(
-        f"measurement: {path!r}, line {lines[i]}, column {name!r}: {cells[i][:40]!r} is not a "
-        "number; correct it, or leave the cell empty if the value is missing"
-    )
+def _sampled(table: Table, found: Columns) -> Columns:
+    """Check the stated count and step of a time history, and use the step if there are no times."""
+    axes = {known.variable: i for i, c in enumerate(found.columns) if (known := meaning(c.name))}
+    stated = table.statements
+    if "frequency" in axes or ("time" not in axes and stated.step is None):
+        return found
+    at = axes.get("time")
+    unit = None if at is None else found.columns[at].unit or unit_of(table.columns[at].name)
+    if unit is not None and unit not in IN_A_SECOND:
+        return found
+    if at is not None and not table.columns[at].is_numeric:
+        return found
+    rows = len(table.lines)
+    check_count(table.file, stated, (rows, rows * (len(found.columns) - (at is not None))))
+    if at is not None and not np.isfinite(found.columns[at].values).all():
+        return found
+    if at is not None and rows < 2:
+        return found
+    if at is not None and at == table.stamps and stated.step is None:
+        again = np.flatnonzero(np.diff(found.columns[at].values) == 0.0)
+        if len(again):
+            raise table.refused(
+                int(again[0]) + 1,
+                "its time is that of the line above, as times are rounded; state the sampling rate "
+                "above the table, such as '# fs = 200 Hz'",
+            )
+    step = sampling(table._replace(time=at), unit)
+    if step.contradiction:
+        raise InputError(f"measurement: {found.path!r}, {step.contradiction}")
+    if at is None and step.step is not None:
+        columns = tuple(one._replace(step=step.step) for one in found.columns)
+        return found._replace(columns=columns)
+    if at is not None and step.step is not None and "stated step" in step.note:
+        times = found.columns[at].values[0] / IN_A_SECOND[unit or "s"]
+        even = Column("time", "s", times + step.step * np.arange(rows))
+        columns = tuple(even if i == at else one for i, one in enumerate(found.columns))
+        return found._replace(columns=columns, notes=(*found.notes, step.note))
+    return found

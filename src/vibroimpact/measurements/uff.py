@@ -15,7 +15,7 @@ from vibroimpact.measurements.names import meaning
 from vibroimpact.measurements.scaling import agreed
 from vibroimpact.measurements.stated import known
 from vibroimpact.measurements.tables import damaged, library
-from vibroimpact.records.stated import parted, spelled
+from vibroimpact.tables.units import parted, spelled
 
 _ORDINATES = {8: "displacement", 9: "force", 11: "velocity", 12: "acceleration"}
 """Meanings of the numbers for the kind of an ordinate."""

@@ -13,12 +13,13 @@ from vibroimpact.errors import InputError, in_one_line
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME, Quantity
 from vibroimpact.model.units import one_of, pretty, to_si
 from vibroimpact.records.channel import Channel
-from vibroimpact.records.commas import Decimal
 from vibroimpact.records.doubts import of_end, of_times
 from vibroimpact.records.read import read_channel
+from vibroimpact.tables.decimal_mark import Decimal
+from vibroimpact.tables.statements import Peak
 
-NO_UNIT = "the unit m/s² was assumed, because the file states no unit"
-"""Note if neither the file nor the user states a unit."""
+_SAME_PEAK = 0.01
+"""Largest relative difference of a stated peak and the peak of the values."""
 
 
 class About(NamedTuple):
@@ -53,6 +54,7 @@ def read_values(
     notes = list(found.notes)
     spacing = _spacing(found, step, str(path), notes)
     taken, factor, quantity = _unit(found, unit, str(path), notes)
+    _check_peaks(found, taken, factor, quantity, str(path))
     notes += of_end(found.values)
     notes += of_times(spacing, len(found.values))
     about = About(in_one_line(str(path)), form, found.station, found.component, taken, tuple(notes))
@@ -62,8 +64,8 @@ def read_values(
 def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
     """The time between samples (s): the argument, or the value in the file."""
     if step is None:
-        if found.uneven:
-            raise InputError(f"record: {path!r}, {found.uneven}")
+        if found.no_step:
+            raise InputError(f"record: {path!r}, {found.no_step}")
         if found.step is None:
             none = f"has no step in {found.where}" if found.where else "has no times"
             raise InputError(
@@ -72,7 +74,7 @@ def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
             )
         return found.step
     spacing = to_si(step, TIME, "step", above=0.0)
-    if found.uneven:
+    if found.step is None and found.no_step:
         notes.append(f"the step {pretty(spacing, TIME)} replaces the uneven times in the file")
     elif found.step is not None and not math.isclose(found.step, spacing, rel_tol=1e-9):
         notes.append(
@@ -94,8 +96,13 @@ def _unit(
                 'accelerations; for counts or volts, pass unit="m/s^2" (--unit) and the factor to '
                 "Record.scaled (--scale)"
             )
-        taken = "m/s^2"
-        notes.append(NO_UNIT)
+        taken = _of_peak(found)
+        if taken is None:
+            largest = float(np.abs(found.values).max())
+            raise InputError(
+                f"unit: missing, because {path!r} states no unit of its values, the largest of "
+                f'which is {largest:g}; pass it, such as unit="g" (--unit g)'
+            )
     try:
         factor, quantity = one_of(f"1 {taken}", [ACCELERATION, LENGTH], "unit")
     except InputError as error:
@@ -117,6 +124,46 @@ def _unit(
     if unit is not None and found.unit is not None and not _same(found.unit, factor, quantity):
         notes.append(f"the unit {unit} replaces the unit in the file, {found.unit}")
     return taken, factor, quantity
+
+
+def _of_peak(found: Channel) -> str | None:
+    """The unit of a stated peak, if the values have this peak and nothing else states a unit."""
+    for peak in found.peaks:
+        if peak.unit and any(_near(peak, size, 1.0) for size in _peaks(found.values)):
+            return peak.unit
+    return None
+
+
+def _check_peaks(found: Channel, unit: str, factor: float, quantity: Quantity, path: str) -> None:
+    """Compare the stated peaks with the values, as they are and without their mean.
+
+    Raises
+    ------
+    InputError
+        If they differ by more than rounding.
+    """
+    if quantity is not ACCELERATION:
+        return
+    for peak in found.peaks:
+        size = to_si(f"1 {peak.unit}", quantity, "unit") / factor if peak.unit else 1.0
+        sizes = _peaks(found.values)
+        if not any(_near(peak, one, size) for one in sizes):
+            raise InputError(
+                f"record: {path!r}, line {peak.line + 1}: {peak.text!r} states a peak of "
+                f"{peak.value * size:.6g} {unit}, but the largest value is {sizes[0]:.6g} {unit}; "
+                "correct this line, or pass the unit of the values as unit= (--unit)"
+            )
+
+
+def _peaks(values: NDArray[np.float64]) -> list[float]:
+    """The largest absolute values, also without the mean, which networks subtract."""
+    return [float(np.abs(values).max()), float(np.abs(values - values.mean()).max())]
+
+
+def _near(peak: Peak, size: float, factor: float) -> bool:
+    """Whether a stated peak is a peak of values, in whose unit its own unit has this size."""
+    stated = peak.value * factor
+    return abs(stated - size) <= max(_SAME_PEAK * stated, 1.01 * peak.digit * factor)
 
 
 def _same(unit: str, factor: float, quantity: Quantity) -> bool:

@@ -14,8 +14,8 @@ from vibroimpact.model.count_checks import MOST_SAMPLES
 from vibroimpact.model.html_table import table
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, TIME, Quantity
 from vibroimpact.model.units import pretty, to_si
-from vibroimpact.records.commas import checked
 from vibroimpact.records.doubts import of_size
+from vibroimpact.tables.decimal_mark import checked
 
 _RESOLVED = 1.5
 """Largest ratio of the peaks of the second derivative from all and from every second sample."""

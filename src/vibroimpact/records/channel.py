@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.records.file import File
+from vibroimpact.tables.file import File
+from vibroimpact.tables.statements import Peak
 
 
 class Channel(NamedTuple):
@@ -35,8 +36,13 @@ class Channel(NamedTuple):
     """Unit at the end of the name of the column, if another place states a unit, too."""
     notes: tuple[str, ...] = ()
     """Assumptions about the values or their times."""
-    uneven: str = ""
-    """Reason why the times in the file do not give one step. Empty if there is no such reason."""
+    no_step: str = ""
+    """Reason why the file does not give one step, such as uneven times, or statements that
+    contradict each other. Empty if there is no such reason."""
+    peaks: tuple[Peak, ...] = ()
+    """Peaks that the file states of the values."""
+    damage: str = ""
+    """Reason why the values cannot be used. An error is raised if the component is chosen."""
 
     def called(self, name: str) -> bool:
         """Return whether the component has this name. Upper and lower case do not matter."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
+from vibroimpact.tables.file import File
 
 _BEGINS = re.compile(r"\(Format v\S* with\s+(\d+) text lines\)", re.IGNORECASE)
 _HEADER = re.compile(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
+from vibroimpact.tables.file import File
 
 _BEGINS = re.compile(r"\s*(?:UN)?CORRECTED ACCELEROGRAM", re.IGNORECASE)
 _DATA = re.compile(r"\s*(\d+)\s+(?:POINTS OF ACCEL|ACCELEROGRAM POINTS)", re.IGNORECASE)

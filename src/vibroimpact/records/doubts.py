@@ -7,8 +7,8 @@ import re
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.records.file import File
-from vibroimpact.records.stated import spelled
+from vibroimpact.tables.file import File
+from vibroimpact.tables.units import spelled
 
 GRAVITY = 9.80665
 PEAKS = (0.001, 5.0)

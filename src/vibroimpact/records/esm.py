@@ -6,7 +6,7 @@ import math
 import re
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
+from vibroimpact.tables.file import File
 
 _ENTRY = re.compile(r"([A-Z][A-Z0-9_/^]*):\s*(.*?)\s*$")
 

@@ -7,7 +7,7 @@ values of acceleration, velocity and displacement. Real 26 is the step. Accelera
 from __future__ import annotations
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
+from vibroimpact.tables.file import File
 
 _TEXT = 16
 _WIDTH = 8

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
+from vibroimpact.tables.file import File
 
 _HEADER = 17
 _SCALE = re.compile(r"(\d+\.?\d*)\(gal\)/(\d*[1-9]\d*\.?\d*)")

@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
-from vibroimpact.records.stated import spelled, units_of
+from vibroimpact.tables.file import File
+from vibroimpact.tables.times import spacing
+from vibroimpact.tables.units import spelled, units_of
 
 _MARKS = {"tab": "\t", "comma": ",", "space": " ", "semicolon": ";"}
 _END = "***end_of_header***"
 _COMMENT = "comment"
 _X = "x_value"
-_EVEN = 0.01
 
 
 class Signal(NamedTuple):
@@ -180,12 +180,9 @@ def read(file: File) -> list[Channel]:
                 f"{signal.name!r} is a function of {signal.axis!r}; values over time are accepted"
             )
             raise file.refused(0, told)
-        even = np.diff(signal.times)
         step = signal.step
-        if len(even) and np.isfinite(even).all():
-            mean = float(even.mean())
-            if step is None and mean > 0.0 and np.ptp(even) <= _EVEN * mean:
-                step = mean
+        if step is None and len(signal.times) > 1 and (even := spacing(signal.times)).is_exact:
+            step = even.step
         if not np.isfinite(signal.values).all():
             raise file.refused(
                 0, f"{signal.name!r} has missing values; a complete record is accepted"

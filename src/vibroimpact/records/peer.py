@@ -15,8 +15,8 @@ from __future__ import annotations
 import re
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
-from vibroimpact.records.stated import stated_acceleration, stated_unit
+from vibroimpact.tables.file import File
+from vibroimpact.tables.units import stated_acceleration, stated_unit
 
 _NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?)"
 _COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
@@ -35,8 +35,15 @@ def _announced(file: File, first: int = 0, last: int = _SEARCHED) -> int | None:
 
 
 def recognises(file: File) -> bool:
-    """Return whether a file has this format: one of its first lines contains NPTS."""
-    return _announced(file) is not None
+    """Return whether a file has this format: one of its first lines contains NPTS.
+
+    It is no comment, and no further line of words follows it.
+    """
+    at = _announced(file)
+    if at is None or file.lines[at].lstrip().startswith(("#", "%", "!", "//")):
+        return False
+    behind = next((line for line in file.lines[at + 1 :] if line.strip()), "")
+    return not re.search(r"(?i)[a-z]*[a-df-z][a-z]{2}", behind.lower().replace("nan", ""))
 
 
 def read(file: File) -> list[Channel]:

@@ -8,9 +8,9 @@ from typing import NamedTuple
 from vibroimpact.errors import InputError, in_one_line
 from vibroimpact.records import columns, cosmos, csmip, esm, geonet, knet, lvm, peer, seismic, smc
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.commas import Decimal
 from vibroimpact.records.doubts import of_last_line
-from vibroimpact.records.file import File
+from vibroimpact.tables.decimal_mark import Decimal
+from vibroimpact.tables.file import File
 
 FORMATS: tuple[Format, ...] = (
     seismic.MINISEED,
@@ -64,7 +64,7 @@ def read_channel(
     channels = [_cleaned(one)._replace(notes=one.notes + last) for one in channels]
     names = tuple(channel.component for channel in channels)
     if component is None and len(channels) == 1:
-        return Found(form.name, channels[0], names)
+        return Found(form.name, _undamaged(file, channels[0]), names)
     if len(set(names)) < len(names):  # of several stations
         names = tuple(f"{one.station} {one.component}".strip() for one in channels)
         channels = [
@@ -83,7 +83,20 @@ def read_channel(
     if len(chosen) != 1:
         how = "is not a component" if not chosen else f"matches {len(chosen)} components"
         raise InputError(f"component: {component!r} {how} of {file.path!r}; {numbered}")
-    return Found(form.name, chosen[0], names)
+    return Found(form.name, _undamaged(file, chosen[0]), names)
+
+
+def _undamaged(file: File, channel: Channel) -> Channel:
+    """Return a channel that can be used.
+
+    Raises
+    ------
+    InputError
+        If it cannot.
+    """
+    if channel.damage:
+        raise InputError(f"record: {file.path!r}, {channel.damage}")
+    return channel
 
 
 def _cleaned(channel: Channel) -> Channel:

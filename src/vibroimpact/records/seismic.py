@@ -15,7 +15,7 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
+from vibroimpact.tables.file import File
 
 _VERSION = slice(304, 308)
 """Place of the version of a SAC file, which is 6, or 7 for the newest files."""

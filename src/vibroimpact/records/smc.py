@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.file import File
+from vibroimpact.tables.file import File
 
 _KIND = re.compile(r"\s*\d\s+(?:UNKNOWN|(?:UN)?CORRECTED ACCELEROGRAM|ACCELEROGRAM)")
 _TEXT, _INTEGERS, _REALS = 11, 6, 10

@@ -27,11 +27,11 @@ _FACTOR = rf"[A-Za-zµμ%]+{_POWER}"
 _PER_SQUARE = r"[ .·*]+s(?:ec)?(?:(?:\^|\*\*)?-[1-9]|⁻[¹²])"
 _UNIT = rf"{_FACTOR}(?: ?[/*·] ?\(?{_FACTOR}\)?)*(?:{_PER_SQUARE})?"
 _AFTER = re.compile(
-    r"\b(?:units?|einheit(?:en)?)\b\s*(?:of\s+(?:measure(?:ment)?|accel\w*|data)\s*)?"
-    r"(?:(?:are|is|of|in|ist|[:=])\s*|(?=[\[(]))(?P<stated>[\[(\"']?.*)",
-    re.IGNORECASE,
+    r"(?:(?<![A-Za-z])|(?<=[a-z])(?=U))(?i:units?|einheit(?:en)?)(?![A-Za-z])(?:_\w+)?\s*"
+    r"(?i:of\s+(?:measure(?:ment)?|accel\w*|data|times?)\s*)?"
+    r"(?P<mark>(?:(?i:(?:are|is|of|ist)\b|in(?=\s+[A-Za-z(])|[:=;,])\s*)+|(?=[\[(]))(?P<stated>.*)"
 )
-_WHOLE = re.compile(rf"[\[(\"']?\s*({_UNIT})(?:'s)?\s*(?:[\])\"'.,;:]|\s|$)")
+_WHOLE = re.compile(rf"[\[(\"']?\s*({_UNIT})(?:'s)?\s*(?:[\[(\])\"'.,;:]|\s|$)")
 _BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]*?)\s*[\])]")
 _AT_END = re.compile(_BRACKETS.pattern + r"\s*$")
 _IN = re.compile(rf"\bin\s+({_UNIT})(?=\s|$|[.,;])", re.IGNORECASE)
@@ -62,6 +62,8 @@ def stated_unit(line: str) -> str | None:
         return None
     text = found["stated"].strip()
     whole = _WHOLE.match(text)
+    if found["mark"].strip() in (",", ";"):  # of a sentence, unless what follows is a unit
+        return spelled(whole[1]) if whole and are_units([whole[1]]) else None
     return spelled(whole[1]) if whole else text[:_SHOWN] or None
 
 
@@ -98,11 +100,16 @@ def ended(name: str) -> tuple[str, str | None]:
 def ending(words: list[str], *, sure: bool) -> str | None:
     """Return the unit at the end of words, or None.
 
-    Unless `sure` is true, the g of ``ag`` and the n of a number of items are not units.
+    Unless `sure` is true, the g of ``ag``, the n of a number of items and the S of ``N-S`` are not
+    units.
     """
     if len(words) < 2 or words[-1] not in _ENDS:
         return None
-    a_word = words == ["a", "g"] or (words[-1] == "n" and "force" not in words)
+    a_word = (
+        words == ["a", "g"]
+        or words[-2:] == ["n", "s"]
+        or (words[-1] == "n" and "force" not in words)
+    )
     return None if a_word and not sure else _ENDS[words[-1]]
 
 

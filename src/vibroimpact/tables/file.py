@@ -1,4 +1,4 @@
-"""A record file: its bytes, its lines, and numbers in its lines, in free or fixed columns."""
+"""A file: its bytes, its lines, and numbers in its lines, in free or fixed columns."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.records.commas import Decimal
-from vibroimpact.records.guard import regular, unpacked
+from vibroimpact.tables.decimal_mark import Decimal
+from vibroimpact.tables.limits import regular, unpacked
 
 _PACKED = b"\x1f\x8b"
 
@@ -20,36 +20,44 @@ class File:
     """A file that was read into memory. If gzip has compressed it, it is decompressed.
 
     Lines are counted from 0 in the code, and from 1 in messages. ``decimal`` is the decimal mark
-    that the caller passed, or None.
+    that the caller passed, or None. ``what`` is the name of the file in messages, such as
+    ``"record"``.
     """
 
-    def __init__(self, path: Path | str, decimal: Decimal | None = None) -> None:
+    def __init__(
+        self, path: Path | str, decimal: Decimal | None = None, what: str = "record"
+    ) -> None:
         self.path = str(path)
         self.decimal = decimal
+        self.what = what
         try:
-            regular(path, "record")
+            regular(path, what)
             self.data = Path(path).read_bytes()
             if self.data.startswith(_PACKED):
-                self.data = unpacked(self.data, path, "record", gzip=True)
+                self.data = unpacked(self.data, path, what, gzip=True)
         except (EOFError, zlib.error) as error:
             raise InputError(
-                f"record: {self.path!r} is a damaged gzip file ({error}); pass an undamaged copy"
+                f"{what}: {self.path!r} is a damaged gzip file ({error}); pass an undamaged copy"
             ) from None
         except OSError as error:
             raise InputError(
-                f"record: {self.path!r} cannot be read ({error.strerror or error}); pass the path "
-                "of a readable record file"
+                f"{what}: {self.path!r} cannot be read ({error.strerror or error}); pass the path "
+                "of a readable file"
             ) from None
 
     @cached_property
     def lines(self) -> list[str]:
         """The lines of the file. A file that is not text has no lines."""
-        if b"\0" in self.data[:4096]:
-            return []
-        try:
-            text = self.data.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = self.data.decode("latin-1")  # older files; only names have such letters
+        text = ""
+        if self.data.startswith((b"\xff\xfe", b"\xfe\xff")):  # as spreadsheets write it
+            text = self.data.decode("utf-16", errors="replace")
+        if "\n" not in text:
+            if b"\0" in self.data[:4096]:
+                return []
+            try:
+                text = self.data.decode("utf-8-sig")
+            except UnicodeDecodeError:
+                text = self.data.decode("latin-1")  # older files; only names have such letters
         # str.splitlines would also break at form feeds and at line separators of Unicode.
         text = text.partition("\x1a")[0]  # the end of a file under CP/M and DOS
         return text.replace("\r\n", "\n").replace("\r", "\n").removesuffix("\n").split("\n")
@@ -75,7 +83,7 @@ class File:
 
     def refused(self, at: int, why: str) -> InputError:
         """Return an error that states a line of the file."""
-        return InputError(f"record: {self.path!r}, line {at + 1}: {why}")
+        return InputError(f"{self.what}: {self.path!r}, line {at + 1}: {why}")
 
     def numbers(
         self, first: int, count: int, width: int | None = None
