@@ -6,8 +6,8 @@ The fourth line states the number of values and the step, in one of three ways::
     NPTS=  15306, DT=    0.05 SEC
     4096    0.0100    NPTS, DT
 
-The third line states the unit, as ``IN UNITS OF G`` or ``The units are (g)``. Without a statement,
-the unit is g. The second line states event, date, station and component, separated by commas.
+The third line states the unit, as ``IN UNITS OF G`` or ``The units are (g)``. The second line
+states event, date, station and component, separated by commas.
 """
 
 from __future__ import annotations
@@ -75,20 +75,17 @@ def read(file: File) -> list[Channel]:
     if unit is None:
         # In brackets only where a description of the values stands: stations have brackets, too.
         unit = next((unit for line in above[-2:-1] if (unit := stated_acceleration(line))), None)
-    assumed = "the unit g of most PEER files was assumed, because the file states no unit"
-    notes = () if unit else (assumed,)
     names = [part.strip() for part in file.lines[at - 2].split(",")] if at >= 2 else []
     component = names[-1] if len(names) > 2 else ""
     return [
         Channel(
             values,
             step or None,
-            unit or "g",
+            unit,
             names[-2] if len(names) > 2 else "",
             component,
             (component.split()[0],) if component else (),
             f"line {at + 1}",
-            notes=notes,
         )
     ]
 
