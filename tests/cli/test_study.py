@@ -235,15 +235,13 @@ class TestWhatShakes:
         assert what.at(2.5) == expected.replace(frequency=2.5)
 
     def test_a_record_beside_the_study(self, write, tmp_path):
-        values = [0.0, 0.3, -0.2, 0.1]
+        values = [0.0, 0.3, -0.2, -0.1]
         write("\n".join(map(repr, values)), "quake.csv")
-        path = write(
-            RIG + '[excitation]\nrecord = "quake.csv"\nstep = "20 ms"\n[simulate]\ntail = "5 s"\n'
-        )
-        with pytest.warns(
-            vi.InputWarning, match="the unit m/s² was assumed, because the file states no unit"
-        ):
-            what = subject(str(path), RigOptions())
+        study = '[excitation]\nrecord = "quake.csv"\nstep = "20 ms"\n{}[simulate]\ntail = "5 s"\n'
+        with pytest.raises(vi.InputError, match=r"excitation\.unit: missing, because .* states no"):
+            subject(str(write(RIG + study.format(""))), RigOptions())
+        path = write(RIG + study.format('unit = "m/s^2"\n'))
+        what = subject(str(path), RigOptions())
         assert what.shaking == vi.Record(values, 0.02)
         assert what.study.simulate.tail == 5.0
         with pytest.raises(
@@ -270,14 +268,14 @@ class TestWhatShakes:
         [
             ('step = "1 ms"', "0.1\nnan\n0.2", r"line 2: nan is not finite"),
             (
-                'step = "1 ms"',
+                'step = "1 ms"\nunit = "g"',
                 "0.1",
                 r"acceleration: 1 given; pass one sequence of at least 2 samples",
             ),
             ("step = 0", "0.1\n0.2", r"excitation.step: 0 is not greater than 0"),
             ('step = "-1 ms"', "0.1\n0.2", r"excitation.step: '-1 ms' is not greater than 0"),
             ("", "0.1\n0.2", r"excitation.step: missing, but .* has no times"),
-            ("", "0,1\n0,2", r"its time 0 s is not evenly spaced"),
+            ("", "0,1\n0,2", r"its rows of 2 numbers have neither names nor times"),
             ('step = 1\nunit = "N"', "0.1\n0.2", r"excitation.unit: '1 N' is a force; an acceler"),
             (
                 'step = 1\nunit = "mm"',

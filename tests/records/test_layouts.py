@@ -141,7 +141,7 @@ def replaced(lines: list[str], old: str, new: str) -> list[str]:
 
 DAMAGED = {
     "peer, truncated": (peer()[:-1], 5, "the file ends after 5 of 10 values"),
-    "peer, more than announced": ([*peer(each=3), "1.0"], 9, "there are values after the 10 that"),
+    "peer, more than announced": ([*peer(each=3), "1.0"], 9, "announces 10 values, but 11 follow"),
     "peer, fewer announced": (
         peer("NPTS= 8, DT= .01 SEC"),
         6,
@@ -163,24 +163,24 @@ DAMAGED = {
     "cosmos, too many": (
         replaced(cosmos(), "   10  accel", "    8  accel"),
         47,
-        "values after the 8 that",
+        "announces 8 values, but 10 follow",
     ),
     "cosmos, two headers": (cosmos()[:-1] + cosmos(), 48, "does not end the data of the channel"),
     "csmip, truncated": (csmip()[:-5], 13, "the file ends after 8 of 10"),
     "csmip, too few": (
         replaced(csmip(), "   10 POINTS OF ACC", "    8 POINTS OF ACC"),
         11,
-        "there are values after the",
+        "announces 8 values, but 10 follow",
     ),
     "csmip, letters": (replaced(csmip(), "-3.5000", "-3.5O00"), 10, "'-3.5O00' is not a number"),
     "csmip, two headers": (csmip()[:8] + csmip(), 9, "a second header"),
     "csmip, a stray line": ([*csmip()[:11], "stray"], 12, "'stray' does not end the channel"),
     "geonet, truncated": (geonet()[:-1], 28, "the file ends after 0 of 10"),
     "geonet, not a number": (replaced(geonet(), " -1.2500", "     nan"), 27, "'nan' is not finite"),
-    "geonet, a second header": (geonet()[:27] + geonet(), 28, "is not a number"),
+    "geonet, a second header": (geonet()[:27] + geonet(), 28, "the values end here after 0 of 10"),
     "knet, truncated": (knet()[:-1], 18, "the file ends after 8 of 10"),
     "knet, no scale": (knet(scale="none"), 14, "'none' is not a Scale Factor"),
-    "knet, too long": (knet() + knet()[-1:], 20, "there are values after the 10 that"),
+    "knet, too long": (knet() + knet()[-1:], 20, "announces 10 values, but 12 follow"),
     "esm, truncated": (esm()[:-2], 19, "the file ends after 8 of 10"),
     "esm, two headers": (esm() + esm(), 22, "a second header"),
     "esm, count": (replaced(esm(), "NDATA: 10", "NDATA: ten"), 7, "NDATA: 'ten' is not a number"),

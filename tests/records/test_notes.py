@@ -60,11 +60,12 @@ def test_the_unit_of_an_at2_file_is_the_one_of_its_header(tmp_path, stated, size
     assert told == ""
 
 
-def test_an_at2_file_that_states_no_unit_is_in_g_and_says_so(tmp_path):
+def test_the_unit_of_an_at2_file_that_states_none_is_asked_for(tmp_path):
     path = written(tmp_path, "\n".join(peer(stated="Acceleration")) + "\n")
-    record, told = noted(path)
-    assert record.peak == pytest.approx(3.5 * GRAVITY, rel=1e-14)
-    assert told == "the unit g of most PEER files was assumed, because the file states no unit"
+    with pytest.raises(vi.InputError, match=r'^unit: missing, .* unit="g" \(--unit g\)$'):
+        vi.Record.read(path)
+    record, told = noted(path, unit="g")
+    assert (record.peak, told) == (pytest.approx(3.5 * GRAVITY, rel=1e-14), "")
 
 
 @pytest.mark.parametrize(

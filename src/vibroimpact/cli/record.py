@@ -38,8 +38,8 @@ def record(
     """Read an earthquake record, print its properties, and draw it with its response spectrum.
 
     A record is a measured ground acceleration. The accepted formats are PEER AT2, COSMOS, CSMIP,
-    SMC, GeoNet, K-NET, ESM, and columns of numbers. SAC and miniSEED are accepted if obspy is
-    installed. The command writes these files (--name sets NAME):
+    SMC, GeoNet, K-NET, ESM, CWB, CSMNC, NSMN, RENADIC, UNAM, and columns of numbers. SAC and
+    miniSEED are accepted if obspy is installed. The command writes these files (--name sets NAME):
 
     - NAME-record.nc: the record and its response spectrum (NetCDF groups record and spectrum)
     - NAME-record.png: a figure of the record and its response spectrum

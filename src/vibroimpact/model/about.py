@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, in_one_line
+from vibroimpact.model.count_checks import MOST_SAMPLES
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME, Quantity
 from vibroimpact.model.units import one_of, pretty, to_si
 from vibroimpact.records.channel import Channel
@@ -55,6 +56,8 @@ def read_values(
     spacing = _spacing(found, step, str(path), notes)
     taken, factor, quantity = _unit(found, unit, str(path), notes)
     _check_peaks(found, taken, factor, quantity, str(path))
+    if found.times is not None:
+        found = found._replace(values=_interpolated(found, spacing, notes))
     notes += of_end(found.values)
     notes += of_times(spacing, len(found.values))
     about = About(in_one_line(str(path)), form, found.station, found.component, taken, tuple(notes))
@@ -74,6 +77,8 @@ def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
             )
         return found.step
     spacing = to_si(step, TIME, "step", above=0.0)
+    if found.times is not None:
+        return spacing
     if found.step is None and found.no_step:
         notes.append(f"the step {pretty(spacing, TIME)} replaces the uneven times in the file")
     elif found.step is not None and not math.isclose(found.step, spacing, rel_tol=1e-9):
@@ -81,6 +86,28 @@ def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
             f"the step {pretty(spacing, TIME)} replaces the step in the file, {found.step:g} s"
         )
     return spacing
+
+
+def _interpolated(found: Channel, step: float, notes: list[str]) -> NDArray[np.float64]:
+    """Values at uneven times, interpolated at equal steps from the first time on."""
+    times = found.times
+    assert times is not None
+    lasts = float(times[-1] - times[0])
+    if not step <= lasts < step * MOST_SAMPLES:
+        raise InputError(
+            f"step: {pretty(step, TIME)} is outside [{pretty(lasts / MOST_SAMPLES, TIME)}, "
+            f"{pretty(lasts, TIME)}], which the times of the record allow; pass a step in this "
+            "range"
+        )
+    even = times[0] + step * np.arange(int(lasts / step * (1.0 + 1e-12)) + 1)
+    values: NDArray[np.float64] = np.interp(even, times, found.values)
+    peak = float(np.abs(found.values).max())
+    lost = 100.0 * (1.0 - float(np.abs(values).max()) / peak) if peak else 0.0
+    notes.append(
+        f"the {len(times)} values at uneven times were interpolated at steps of "
+        f"{pretty(step, TIME)}, which lowers the peak by {lost:.2f} %"
+    )
+    return values
 
 
 def _unit(
@@ -148,10 +175,11 @@ def _check_peaks(found: Channel, unit: str, factor: float, quantity: Quantity, p
         size = to_si(f"1 {peak.unit}", quantity, "unit") / factor if peak.unit else 1.0
         sizes = _peaks(found.values)
         if not any(_near(peak, one, size) for one in sizes):
+            also = ", or pass the unit of the values as unit= (--unit)" if peak.unit else ""
             raise InputError(
                 f"record: {path!r}, line {peak.line + 1}: {peak.text!r} states a peak of "
                 f"{peak.value * size:.6g} {unit}, but the largest value is {sizes[0]:.6g} {unit}; "
-                "correct this line, or pass the unit of the values as unit= (--unit)"
+                f"correct this line{also}"
             )
 
 

@@ -66,11 +66,12 @@ class Record:
     ) -> Record:
         """Read a record from a file. The format is detected from the content of the file.
 
-        The accepted formats are PEER AT2, COSMOS and CSMIP V1 and V2, USGS SMC, GeoNet V1A and V2A,
-        K-NET and KiK-net, ESM, and columns of numbers. SAC and miniSEED are accepted if obspy is
-        installed. A file may be compressed with gzip. The samples are not filtered, cut or shifted.
-        If something is assumed or doubtful, such as a missing unit or a peak of 30 g, an
-        `InputWarning` is issued. It is also listed in ``about.notes``.
+        The accepted formats are PEER AT2, COSMOS V0, V1 and V2, CSMIP V1 and V2, USGS SMC, GeoNet
+        V1A and V2A, K-NET and KiK-net (ASCII and CSV), ESM, CWB, CSMNC, NSMN, RENADIC, UNAM, and
+        columns of numbers. SAC and miniSEED are accepted if obspy is installed. A file may be
+        compressed with gzip. The samples are not filtered, cut or shifted. If something is assumed
+        or doubtful, such as a peak of 30 g, an `InputWarning` is issued. It is also listed in
+        ``about.notes``.
 
         Parameters
         ----------
@@ -84,10 +85,11 @@ class Record:
             Unit of the values, such as ``"g"``. It replaces the unit in the file. If it is a unit
             of length, such as ``"mm"``, the values are displacements of the base, and the
             acceleration is computed from them (see `from_displacement`). Default: the unit in the
-            file, or m/s² if the file states none.
+            file. It is required if the file states none.
         step
             Time between samples (s, or text with a unit). It replaces the step or the times in the
-            file.
+            file. The values of a file of digitised film, whose times are uneven, are interpolated
+            at this step.
         station, label
             Names of the station and of the component. They replace the names in the file.
         decimal

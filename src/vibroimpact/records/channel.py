@@ -39,6 +39,9 @@ class Channel(NamedTuple):
     no_step: str = ""
     """Reason why the file does not give one step, such as uneven times, or statements that
     contradict each other. Empty if there is no such reason."""
+    times: NDArray[np.float64] | None = None
+    """Uneven times of the values (s), which never decrease. A step that is passed interpolates
+    between them."""
     peaks: tuple[Peak, ...] = ()
     """Peaks that the file states of the values."""
     damage: str = ""

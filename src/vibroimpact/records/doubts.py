@@ -17,7 +17,7 @@ STEPS = (1e-4, 0.1)
 """Usual range of time steps in s."""
 LONGEST = 1800.0
 """Longest usual duration in s."""
-_USUAL = {"m/s^2": 1.0, "g": GRAVITY, "cm/s^2": 0.01, "mm/s^2": 0.001}
+_USUAL = {"m/s^2": 1.0, "g": GRAVITY, "cm/s^2": 0.01, "mm/s^2": 0.001, "gal": 0.01}
 _FAR = 10.0
 """Change to the last value that is doubted, divided by the largest change before it."""
 _LAST = 50

@@ -1,4 +1,8 @@
-"""ESM's and ITACA's ASCII files (DYNA 1): lines ``KEY: value``, then one value per line."""
+"""ESM's and ITACA's ASCII files (DYNA 1): lines ``KEY: value``, then one value per line.
+
+``NDATA``, ``SAMPLING_INTERVAL_S``, ``DURATION_S``, ``UNITS`` and ``PGA_CM/S^2`` describe the
+values.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +10,11 @@ import math
 import re
 
 from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.header import duration_conflict, read_peak
 from vibroimpact.tables.file import File
+from vibroimpact.tables.statements import Peak
 
+_PGA, _DURATION = "PGA_CM/S^2", "DURATION_S"
 _ENTRY = re.compile(r"([A-Z][A-Z0-9_/^]*):\s*(.*?)\s*$")
 
 
@@ -46,16 +53,26 @@ def read(file: File) -> list[Channel]:
             )
     file.behind(behind, count)
     step = number("SAMPLING_INTERVAL_S")
+    unit = entries.get("UNITS") or None
+    peaks: tuple[Peak, ...] = ()
+    if math.isfinite(number(_PGA)):
+        peaks = read_peak(where[_PGA], entries[_PGA], "cm/s^2", f"{_PGA}: {entries[_PGA]}")
+    problem = ""
+    if step > 0.0 and math.isfinite(number(_DURATION)):
+        at, lasts = where[_DURATION], entries[_DURATION]
+        problem = duration_conflict(at, lasts, f"{_DURATION}: {lasts}", count, step)
     names = [entries.get("NETWORK", ""), entries.get("STATION_CODE", "")]
     return [
         Channel(
             values,
             step if step > 0.0 else None,
-            entries.get("UNITS") or None,
+            unit,
             ".".join(name for name in names if name),
             entries.get("STREAM", ""),
             (),
             f"line {where.get('SAMPLING_INTERVAL_S', at - 1) + 1}",
+            no_step=problem,
+            peaks=peaks,
         )
     ]
 

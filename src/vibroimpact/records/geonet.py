@@ -2,15 +2,22 @@
 
 Columns have 8 characters, and a line has ten columns. Integers 34, 35 and 36 are the numbers of
 values of acceleration, velocity and displacement. Real 26 is the step. Accelerations are in mm/s².
+Lines of text repeat the number of values, and state the duration and the peak.
 """
 
 from __future__ import annotations
 
+import re
+
 from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.header import duration_conflict, read_peak
 from vibroimpact.tables.file import File
+from vibroimpact.tables.statements import Peak
 
 _TEXT = 16
 _WIDTH = 8
+_POINTS = re.compile(r"Number of points\s+(\d+)\s+Duration\s+(\d+\.?\d*)", re.IGNORECASE)
+_PEAK = re.compile(r"Acceleration:\s*Peak\s+([-+]?\d+\.?\d*)\s*(mm/s/s)", re.IGNORECASE)
 
 
 def recognises(file: File) -> bool:
@@ -53,6 +60,20 @@ def _component(file: File, first: int) -> tuple[Channel, int]:
         _, at = file.numbers(at, count, _WIDTH)
     words = file.lines[first + 12].split()
     step = float(reals[25])
+    problem = ""
+    peaks: tuple[Peak, ...] = ()
+    for line in range(first, first + _TEXT):
+        if points := _POINTS.match(file.lines[line]):
+            if int(points[1]) != counts[0]:
+                raise file.refused(
+                    line,
+                    f"the header announces {points[1]} values here, but {counts[0]} in line "
+                    f"{first + _TEXT + 4}; correct the header",
+                )
+            if step > 0.0:
+                problem = duration_conflict(line, points[2], points[0], counts[0], step)
+        if peak := _PEAK.match(file.lines[line]):
+            peaks = read_peak(line, peak[1], peak[2], peak[0])
     return (
         Channel(
             values,
@@ -62,6 +83,8 @@ def _component(file: File, first: int) -> tuple[Channel, int]:
             words[1] if len(words) > 1 else "",
             (),
             f"line {first + 23}",
+            no_step=problem,
+            peaks=peaks,
         ),
         at,
     )

@@ -6,8 +6,8 @@ The fourth line states the number of values and the step, in one of three ways::
     NPTS=  15306, DT=    0.05 SEC
     4096    0.0100    NPTS, DT
 
-The third line states the unit, as ``IN UNITS OF G`` or ``The units are (g)``. Without a statement,
-the unit is g. The second line states event, date, station and component, separated by commas.
+The third line states the unit, as ``IN UNITS OF G`` or ``The units are (g)``. The second line
+states event, date, station and component, separated by commas.
 """
 
 from __future__ import annotations
@@ -23,6 +23,8 @@ _COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
 _STEP = re.compile(rf"\bDT\s*=\s*{_NUMBER}", re.IGNORECASE)
 _BEFORE = re.compile(rf"^\s*(\d+)\s+{_NUMBER}\s+NPTS\s*,\s*DT", re.IGNORECASE)
 _NAMED = re.compile(r"\bNPTS\b", re.IGNORECASE)
+_OF_PEER = re.compile(r"\bNPTS\s*[=,]", re.IGNORECASE)
+_COMMENT = re.compile(r"\s*(?:[#%!]|//)")
 _SEARCHED = 12
 
 
@@ -40,7 +42,7 @@ def recognises(file: File) -> bool:
     It is no comment, and no further line of words follows it.
     """
     at = _announced(file)
-    if at is None or file.lines[at].lstrip().startswith(("#", "%", "!", "//")):
+    if at is None or not _OF_PEER.search(line := file.lines[at]) or _COMMENT.match(line):
         return False
     behind = next((line for line in file.lines[at + 1 :] if line.strip()), "")
     return not re.search(r"(?i)[a-z]*[a-df-z][a-z]{2}", behind.lower().replace("nan", ""))
@@ -73,20 +75,17 @@ def read(file: File) -> list[Channel]:
     if unit is None:
         # In brackets only where a description of the values stands: stations have brackets, too.
         unit = next((unit for line in above[-2:-1] if (unit := stated_acceleration(line))), None)
-    assumed = "the unit g of most PEER files was assumed, because the file states no unit"
-    notes = () if unit else (assumed,)
     names = [part.strip() for part in file.lines[at - 2].split(",")] if at >= 2 else []
     component = names[-1] if len(names) > 2 else ""
     return [
         Channel(
             values,
             step or None,
-            unit or "g",
+            unit,
             names[-2] if len(names) > 2 else "",
             component,
             (component.split()[0],) if component else (),
             f"line {at + 1}",
-            notes=notes,
         )
     ]
 

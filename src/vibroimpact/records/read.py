@@ -6,7 +6,22 @@ from pathlib import Path
 from typing import NamedTuple
 
 from vibroimpact.errors import InputError, in_one_line
-from vibroimpact.records import columns, cosmos, csmip, esm, geonet, knet, lvm, peer, seismic, smc
+from vibroimpact.records import (
+    columns,
+    cosmos,
+    csmip,
+    csmnc,
+    cwb,
+    esm,
+    geonet,
+    knet,
+    lvm,
+    nsmn,
+    peer,
+    seismic,
+    smc,
+    unam,
+)
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.records.doubts import of_last_line
 from vibroimpact.tables.decimal_mark import Decimal
@@ -18,8 +33,14 @@ FORMATS: tuple[Format, ...] = (
     geonet.FORMAT,
     cosmos.FORMAT,
     csmip.FORMAT,
+    csmip.RENADIC,
     smc.FORMAT,
     knet.FORMAT,
+    knet.CSV,
+    cwb.FORMAT,
+    nsmn.FORMAT,
+    csmnc.FORMAT,
+    unam.FORMAT,
     esm.FORMAT,
     lvm.FORMAT,
     peer.FORMAT,

@@ -92,7 +92,7 @@ def sampling(table: Table, unit: str | None = None) -> Sampling:
         found = _of_times(table, times, unit or stated.time_unit or "s")
     contradiction = found.contradiction or contradiction
     if found.step is not None and not contradiction:
-        contradiction = _of_duration(stated, found.step, len(table.lines))
+        contradiction = duration_contradiction(stated, found.step, len(table.lines))
     return found._replace(contradiction=contradiction)
 
 
@@ -152,7 +152,7 @@ def _uneven(table: Table, times: NDArray[np.float64], worst: int, mean: float) -
     )
 
 
-def _of_duration(stated: Statements, step: float, count: int) -> str:
+def duration_contradiction(stated: Statements, step: float, count: int) -> str:
     """Return why a stated duration contradicts the values, or an empty text."""
     lasts = step * count
     for one in stated.durations:

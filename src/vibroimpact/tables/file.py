@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 import zlib
 from functools import cached_property
 from pathlib import Path
@@ -13,6 +15,10 @@ from vibroimpact.errors import InputError
 from vibroimpact.tables.decimal_mark import Decimal
 from vibroimpact.tables.limits import regular, unpacked
 
+_TEXT = re.compile(r"[A-Za-z]{4}")
+"""Text that is no damaged number. NaN and inf have three letters."""
+_HEADER = 120
+"""Largest number of lines of a header."""
 _PACKED = b"\x1f\x8b"
 
 
@@ -86,7 +92,7 @@ class File:
         return InputError(f"{self.what}: {self.path!r}, line {at + 1}: {why}")
 
     def numbers(
-        self, first: int, count: int, width: int | None = None
+        self, first: int, count: int, width: int | None = None, each: int = 1
     ) -> tuple[NDArray[np.float64], int]:
         """Read a given number of values, which may be spread over several lines.
 
@@ -98,6 +104,8 @@ class File:
             Number of values.
         width
             Number of characters of a value. None if blanks separate the values.
+        each
+            Count in units of so many values in messages, such as 2 for pairs of a time and a value.
 
         Returns
         -------
@@ -107,15 +115,19 @@ class File:
         Raises
         ------
         InputError
-            If the file ends too early, if a line contains anything but finite numbers, or if the
-            last line contains too many values.
+            If the file or its numbers end too early, if a line contains anything but finite
+            numbers, or if the last line contains too many values.
         """
         parts: list[str] = []
         at = first
         while len(parts) < count:
+            read = f"{len(parts) // each} of {count // each}"
             if at >= len(self.lines):
-                told = f"the file ends after {len(parts)} of {count} values; pass a complete file"
+                told = f"the file ends after {read} values; pass a complete file"
                 raise self._damaged(first, at, width) or self.refused(len(self.lines) - 1, told)
+            if _TEXT.search(self.lines[at]):
+                told = f"the values end here after {read}; pass a complete file, or correct the "
+                raise self._damaged(first, at, width) or self.refused(at, f"{told}header")
             parts += self._cut(at, width)
             at += 1
         try:
@@ -127,8 +139,8 @@ class File:
         if len(parts) > count:
             raise self.refused(
                 at - 1,
-                f"the file has {len(parts)} values up to this line, but its header announces "
-                f"{count}; remove the extra values, or correct the header",
+                f"the file has {len(parts) // each} values up to this line, but its header "
+                f"announces {count // each}; remove the extra values, or correct the header",
             )
         return values, at
 
@@ -143,19 +155,32 @@ class File:
         for at in range(first, behind):
             for part in self._cut(at, width):
                 try:
-                    found = float(part)
-                except ValueError:
-                    why = "is not a number; replace it by a number"
-                    if "," in part:
-                        why = "has a comma; use decimal points, and blanks between numbers"
-                    return self.refused(at, f"{part[:40]!r} {why}")
-                if not np.isfinite(found):
-                    why = f"{part!r} is not finite; replace it by a finite number"
-                    return self.refused(at, why)
+                    self._finite(at, part)
+                except InputError as error:
+                    return error
         return None
 
-    def behind(self, at: int, count: int, width: int | None = None) -> None:
+    def _finite(self, at: int, part: str) -> float:
+        try:
+            found = float(part)
+        except ValueError:
+            why = "is not a number; replace it by a number"
+            if "," in part:
+                why = "has a comma; use decimal points, and blanks between numbers"
+            raise self.refused(at, f"{part[:40]!r} {why}") from None
+        if not math.isfinite(found):
+            raise self.refused(at, f"{part!r} is not finite; replace it by a finite number")
+        return found
+
+    def behind(self, at: int, count: int, width: int | None = None, each: int = 1) -> None:
         """Check that no number follows the values that the header announces.
+
+        Parameters
+        ----------
+        at
+            The line after the values.
+        count, width, each
+            As in `numbers`.
 
         Raises
         ------
@@ -164,14 +189,111 @@ class File:
         """
         while at < len(self.lines) and not self.lines[at].strip():
             at += 1
-        if at >= len(self.lines):
-            return
-        try:
-            float(self._cut(at, width)[0])
-        except ValueError:
-            return
-        raise self.refused(
-            at,
-            f"there are values after the {count} that the header announces; remove them, or "
-            "correct the header",
-        )
+        more = 0
+        for line in range(at, len(self.lines)):
+            found = self._leading(line, width)
+            if not found and self.lines[line].strip():
+                break
+            more += found
+        if more:
+            raise self.refused(
+                at,
+                f"the header announces {count // each} values, but {(count + more) // each} "
+                "follow it; remove the extra values, or correct the header",
+            )
+
+    def _leading(self, at: int, width: int | None) -> int:
+        """How many numbers a line begins with."""
+        cells = self._cut(at, width)
+        for number, cell in enumerate(cells):
+            try:
+                float(cell)
+            except ValueError:
+                return number
+        return len(cells)
+
+    def rows(
+        self,
+        first: int,
+        columns: int,
+        separator: str | None = None,
+        skip: int = 0,
+        width: int | None = None,
+    ) -> NDArray[np.float64]:
+        """Read all rows of numbers from a line to the end of the file.
+
+        Parameters
+        ----------
+        first
+            The first row.
+        columns
+            Number of columns, including those that are skipped.
+        separator
+            Separator of the columns. None for blanks.
+        skip
+            Number of columns before the numbers, such as a date.
+        width
+            Number of characters of a column, if no separator stands between columns.
+
+        Returns
+        -------
+        rows
+            An array of shape (rows, columns - skip).
+
+        Raises
+        ------
+        InputError
+            If a row has another number of columns, or contains anything but finite numbers.
+        """
+        found: list[list[float]] = []
+        last = len(self.lines)
+        while last > first and not self.lines[last - 1].strip():
+            last -= 1
+        for at in range(first, last):
+            cells = self._cut(at, width) if width else self.lines[at].strip().split(separator)
+            if len(cells) != columns:
+                told = f"the row has {len(cells)} columns, but the header announces {columns}; "
+                raise self.refused(at, f"{told}pass a complete file")
+            found.append([self._finite(at, cell) for cell in cells[skip:]])
+        return np.array(found, dtype=np.float64).reshape(-1, columns - skip)
+
+    def check_count(self, at: int, stated: int, found: int) -> None:
+        """Compare a number of values that a line states with the number in the file.
+
+        Raises
+        ------
+        InputError
+            If they differ, or if there is no value.
+        """
+        if stated < 1:
+            raise self.refused(at, f"the header states {stated} values; pass at least 2 values")
+        if stated != found:
+            do = "pass a complete file" if found < stated else "remove the extra values"
+            raise self.refused(
+                at,
+                f"the header announces {stated} values, but {found} follow it; {do}, or correct "
+                "the header",
+            )
+
+    def find_line(self, pattern: str, last: int = _HEADER) -> tuple[int, re.Match[str]] | None:
+        """Return the first of the first lines that matches a pattern, and the match, or None."""
+        for at, line in enumerate(self.lines[:last]):
+            if match := re.match(pattern, line, re.IGNORECASE):
+                return at, match
+        return None
+
+    def require_line(
+        self, pattern: str, what: str, last: int = _HEADER
+    ) -> tuple[int, re.Match[str]]:
+        """Return what `find_line` returns.
+
+        Raises
+        ------
+        InputError
+            If no line matches. The message names the entry, `what`.
+        """
+        found = self.find_line(pattern, last)
+        if found is None:
+            at = min(last, len(self.lines)) - 1
+            raise self.refused(at, f"the header does not state {what}; pass a complete file")
+        return found

@@ -42,7 +42,8 @@ _RATE_NAME = (
 _COUNT_NAME = (
     r"(?:n_?(?:pts|points|data|samples|values)"
     r"|(?:no|nr|num|number)\.? ?(?:of)? ?(?:\w+[ _]){0,2}?(?:pts|points|samples|values|data)"
-    r"(?:[ _](?:points|samples|values))?|(?:data|sample)[ _]*(?:points|count)|samples|points)"
+    r"(?:[ _](?:points|samples|values))?|(?:data|sample|total)[ _]*(?:points|samples|count)"
+    r"|samples|points|pts)"
 )
 _KEY = r"(?<![A-Za-z_])"
 _STEP = re.compile(
@@ -280,7 +281,7 @@ def _peaks(at: int, text: str) -> tuple[str, list[Peak]]:
                 spelled(unit) if unit else None,
                 at,
                 shown.strip(),
-                _digit(number),
+                last_digit(number),
                 channel,
             )
         )
@@ -293,7 +294,7 @@ def _add(
     """Add a number that is greater than 0, such as a step; a rate becomes a step."""
     value = _value(match["number"]) * size
     if value > 0.0:
-        digit = 0.0 if inverse else _digit(match["number"]) * size
+        digit = 0.0 if inverse else last_digit(match["number"]) * size
         text = match[0].strip(" ,;:")
         if match.re in (_BARE_STEP, _OWN_STEP):
             text = f"{match['number']} {match['unit']}"
@@ -316,8 +317,8 @@ def _value(number: str) -> float:
     return float(number.replace(",", ".").upper().replace("D", "E"))
 
 
-def _digit(number: str) -> float:
-    """Size of the last digit of a number."""
+def last_digit(number: str) -> float:
+    """Return the size of the last digit of a number: 0.01 for ``-1.25``, 0.1 for ``.125E+01``."""
     mantissa, _, exponent = number.upper().replace("D", "E").replace(",", ".").partition("E")
     return float(10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2])))
 
