@@ -115,6 +115,7 @@ def test_components_of_a_network_are_named_by_the_user(tmp_path):
         ("fs = 100", "states 'fs = 100', a step of 0.01 s, but the times have steps of 0.005 s"),
         ("Duration: 20 s", "'Duration: 20 s', but 200 samples in steps of 0.005 s last 0.995 s"),
         ("acc_unit: gal", "the file states the units 'g' and 'gal'"),
+        ("AmplitudeUnit: gal", "the file states the units 'g' and 'gal'"),
     ],
 )  # fmt: skip
 def test_a_statement_that_the_values_contradict_is_refused_with_both(tmp_path, line, told):

@@ -100,6 +100,27 @@ def test_pairs_of_time_and_value(tmp_path, each, mark):
         vi.Record.read(written(tmp_path, "NPTS: 399\nacc in cm/s/s\n" + pairs(each, mark)))
 
 
+@pytest.mark.parametrize(
+    "head",
+    [
+        "Time Acc(gal) Time Acc(gal)\n",
+        "Time,Acc,Time,Acc\ns,gal,s,gal\n",
+        "t (s),a (gal)" * 2 + "\n",
+    ],
+)
+def test_pairs_whose_names_repeat(tmp_path, head):
+    head = head.replace(")t", "),t")
+    check(written(tmp_path, head + pairs(2, "," if "," in head else " ")))
+
+
+def test_negative_numbers_that_touch_each_other(tmp_path):
+    head = "NPTS: 400, dt = .005 s, units: gal\n"
+    text = lines(A - 500.0, 8, "{:8.3f}")
+    assert "-4" in text.split()[0][1:]
+    with pytest.warns(vi.InputWarning, match="the mean"):
+        check(written(tmp_path, head + text), A - 500.0)
+
+
 COMPONENTS = {
     "network": "#SampleRate(Hz): 200\n#RecordLength(sec): 2.00\n#AmplitudeUnit:  gal. corr.\n"
     "#AmplitudeMAX. U: {most:.3f}~ -{least:.3f}\n#DataSequence: Time U(+); N(+); E(+)\n"
@@ -222,6 +243,7 @@ def test_a_stated_peak_gives_the_unit(tmp_path):
         ("%m/%d/%Y %H:%M:%S.%f", ",", "anything"),
         ("%H:%M:%S.%f", ",", "Time"),
         ("%d/%m/%Y,%H:%M:%S.%f", ",", "Date,Time"),
+        ("%H:%M:%S:%f", ",", "Time"),
     ],
 )
 def test_date_stamps(tmp_path, form, mark, name):

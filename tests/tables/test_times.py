@@ -75,6 +75,11 @@ def test_the_order_of_a_date_is_the_one_that_is_stated_or_even():
     assert seconds_since_start([stamp("31/31/2024 00:00:00")] * 2) is None
 
 
+def test_minutes_and_seconds_need_a_fraction():
+    found = [stamp(f"{59 + i // 60}:{i % 60:02d}.5") for i in range(120)]
+    np.testing.assert_array_equal(seconds_since_start(found), np.arange(120.0))
+
+
 @pytest.mark.parametrize("text", ["1.234", "20.5.3", "1-2-3", "25:00:00", "12:00", "-1.5", "X", ""])
 def test_what_is_no_stamp(text):
     assert stamp(text) is None

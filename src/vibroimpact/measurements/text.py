@@ -13,7 +13,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.measurements.beside import with_unit
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.names import QUANTITIES, meaning
-from vibroimpact.measurements.scaling import agreed
+from vibroimpact.measurements.scaling import agreed, doubtful
 from vibroimpact.measurements.stated import kind_of
 from vibroimpact.model.quantities import ACCELERATION
 from vibroimpact.tables.checks import check_count, sampling
@@ -125,14 +125,35 @@ def _in_stated_unit(
         if kind_of(key)[0] == "unit" and kind_of(key)[1] in _OF_VALUES
         and kind_of(key)[1] not in said and is_acceleration(text.partition(" ")[0].strip(".,;"))
     ]  # fmt: skip
-    free = [one for one in columns if stated and _may_accelerate(one, stated[0])]
-    if not free:
+    if not stated:
         return columns, said
-    unit, doubt = agreed(*stated)
-    return [
-        one._replace(unit=unit, doubt=doubt) if any(one is each for each in free) else one
+    found = [
+        _in_unit(one, stated) if one.unit is None else _compared(one, table.statements.units)
         for one in columns
-    ], {key: text for key, text in said.items() if key not in used}
+    ]
+    if not any(one is not each for one, each in zip(found, columns, strict=True)):
+        return columns, said
+    return found, {key: text for key, text in said.items() if key not in used}
+
+
+def _in_unit(column: Column, stated: list[str]) -> Column:
+    """Return a column without a unit, with the stated one if it may hold accelerations."""
+    if not _may_accelerate(column, stated[0]):
+        return column
+    unit, doubt = agreed(*stated)
+    return column._replace(unit=unit, doubt=doubt)
+
+
+def _compared(column: Column, stated: tuple[str, ...]) -> Column:
+    """Return a column with a unit, and with a doubt if another one is stated of accelerations."""
+    of_acceleration = _quantity(column.name, column.unit) is ACCELERATION
+    _, doubt = agreed(column.unit, *filter(is_acceleration, stated))
+    return doubtful(column, doubt) if doubt and of_acceleration else column
+
+
+def _quantity(name: str, unit: str | None) -> object:
+    known = meaning(name, unit)
+    return QUANTITIES.get(known.variable) if known else None
 
 
 def _may_accelerate(column: Column, unit: str) -> bool:

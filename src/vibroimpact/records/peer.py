@@ -23,6 +23,8 @@ _COUNT = re.compile(r"NPTS\s*=\s*(\d+)", re.IGNORECASE)
 _STEP = re.compile(rf"\bDT\s*=\s*{_NUMBER}", re.IGNORECASE)
 _BEFORE = re.compile(rf"^\s*(\d+)\s+{_NUMBER}\s+NPTS\s*,\s*DT", re.IGNORECASE)
 _NAMED = re.compile(r"\bNPTS\b", re.IGNORECASE)
+_OF_PEER = re.compile(r"\bNPTS\s*[=,]", re.IGNORECASE)
+_COMMENT = re.compile(r"\s*(?:[#%!]|//)")
 _SEARCHED = 12
 
 
@@ -40,7 +42,7 @@ def recognises(file: File) -> bool:
     It is no comment, and no further line of words follows it.
     """
     at = _announced(file)
-    if at is None or file.lines[at].lstrip().startswith(("#", "%", "!", "//")):
+    if at is None or not _OF_PEER.search(line := file.lines[at]) or _COMMENT.match(line):
         return False
     behind = next((line for line in file.lines[at + 1 :] if line.strip()), "")
     return not re.search(r"(?i)[a-z]*[a-df-z][a-z]{2}", behind.lower().replace("nan", ""))

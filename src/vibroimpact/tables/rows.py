@@ -22,6 +22,7 @@ _NUMBER = re.compile(
     r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?|inf(?:inity)?)", re.IGNORECASE
 )
 
+_TOUCHING = re.compile(r"(?<=\d)(?=[-+]\d*\.\d)")
 _LONGEST = 60
 """Largest number of characters of a number."""
 
@@ -216,6 +217,8 @@ def _cells(line: str, delimiter: str | None, decimal: Decimal) -> list[str]:
     """The cells of a line. Blanks within a cell separate numbers, too."""
     if delimiter is None:
         bare = line.replace('"', " ").replace("'", " ").strip(" \t,")
+        if ":" not in bare:  # numbers of fixed width touch each other where they are negative
+            bare = _TOUCHING.sub(" ", bare)
         return _joined(re.split(r"\s*,\s*|\s+" if decimal == "." else r"\s+", bare))
     if '"' in line or "'" in line:
         try:

@@ -111,6 +111,9 @@ def read_table(file: File) -> Table:
     numbers = [[rows.number(cell) for cell in row] for row in cells]
     has_names = head is not None and any(head.names)
     plain = all(one is not None and not math.isnan(one) for row in numbers for one in row)
+    if plain and head is not None and width > 2 and _repeat(head.names):
+        statements = statements._replace(hints=(*_units_of(head.units[1]), *statements.hints))
+        has_names = False
     arrangement: Arrangement = "columns"
     if not has_names and plain:
         values = [[one for one in row if one is not None] for row in numbers]
@@ -145,6 +148,16 @@ def read_table(file: File) -> Table:
         stamps,
         rows.decimal,
     )
+
+
+def _repeat(names: list[str]) -> bool:
+    """Return whether names are those of a time and a value, again and again."""
+    again = len(names) % 2 == 0 and all(name == names[i % 2] for i, name in enumerate(names))
+    return again and is_time(names[0]) and not is_time(names[1])
+
+
+def _units_of(units: Units) -> tuple[str, ...]:
+    return (units.unit,) if units.unit else ()
 
 
 def _without_empty_end(cells: list[list[str]]) -> list[list[str]]:

@@ -77,14 +77,15 @@ def _digit(times: _Array) -> float:
 
 
 _CLOCK = (
-    r"(?P<h>\d{1,2}):(?P<m>\d{2}):(?P<s>\d{2})(?:[.,](?P<f>\d{1,9}))?\s*(?P<half>[AaPp]\.?[Mm]\.?)?"
+    r"(?:(?P<h>\d{1,2}):)?(?P<m>\d{1,3}):(?P<s>\d{2})(?:(?:[.,]|(?<=\d:\d\d:\d\d):)(?P<f>\d{1,9}))?"
+    r"\s*(?P<half>[AaPp]\.?[Mm]\.?)?"
 )
 _DATE = r"(?P<a>\d{1,4})(?P<mark>[-/.])(?P<b>\d{1,2})(?P=mark)(?P<c>\d{1,4})"
 _ZONE = r"(?:\s*(?P<zone>Z|UTC|[+-]\d{2}:?\d{2}))?"
 _STAMP = re.compile(rf"\s*(?:{_DATE})?(?:[T_,;-]|\s+|(?<=\d)\.(?=\d+:))?\s*(?:{_CLOCK})?{_ZONE}\s*")
 STAMPS = re.compile(
     r"(?<![\d.,:-])(?:\d{1,4}([-/.])\d{1,2}\1\d{1,4}(?:[T_ -]+\d{1,2}:\d{2}:\d{2}(?:[.,]\d+)?)?"
-    r"|\d{1,2}:\d{2}:\d{2}(?:[.,]\d+)?)"
+    r"|\d{1,3}:\d{2}(?::\d{2})?(?:[.,]\d+)?)"
 )
 """Dates and times of day within a line."""
 _LONGEST = 60
@@ -110,7 +111,7 @@ class Stamp(NamedTuple):
 def stamp(text: str) -> Stamp | None:
     """Read a date, a time of day or both, or return None."""
     found = _STAMP.fullmatch(text) if len(text) <= _LONGEST else None
-    if found is None or not (found["a"] or found["h"]):
+    if found is None or not (found["a"] or found["m"]):
         return None
     date = None
     if found["a"]:
@@ -122,11 +123,13 @@ def stamp(text: str) -> Stamp | None:
         elif {len(found["a"]), len(found["c"])} - {1, 2, 4}:
             return None
     seconds = None
-    if found["h"]:
-        hours, minutes, secs = int(found["h"]), int(found["m"]), int(found["s"])
+    if found["m"]:
+        if not found["h"] and (date or not found["f"]):
+            return None  # 12:30 may be hours and minutes, or minutes and seconds
+        hours, minutes, secs = int(found["h"] or 0), int(found["m"]), int(found["s"])
         if half := found["half"]:
             hours = hours % 12 + (12 if half.lower().startswith("p") else 0)
-        if hours > 23 or minutes > 59 or secs > 60:
+        if hours > 23 or (minutes > 59 and found["h"]) or secs > 60:
             return None
         seconds = 3600.0 * hours + 60.0 * minutes + secs
     zone = 0
