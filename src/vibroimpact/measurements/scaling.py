@@ -7,7 +7,6 @@ doubt.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
 from vibroimpact.errors import shown
@@ -47,11 +46,6 @@ def completed(table: Columns) -> Columns:
         number = next((key for key in said if _plain(key) == about and about), None)
         if "unit" in kind and number is not None:
             said[number] = with_unit(said[number], text)
-            continue
-        listed = [part for part in re.split(r"[,;\s]+", text) if part]
-        of_each = kind == "unit" and not about and len(listed) == len(columns) > 1
-        if of_each and table.lines is not None:  # of a text file, whose columns have an order
-            columns = [_with(c, kind, name, u) for c, u in zip(columns, listed, strict=True)]
             continue
         if kind == "time_unit" and not _named(columns, about):
             steps = [key for key in said if is_sampling(key)]

@@ -18,7 +18,7 @@ from vibroimpact.measurements.stated import kind_of
 from vibroimpact.model.quantities import ACCELERATION
 from vibroimpact.tables.checks import check_count, sampling
 from vibroimpact.tables.file import File
-from vibroimpact.tables.headings import entry
+from vibroimpact.tables.headings import entry, listed_units
 from vibroimpact.tables.rows import Heading, cut_heading
 from vibroimpact.tables.table import Table, read_table
 from vibroimpact.tables.times import IN_A_SECOND
@@ -56,8 +56,8 @@ def read(file: File) -> list[Columns]:
         if i == table.stamps and _variable(bare) != "time":
             bare = "time"
         of_name = unit_of(column.name)
-        below = column.units.other if own else column.units.unit
-        unit, doubt = agreed(own, None if not own and below == of_name else below)
+        below = None if own or column.units.unit == of_name else column.units.unit
+        unit, doubt = agreed(own, below, column.units.other)
         columns.append(Column(bare, unit, column.values, doubt=doubt))
     columns, said = _in_stated_unit(table, columns, said)
     found = Columns(file.path, tuple(columns), said, table.lines + 1, table.notes)
@@ -72,7 +72,8 @@ def _variable(name: str) -> str | None:
 def _entries(table: Table) -> dict[str, str]:
     """The entries above and beside the table, by their names. Comments take precedence.
 
-    Counts and durations of time histories, which are compared with the values, are left out.
+    Counts and durations of time histories, which are compared with the values, are left out, and a
+    list of units, which the columns have.
     """
     stated = table.statements
     of_time = all(_variable(parted(one.name)[0]) != "frequency" for one in table.columns)
@@ -80,7 +81,7 @@ def _entries(table: Table) -> dict[str, str]:
     said: dict[str, str] = {}
     for line in sorted(table.headings, key=lambda one: not one.is_comment):
         pair = _said(line, table.decimal)
-        if pair is None or line.at in checked:
+        if pair is None or line.at in checked or listed_units([line], len(table.columns)):
             continue
         if line.is_comment:
             said[pair[0]] = pair[1]

@@ -23,6 +23,8 @@ _NUMBER = re.compile(
 )
 
 _TOUCHING = re.compile(r"(?<=\d)(?=[-+]\d*\.\d)")
+_SOME = 400
+"""Number of lines that show the separator."""
 _LONGEST = 60
 """Largest number of characters of a number."""
 
@@ -59,6 +61,13 @@ class Rows(NamedTuple):
 
 def number_in(cell: str, decimal: Decimal) -> float | None:
     """Return the number in a cell, NaN for a missing value, or None for a word."""
+    try:  # as nearly always
+        found = float(cell)
+    except ValueError:
+        pass
+    else:
+        if "_" not in cell:
+            return found
     cell = cell.strip()
     if cell.lower() in ABSENT:
         return float("nan")
@@ -88,9 +97,8 @@ def split_rows(file: File) -> Rows:
     if not texts:
         raise InputError(f"{where} is empty and has no numbers; pass a file with number columns")
     plain = [line for _, line in texts if not line.lstrip().startswith(_COMMENT)]
-    stampless = [STAMPS.sub("0", line) for line in plain]
-    mark = file.decimal or decimal_mark(stampless, where)
-    delimiter = _delimiter(stampless, mark)
+    mark = file.decimal or decimal_mark((STAMPS.sub("0", line) for line in plain), where)
+    delimiter = _delimiter([STAMPS.sub("0", line) for line in plain[-_SOME:]], mark)
     # Between semicolons or tabs, a comma in a number is a decimal comma.
     decimal: Decimal = file.decimal or ("," if delimiter in (";", "\t") else mark)
     headings: list[Heading] = []
@@ -103,7 +111,9 @@ def split_rows(file: File) -> Rows:
         elif _END.fullmatch(bare):
             ends.append(at)
         else:
-            found.append((at, _cells(_BEHIND.sub("", line), delimiter, decimal)))
+            if "#" in line or "!" in line:
+                line = _BEHIND.sub("", line)
+            found.append((at, _cells(line, delimiter, decimal)))
     rows = _rows(found, decimal)
     if not rows:
         raise InputError(
@@ -136,12 +146,14 @@ def _words(cells: list[str], decimal: Decimal) -> int | None:
     """How many words a row has; None if it has no number, or fewer numbers than words but one."""
     known = words = 0
     for cell in cells:
-        if cell.lower() in ABSENT:
-            continue
-        if number_in(cell, decimal) is not None or stamp(cell):
+        number = number_in(cell, decimal)
+        if number is not None and number == number:
             known += 1
-        else:
-            words += 1
+        elif number is None:
+            if stamp(cell):
+                known += 1
+            else:
+                words += 1
     return words if known >= max(1, words - 1) else None
 
 
@@ -203,7 +215,6 @@ def _body(
 def _delimiter(lines: list[str], decimal: Decimal) -> str | None:
     """Return the separator of most lines with numbers, or None for blanks."""
     some = [line for line in lines if re.search(r"\d", line)]
-    some = some[-400:]
     for mark in (";", "\t"):
         if 2 * sum(mark in line.strip() for line in some) > len(some):
             return mark
@@ -231,9 +242,12 @@ def _cells(line: str, delimiter: str | None, decimal: Decimal) -> list[str]:
     found: list[str] = []
     for cell in cells:
         bare = cell.strip()
-        parts = bare.split()
-        split = len(parts) > 1 and all(number_in(part, decimal) is not None for part in parts)
-        found += parts if split else [bare]
+        if " " in bare or "\t" in bare:
+            parts = bare.split()
+            if all(number_in(part, decimal) is not None for part in parts):
+                found += parts
+                continue
+        found.append(bare)
     return found
 
 

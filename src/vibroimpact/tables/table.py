@@ -128,7 +128,7 @@ def read_table(file: File) -> Table:
         found = [
             Column(
                 name,
-                Units(listed[i]) if listed and units.unit is None else units,
+                _with_listed(units, listed[i]) if listed else units,
                 _values(file, name, [row[i] for row in cells], [row[i] for row in numbers], lines),
             )
             for i, (name, units) in enumerate(zip(head.names, head.units, strict=True))
@@ -148,6 +148,13 @@ def read_table(file: File) -> Table:
         stamps,
         rows.decimal,
     )
+
+
+def _with_listed(units: Units, listed: str) -> Units:
+    """Return the units of a column with that of a list of units above the table."""
+    if units.unit is None:
+        return Units(listed)
+    return units if units.other else units._replace(other=listed)
 
 
 def _repeat(names: list[str]) -> bool:
