@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -219,6 +220,11 @@ def test_the_usual_chart_of_records_on_the_command_line(run, study):
     code, told, _ = run("rig.toml", "a.csv", "--scale", "0.5", "--figure", "svg")
     assert code == 0
     assert "Designs: 14 × 13, over gap and bumper stiffness" in " ".join(told.split())
+    words = " ".join(told.split())
+    front = int(re.search(r"(\d+) (?:is|are) not dominated by another", words)[1])
+    rows = [line for line in told.splitlines() if re.search(r"mm .* g .* [kM]?N$", line.rstrip())]
+    assert len(rows) == min(front, 8)
+    assert (f"8 of the {front} designs that are not dominated:" in told) == (front > 8)
     half = RECORDS["a.csv"].scaled(0.5)
     need = 1e3 * float(vi.required_gap(_rig(), records=half)["required_gap"])
     assert f"Required gap: {need:.4g} mm for no contact under a.csv" in " ".join(told.split())

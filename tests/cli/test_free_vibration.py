@@ -89,11 +89,11 @@ def test_other_commands_need_a_shaking(run, command):
     words = ("--frequency", "2") if command in ("motion", "basins") else ()
     code, _, errors = run(command, SPRING, *words)
     assert code == 2
-    assert "no amplitude; pass --amplitude" in errors
+    assert "excitation.amplitude: missing; set it in the study" in errors
     assert "use vibroimpact simulate" in errors
     code, _, errors = run(command, SPRING, "--amplitude", "0 mm", *words)
     assert code == 2
-    assert "--amplitude: 0; pass --amplitude" in errors
+    assert "--amplitude: 0; set it in the study, or pass --amplitude" in errors
 
 
 def test_a_rig_of_python_that_nothing_shakes():

@@ -126,7 +126,7 @@ def test_all_unknown_keys_are_named_and_no_class_of_python(write):
 
 def test_numbers_that_count_something(write):
     for line in ("[sweep]\nmax_cycles = 0", "[simulate]\nsamples = 0"):
-        with pytest.raises(vi.InputError, match=r"(max_cycles|samples): 0 is invalid: .* 1"):
+        with pytest.raises(vi.InputError, match=r"(max_cycles|samples): 0 is less than 1$"):
             read_study(write('case = "B2-G1-A3"\n' + line))
 
 
@@ -172,8 +172,8 @@ def test_a_study_needs_no_ending(write):
         ('case = "B2-G1-A3"' + RIG, r"both case and oscillator are given; remove one of them"),
         ('name = "x"', r"neither case nor oscillator is given; add case"),
         ('case = "B9-G1-A3"', r"study .*bumper 'B9' is unknown"),
-        ('case = "B2-G1-A3"\n[sweep]\ndirection = "up"', r"sweep.direction: 'up' is invalid"),
-        ('case = "B2-G1-A3"\n[sweep]\nfrequencies = 1', r"sweep.frequencies: 1 is invalid"),
+        ('case = "B2-G1-A3"\n[sweep]\ndirection = "up"', r"sweep.direction: 'up' is unknown"),
+        ('case = "B2-G1-A3"\n[sweep]\nfrequencies = 1', r"sweep.frequencies: 1 is not a list"),
         (
             'case = "B2-G1-A3"\n[sweep]\nfrequencies = [1]\nto = 2',
             r"sweep: the list 'frequencies' is given together with 'from', 'to' or 'step'; remove "

@@ -140,3 +140,24 @@ def test_file_names_are_completed(tmp_path, script, words, completed):
         text=True,
     )
     assert done.stdout.split() == [completed], done.stderr
+
+
+@pytest.mark.parametrize("words", [("--vary", "gap=5mm:9mm:3"), ("--vary=gap=5mm:9mm:3",)])
+def test_a_name_and_a_value_are_two_words(refused, words):
+    assert refused("design", CASE, *words).startswith(
+        "--vary: 'gap=5mm:9mm:3' is one word; write the name and the value as two words: "
+        "--vary gap 5mm:9mm:3"
+    )
+    assert refused("design", CASE, "--limit", "peak-force").startswith(
+        "--limit: a name and a value are required, as two words"
+    )
+
+
+@pytest.mark.parametrize("command", ["sweep", "design", "earthquake"])
+def test_titles_of_the_help_fit_into_80_columns(command, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    assert main([command, "--help"]) == 0
+    titles = [line for line in capsys.readouterr().out.splitlines() if line.startswith("╭")]
+    assert len(titles) > 3
+    assert all(line.endswith((" ─╮", "──╮")) for line in titles)
+    assert any(line.startswith("╭─ Rig (default of each option: ") for line in titles)

@@ -49,6 +49,25 @@ def test_two_components_and_one_damping():
     np.testing.assert_array_equal(ax.lines[3].get_ydata(), expected)
 
 
+def test_spectra_of_several_records_by_name():
+    first, second = (vi.response_spectrum(RECORD.scaled(k), PERIODS, [0.02, 0.05]) for k in (1, 2))
+    ax = response_spectra({"one": first, "two": second})
+    assert [line.get_label() for line in ax.lines] == [
+        *("one, $\\zeta$ = 0.02", "one, $\\zeta$ = 0.05"),
+        *("two, $\\zeta$ = 0.02", "two, $\\zeta$ = 0.05"),
+    ]
+    assert [line.get_color() for line in ax.lines] == ["black", "black", "#c8102e", "#c8102e"]
+    assert len({line.get_linestyle() for line in ax.lines}) == 2
+    expected = second["pseudo_acceleration"].isel(damping_ratio=1).values[1:]
+    np.testing.assert_array_equal(ax.lines[3].get_ydata(), expected)
+    with pytest.raises(vi.InputError, match=r"^spectrum\['one'\]: this is a Record; pass"):
+        response_spectra({"one": RECORD})
+    with pytest.raises(vi.InputError, match=r"^spectrum: empty; pass"):
+        response_spectra({})
+    with pytest.raises(vi.InputError, match=r"^record: a mapping of records; call response_spec"):
+        vi.response_spectrum({"one": RECORD}, PERIODS)
+
+
 def test_what_is_refused():
     spectrum = vi.response_spectrum(RECORD, PERIODS)
     with pytest.raises(vi.InputError, match=r"^record: an object of type ndarray; pass a Record"):

@@ -9,6 +9,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.cli import main
+from vibroimpact.errors import InputError
 from vibroimpact.model.parameters import PARAMETERS, parameter, read_span
 from vibroimpact.model.varied import vary_all
 from vibroimpact.scenarios.axes import NAMES
@@ -214,3 +215,40 @@ def test_a_stiffness_at_restitution_is_that_of_bumpers_made_by_it():
     for order in (pairs, pairs[::-1]):
         rig = vary_all(vi.Rig(begun, SHAKEN), order).oscillator
         assert (rig.right.stiffness, rig.right.damping) == (8e4, 700.0)
+
+
+@pytest.mark.parametrize(
+    ("symbol", "name"),
+    [
+        ("omega", "'frequency'"),
+        ("ω", "'frequency'"),
+        ("F0", "'amplitude'"),
+        ("A", "'amplitude'"),
+        ("force_amplitude", "'amplitude'"),
+        ("k", "'bumper_stiffness'"),
+        ("xi", "'damping_ratio'"),
+        ("delta0", "'gap_ratio'"),
+        ("λ", "'stiffness_ratio'"),
+        ("e", "'restitution'"),
+    ],
+)
+def test_a_symbol_leads_to_its_parameter(symbol, name):
+    with pytest.raises(InputError) as caught:
+        parameter(symbol)
+    assert str(caught.value).startswith(f"parameter: {symbol!r} is not a name of a parameter; use")
+    assert name in str(caught.value)
+    assert name.strip("'") in PARAMETERS
+
+
+def test_a_wrong_parameter_is_reported_before_a_missing_frequency():
+    rig = vi.Rig(vi.laboratory.case("B2-G1-A3").oscillator, "0.05 g")
+    for call in (
+        lambda: vi.bifurcation_diagram(rig, "omega", (1, 2)),
+        lambda: vi.branch(rig, parameter="omega", span=(1, 2)),
+        lambda: vi.basin_stability(rig, parameter="omega", values=[1, 2]),
+        lambda: vi.bifurcation_curve(
+            rig, None, parameters=("gap", "omega"), spans=((1, 2), (1, 2))
+        ),
+    ):
+        with pytest.raises(InputError, match=r"^parameters?: 'omega' is not a name"):
+            call()

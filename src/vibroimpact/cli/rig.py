@@ -168,11 +168,11 @@ def subject(
     if shaking is None and unshaken:
         shaking = Rig(oscillator).vibrating_freely().periodic
     if shaking is None:
-        where = "--amplitude: 0" if options.amplitude else f"study {text!r}: no amplitude"
+        where = f"study {text!r}: excitation.amplitude: missing"
         raise InputError(
-            f"{where}; pass --amplitude, such as 0.05g (acceleration), 2mm (displacement) or 500N "
-            "(force), or set excitation.amplitude in the study; for a free vibration, use "
-            "vibroimpact simulate"
+            f"{'--amplitude: 0' if options.amplitude else where}; set it in the study, or pass "
+            "--amplitude, such as 0.05g (acceleration), 2mm (displacement) or 500N (force); for a "
+            "free vibration, use vibroimpact simulate"
         )
     made = changes(options, rig_of, oscillator)
     what = Subject(
@@ -205,7 +205,7 @@ def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated | No
     if isinstance(shaking, Periodic):
         size, _ = sized(amplitude, shaking.of, "--amplitude")
         return shaking.replace(amplitude=size) if size else None
-    if is_nothing(amplitude, "--amplitude"):
+    if is_nothing(amplitude):
         return None
     found, _ = as_periodic(amplitude, "--amplitude")
     return found if shaking is None else found.replace(phase=shaking.phase)

@@ -72,7 +72,7 @@ def response_spectra(
         )
     ax = axes_or_new(ax, (5.6, 3.6), title)
     # Colours tell records or orientations apart, and dashes the rest; alone, both change together.
-    groups = [(name, str(curve.coords.get("orientation", ""))) for name, curve in every]
+    groups = [(name, _orientation(curve)) for name, curve in every]
     numbers = {group: number for number, group in enumerate(dict.fromkeys(groups))}
     grouped = len(numbers) > 1
     periods = np.concatenate([one["natural_period"].values for one in given.values()])
@@ -116,6 +116,10 @@ def _named(spectrum: Any) -> dict[str, xr.Dataset]:
                 "response_spectrum with at least two periods"
             )
     return given
+
+
+def _orientation(curve: xr.DataArray) -> str:
+    return str(curve["orientation"].values) if "orientation" in curve.coords else ""
 
 
 def _curves(values: xr.DataArray) -> list[xr.DataArray]:

@@ -107,7 +107,7 @@ class Rig:
         own: float | None = None
         if isinstance(shaking, Harmonic | Periodic):
             own = shaking.frequency
-        elif is_nothing(shaking, "shaking"):
+        elif is_nothing(shaking):
             shaking = None
         elif shaking is not None and not isinstance(shaking, Record):
             shaking, amplitudes = as_periodic(shaking, "shaking")
@@ -348,17 +348,14 @@ class Rig:
         return "open" if self.shaking is None else str(self.shaking)
 
 
-def is_nothing(shaking: object, where: str) -> bool:
-    """Return whether a shaking is an amplitude of 0, such as ``"0 g"``, so that nothing shakes.
-
-    Raises
-    ------
-    InputError
-        If it is a text or a number, but not a valid amplitude.
-    """
+def is_nothing(shaking: object) -> bool:
+    """Return whether a shaking is an amplitude of 0, such as ``"0 g"``, so that nothing shakes."""
     if not isinstance(shaking, str | float | int) or isinstance(shaking, bool):
         return False
-    return sized(shaking, None, where)[0] == 0.0
+    try:
+        return sized(shaking, None, "shaking")[0] == 0.0
+    except InputError:  # reported where it is read
+        return False
 
 
 def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] | None]:

@@ -86,7 +86,7 @@ class ExcitationTable(Model):
             )
         if self.amplitudes is not None:
             return Periodic(1.0, self.amplitudes, self.phases, self.phase)
-        if self.amplitude is None or is_nothing(self.amplitude, "amplitude"):
+        if self.amplitude is None or is_nothing(self.amplitude):
             return None
         shaken, _ = as_periodic(self.amplitude, "amplitude")
         return shaken.replace(phase=self.phase)
