@@ -380,7 +380,7 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
     if value is None:
         raise InputError(
             f"{where}: missing, and the rig has no shaking; pass an acceleration greater than 0, "
-            'such as "0.05 g", or a displacement or a force'
+            'such as "0.05 g", or a displacement, a force or an unbalance'
         )
     if isinstance(value, Harmonic | Periodic):
         if value.amplitude == 0.0:

@@ -33,7 +33,8 @@ _DEEP = f"nests tables or lists more than {_DEEPEST} levels deep; use fewer leve
 class ExcitationTable(Model):
     """Table ``[excitation]``: the periodic shaking without its frequency, or the file of a record.
 
-    The unit of an amplitude determines whether it is an acceleration, a displacement or a force.
+    The unit of an amplitude determines whether it is an acceleration, a displacement, a force or an
+    unbalance.
     The path of a record is relative to the study file. `component` is required if its file has
     several components. `step` (s), `unit` and `decimal` are required if the file does not state
     them. The unit may be a unit of length.
