@@ -80,3 +80,11 @@ def test_refused(run, words, told_of):
     code, out, errors = run(*words)
     assert (code, out) == (2, "")
     assert errors.startswith(f"vibroimpact: error: {told_of}")
+
+
+def test_own_outputs_are_computed(run, tmp_path):
+    words = ("B2-G1-A3", "--from", "2Hz", "--to", "2.2Hz", "--steps", "2", "--direction", "up")
+    code, _, errors = run(*words, "--compute", "top [m/s] = max(abs(velocity))")
+    assert (code, errors) == (0, "")
+    data = vi.load(tmp_path / "out/B2-G1-A3-frequency-diagram.nc")
+    assert float(data["top"].min()) > 0.05

@@ -401,3 +401,14 @@ def test_help_names_every_parameter() -> None:
 
     every = [name.replace("_", "-") for name in PARAMETERS]
     assert sorted(", ".join(TOLD.values()).split(", ")) == sorted(every)
+
+
+def test_own_outputs_have_a_figure_each(run, tmp_path):
+    span = ("--from", "2.4Hz", "--to", "2.6Hz", "--start", "8mm,0mm/s", "--frequency", "2.5Hz")
+    power = ("--compute", "power [W] = mean(damping*velocity**2)")
+    code, _, errors = run("B2-G1-A3", *span, *power)
+    assert (code, errors) == (0, "")
+    names = {p.name for p in (tmp_path / "out").iterdir()}
+    assert "B2-G1-A3-frequency-branches-power.png" in names
+    data = vi.load(tmp_path / "out/B2-G1-A3-frequency-branches.nc")
+    assert float(data["power"].min()) > 0.0

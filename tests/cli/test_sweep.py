@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -235,3 +236,24 @@ def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
     data = vi.load(tmp_path / "out/quay-sweep.nc")
     assert float(data["impacts_right"].max()) >= 1.0
     assert float(data["displacement_max"].max()) == pytest.approx(5e-3, rel=1e-12)
+
+
+def test_own_outputs_are_computed_printed_and_drawn(run, tmp_path):
+    power = "power [W] = mean(damping*velocity**2)"
+    words = ("B2-G1-A3", "--frequencies", "1.5Hz,2Hz", "--compute", power)
+    code, out, errors = run(*words, "--compute", "touch=mean(abs(contact) > 0)")
+    assert (code, errors) == (0, "")
+    assert re.search(r"^power +9\.\d+ W +at 2 Hz", out, re.M)
+    data = vi.load(tmp_path / "out/B2-G1-A3-sweep.nc")
+    assert data["power"].attrs["units"] == "W"
+    assert data["touch"].attrs["output"] == "mean(abs(contact) > 0)"
+    for given, message in (
+        ("power", "--compute: 'power' is not a name with a formula"),
+        ("power=velocity", "--compute['power']: 'velocity' is a time history"),
+        ("power=max(velocty)", "--compute['power']: 'velocty' is neither"),
+    ):
+        code, _, errors = run("B2-G1-A3", "--frequencies", "2Hz", "--compute", given)
+        assert code == 2
+        assert message in errors
+    code, _, errors = run(*words, "--compute", power)
+    assert (code, "'power' is given twice" in errors) == (2, True)

@@ -10,7 +10,7 @@ import xarray as xr
 from rich.console import RenderableType
 from rich.table import Table
 
-from vibroimpact.datasets.description import base_at_rest
+from vibroimpact.datasets.description import base_at_rest, own_outputs
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DIMENSIONLESS,
@@ -19,7 +19,7 @@ from vibroimpact.model.quantities import (
     LENGTH,
     Quantity,
 )
-from vibroimpact.model.units import forcing, pretty
+from vibroimpact.model.units import forcing, plain, pretty
 
 _DIGITS = 4
 _SAME = 1e-9
@@ -44,18 +44,20 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     """The largest of each over all holds, in SI units, and where; of stops that are touched.
 
     Under a force on the mass, the force transmitted to the base and its ratio to that force are
-    added. A rigid stop that is struck has an impulse, and no finite force.
+    added. A rigid stop that is struck has an impulse, and no finite force. Own outputs have their
+    names.
     """
     found: dict[str, Any] = {}
     still = base_at_rest(data)
-    for name, (_, variable, sign, _) in _ROWS.items():
-        if name in _UNDER_A_FORCE and not still:
-            continue
+    rows = {name: row[1:3] for name, row in _ROWS.items() if still or name not in _UNDER_A_FORCE}
+    own = own_outputs(data)
+    rows |= {name: (name, 1.0) for name in own}
+    for name, (variable, sign) in rows.items():
         values = sign * data[variable].transpose("direction", "frequency").values
         if np.isnan(values).all():
             continue
         most = float(np.nanmax(values))
-        if name.startswith(("force", "impulse")) and not 0.0 < most < math.inf:
+        if name not in own and name.startswith(("force", "impulse")) and not 0.0 < most < math.inf:
             continue
         # Of sweeps that agree to rounding the forward one is named.
         d, f = np.unravel_index(np.argmax(values >= most - _SAME * abs(most)), values.shape)
@@ -82,7 +84,12 @@ def text(data: xr.Dataset) -> RenderableType:
     table.add_column(justify="right")
     table.add_column()
     for name, one in facts(data).items():
-        words, _, _, quantity = _ROWS[name]
-        where = f"at {forcing(one['frequency'])}, {one['direction']}"
-        table.add_row(words, pretty(one["value"], quantity, _DIGITS), where)
+        if name in _ROWS:
+            words, _, _, quantity = _ROWS[name]
+            size = pretty(one["value"], quantity, _DIGITS)
+        else:
+            about = data[name].attrs
+            words, units = about["long_name"], about["units"].removeprefix("1")
+            size = f"{plain(one['value'], _DIGITS)} {units}".strip()
+        table.add_row(words, size, f"at {forcing(one['frequency'])}, {one['direction']}")
     return table

@@ -29,6 +29,7 @@ HISTORIES = (
     "acceleration",
     "base_acceleration",
     "applied_force",
+    "transmitted_force",
     "right_bumper",
     "left_bumper",
     "right_clearance",

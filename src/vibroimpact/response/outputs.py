@@ -55,6 +55,7 @@ class Output:
     >>> power = vi.Output("mean(damping*velocity**2)", units="W", long_name="mean power")
     >>> swept = vi.sweep("B2-G1-A3", [2.0], "forward", outputs={"power": power})
     >>> round(float(swept["power"][0, 0]), 2)
+    9.14
     """
 
     function: str | Callable[[xr.Dataset], float]

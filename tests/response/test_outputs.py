@@ -1,0 +1,210 @@
+"""Own outputs: formulas and functions of one period of each motion."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import vibroimpact as vi
+from vibroimpact import figures
+from vibroimpact.response.output_formula import HISTORIES, read_output_formula
+
+RIG = vi.laboratory.case("B2-G1-A3").rig
+FREE = vi.Rig(vi.Oscillator(2.0, vi.Isolator(50.0, 3.0)), 1.5)
+GRID = [0.7, 0.9, 1.3]
+POWER = vi.Output("mean(damping*velocity**2)", units="W", long_name="mean power of the dashpot")
+
+
+def top_speed(motion: xr.Dataset) -> float:
+    return float(np.abs(motion["velocity"]).max())
+
+
+def test_a_formula_of_free_flight_has_the_value_of_its_closed_form():
+    outputs = {
+        "power": POWER,
+        "fed": "mean(-mass*base_acceleration*velocity)",
+        "size": "rms(displacement)*sqrt(2)",
+        "work": "integral(damping*velocity**2)",
+        "up": "mean(displacement > 0)",
+        "least": "min(min(displacement, -1))",
+        "ratio": "2*pi*frequency*mass/damping",
+    }
+    data = vi.sweep(FREE, GRID, "forward", outputs=outputs).isel(direction=0)
+    omega = 2.0 * np.pi * np.array(GRID)
+    size = 1.5 / np.hypot(25.0 - omega**2, 1.5 * omega)
+    power = 3.0 * (omega * size) ** 2 / 2.0
+    np.testing.assert_allclose(data["size"], size, rtol=1e-9)
+    np.testing.assert_allclose(data["power"], power, rtol=1e-9)
+    np.testing.assert_allclose(data["fed"], power, rtol=1e-9)
+    np.testing.assert_allclose(data["work"], power / GRID, rtol=1e-9)
+    np.testing.assert_allclose(data["up"], 0.5, atol=2.0 / 256)
+    np.testing.assert_allclose(data["least"], -1.0)
+    np.testing.assert_allclose(data["ratio"], omega * 2.0 / 3.0)
+    assert data["power"].attrs["units"] == "W"
+    assert data["power"].attrs["long_name"] == "mean power of the dashpot"
+    assert data["fed"].attrs["long_name"] == "fed"
+    assert json.loads(data.attrs["parameters"])["outputs"]["power"] == POWER.function
+
+
+@pytest.mark.parametrize("where", ["threads", "processes"])
+def test_a_function_gets_one_period_wherever_it_runs(where):
+    factor = 2.0  # what a lambda refers to travels with it
+    data = vi.sweeps(
+        {"a": RIG, "b": "B3-10mm-A3"},
+        [1.5, 2.2],
+        outputs={"fast": lambda motion: factor * top_speed(motion), "top": "max(abs(velocity))"},
+        where=where,
+    )
+    np.testing.assert_allclose(data["fast"], 2.0 * data["top"])
+    one = data.sel(rig="a", direction="backward", frequency=2.2)
+    start = one["section"]
+    steady = vi.steady(RIG, start, frequency=2.2)
+    assert float(one["top"]) == pytest.approx(top_speed(steady), rel=1e-9)
+    assert data["fast"].dims == data["eta_d"].dims
+    assert data["fast"].attrs["output"] == "function <lambda>"
+
+
+def test_a_motion_that_does_not_settle_is_looked_at_over_the_window():
+    lengths = []
+
+    def length(motion: xr.Dataset) -> float:
+        lengths.append(float(motion["cycle"][-1]))
+        return lengths[-1]
+
+    chaotic = vi.sweep(
+        "B3-10mm-A3", [1.06], "forward", max_cycles=200, window=30, outputs={"length": length}
+    )
+    assert chaotic["motion"].item() == "undecided"
+    assert lengths == [30.0]
+    given_up = vi.sweep(RIG, [2.0], "forward", max_events=1, outputs={"top": "max(velocity)"})
+    assert np.isnan(given_up["top"]).all()
+
+
+def test_each_frequency_has_its_amplitude():
+    rig = vi.Rig(FREE.oscillator, [1.0, 2.0, 3.0])
+    data = vi.sweep(rig, GRID, "forward", outputs={"most": "max(abs(base_acceleration))"})
+    np.testing.assert_allclose(data["most"][0], [1.0, 2.0, 3.0], rtol=1e-9)
+
+
+def test_progress_counts_holds_and_then_their_outputs():
+    told = []
+    vi.sweep(FREE, GRID, outputs={"top": "max(velocity)"}, progress=lambda *n: told.append(n))
+    assert told[-1] == (12, 12)
+    assert told == sorted(told)
+
+
+def test_files_keep_outputs(tmp_path):
+    data = vi.sweep(FREE, GRID, outputs={"power": POWER})
+    again = vi.load(vi.save(data, tmp_path / "one.nc"))
+    xr.testing.assert_identical(again["power"], data["power"])
+    panels = figures.resonance_curves(again)
+    assert len(panels) == 3
+    assert panels[2].get_ylabel() == "mean power of the dashpot (W)"
+
+
+def test_a_bifurcation_diagram_has_outputs_and_draws_them():
+    data = vi.bifurcation_diagram(
+        "B3-10mm-A3", "frequency", (1.0, 1.3), 4, outputs={"power": POWER, "top": top_speed}
+    )
+    assert data["power"].dims == ("start", "frequency")
+    swept = vi.sweep("B3-10mm-A3", [1.3], "forward", outputs={"power": POWER})
+    last = data["power"].sel(start="up", frequency=1.3)
+    assert float(last) == pytest.approx(float(swept["power"][0, 0]), rel=1e-6)
+    panels = figures.section_diagram(data)
+    assert len(panels) == 5
+    assert "power" in panels[1].get_ylabel()
+    np.testing.assert_allclose(panels[1].lines[-1].get_ydata(), data["power"].sel(start="up"))
+
+
+@pytest.mark.parametrize("function", ["branch", "resonance_diagram"])
+def test_branches_have_outputs_of_orbits_and_bifurcations(function):
+    outputs = {"power": POWER}
+    if function == "branch":
+        data = vi.branch(RIG, frequency=2.0, span=(1.6, 2.8), outputs=outputs)
+    else:
+        data = vi.resonance_diagram(RIG, (2.4, 2.8), starts=3, random=0, outputs=outputs)
+    assert data["power"].dims == ("point",)
+    assert np.isfinite(data["power"]).all()
+    here = int(np.abs(data["frequency"].values - 2.45).argmin())
+    one = data.isel(point=here)
+    orbit = vi.orbit(RIG, one["section"], frequency=float(one["frequency"]))
+    speed = orbit["velocity"].values
+    damping = RIG.oscillator.isolator.damping
+    mean = damping * np.trapezoid(speed**2, orbit["time"]) * float(one["frequency"])
+    assert float(one["power"]) == pytest.approx(mean, rel=1e-9)
+    assert data["bifurcation_power"].attrs["units"] == "W"
+    assert np.isfinite(data["bifurcation_power"]).all()
+    ax = figures.branch_diagram(data, quantity="power")
+    assert ax.get_ylabel() == "mean power of the dashpot (W)"
+    with pytest.raises(vi.InputError, match=r"^sweep: it has no output 'power'"):
+        figures.branch_diagram(data, quantity="power", sweep=vi.sweep(RIG, [2.4, 2.5]))
+
+
+@pytest.mark.parametrize(
+    ("output", "message"),
+    [
+        ("", "it has 0 characters"),
+        ("max(velocty)", "'velocty' is neither a time history nor .* did you mean velocity"),
+        ("max(applied_force)", "'applied_force' is neither"),
+        ("max(friction*velocity)", "'friction' is neither"),
+        ("velocity", "'velocity' is a time history, not a number; apply max, min, mean"),
+        ("max(velocity", "cannot be read .*; a formula such as"),
+        ("velocity^2", r"\^ is not a power here; write \*\*"),
+        ("__import__('os')", "'__import__' is not a function that outputs accept"),
+        ("velocity.max()", "is not accepted"),
+        ("max(v for v in velocity)", "is not accepted"),
+        ("mean(1, 2)", "mean has one argument"),
+        ("mean('a')", "is not accepted"),
+        ("mean(True)", "is not accepted"),
+        (lambda motion: motion["velocity"], "the function returned .*; return one number"),
+        (lambda motion: "1", "the function returned '1'; return one number"),
+        (lambda motion: motion["nothing"], "the function failed at 0.9 Hz with KeyError"),
+        (3.0, "3.0 is neither a formula nor a function"),
+        (float, "is neither a formula nor a function"),
+    ],
+)
+def test_what_is_no_output(output, message):
+    with pytest.raises(vi.InputError, match=rf"^outputs\['mine'\]: .*{message}") as caught:
+        vi.sweep(FREE, [0.9], outputs={"mine": output})
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["eta_d", "period", "2x", "a b", "", "bifurcation_a", "point", 3])
+def test_what_is_no_name(name):
+    with pytest.raises(vi.InputError, match=r"^outputs"):
+        vi.sweep(FREE, [0.9], outputs={name: "max(velocity)"})
+
+
+def test_what_are_no_outputs():
+    with pytest.raises(vi.InputError, match=r"^outputs: .* is not a mapping"):
+        vi.sweep(FREE, [0.9], outputs="max(velocity)")
+    with pytest.raises(vi.InputError, match=r"^units: 3 is not a text"):
+        vi.Output("max(velocity)", units=3)
+
+
+def test_a_formula_has_the_names_that_a_motion_has():
+    for rig in (FREE, vi.Rig(FREE.oscillator, "2 N")):
+        motion = vi.simulate(rig, 1, frequency=1.0)
+        held = {name for name in motion.variables if motion[name].dims == ("time",)}
+        assert held - set(HISTORIES) == {"cycle"}
+
+
+def test_time_means_are_of_the_time_and_numbers_are_kept():
+    time = np.array([0.0, 1.0, 3.0])
+    known = ("velocity", "mass")
+
+    def value(text: str) -> float:
+        values = {"velocity": np.array([0.0, 2.0, 0.0]), "mass": 4.0}
+        return read_output_formula(text, known).value(time, values)
+
+    assert value("mean(velocity)") == pytest.approx(1.0)
+    assert value("integral(velocity)") == pytest.approx(3.0)
+    assert value("integral(mass)") == pytest.approx(12.0)
+    assert value("mean(mass)") == 4.0
+    assert value("max(max(velocity, 1))") == 2.0
+    assert value("-min(velocity) + 2**3") == 8.0
+    assert math.isnan(value("log(0*mass - 1)"))
