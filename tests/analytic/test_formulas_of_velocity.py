@@ -137,9 +137,7 @@ def test_a_stop_agrees_with_a_general_integrator(name: str) -> None:
     dashpot = 6.0 if "k" in formula else 60.0
     for ratio in (2.0, 4.0, 12.0, 60.0) if "b" in formula.replace("abs", "") else (1.0,):
         law, force = law_of(formula, ratio, FAST, 0.03, k=400.0, c=dashpot)
-        rig = vi.Rig(
-            vi.Oscillator(MASS, vi.Isolator(20.0, 0.3), law, law), vi.Harmonic(2.0, 0.5)
-        )
+        rig = vi.Rig(vi.Oscillator(MASS, vi.Isolator(20.0, 0.3), law, law), vi.Harmonic(2.0, 0.5))
         data = vi.simulate(rig, 1, start=vi.State(0.0, FAST))
         assert data.attrs["message"] == "done"
         known, fastest, contacts = followed(

@@ -125,9 +125,7 @@ class Law(Named):
         numbers = kept.pop("numbers", ())
         if not isinstance(numbers, tuple):  # which a law passes on; a user has no such argument
             raise _misnamed("numbers")
-        found: dict[str, tuple[float, Dimension]] = {
-            name: (value, None) for name, value in numbers
-        }
+        found: dict[str, tuple[float, Dimension]] = {name: (value, None) for name, value in numbers}
         for name, value in data.items():
             if name in ARGUMENTS:
                 continue
