@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import itertools
 import re
+import sys
 import warnings
 from collections.abc import Iterable
 
@@ -38,7 +39,7 @@ class InputWarning(UserWarning):
     """
 
 
-def warn_of_input(what: str, notes: Iterable[str], stacklevel: int = 3) -> None:
+def warn_of_input(what: str, notes: Iterable[str], stacklevel: int | None = 3) -> None:
     """Issue one `InputWarning` with all notes on one input.
 
     Parameters
@@ -48,10 +49,24 @@ def warn_of_input(what: str, notes: Iterable[str], stacklevel: int = 3) -> None:
     notes
         Assumptions and doubts about the input. Without notes, no warning is issued.
     stacklevel
-        As in `warnings.warn`. 3 selects the caller of the function that calls this function.
+        As in `warnings.warn`. 3 selects the caller of the function that calls this function. None
+        selects the code that uses the package.
     """
     if told := "; ".join(notes):
-        warnings.warn(f"{what}: {told}", InputWarning, stacklevel=stacklevel)
+        level = _outside() if stacklevel is None else stacklevel
+        warnings.warn(f"{what}: {told}", InputWarning, stacklevel=level)
+
+
+_INSIDE = ("vibroimpact", "pydantic")
+"""Packages whose frames no warning points to."""
+
+
+def _outside() -> int:
+    """Return the stacklevel, for the caller of this function, of the code that uses the package."""
+    frame, level = sys._getframe(1), 1
+    while frame.f_back is not None and frame.f_globals["__name__"].partition(".")[0] in _INSIDE:
+        frame, level = frame.f_back, level + 1
+    return level
 
 
 def short_line(message: str) -> str:

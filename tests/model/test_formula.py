@@ -9,7 +9,7 @@ import pytest
 from vibroimpact.engine.parameters import OWN_NUMBERS
 from vibroimpact.engine.series.program import LARGEST as LARGEST_EXPONENT
 from vibroimpact.engine.series.program import MOST_SYMBOLS, SYMBOLS
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, InputWarning
 from vibroimpact.model import (
     Bumper,
     Isolator,
@@ -64,7 +64,8 @@ def test_a_formula_has_the_value_that_it_says(formula, numbers, u, v, force) -> 
         ("k*u", {"k": 1, "q": 2}, "q: the formula 'k*u' does not contain this number; remove q"),
         ("k*d", {"k": 1},
          "formula: column 3: 'd' is used for a stop, but this law has no gap; write 'u'"),
-        ("2", {}, "formula: column 1: '2' contains neither u nor v"),
+        ("2", {}, "formula: column 1: '2' depends on neither u nor v"),
+        ("k*u**0", {"k": 1}, "formula: column 1: 'k*u**0' depends on neither u nor v"),
         ("k*u +", {"k": 1}, "formula: column "),
         ("", {}, "formula: column 1: it cannot be read"),
         ("k^u", {"k": 1}, "formula: column 1: 'k^u': ^ is not a power here; write **"),
@@ -102,6 +103,11 @@ def test_a_formula_has_the_value_that_it_says(formula, numbers, u, v, force) -> 
         ("k*u", {"k": "3 K"}, "k: '3 K' has a unit that is not accepted"),
         ("k*u", {"k": math.nan}, "k: nan is not finite"),
         ("k*u", {"exp": 1}, "'exp' cannot be the name of a number in a formula"),
+        ("k*u + numbers*u**3", {"k": 1, "numbers": 2}, "'numbers' cannot be the name of a number"),
+        ("k*u", {"numbers": {"k": 1}}, "'numbers' cannot be the name of a number in a formula"),
+        ("k*u + kind*u**3", {"k": 1, "kind": 2},
+         "formula: column 7: 'kind' cannot be the name of a number; use another name"),
+        ("k*max(u, 0) + u*k", {"k": 1}, "and max(..., 0) around the whole force of a stop"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_used_is_one_line_with_its_place(formula, numbers, message) -> None:
@@ -109,6 +115,71 @@ def test_what_cannot_be_used_is_one_line_with_its_place(formula, numbers, messag
         Law(formula, **numbers)
     assert message in str(error.value)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("name", ["cls", "self", "obj", "where", "data"])
+def test_words_of_python_are_names_of_numbers(name: str) -> None:
+    assert Law(f"{name}*u", **{name: 2}).initial_stiffness == 2.0
+
+
+def test_an_argument_is_passed_once() -> None:
+    for make in (
+        lambda: Law("k*u + formula*u**3", k=1, formula=2),  # type: ignore[misc]
+        lambda: Bumper(1.0, 0.0, 0.1, gap=0.2),  # type: ignore[misc]
+    ):
+        with pytest.raises(InputError, match="passed twice, by position and by name"):
+            make()
+
+
+def test_a_table_names_the_number_that_has_another_meaning() -> None:
+    table = {"kind": "formula", "formula": "k*u + numbers*u**3", "k": 1, "numbers": 2}
+    with pytest.raises(InputError, match=r"^isolator: 'numbers' cannot be the name of a number"):
+        validate(Oscillator, {"mass": 1, "isolator": table})
+
+
+def test_a_power_of_0_is_1() -> None:
+    assert Law("k*u*abs(v)**0", k=2).read.value(0.0, 0.0) == 0.0
+    assert Law("q*d**0 + k*d", gap=1.0, k=2, q=3).read.value(0.5, 0.0) == 4.0
+    with pytest.raises(InputError, match=r"'k\*d\*\*n' depends on neither d nor v"):
+        Law("k*d**n", gap=1.0, k=2, n=0)
+
+
+def test_a_formula_that_becomes_a_stop_with_memory_says_so() -> None:
+    """Where it is made and printed; not where it has no dashpot or is written otherwise."""
+    table = {"kind": "formula", "formula": "k*d + c*v", "k": 50, "c": 25, "gap": 0.1}
+    told = r"'k\*d \+ c\*v': it is the law of a Bumper, .* relaxes in 0.5 s; .* max\(k\*d"
+    with pytest.warns(InputWarning, match=told) as found:
+        law = Law("k*d + c*v", gap=0.1, k=50, c=25)
+    assert [one.filename for one in found] == [__file__]
+    with pytest.warns(InputWarning, match=told):
+        validate(Oscillator, {"mass": 1, "isolator": {"stiffness": 1, "damping": 0}, "left": table})
+    rig = Oscillator(1.0, Isolator(1.0, 0.1), law, law)  # says nothing a second time
+    assert "memory=0.5 s" in str(law)
+    assert str(rig).count("memory=0.5 s") == 2
+    assert rig.right == Bumper(50.0, 25.0, 0.1)
+    assert "memory" not in str(Law("k*d", gap=0.1, k=50))
+    assert "memory" not in str(Oscillator(1.0, Isolator(1.0, 0.1), Bumper(50.0, 0.0, 0.1)))
+
+
+@pytest.mark.parametrize("formula", ["max(k*d + c*v, 0)", "max(0, c*v + k*d)", "max(k*d+c*v, 0.0)"])
+def test_a_clipped_force_has_no_memory(formula: str) -> None:
+    law = Law(formula, gap="0.1 m", k="50 N/m", c="25 N s/m")
+    rig = Oscillator(1.0, Isolator(1.0, 0.1), law, law)
+    assert rig.right is law
+    assert not rig.linear
+    assert "memory" not in str(rig)
+    assert eval(repr(law), {"Law": Law}) == law
+    assert law.static_force(0.2) == pytest.approx(10.0, rel=1e-15)
+    assert dict(law.rows())["c"] == "25 N s/m"
+
+
+def test_a_clipped_force_that_has_no_memory_anyway_is_the_built_in_stop() -> None:
+    for law, same in (
+        (Law("max(k*d, 0)", gap=1.0, k=2), Bumper(2.0, 0.0, 1.0)),
+        (Law("max(k*d**1.5*(1 + chi*v), 0)", gap=1.0, k=2, chi=0.5),
+         PowerBumper(2.0, 1.0, dissipation=0.5)),
+    ):  # fmt: skip
+        assert Oscillator(1.0, Isolator(1.0, 0.1), law).right == same
 
 
 def test_a_formula_in_a_study_file_has_its_path() -> None:
@@ -163,7 +234,7 @@ def test_a_formula_of_a_built_in_isolator_is_that_isolator(law: Law, same: Isola
 @pytest.mark.parametrize(
     ("law", "same"),
     [
-        (Law("k*d + c*v", gap=1.0, k=26e3, c=1e3), Bumper(26e3, 1e3, 1.0)),
+        (Law("k*d", gap=1.0, k=26e3), Bumper(26e3, 0.0, 1.0)),
         (Law("k*d**1.5", gap=1.0, k=26e3), PowerBumper(26e3, 1.0)),
         (Law("k*d**n*(1 + chi*v)", gap=1.0, k=3, n=2.2, chi=0.7),
          PowerBumper(3.0, 1.0, 2.2, dissipation=0.7)),

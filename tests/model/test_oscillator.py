@@ -186,10 +186,14 @@ def test_without_bumpers():
 
 
 def test_str_has_units():
-    assert str(RIGHT) == "Bumper(stiffness=510 kN/m, damping=0.9 kN s/m, gap=7.5 mm)"
+    assert (
+        str(RIGHT)
+        == "Bumper(stiffness=510 kN/m, damping=0.9 kN s/m, gap=7.5 mm, memory=1.76471 ms)"
+    )
     assert str(Oscillator(550.0, ISOLATOR, RIGHT)) == (
         "Oscillator(mass=550 kg, isolator=Isolator(stiffness=26.8 kN/m, damping=1.1 kN s/m), "
-        "right=Bumper(stiffness=510 kN/m, damping=0.9 kN s/m, gap=7.5 mm), left=None)"
+        "right=Bumper(stiffness=510 kN/m, damping=0.9 kN s/m, gap=7.5 mm, memory=1.76471 ms), "
+        "left=None)"
     )
 
 

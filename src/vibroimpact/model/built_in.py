@@ -48,7 +48,7 @@ def as_stop(law: Stop | None) -> Stop | None:
             "gap: missing; the law of a stop requires a gap, so pass one such as '7.5 mm'"
         )
     parts = law.parts
-    if not parts.rest:
+    if not parts.rest and not (parts.damping and law.read.clipped):
         return Bumper(parts.stiffness, parts.damping, law.gap)
     if law.power is None:
         return law

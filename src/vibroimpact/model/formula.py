@@ -43,10 +43,14 @@ FUNCTIONS = {
 }
 """Accepted functions by name, with the parity of their value if the argument is odd."""
 
+ARGUMENTS = ("kind", "formula", "gap", "numbers")
+"""Names of a law's own arguments and keys, which no number of its formula can have."""
+
 _REFUSED = {
     "sign": "a force that jumps can hold the mass at rest; abs(u) and abs(v) are accepted; for dry "
     "friction, use a FrictionIsolator",
-    "max": "it has no Taylor series at its corner; abs(u) and abs(v) are accepted",
+    "max": "it has no Taylor series at its corner; abs(u) and abs(v) are accepted, and max(..., 0) "
+    "around the whole force of a stop",
     "min": "it has no Taylor series at its corner; abs(u) and abs(v) are accepted",
     "log": "it is not finite at rest; powers and exp are accepted",
 }
@@ -83,11 +87,15 @@ class Node(NamedTuple):
 
 
 class Formula(NamedTuple):
-    """A formula that has been checked. Its tree contains the values of all numbers."""
+    """A formula that has been checked. Its tree contains the values of all numbers.
+
+    `clipped` states that it is written as max(..., 0). The tree is then that of the first argument.
+    """
 
     text: str
     variables: tuple[str, str]
     tree: Node
+    clipped: bool = False
 
     def value(self, x: float, v: float) -> float:
         """Return the force (N) at a displacement or deformation (m) and a velocity (m/s)."""
@@ -124,7 +132,7 @@ def read_formula(
     if len(text) > _LONGEST:
         raise InputError(f"formula: it has {len(text)} characters; at most {_LONGEST} are accepted")
     try:
-        tree = ast.parse(text := text.strip(), mode="eval").body
+        tree, clipped = unclipped(text := text.strip(), variables)
     except SyntaxError as error:
         column = error.offset if error.offset and error.offset > 0 else len(text) + 1
         refuse_at(column, f"it cannot be read ({error.msg}); correct the formula at this place")
@@ -143,8 +151,19 @@ def read_formula(
     if unit is not None and not _same(unit, FORCE):
         refuse_at(1, f"the formula is {_words(unit)}, not a force; correct the units")
     if made.kind == "number":
-        refuse_at(1, f"{text!r} contains neither {' nor '.join(variables)}; add one of them")
-    return Formula(text, variables, made)
+        refuse_at(1, f"{text!r} depends on neither {' nor '.join(variables)}; add one of them")
+    return Formula(text, variables, made, clipped)
+
+
+def unclipped(text: str, variables: tuple[str, str]) -> tuple[ast.expr, bool]:
+    """Parse a formula; of a stop's max(force, 0), return the force, and True."""
+    tree = ast.parse(text, mode="eval").body
+    match tree:
+        case ast.Call(func=ast.Name("max"), args=[one, other], keywords=[]) if variables[0] == "d":
+            for force, zero in ((one, other), (other, one)):
+                if isinstance(zero, ast.Constant) and zero.value == 0:
+                    return force, True
+    return tree, False
 
 
 def refuse_at(column: int, problem: str) -> NoReturn:
@@ -231,6 +250,8 @@ class Reader:
             known = (*self.variables, *self.numbers)
             if name in _ELSEWHERE:
                 refuse_at(at, _ELSEWHERE[name])
+            if name in ARGUMENTS:
+                refuse_at(at, f"{name!r} cannot be the name of a number; use another name")
             refuse_at(
                 at,
                 f"{name!r} has no value; {meant(name, known)}{', '.join(known)} are accepted, or "
@@ -279,7 +300,12 @@ class Reader:
                 exponent.column,
                 f"the exponent is {exponent.number:g}; from -{LARGEST} to {LARGEST} is accepted",
             )
-        return self.made("**", (base, exponent), at, text)
+        made = self.made("**", (base, exponent), at, text)
+        if exponent.number:
+            return made
+        one = Node("number", (), at, text, 1.0)  # also where the base is 0
+        self.units[one] = self.units[made]
+        return one
 
     def made(self, kind: str, parts: tuple[Node, ...], at: int, text: str) -> Node:
         """Return a node of other nodes. If all of them are numbers, it is a number, too."""
@@ -372,8 +398,6 @@ def value_of(node: Node, values: Mapping[str, float], by: str = "") -> tuple[flo
             return a / b, (da - a / b * db) / b
         if kind == "**":
             n = found[1][0]
-            if n == 0.0:
-                return 1.0, 0.0
             if a < 0.0 and n != int(n):
                 return math.nan, math.nan
             return float(a**n), float(n * a ** (n - 1.0)) * da if da or n >= 1.0 else 0.0

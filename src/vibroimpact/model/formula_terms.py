@@ -212,9 +212,6 @@ def operations(
             raise_to(base, exponent._replace(number=-n))
             found.append("/")
             return
-        if n == 0.0:
-            found.extend(("number", number(1.0)))
-            return
         write(base)
         if n != int(n):
             found.extend(("real power", number(n)))

@@ -26,6 +26,7 @@ from vibroimpact.model.formula import (
     Reader,
     read_formula,
     refuse_at,
+    unclipped,
 )
 from vibroimpact.model.quantities import (
     Quantity,
@@ -126,7 +127,7 @@ class _Units:
     ) -> None:
         self.numbers, self.variables = numbers, variables
         self.reader = Reader(text, {name: (x, None) for name, x in numbers.items()}, variables)
-        self.tree = ast.parse(text, mode="eval").body
+        self.tree, _ = unclipped(text, variables)
         literals = [part for part in ast.walk(self.tree) if isinstance(part, ast.Constant)]
         self.unknown: list[str | ast.expr] = [*numbers, *(literals if any_literal else ())]
         self.zero: list[_Unit] = []

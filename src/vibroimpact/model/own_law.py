@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 from pydantic import SerializerFunctionWrapHandler, model_serializer, model_validator
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, shown, warn_of_input
 from vibroimpact.model.formula import (
+    ARGUMENTS,
     FUNCTIONS,
     ODD,
     Dimension,
@@ -28,12 +29,11 @@ from vibroimpact.model.formula_terms import (
 )
 from vibroimpact.model.formula_units import check_numbers, units_of_numbers
 from vibroimpact.model.law_registry import Named
-from vibroimpact.model.quantities import LENGTH, STIFFNESS, Quantity
+from vibroimpact.model.quantities import LENGTH, STIFFNESS, TIME, Quantity
 from vibroimpact.model.units import plain, pretty, to_si_of_any
 from vibroimpact.model.validation import Accepts, constructor
 
-_FIELDS = ("kind", "formula", "gap", "numbers")
-_RESERVED = {*_FIELDS, *FUNCTIONS, "u", "v", "d"}
+_RESERVED = {*ARGUMENTS, *FUNCTIONS, "max", "u", "v", "d"}
 
 
 class Parts(NamedTuple):
@@ -58,7 +58,9 @@ class Law(Named):
 
     With a ``gap``, the law is a stop. Its force is a formula of ``d`` (m), the penetration depth of
     the mass, and of ``v`` (m/s), the rate of ``d``. Where the formula is not greater than 0, the
-    force is 0: a stop can push, but not pull.
+    force is 0: a stop can push, but not pull. The formula ``k*d + c*v`` is that of a `Bumper`,
+    whose face keeps its deformation after a contact and relaxes. ``max(k*d + c*v, 0)`` has no such
+    memory: the face follows the mass.
 
     A formula may contain the operations ``+ - * / **`` and the functions exp, sqrt, sinh, cosh,
     tanh, sin, cos and abs. The argument of abs must be ``u`` or ``v``. The formula is parsed, and
@@ -76,13 +78,19 @@ class Law(Named):
         ``"7.5 mm"``. Default: None, for an isolator.
     **numbers
         Values of the names in the formula. A text with a unit, such as ``k="26 kN/m"``, is checked
-        against the units of the formula. A plain number is in SI units.
+        against the units of the formula. A plain number is in SI units. A number cannot have the
+        name of a variable, of a function or of a field of this class, such as ``gap``.
 
     Raises
     ------
     InputError
         If the formula cannot be read, or if it contains a name without a value. Also if its units
         do not agree, or if a divisor may become 0. The message states the column of the error.
+
+    Warns
+    -----
+    InputWarning
+        If the formula of a stop is ``k*d + c*v``, because this stop has a memory.
 
     Examples
     --------
@@ -104,7 +112,7 @@ class Law(Named):
 
     @constructor
     def __init__(
-        self, formula: str, gap: float | str | None = None, **numbers: float | str
+        self, /, formula: str, gap: float | str | None = None, **numbers: float | str
     ) -> None:
         super().__init__(formula=formula, gap=gap, **numbers)
 
@@ -113,19 +121,16 @@ class Law(Named):
     def _read_formula(cls, data: Any) -> Any:
         if not isinstance(data, Mapping) or "formula" not in data:
             return data
-        kept = {name: value for name, value in data.items() if name in _FIELDS}
-        found: dict[str, tuple[float, Dimension]] = {
-            name: (value, None) for name, value in kept.pop("numbers", ())
-        }
+        kept = {name: value for name, value in data.items() if name in ARGUMENTS}
+        numbers = kept.pop("numbers", ())
+        if not isinstance(numbers, tuple):  # which a law passes on; a user has no such argument
+            raise _misnamed("numbers")
+        found: dict[str, tuple[float, Dimension]] = {name: (value, None) for name, value in numbers}
         for name, value in data.items():
-            if name in _FIELDS:
+            if name in ARGUMENTS:
                 continue
             if not str(name).isidentifier() or name in _RESERVED:
-                why = ", because it has another meaning there" if name in _RESERVED else ""
-                raise InputError(
-                    f"{shown(name)} cannot be the name of a number in a formula{why}; use a name "
-                    "such as 'k3', of letters, digits and _, that begins with a letter"
-                )
+                raise _misnamed(name)
             found[name] = to_si_of_any(value, name)
         is_stop = kept.get("gap") is not None
         check_numbers(kept["formula"], found, data, _variables(is_stop))
@@ -134,6 +139,16 @@ class Law(Named):
         if not is_stop:
             _check_odd(read)
         numbers = tuple((name, value) for name, (value, _) in found.items())
+        if time := _relaxation_time(read.text, numbers, is_stop):
+            warn_of_input(
+                f"formula {read.text!r}",
+                [
+                    "it is the law of a Bumper, which has a memory: after a contact, its face "
+                    f"relaxes in {pretty(time, TIME)}; for a force without memory, write "
+                    f"max({read.text}, 0); if the memory is intended, use Bumper"
+                ],
+                stacklevel=None,
+            )
         return {**kept, "formula": read.text, "numbers": numbers}
 
     @model_validator(mode="after")
@@ -172,7 +187,9 @@ class Law(Named):
             (name, pretty(value, known[name]) if name in known else plain(value))
             for name, value in self.numbers
         ]
-        return [("kind", self.kind), ("formula", self.formula), *named, *gap]
+        time = self.relaxation_time
+        memory = [("memory", f"{pretty(time, TIME)}, as a Bumper")] if time else []
+        return [("kind", self.kind), ("formula", self.formula), *named, *gap, *memory]
 
     def __str__(self) -> str:
         parts = [f"{name}={text}" for name, text in self.rows()[1:]]
@@ -207,6 +224,14 @@ class Law(Named):
         return None if others or sign < 0.0 else _power(term)
 
     @property
+    def relaxation_time(self) -> float:
+        """Time constant c/k (s) with which the face of a stop k d + c v relaxes; otherwise 0.
+
+        The stop is a `Bumper`. A force max(k d + c v, 0) has no such memory.
+        """
+        return _relaxation_time(self.formula, self.numbers, self.is_stop)
+
+    @property
     def operations(self) -> tuple[list[str | int], list[float]]:
         """The operations that the engine evaluates, in reverse Polish notation, and their numbers.
 
@@ -219,7 +244,7 @@ class Law(Named):
     @property
     def linear(self) -> bool:
         """Whether the force is K u + C v."""
-        return self.parts[2:] == (0.0, 0.0, 0.0, ())
+        return self.parts[2:] == (0.0, 0.0, 0.0, ()) and not self.read.clipped
 
     @property
     def initial_stiffness(self) -> float:
@@ -275,6 +300,14 @@ class Law(Named):
         if parts.cubic or parts.quintic or parts.rest:
             return None
         return parts.stiffness, 0.0
+
+
+def _misnamed(name: object) -> InputError:
+    why = ", because it has another meaning there" if name in _RESERVED else ""
+    return InputError(
+        f"{shown(name)} cannot be the name of a number in a formula{why}; use a name such as 'k3', "
+        "of letters, digits and _, that begins with a letter"
+    )
 
 
 def _variables(is_stop: bool) -> tuple[str, str]:
@@ -361,3 +394,10 @@ def _parts(text: str, numbers: tuple[tuple[str, float], ...], is_stop: bool) -> 
         found[4] = 0.0
     linear, dashpot, cubic, quintic, drag = found
     return Parts(linear, dashpot, cubic, quintic, drag, tuple(rest))
+
+
+def _relaxation_time(text: str, numbers: tuple[tuple[str, float], ...], is_stop: bool) -> float:
+    parts = _parts(text, numbers, is_stop)
+    if not is_stop or parts.rest or not parts.damping or _parsed(text, numbers, is_stop).clipped:
+        return 0.0
+    return parts.damping / parts.stiffness if parts.stiffness else math.inf

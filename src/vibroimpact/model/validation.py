@@ -139,11 +139,16 @@ class _Listed(ModelMetaclass):
     A misspelt keyword is reported in the same way as a misspelt key of a table.
     """
 
-    def __call__(cls, *args: Any, **values: Any) -> Any:  # noqa: N805
+    def __call__(cls, /, *args: Any, **values: Any) -> Any:  # noqa: N805
         try:
             return super().__call__(*args, **values)
         except TypeError:
             model = cast("type[BaseModel]", cls)
+            by_place = list(inspect.signature(model).parameters)[: len(args)]
+            if twice := [name for name in by_place if name in values]:
+                raise InputError(
+                    f"{twice[0]}: passed twice, by position and by name; pass it once"
+                ) from None
             unknown = [name for name in values if name not in model.model_fields]
             if not unknown:
                 raise

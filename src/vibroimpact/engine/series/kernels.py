@@ -109,8 +109,6 @@ def rooted(rig: Any, side: int, laws: tuple[Any, ...]) -> Rooted | None:
     if kind not in (1, 2) or rig[par.DRAG] not in (1.0, 2.0):
         return None
     at_stop = par.BUMPER + par.WIDTH * (side - 1)
-    if laws[-1]:
-        return None  # only steps in time report how far a formula bends
     exponent = float(rig[at_stop + par.EXPONENT])
     for which in (2, 3, 4):
         power = round(which * exponent)

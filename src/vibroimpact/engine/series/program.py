@@ -138,28 +138,31 @@ class Traced:
 
     def __init__(self, machine: Any, law: Any) -> None:
         self.machine, self.law = machine, law
-        self.arguments: list[Any] = []
+        self.arguments: list[tuple[Any, Any]] = []
+        """Of functions, each with its distance from where the function bends; None if it bends
+        everywhere."""
         self.factors: list[tuple[Any, Any]] = []
         """Divisors and bases of broken powers, with the exponent."""
 
     def exp(self, one: Any) -> Any:
         """Return e to this power."""
-        self.arguments.append(one)
+        self.arguments.append((one, -one))
         return self.law.exp(one)
 
     def sine(self, one: Any) -> Any:
         """Return the sine."""
-        self.arguments.append(one)
+        self.arguments.append((one, None))
         return self.law.sine(one)
 
     def cosine(self, one: Any) -> Any:
         """Return the cosine."""
-        self.arguments.append(one)
+        self.arguments.append((one, None))
         return self.law.cosine(one)
 
     def tanh(self, one: Any) -> Any:
         """Return the hyperbolic tangent."""
-        self.arguments.append(one * 2.0)
+        twice = one * 2.0
+        self.arguments.append((twice, self.machine.absolute(twice)))
         return self.law.tanh(one)
 
     def inverse(self, one: Any) -> Any:
@@ -184,9 +187,13 @@ class Traced:
 FARTHEST = 4.0
 """What the argument of a function may change by on a step, and a factor by its share."""
 
+FLAT = 80.0
+"""At this distance from its bend a function is flat far below rounding: e^-80 is 2e-35. Up to
+there its argument may move on one step."""
+
 
 def bends(machine: Any, law: Any, symbols: tuple[int, ...], which: int, points: Any) -> Any:
-    """Return by how much the arguments of a formula's functions move on a step, over `FARTHEST`.
+    """Return by how much the arguments of a formula's functions move on a step, over what they may.
 
     `points` are pairs of what stands for x and v; the first is the step's beginning. None if the
     formula has no functions.
@@ -196,19 +203,25 @@ def bends(machine: Any, law: Any, symbols: tuple[int, ...], which: int, points: 
         traces.append(Traced(machine, law))
         evaluate(traces[-1], symbols, which, x, v, (None, None))
     first, most = traces[0], None
+    shares = [
+        1.0 / FARTHEST if distance is None else 1.0 / machine.most(distance - FLAT, FARTHEST)
+        for _, distance in first.arguments
+    ]
     for other in traces[1:]:
         moved = [
-            machine.absolute(one - begun)
-            for one, begun in zip(other.arguments, first.arguments, strict=True)
+            machine.absolute(one - begun) * share
+            for (one, _), (begun, _), share in zip(
+                other.arguments, first.arguments, shares, strict=True
+            )
         ]
         for (one, exponent), (begun, _) in zip(other.factors, first.factors, strict=True):
             share = one / begun
             grown = machine.most(share, 1.0 / share) - 1.0
             grown = machine.most(grown, grown * -1e3)  # below 0 if it changes its sign
-            moved.append(machine.absolute(exponent) * grown)
+            moved.append(machine.absolute(exponent) * grown * (1.0 / FARTHEST))
         for one in moved:
             most = one if most is None else machine.most(most, one)
-    return None if most is None else most * (1.0 / FARTHEST)
+    return most
 
 
 _FUNCTIONS = {

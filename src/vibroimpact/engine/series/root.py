@@ -10,15 +10,17 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from vibroimpact.engine.series import layout as at
+from vibroimpact.engine.series import program
 from vibroimpact.engine.series.algebra import Series, State, later
 from vibroimpact.engine.series.emit import LANES
 from vibroimpact.engine.series.ends import (
+    Along,
     along_of,
     end_of,
     memory_end,
     sums,
 )
-from vibroimpact.engine.series.laws import hysteresis
+from vibroimpact.engine.series.laws import hysteresis, own
 from vibroimpact.engine.series.step import (
     LAST,
     LAWS,
@@ -27,6 +29,8 @@ from vibroimpact.engine.series.step import (
     isolator,
     memory,
     memory_off,
+    overbent,
+    points_of,
     reach,
 )
 from vibroimpact.engine.series.summation import summed, tree
@@ -225,6 +229,9 @@ def ended(
         extreme = machine.absolute(z[degree]) * highest
         last = extreme / (extent + 1e-300) * (1.0 / (LAST * TOLERANCE))
         excess = machine.most(machine.most(missing, last), excess)
+    bent = bends_of(machine, shape, law, w, step)
+    if bent is not None:
+        excess = machine.most(overbent(bent), excess)
     machine.store(at.FOUND + at.F_EXCESS, excess)
     weight = pace * (h * h)
     moved = v * pace
@@ -232,3 +239,15 @@ def ended(
     owes = machine.fma(machine.fma(law.damping, moved, pulled), h * h, found.gain)
     machine.store(at.FOUND + at.F_OWES, owes)
     machine.store(at.FOUND + at.F_WEIGHT, weight)
+
+
+def bends_of(machine: Any, shape: Rooted, law: Law, w: Series, step: Along) -> Any:
+    """By how much a formula of the isolator may bend on a step; None if there is none to bend."""
+    own_law = shape.laws[LAWS.index(own)]
+    if not own_law:
+        return None
+    points = [
+        (machine.most(one, 0.0) ** shape.root * (1.0 / shape.root) + law.offset, v * law.per_unit)
+        for one, v in points_of(machine, w, step)
+    ]
+    return program.bends(machine, law, own_law, 0, points)

@@ -16,6 +16,7 @@ from vibroimpact.engine.series import program
 from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State
 from vibroimpact.engine.series.emit import LANES
 from vibroimpact.engine.series.ends import (
+    Along,
     along_of,
     end_of,
     memory_end,
@@ -272,33 +273,41 @@ def ended(
     excess = (last * almost) * ((1.0 / (LAST * TOLERANCE)) / whole)
     if missing is not None:
         excess = machine.most(missing, excess)
-    bent = bends_of(machine, shape, law, along, step.reached, step.inverse)
+    bent = bends_of(machine, shape, law, along, step)
     if bent is not None:
-        square = bent * bent
-        eighth = square * square * (square * square)
-        excess = machine.most(eighth * eighth * square * bent, excess)  # its 19th power
+        excess = machine.most(overbent(bent), excess)
     machine.store(at.FOUND + at.F_EXCESS, excess)
     machine.store(at.FOUND + at.F_OWES, machine.fma(pull, h * h, found.gain))
     machine.store(at.FOUND + at.F_WEIGHT, h * h)
 
 
-def bends_of(
-    machine: Any, shape: Shape, law: Law, along: Series, reached: list[Any], inverse: Any
-) -> Any:
+def overbent(bent: Any) -> Any:
+    """By how much a step is too long that passes so much of a bend; its inverse shortens it."""
+    square = bent * bent
+    eighth = square * square * (square * square)
+    return eighth * eighth * square * bent  # its 19th power
+
+
+def points_of(machine: Any, along: Series, step: Along) -> list[tuple[Any, Any]]:
+    """Where a step begins, and how far its coordinate and the rate of that may go, each way."""
+    far: Any = None
+    fast: Any = None
+    for i, powers_of_h in enumerate(step.reached):
+        orders = [LANES * i + j + 1 for j in range(LANES)]
+        sizes = (machine.lanes([along[n] for n in orders]) * powers_of_h).absolute()
+        far = sizes if far is None else far + sizes
+        fast = sizes.times([n if n > 1 else 0 for n in orders], fast)  # the first is the rate now
+    x, v = along[0], along[1]
+    move, speed = far.total(), fast.total() * step.inverse
+    return [(x, v), (x + move, v), (x - move, v), (x, v + speed), (x, v - speed)]
+
+
+def bends_of(machine: Any, shape: Shape, law: Law, along: Series, step: Along) -> Any:
     """By how much users' formulas may bend on a step, over what a series shows; None if nowhere."""
     own_law = shape.laws[LAWS.index(own)]
     if not own_law and not any(isinstance(one, tuple) for one in (shape.push, shape.other)):
         return None
-    far: Any = None
-    fast: Any = None
-    for i, powers_of_h in enumerate(reached):
-        orders = [LANES * i + j + 1 for j in range(LANES)]
-        sizes = (machine.lanes([along[n] for n in orders]) * powers_of_h).absolute()
-        far = sizes if far is None else far + sizes
-        fast = sizes.times(orders, fast)
-    x, v = along[0], along[1]
-    move, speed = far.total(), fast.total() * inverse
-    points = [(x, v), (x + move, v), (x - move, v), (x, v + speed), (x, v - speed)]
+    points = points_of(machine, along, step)
     found = []
     if own_law:
         at_points = [(one + law.offset, rate * law.per_unit) for one, rate in points]

@@ -32,6 +32,7 @@ from vibroimpact.engine.taylor.frame import (
     acceleration_of,
     branch_of,
     curved_stop,
+    motion_rate,
     push_of,
     stop_force,
     stop_push,
@@ -40,6 +41,12 @@ from vibroimpact.engine.taylor.frame import (
 )
 from vibroimpact.engine.taylor.laws import laws_of
 from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, sloped
+
+_SLOPES_LAST = 2.0**-47
+"""What the last term of the slopes' series may be; it enters a disturbance by a 20th."""
+
+_CUT, _LEAST_SHARE = 100, 2.0**-10
+"""How often a step is shortened at most, and to which share at once."""
 
 _YIELDED = 2.0**-40
 """Share of the largest memory by which rounding may leave a spring short of where it yields."""
@@ -155,22 +162,23 @@ def _along(plan: Vector, before: Motion, length: float, q: Vector, rows: int) ->
     t = 0.0
     here = before
     while t < length:
-        frame, h = begun(plan, here, length - t)
+        frame, h = _sloped_step(plan, here, length - t)
         x = coordinate(plan, here)
         laws, _, _ = laws_of(plan, here, frame, x, length - t)
-        sloped(plan, h)
         primary = _by_speed(plan, here.mode, False, here.left if here.mode == LEFT else here.right)
         # A disturbance of the left stop's speed has the sign of the velocity.
         other = -_by_speed(plan, here.mode, True, here.left)
         there = motion_at(plan, here, frame, 1.0)
-        left_out = _left_out(plan, here, there, frame, laws)
+        pressed = _stops_left_out(plan, here, there, laws)
+        dragged = _drag_left_out(plan, here, there, laws)
         for i in range(rows):
             at = i * DISTURBANCE
             mine = q[at + 3] if here.mode == LEFT else q[at + 2]
             _moved(plan, q, at, h, (primary * mine, other * q[at + 3]))
-            q[at + 1] -= left_out * q[at]
+            q[at + 1] = q[at + 1] * math.exp(-dragged) - pressed * q[at]
         for n in range(DEGREE):
             lost += (plan[BY_V + n] + plan[BY_Z_OF_Z + n]) / (n + 1)
+        lost += dragged
         if not t + h < length * (1.0 - 1e-15):
             break
         t += h
@@ -179,7 +187,37 @@ def _along(plan: Vector, before: Motion, length: float, q: Vector, rows: int) ->
 
 
 @kernel
-def _left_out(plan: Vector, here: Motion, there: Motion, frame: Frame, laws: Laws) -> float:
+def _sloped_step(plan: Vector, here: Motion, longest: float) -> tuple[Frame, float]:
+    """Write a step that begins with this motion, and the slopes of its forces; its frame, length.
+
+    A force that is a power of a small velocity or deformation may be nothing beside the others and
+    its slope not: the step is as short as the series of the slopes want.
+    """
+    frame, h = begun(plan, here, longest)
+    sloped(plan, h)
+    for _ in range(_CUT):
+        excess = _last_slopes(plan, h)
+        if excess <= 1.0:
+            break
+        share = _LEAST_SHARE
+        if excess < math.inf:
+            share = max(0.9 * excess ** (-1.0 / (DEGREE - 1)), share)
+        frame, h = begun(plan, here, h * share)
+        sloped(plan, h)
+    return frame, h
+
+
+@kernel
+def _last_slopes(plan: Vector, h: float) -> float:
+    """What the last terms of the slopes' series add to a disturbance, over what they may."""
+    last = DEGREE - 1
+    by_v = max(abs(plan[BY_V + last]), 0.5 * abs(plan[BY_V + last - 1]))
+    by_x = max(abs(plan[BY_X + last]), 0.5 * abs(plan[BY_X + last - 1]))
+    return (by_v + by_x / (motion_rate(plan) * h)) / _SLOPES_LAST  # type: ignore[no-any-return]
+
+
+@kernel
+def _stops_left_out(plan: Vector, here: Motion, there: Motion, laws: Laws) -> float:
     """What a stop that is hardly pressed does to a disturbance, as it is left out of the series.
 
     Its impulse is ∫ F dx/x′: of where the mass is, the slope is F/x′.
@@ -192,13 +230,34 @@ def _left_out(plan: Vector, here: Motion, there: Motion, frame: Frame, laws: Law
         if (laws.push if primary else laws.other).stiffness != 0.0:
             continue
         sign = 1.0 if side == RIGHT else -1.0
-        closing = sign * there.v
-        if closing > 0.0:
-            memory = there.right if side == RIGHT else there.left
-            push = push_of(plan, side, closing, memory)
-            gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
-            found += stop_force(plan, side, push, sign * there.u - gap, closing) / closing
+        if here.v * there.v >= 0.0:
+            found += _per_speed(plan, there, side, sign) - _per_speed(plan, here, side, sign)
     return found
+
+
+@kernel
+def _per_speed(plan: Vector, motion: Motion, side: int, sign: float) -> float:
+    """F/x′ of a pressed stop; 0 where the mass stands."""
+    closing = sign * motion.v
+    if closing == 0.0:
+        return 0.0
+    push = push_of(plan, side, closing, motion.right if side == RIGHT else motion.left)
+    gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
+    return stop_force(plan, side, push, sign * motion.u - gap, closing) / closing  # type: ignore[no-any-return]
+
+
+@kernel
+def _drag_left_out(plan: Vector, here: Motion, there: Motion, laws: Laws) -> float:
+    """∫ of a drag's slope by the velocity, while the drag is left out of the series: ∫ dF/x″."""
+    if laws.drag != 0.0 or plan[par.DRAG] == 1.0 or plan[par.DAMPING] == 0.0:
+        return 0.0
+    begins, ends = acceleration_of(plan, here), acceleration_of(plan, there)
+    if not begins * ends >= 0.0 or begins + ends == 0.0:
+        return 0.0
+    exponent = plan[par.DRAG]
+    gained = math.copysign(abs(there.v) ** exponent, there.v)
+    gained -= math.copysign(abs(here.v) ** exponent, here.v)
+    return abs(plan[par.DAMPING] * gained / (0.5 * (begins + ends)))  # type: ignore[no-any-return]
 
 
 @kernel

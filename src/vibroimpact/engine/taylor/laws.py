@@ -140,6 +140,8 @@ def laws_of(
     mode = motion.mode
     v = frame.sign * motion.v
     branch = branch_of(plan, motion, frame.sign)
+    if v == 0.0:
+        v = math.copysign(0.0, branch.way)  # by which |v| has its slope
     push, other, apart = NO_PUSH, NO_PUSH, 0.0
     if mode:
         grain = 16.0 * ROUNDING * (abs(x) + abs(frame.offset))

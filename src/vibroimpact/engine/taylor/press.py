@@ -14,6 +14,7 @@ from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near
 from vibroimpact.engine.series.kernels import Slot
 from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
 from vibroimpact.engine.series.march import Shaken, number, taken
+from vibroimpact.engine.series.program import ABSOLUTE_X
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
 from vibroimpact.engine.taylor.ahead import branched
 from vibroimpact.engine.taylor.frame import branch_of, curved_stop, push_of
@@ -61,6 +62,8 @@ def root_of(plan: Vector, motion: Motion) -> int:
     at = par.BUMPER + par.WIDTH * (mode - 1)
     if plan[at + par.EXPONENT] != plan[ROOTS + 2 * (mode - 1)]:
         return 0
+    if int(plan[par.OWN + par.OWN_FLAGS]) & ABSOLUTE_X and plan[at + par.GAP] < 0.0:
+        return 0  # only steps in time look for where u changes its sign
     return int(plan[ROOTS + 2 * (mode - 1) + 1])
 
 

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.law_registry import Named
-from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS
+from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS, TIME
 from vibroimpact.model.restitution import damping_ratio
-from vibroimpact.model.units import to_si
+from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, constructor
 
 
 class Bumper(Named):
     """A massless deformable stop: a spring and a dashpot in parallel (Kelvin-Voigt).
+
+    After a contact, the face keeps its deformation and relaxes with the time constant C_j/K_j.
+    ``print`` shows it as ``memory``. A stop without memory is ``Law("max(k*d + c*v, 0)", gap)``.
 
     In a study file, its ``kind`` is ``"kelvin-voigt"``, which may be omitted.
 
@@ -100,10 +103,20 @@ class Bumper(Named):
         """Return the keys that a table of this stop may have."""
         return [*super().table_keys(), "restitution"]
 
+    def _read(self) -> Iterator[tuple[str, Any, str]]:
+        yield from super()._read()
+        if self.damping:
+            yield "memory", self.relaxation_time, pretty(self.relaxation_time, TIME)
+
     @property
     def linear(self) -> bool:
         """Whether the force is linear in the deformation d and its rate d': K_j d + C_j d'."""
         return True
+
+    @property
+    def relaxation_time(self) -> float:
+        """Time constant C_j/K_j (s) with which the face relaxes after a contact: its memory."""
+        return self.damping / self.stiffness
 
     def static_force(self, deformation: float) -> float:
         """Return the force (N) of a bumper that is slowly compressed by a deformation (m)."""
