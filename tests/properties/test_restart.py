@@ -66,7 +66,8 @@ def test_an_elastic_contact_may_be_cut_at_its_end() -> None:
     for i in range(40):
         start = vi.State(0.0, 0.05 + 0.002 * i)
         data = vi.simulate(vi.Rig(rig, shaken), 1, start, samples=1)
-        cut = float(data["event_cycle_time"][0]) * shaken.frequency
+        detached = data["event_contact"].values == 0
+        cut = float(data["event_cycle_time"].values[detached][0]) * shaken.frequency
         for ulp in range(-2, 3):
             half = vi.simulate(vi.Rig(rig, shaken), cut * (1.0 + ulp * 2.0**-52), start, samples=0)
             vi.simulate(vi.Rig(rig, shaken), 1, half, samples=0)
