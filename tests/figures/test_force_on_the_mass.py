@@ -131,6 +131,19 @@ def test_resonance_curves_show_the_transmissibility() -> None:
     np.testing.assert_allclose(normalised(shaped)[2].free, free, rtol=1e-12)
 
 
+def test_without_units_the_frequency_is_angular_and_the_ratio_is_the_same() -> None:
+    plain = vi.Oscillator(1.0, vi.Isolator(1.0, 0.12), units="none")
+    omega = np.linspace(0.5, 2.0, 16)
+    rig = vi.Rig(plain, vi.Harmonic(0.1, 1.0, of="unbalance"))
+    data = vi.sweep(rig, omega / (2.0 * math.pi))
+    ax = resonance_curves(data)[2]
+    free = next(line for line in ax.lines if line.get_label() == "free flight")
+    np.testing.assert_allclose(free.get_xdata(), omega, rtol=1e-12)
+    exact = np.hypot(1.0, 0.12 * omega) / np.hypot((1.0 - omega) * (1.0 + omega), 0.12 * omega)
+    np.testing.assert_allclose(free.get_ydata(), exact, rtol=1e-10)
+    assert "N" not in time_history(vi.steady(rig.at(1.5 / (2.0 * math.pi))))[3].get_ylabel()
+
+
 def test_branches_are_drawn_by_it() -> None:
     along = vi.branch(RIG, span=(3.0, 6.0))
     ax = branch_diagram(along, quantity="transmissibility", sweep=swept())

@@ -22,7 +22,6 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound
 from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import unit as unit_of
-from vibroimpact.response.analytic_free_response import exciting_excursion
 
 _Array = NDArray[np.float64]
 
@@ -89,23 +88,12 @@ def normalised(data: xr.Dataset) -> list[Drawn]:
             )
         )
     if base_at_rest(data):
-        carried = data["free_transmitted_force_excursion"].values / _exciting_excursion(data)
+        exciting = (data["transmitted_force_excursion"] / data["transmissibility"]).max("direction")
+        carried = data["free_transmitted_force_excursion"].values / exciting.values
         curves = _curves(data, "transmissibility", 1.0)
         label = "transmissibility\nof the force (–)"
         found.append(Drawn("transmissibility", label, curves, carried))
     return found
-
-
-def _exciting_excursion(data: xr.Dataset) -> _Array:
-    """Return the excursion of the exciting force at each frequency (N)."""
-    about = json.loads(data.attrs["parameters"])["rigs"][0]
-    given = about.get("amplitude")
-    sizes = given if isinstance(given, list) else None
-    shaken = excitation_from(about, frequency=1.0, **({"amplitude": max(sizes)} if sizes else {}))
-    oscillator = Oscillator.model_validate(about["oscillator"])
-    excursion = exciting_excursion(Rig(oscillator, shaken), data["frequency"].values)
-    shares = 1.0 if sizes is None else np.array(sizes) / max(sizes)
-    return np.asarray(oscillator.mass * excursion * shares)
 
 
 def outputs(data: xr.Dataset) -> list[Drawn]:
