@@ -177,7 +177,7 @@ def test_extremes_of_steady_motions(sides: str) -> None:
 
 
 @pytest.mark.parametrize("sides", ["right", "left", "both"])
-@pytest.mark.parametrize("family", [restitution, jankowski, preloaded], ids=lambda f: f.__name__)
+@pytest.mark.parametrize("family", [restitution, jankowski, dissipation], ids=lambda f: f.__name__)
 def test_extremes_through_a_record(family, sides: str) -> None:
     rng = np.random.default_rng(5)
     for _ in range(4):
