@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
+import vibroimpact as vi
 from engine.taylor.rigs import HYSTERETIC, ISOLATORS, SHAKEN, STOPS, between, followed, started
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.motion import ISOLATOR, LEFT_BUMPER, MODE, RIGHT_BUMPER, U, V
@@ -51,6 +53,57 @@ def test_derivative_agrees_with_central_differences(isolator: str, stop: str) ->
         difference = (4.0 * differences[1] - differences[0]) / 3.0
         scale = max(np.abs(rows[row]).max(), 1e-3)
         assert np.abs(difference - rows[row]).max() < 1e-6 * scale
+
+
+def differentiated(exponent: float, drag: float) -> np.ndarray:
+    """The monodromy matrix of a dashpot drag |v|^α, by its equation from turn to turn: DOP853."""
+
+    def rates(t: float, y: np.ndarray) -> list[float]:
+        u, v, one, slope_one, two, slope_two = y
+        force = u + drag * np.copysign(abs(v) ** exponent, v)
+        by_v = drag * exponent * abs(v) ** (exponent - 1.0)
+        base = SHAKEN.amplitude * np.sin(SHAKEN.angular_frequency * t + SHAKEN.phase)
+        return [v, -force - base, slope_one, -one - by_v * slope_one,
+                slope_two, -two - by_v * slope_two]  # fmt: skip
+
+    def turns(t: float, y: np.ndarray) -> float:
+        return float(y[1])
+
+    turns.terminal = True
+    t, y, way = 0.0, np.array([0.1, 0.9, 1.0, 0.0, 0.0, 1.0]), 1.0
+    while t < SHAKEN.period:
+        turns.direction = -way
+        found = solve_ivp(
+            rates, (t, SHAKEN.period), y, "DOP853", events=turns, rtol=1e-13, atol=1e-15
+        )
+        t, y, way = found.t[-1], found.y[:, -1].copy(), -way
+        y[1] *= found.status == 0
+    return y[2:].reshape(2, 2)
+
+
+KNOWN = {
+    1.1: ((0.4013481727197414, -0.3041292460712887), (0.2935468482568414, 0.3666147169859871)),
+    1.3: ((0.3608855037586698, -0.2966305509328317), (0.2671934546108436, 0.3758065788570191)),
+    1.5: ((0.3234475186893913, -0.2887894075326145), (0.2433679391528359, 0.3835000033848026)),
+    1.9: ((0.2566326581957434, -0.2718633598054753), (0.2020719904128375, 0.3956867472984311)),
+}  # fmt: skip
+"""Monodromy matrices of u'' + u + |u'|^α sgn u' / 5 under `SHAKEN` over one cycle, from (0.1, 0.9),
+for a disturbance of u and for one of u'. From 24 terms of Taylor series with 26 digits, in steps
+that fall geometrically to |u'| = 1e-19."""
+
+
+@pytest.mark.parametrize("exponent", [1.1, 1.3, 1.5, 1.9, 2.5])
+def test_derivative_through_a_power_of_the_velocity(exponent: float) -> None:
+    """As exact as the motion: the power's slope is not analytic where the mass turns."""
+    for drag in (0.2, 2.0):
+        rig = vi.Oscillator(1.0, vi.Isolator(1.0, drag, damping_exponent=exponent))
+        rows, damping, _ = carried(rig, started(rig, 0.1, 0.9), 1)
+        matrix = rows[:2, :2]
+        known = differentiated(exponent, drag)
+        np.testing.assert_allclose(matrix, known, atol=1e-10 * np.abs(known).max(), rtol=0.0)
+        assert np.log(np.linalg.det(matrix)) + damping == pytest.approx(0.0, abs=1e-12)
+        if drag == 0.2 and exponent in KNOWN:
+            np.testing.assert_allclose(matrix, KNOWN[exponent], atol=2e-14, rtol=0.0)
 
 
 @pytest.mark.parametrize("isolator", ["linear", "duffing", "drag", "exponential"])

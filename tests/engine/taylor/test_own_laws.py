@@ -54,6 +54,36 @@ def test_an_emitted_formula_is_the_built_in_law() -> None:
         np.testing.assert_allclose(end_of(own), end_of(built_in), atol=2e-12)
 
 
+@pytest.mark.parametrize("gap", [0.3, 0.0, -0.05])
+def test_a_formula_is_as_exact_as_the_built_in_law_in_a_contact_of_a_power(gap: float) -> None:
+    """Both are followed in the same root of the deformation."""
+    stop = vi.PowerBumper(40.0, gap, dissipation=0.3)
+    ends = []
+    for isolator in (
+        vi.Law("k*u*(1 + q*u**2) + c*v", k=1.0, q=0.5, c=0.1),
+        vi.Law("k*u*(1 + q*abs(u)*abs(u)) + c*v", k=1.0, q=0.5, c=0.1),
+        vi.PolynomialIsolator(1.0, 0.1, 0.5),
+    ):
+        rig = vi.Rig(vi.Oscillator(1.0, isolator, stop, stop.replace(gap=0.3)), SHAKEN)
+        data = vi.simulate(rig, 2, start=vi.State(gap - 0.1, 0.9))
+        assert data["event_time"].size >= 4
+        ends.append(data["final_state"].values[:2])
+    np.testing.assert_allclose(ends[0], ends[2], atol=3e-14, rtol=0.0)
+    np.testing.assert_allclose(ends[1], ends[2], atol=3e-12 if gap < 0.0 else 3e-14, rtol=0.0)
+
+
+def test_a_narrow_bend_in_a_contact_of_a_power() -> None:
+    """In a root of the deformation, too, no step passes it: against steps in time."""
+    law = vi.Law("k*u + c*v*exp(-(v/b)**2)", k=1.0, c=2.0, b=5e-3)
+    ends = []
+    for exponent in (1.5, 1.5 + 1e-13):  # of which only the first has a root
+        stop = vi.PowerBumper(40.0, 0.3, exponent)
+        data = vi.simulate(vi.Rig(vi.Oscillator(1.0, law, stop, stop), SHAKEN), 2,
+                           start=vi.State(0.1, 0.9))  # fmt: skip
+        ends.append(data["final_state"].values[:2])
+    np.testing.assert_allclose(ends[0], ends[1], atol=1e-11, rtol=0.0)
+
+
 def test_a_program_is_packed_and_unpacked() -> None:
     rng = np.random.default_rng(1)
     for count in (1, 9, 10, 11, 49, 50):

@@ -28,6 +28,7 @@ from vibroimpact.engine.series.layout import (
     ROOM,
 )
 from vibroimpact.engine.series.values import Frame, Laws
+from vibroimpact.engine.taylor.ahead import varies
 from vibroimpact.engine.taylor.frame import (
     acceleration_of,
     branch_of,
@@ -195,6 +196,8 @@ def _sloped_step(plan: Vector, here: Motion, longest: float) -> tuple[Frame, flo
     """
     frame, h = begun(plan, here, longest)
     sloped(plan, h)
+    if not varies(plan, here.mode):
+        return frame, h
     for _ in range(_CUT):
         excess = _last_slopes(plan, h)
         if excess <= 1.0:
