@@ -8,7 +8,7 @@ from paper.item import Item
 from paper.study import PublishedStudy
 from vibroimpact.figures import family_legend, resonance_family
 from vibroimpact.figures.family import Quantity
-from vibroimpact.figures.style import LEGEND
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.model import laboratory
 
 
@@ -23,7 +23,7 @@ def draw(study: PublishedStudy) -> Figure:
     for ax, quantity in zip((upper, lower), quantities, strict=True):
         resonance_family(data, ax, quantity=quantity, labels=labels, free=False, legend=False)
     upper.set_xlabel("")
-    upper.legend(handles=family_legend(upper), ncols=5, **LEGEND)
+    add_legend(upper, family_legend(upper), columns=5)
     figure.align_ylabels()
     return figure
 

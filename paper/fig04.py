@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 from paper.item import Item
 from paper.study import PublishedStudy
 from vibroimpact.figures import hysteresis_cycle, resonance_curves
-from vibroimpact.figures.style import FREE, LEGEND
+from vibroimpact.figures.legends import add_legend
+from vibroimpact.figures.style import FREE
 
 CODE, NO_BUMPERS = "B4-G4-A3", "B4-Ginf-A3"
 
@@ -31,7 +32,7 @@ def draw(study: PublishedStudy) -> Figure:
         cycle,
     )
     cycle.lines[1].set_linestyle(FREE.dashes)
-    cycle.legend(ncols=1, **LEGEND)
+    add_legend(cycle, columns=1)
     upper = figure.add_subplot(grid[0, 1])
     lower = figure.add_subplot(grid[1, 1], sharex=upper)
     resonance_curves(data, [upper, lower])

@@ -12,7 +12,7 @@ from tempfile import mkdtemp
 import numpy as np
 
 import vibroimpact as vi
-from vibroimpact.figures import save_figure, scenario_map
+from vibroimpact.figures import figure_size, save_figure, scenario_map
 
 data = vi.scenario_map(
     "B2-G1-A3",
@@ -20,6 +20,7 @@ data = vi.scenario_map(
     ("proportional_stiffness", np.geomspace(2e4, 2e6, 13)),
     step=0.03,
 )
-drawn = scenario_map(data)
-save_figure(drawn, Path(mkdtemp(), "map.pdf"))  # for print: PDF, SVG or PNG
-drawn
+with figure_size("86 mm"):  # for one column of a journal
+    column = scenario_map(data)
+save_figure(column, Path(mkdtemp(), "map.pdf"))
+scenario_map(data)

@@ -105,6 +105,27 @@ def test_neighbours_are_as_close_as_asked_for():
         assert steps[in_view].mean() > 0.0003
 
 
+def test_tight_spirals_are_round():
+    """Where a curve winds up to a motion, lines between its points stay close to it."""
+    corner = np.array([0.5, 0.5])
+    measure = Measure(-corner, corner, 0.01, 30.0, 1, 10**9)
+
+    def spiral(at: np.ndarray) -> np.ndarray:
+        radius = 0.02 * np.exp(-2.0 * at)
+        return radius[:, None] * np.column_stack([np.cos(40.0 * at), np.sin(40.0 * at)])
+
+    points, ended = refined(spiral, 0.0, 1.0, measure, 30.0, Allowance(measure))
+    assert ended == ""
+    assert np.linalg.norm(np.diff(points, axis=0), axis=1).max() <= 0.01
+    chords = points[2:] - points[:-2]
+    aside = points[1:-1] - points[:-2]
+    across = np.abs(chords[:, 0] * aside[:, 1] - chords[:, 1] * aside[:, 0])
+    # A point is four times as far from the chord of its neighbours as its lines from the curve.
+    bows = across / np.linalg.norm(chords, axis=1) / 4.0
+    assert bows.max() < 0.025 * 0.01
+    assert len(points) < 500
+
+
 def test_beside_a_stable_curve_states_part():
     for points in curves("stable"):
         middle = inside(points)[5 :: sample(2, 9)]

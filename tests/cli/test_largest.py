@@ -49,6 +49,33 @@ def test_a_building_in_millimetres_g_and_meganewtons(run, tmp_path):
     assert "e+" not in told
 
 
+def test_a_study_is_drawn_in_physical_units_and_a_published_case_normalised(run, tmp_path):
+    (tmp_path / "building.toml").write_text(BUILDING)
+    for words, path, label in (
+        (("building.toml",), "building", "displacement (mm)"),
+        (("building.toml", "--normalised"), "building", "normalised excursion of"),
+        (("B2-G1-A3", "--frequencies", "1Hz,2Hz"), "B2-G1-A3", "normalised excursion of"),
+        (("B2-G1-A3", "--frequencies", "1Hz,2Hz", "--physical"), "B2-G1-A3", "displacement (mm)"),
+    ):
+        assert run(*words, "--figure", "svg")[0] == 0
+        text = (tmp_path / f"out/{path}-sweep.svg").read_text(encoding="utf-8")
+        assert label in text
+        assert ("normalised" in text) is (label == "normalised excursion of")
+
+
+def test_the_width_of_a_column(run, tmp_path):
+    frequencies = ("B2-G1-A3", "--frequencies", "1Hz,2Hz")
+    assert run(*frequencies, "--figure", "pdf", "--figure-width", "86mm")[0] == 0
+    page = (tmp_path / "out/B2-G1-A3-sweep.pdf").read_bytes()
+    box = page.split(b"/MediaBox [ ")[1].split(b" ]")[0].split()
+    assert float(box[2]) == pytest.approx(86.0 / 25.4 * 72.0, abs=0.01)
+    for width, error in (("86", "--figure-width: 86 m"), ("3s", "--figure-width: '3s'")):
+        code, _, errors = run(*frequencies, "--figure-width", width)
+        assert code != 0
+        assert error in errors
+        assert errors.count("\n") == 1
+
+
 def test_as_json_in_si_units(run, tmp_path):
     (tmp_path / "wall.toml").write_text(WALL)
     code, told, _ = run("wall.toml", "--json")

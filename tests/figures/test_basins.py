@@ -58,7 +58,9 @@ def test_motions_are_told_without_colour():
     assert {text.get_text() for text in ax.texts} == {"1", "2"}
     legend = [text.get_text() for text in ax.get_legend().get_texts()]
     assert legend[0].startswith("1: period 1, excursion 13.8 mm, ")
-    assert len(legend) == 2
+    assert legend[2:] == ["darker: settles later"]
+    plain = basin_portrait(made(), shade=False).get_legend()
+    assert len(plain.get_texts()) == 2  # what is not drawn is not named
     bright = [brightness(colour) for colour in COLOURS]
     assert min(abs(a - b) for a, b in pairwise(bright)) > 0.12
 
@@ -69,6 +71,7 @@ def test_what_is_no_basin_is_told():
     data["basin"][5:10] = -2
     legend = basin_portrait(data).get_legend()
     assert [text.get_text() for text in legend.get_texts()][2:] == [
+        "darker: settles later",
         "computation stopped",
         "beyond a stop",
     ]
@@ -88,7 +91,8 @@ def test_curves_of_saddles_are_drawn_over_basins():
     )
     ax = basin_portrait(made(), manifolds=curves)
     legend = [text.get_text() for text in ax.get_legend().get_texts()]
-    stable, *others = legend[2:]
+    assert legend[2] == "darker: settles later"
+    stable, *others = legend[3:]
     assert stable == "stable manifolds of saddles (2 of 2 continue)"
     assert others == ["unstable manifolds of saddles", "saddles"]
     drawn = [line for line in ax.lines if line.get_label() == stable]

@@ -151,7 +151,7 @@ def test_quantities_and_labels(quantity, factor, label):
 
 def test_marks_differ_and_are_named():
     ax = branch_diagram(several())
-    assert named(ax)[:2] == ["stable", "unstable"]
+    assert named(ax)[:2] == ["stable orbits", "unstable orbits"]
     assert named(ax)[2:] == list(marks(ax))
     looks = [
         (line.get_marker(), line.get_markeredgecolor(), line.get_markerfacecolor())
@@ -160,7 +160,12 @@ def test_marks_differ_and_are_named():
     assert len(set(looks)) == len(looks) >= 3
     assert named(branch_diagram(gaps()))[2:] == ["fold", "symmetry breaking", "grazing"]
     # What is not there is not named.
-    assert named(branch_diagram(diagram())) == ["stable", "unstable", "fold", "grazing"]
+    assert named(branch_diagram(diagram())) == [
+        "stable orbits",
+        "unstable orbits",
+        "fold",
+        "grazing",
+    ]
 
 
 def test_a_fold_is_seen_inside_the_grazing_beside_it():

@@ -18,12 +18,13 @@ def test_incremental_curves() -> None:
     ax = incremental_curves(data, limit=1.5)
     grey = [line for line in ax.lines if line.get_color() == "0.75"]
     assert len(grey) == 12
+    assert "single records" in [text.get_text() for text in ax.get_legend().get_texts()]
     np.testing.assert_allclose(grey[3].get_ydata(), 1e3 * data["peak_displacement"][3])
     found = vi.fractiles(data)["peak_displacement"]
     black = [line for line in ax.lines if line.get_color() == "black"]
     for line, share in zip(black, found["fractile"].values, strict=True):
         np.testing.assert_allclose(line.get_ydata(), 1e3 * found.sel(fractile=share))
-        assert line.get_label() == f"{100 * share:g} %"
+        assert line.get_label() == f"{100 * share:g} % fractile"
     assert ax.lines[-1].get_ydata()[0] == 1500.0
     with pytest.raises(vi.InputError, match=r"^demands: it has one scale"):
         incremental_curves(data.isel(scale=[0]))
@@ -43,6 +44,8 @@ def test_fragility_curves() -> None:
     assert at == pytest.approx(0.5, abs=1e-3)
     np.testing.assert_array_equal(marks.get_ydata(), found["probability"])
     assert len(ax.collections) == 1
+    label = ax.get_ylabel().replace("\n", " ")
+    assert label == "probability of largest displacement $|u|$ > 1000 mm (–)"
     _, band, share = (text.get_text() for text in ax.get_legend().get_texts())
     assert (band, share) == ("its 90 % band", "share of the records")
     with pytest.raises(vi.InputError, match=r"^fragility: this dataset has no fragility curve"):

@@ -287,3 +287,34 @@ def test_refused(data) -> None:
         vi.InputError, match=r"^data: its dimensions are .*, but the chart requires one or two"
     ):
         design_chart(data.isel(gap=[0]))
+
+
+def test_the_present_design_is_marked() -> None:
+    """The rig has gaps of 80 mm and bumpers of 400 N/m: a star in the plane, a line over one."""
+    wall = vi.Bumper(400.0, 1.0, 0.08)
+    rig = RIGS["bumpers"].replace(right=wall, left=wall)
+    vary = {"gap": [0.02, 0.05, 0.1], "bumper_stiffness": [300.0, 500.0, 900.0]}
+    found = vi.design_chart(rig, vary, records=noise(8, count=60))
+    for ax in design_chart(found):
+        (star,) = [line for line in ax.lines if line.get_marker() == "*"]
+        assert star.get_xydata().tolist() == [[80.0, 400.0]]
+        assert "present design" in [text.get_text() for text in ax.get_legend().get_texts()]
+    for ax in design_chart(found.isel(bumper_stiffness=0).drop_vars("bumper_stiffness")):
+        (line,) = [line for line in ax.lines if line.get_label() == "present design"]
+        assert line.get_xdata() == [80.0, 80.0]
+    beyond = design_chart(found.isel(gap=[0, 1]))[0]
+    assert not [line for line in beyond.lines if line.get_marker() == "*"]
+
+
+def test_gaps_that_differ_are_no_present_design(data) -> None:
+    """The rig of `data` has no common gap, so nothing is marked."""
+    for ax in design_chart(data):
+        assert not [line for line in ax.lines if line.get_marker() == "*"]
+
+
+def test_a_rig_with_one_stop_has_a_chart_of_this_stop() -> None:
+    vary = {"gap": [0.02, 0.05], "bumper_stiffness": [300.0, 500.0]}
+    found = vi.design_chart(RIGS["elastic"], vary, records=noise(8, count=60))
+    ax = design_chart(found)[0]
+    assert ax.get_xlabel() == "gap of the left side (mm)"
+    assert ax.get_ylabel() == "stiffness of the left bumper (N/m)"

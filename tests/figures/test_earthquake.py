@@ -63,3 +63,27 @@ def test_wrong_input() -> None:
         vi.InputError, match=r"^spectra\['ground'\]: this is not a response spectrum"
     ):
         earthquake_page(vi.simulate(vi.Rig(rig, RECORD)), {"ground": several})
+
+
+def test_the_largest_values_are_written() -> None:
+    motion = vi.simulate(vi.Rig(RIGS["bumpers"], RECORD), tail=1.0, samples=4)
+    base, moved, shaken, force = earthquake_page(motion)
+    gravity = 9.80665
+    for ax, name, unit in ((base, "base_acceleration", 1.0), (moved, "displacement", 1e3)):
+        ((words,),) = ([text.get_text() for text in ax.texts],)
+        number = float(words.split()[0].replace("−", "-"))
+        assert abs(number) == pytest.approx(unit * np.abs(motion[name].values).max(), rel=2e-3)
+    # The acceleration is largest just after a contact begins, between two samples.
+    (words,) = [text.get_text() for text in shaken.texts]
+    largest = max(
+        np.abs(motion[name].values).max()
+        for name in ("acceleration", "event_acceleration_before", "event_acceleration_after")
+    )
+    size, in_g = (float(part.split()[0].replace("−", "-")) for part in words.split(" = "))
+    assert abs(size) == pytest.approx(largest, rel=1e-3)
+    assert in_g == pytest.approx(size / gravity, rel=5e-3)
+    (words,) = [text.get_text() for text in force.texts]
+    assert words.endswith(" N")
+    assert abs(float(words.split()[0].replace("−", "-"))) == pytest.approx(
+        max(np.abs(line.get_ydata()).max() for line in force.lines[2:3]), rel=1e-3
+    )

@@ -69,10 +69,8 @@ def test_bars_of_one_number():
     ax = sensitivity_bars(data)
     heights = [bar.get_height() for bar in ax.patches]
     np.testing.assert_allclose(heights, [*data["first_order"], *data["total_order"]])
-    assert [text.get_text() for text in ax.get_xticklabels()] == [
-        "gap\nof each side",
-        "damping\nof the isolator",
-    ]
+    names = [" ".join(text.get_text().split()) for text in ax.get_xticklabels()]
+    assert names == ["gap of each side", "damping of the isolator"]
     assert "largest displacement" in ax.get_ylabel()
 
 

@@ -99,7 +99,7 @@ def test_gaps_are_lines_at_their_place():
     dashed = [line.get_ydata()[0] for line in ax.lines if line.get_linestyle() == "--"]
     assert dashed == pytest.approx([4.0])
     texts = [t.get_text() for t in ax.get_legend().get_texts()]
-    assert texts == ["motion", "gaps", "right contact", *MARKS]
+    assert texts == ["motion", "gap", "right contact", *MARKS]
 
 
 def test_free_flight(tmp_path):

@@ -252,3 +252,21 @@ def test_a_wrong_parameter_is_reported_before_a_missing_frequency():
     ):
         with pytest.raises(InputError, match=r"^parameters?: 'omega' is not a name"):
             call()
+
+
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_names_of_a_rig_with_one_stop_name_this_stop(side) -> None:
+    both = vi.laboratory.case("B2-G1-A3").oscillator
+    rig = both.replace(**{"left" if side == "right" else "right": None})
+    for name, words in (
+        ("gap", f"gap of the {side} side"),
+        ("bumper_stiffness", f"stiffness of the {side} bumper"),
+        ("proportional_stiffness", f"stiffness of the {side} bumper, with damping in proportion"),
+        ("restitution", f"restitution of the {side} stop"),
+        ("stiffness_ratio", f"stiffness ratio of the {side} bumper"),
+        ("relaxation_time", f"relaxation time of the {side} bumper"),
+        ("damping_ratio", "damping ratio of the isolator"),
+        (f"{side}_gap", f"gap of the {side} side"),
+    ):
+        assert PARAMETERS[name].of(rig).long_name == words
+        assert PARAMETERS[name].of(both).long_name == PARAMETERS[name].long_name

@@ -18,6 +18,9 @@ IMAGES = "the curve grows too slowly to be continued further"
 LOST = "the computation of a state on the curve was given up"
 CONTINUES = (LONGEST, CYCLES, IMAGES)
 """Reasons for an end beyond which the curve continues."""
+_BOW = 0.02
+"""Of the spacing: how far a line between two neighbours may lie beside the curve. Tight spirals,
+which wind up to a motion with turns that are not much longer than the spacing, stay round."""
 
 
 class Curve(NamedTuple):
@@ -94,8 +97,9 @@ def refined(
 ) -> tuple[_Array, str]:
     """Points between two parameters, neighbours in the window closer than its spacing.
 
-    Only the part up to the length `longest` is refined, so that the number of points does not grow
-    with the stretching of the map.
+    Where the curve turns, they are as close as the line through them requires. Only the part up to
+    the length `longest` is refined, so that the number of points does not grow with the stretching
+    of the map.
 
     Returns
     -------
@@ -105,9 +109,11 @@ def refined(
     parameters = np.linspace(begin, end, 17)
     points = at(parameters)
     while True:
-        gaps = np.linalg.norm(measure.scaled(np.diff(points, axis=0)), axis=1)
+        steps = measure.scaled(np.diff(points, axis=0))
+        gaps = np.linalg.norm(steps, axis=1)
         seen = measure.within(points, 0.5)
-        wide = ~(gaps <= measure.spacing) & (seen[1:] | seen[:-1])
+        wide = ~(gaps <= measure.spacing) | (_bows(steps, gaps) > _BOW * measure.spacing)
+        wide &= seen[1:] | seen[:-1]
         wide &= np.diff(parameters) > _FINEST * max(end, 1.0)
         lost = np.flatnonzero(np.isnan(points).any(axis=1))
         wide[lost[0] if len(lost) else len(wide) :] = False
@@ -129,3 +135,13 @@ def refined(
     if len(lost):
         return points[: lost[0]], LOST
     return points, ""
+
+
+def _bows(steps: _Array, gaps: _Array) -> _Array:
+    """How far the curve bows out beside each step, from the angles to the steps next to it."""
+    ahead, behind = steps[1:], steps[:-1]
+    cross = behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0]
+    angles = np.abs(np.arctan2(cross, (behind * ahead).sum(axis=1)))
+    padded = np.concatenate([[0.0], np.nan_to_num(angles), [0.0]])
+    found: _Array = gaps * np.maximum(padded[1:], padded[:-1]) / 8.0
+    return found

@@ -32,8 +32,8 @@ def branch(
     start: Least = None,
     stop: Largest = None,
     frequency: opt.Frequency = None,
-    quantity: Quantity = "eta_d",
-    physical: opt.Flag = False,
+    quantity: Quantity | None = None,
+    physical: opt.Physical = None,
     longest: opt.Whole,
     random: opt.Whole,
     basins: opt.Whole = 0,
@@ -82,7 +82,8 @@ def branch(
         eta_d and eta_a are the excursions of displacement and acceleration, each divided by its
         largest value without bumpers. The eccentricity is the mean of the largest and the smallest
         displacement. The transmissibility is the excursion of the force on the base, divided by
-        that of the exciting force.
+        that of the exciting force. Default: peak_displacement for a study file, and eta_d for a
+        laboratory case.
     physical
         Draw the largest displacement (mm) instead of eta_d, and the largest acceleration (g)
         instead of eta_a.
@@ -104,7 +105,7 @@ def branch(
 
     from vibroimpact.attraction.basins_along import basins_along
     from vibroimpact.cli.output import progress_bar
-    from vibroimpact.cli.results import has_normalised_curves, results
+    from vibroimpact.cli.results import draws_physical, results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import branch as facts
 
@@ -143,10 +144,13 @@ def branch(
                     values = data["frequency"].values
                     grid = np.linspace(values.min(), values.max(), _HOLDS)
                     swept = vi.sweep(what.rig, grid, outputs=outputs)
-        if physical or not has_normalised_curves(data, shaken):
-            quantity = _PHYSICAL.get(quantity, quantity)
+        # A quantity that is named is drawn in its own units.
+        units = physical if quantity is None else bool(physical)
+        shown = quantity or "eta_d"
+        if draws_physical(data, shaken, what, units):
+            shown = _PHYSICAL.get(shown, shown)
         ending = f"{along.replace('_', '-')}-branches"
-        written.write(data, ending, figures.branch_diagram, quantity=quantity, sweep=swept)
+        written.write(data, ending, figures.branch_diagram, quantity=shown, sweep=swept)
         for name in outputs or ():
             drawn = figures.branch_diagram(data, quantity=name, sweep=swept, title=what.title)
             written.draw(f"figure of {name}", f"{ending}-{name}", drawn)

@@ -31,7 +31,7 @@ def ensemble(
     stop: Annotated[opt.Text, Parameter(name="--to")] = None,
     step: opt.Text = None,
     frequencies: opt.Text = None,
-    physical: opt.Physical = False,
+    physical: opt.Physical = None,
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     threads: opt.Threads = None,
     where: opt.Where = "threads",
@@ -97,11 +97,12 @@ def ensemble(
     physical
         Draw the largest acceleration (g) and displacement (mm) instead of the normalised excursions
         η_a (acceleration) and η_d (displacement). An excursion is the maximum minus the minimum. It
-        is normalised by the largest excursion of the same rig without stops.
+        is normalised by the largest excursion of the same rig without stops. Default: --physical
+        for a study file, and --normalised for a laboratory case.
     """
     from vibroimpact.cli.frequency_grid import default_range, list_frequencies
     from vibroimpact.cli.output import progress_bar
-    from vibroimpact.cli.results import has_normalised_curves, results
+    from vibroimpact.cli.results import draws_physical, results
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.study import EnsembleTable
     from vibroimpact.facts import ensemble as facts
@@ -122,29 +123,28 @@ def ensemble(
     response = partial(vi.sweeps, frequencies=grid, threads=threads, where=where)
     chosen = opt.stated(seed=table.seed if seed is None else seed)
     indices = {}
-    with results(what, output) as written:
-        with progress_bar("sweeping") as progress:
-            data = vi.ensemble(
-                shaken,
-                given,
-                response,
-                **opt.stated(
-                    draws=table.draws if draws is None else draws, method=method or table.method
-                ),
-                **chosen,
-                progress=progress,
+    with results(what, output) as written, progress_bar("sweeping") as progress:
+        data = vi.ensemble(
+            shaken,
+            given,
+            response,
+            **opt.stated(
+                draws=table.draws if draws is None else draws, method=method or table.method
+            ),
+            **chosen,
+            progress=progress,
+        )
+        shown = ("peak_acceleration", "peak_displacement")
+        if not draws_physical(data, shaken, what, physical):
+            shown = ("eta_a", "eta_d")
+        nominal = vi.sweep(shaken, grid)
+        bands = figures.resonance_bands
+        written.write(data, "ensemble", bands, quantities=shown, nominal=nominal)
+        if sensitivity:
+            count = data.sizes["sample"]
+            indices = peak_sensitivity(
+                shaken, given, response, shown, draws=count, **chosen, progress=progress
             )
-            shown = ("peak_acceleration", "peak_displacement")
-            if has_normalised_curves(data, shaken) and not physical:
-                shown = ("eta_a", "eta_d")
-            nominal = vi.sweep(shaken, grid)
-            bands = figures.resonance_bands
-            written.write(data, "ensemble", bands, quantities=shown, nominal=nominal)
-            if sensitivity:
-                count = data.sizes["sample"]
-                indices = peak_sensitivity(
-                    shaken, given, response, shown, draws=count, **chosen, progress=progress
-                )
         for name, found in indices.items():
             ending = f"sensitivity-{name.replace('_', '-')}"
             written.files[f"indices of {name}"] = vi.save(found, written.path(ending, "nc"))

@@ -85,7 +85,9 @@ Where: TypeAlias = Annotated[
         "affect the result.",
     ),
 ]
-Physical: TypeAlias = Annotated[bool, Parameter(group=OUTPUT, negative="")]
+Physical: TypeAlias = Annotated[
+    bool | None, Parameter(group=OUTPUT, negative="--normalised", show_default=False)
+]
 OutputFolder: TypeAlias = Annotated[
     FileName, Parameter(name=["--output", "-o"], group=OUTPUT, show_default=False)
 ]
@@ -230,6 +232,9 @@ class OutputOptions:
         "png"
     )
     """File format of the figure (default: png)."""
+    figure_width: Annotated[str | None, Parameter(group=OUTPUT)] = None
+    """Width of the figure for print, such as 86mm for one column of a journal. Its text has a size
+    of 8 points, and pixels are as fine as 600 per inch. Default: a size for the screen."""
     json: Json = False
 
 

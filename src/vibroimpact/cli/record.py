@@ -83,6 +83,7 @@ def record(
     import numpy as np
 
     from vibroimpact.cli.output import output_folder, tell
+    from vibroimpact.cli.results import width_of_figures
     from vibroimpact.facts import record as facts
     from vibroimpact.model.count_checks import whole
     from vibroimpact.model.names import check_name, file_stem, literal
@@ -110,7 +111,7 @@ def record(
         found = found.levelled(baseline)
     if scale is not None or peak is not None:
         found = found.scaled(1.0 if scale is None else scale, peak=peak)
-    with output_folder(output.output) as folder:
+    with width_of_figures(output), output_folder(output.output) as folder:
         spectrum = vi.response_spectrum(found, natural_periods, ratios)
         stem = folder / f"{file_stem(called or name.replace(' ', '-'))}-record"
         about = found.about

@@ -105,11 +105,17 @@ class Results:
         return 0
 
 
-def has_normalised_curves(data: xr.Dataset, rig: Rig) -> bool:
-    """Return whether η_a and η_d exist. They require a bounded motion without stops."""
+def draws_physical(data: xr.Dataset, rig: Rig, what: Subject, physical: bool | None) -> bool:
+    """Return whether a figure has physical units instead of η_a and η_d.
+
+    By default, it has them for the rig of a study file. η_a and η_d belong to the published cases.
+    They require a bounded motion without stops.
+    """
     from vibroimpact.model.unbounded import has_no_bound
 
-    return bool(data["eta_d"].notnull().any()) and not has_no_bound(rig)
+    if not data["eta_d"].notnull().any() or has_no_bound(rig):
+        return True
+    return what.study is not None if physical is None else physical
 
 
 @contextmanager
@@ -123,6 +129,29 @@ def results(what: Subject, output: OutputOptions) -> Iterator[Results]:
     InputError
         If the folder cannot be written to.
     """
-    with output_folder(output.output) as folder, warnings.catch_warnings():
+    with (
+        width_of_figures(output),
+        output_folder(output.output) as folder,
+        warnings.catch_warnings(),
+    ):
         warnings.simplefilter("always", RuntimeWarning)
         yield Results(what, output, folder)
+
+
+@contextmanager
+def width_of_figures(output: OutputOptions) -> Iterator[None]:
+    """Set the width of the figures that are drawn, if an option states it.
+
+    Raises
+    ------
+    InputError
+        If the width is invalid.
+    """
+    if output.figure_width is None:
+        yield
+        return
+    from vibroimpact.figures import figure_size
+    from vibroimpact.figures.sizes import INCH, inches
+
+    with figure_size(INCH * inches(output.figure_width, "--figure-width")):
+        yield

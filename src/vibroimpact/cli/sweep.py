@@ -23,7 +23,7 @@ def sweep(
     step: opt.Text = None,
     frequencies: opt.Text = None,
     direction: Literal["forward", "backward", "both"] | None = None,
-    physical: opt.Physical = False,
+    physical: opt.Physical = None,
     compute: Compute = (),
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     threads: opt.Threads = None,
@@ -81,14 +81,15 @@ def sweep(
         Draw the largest acceleration (g), displacement (mm) and contact force instead of the
         normalised excursions η_a (acceleration) and η_d (displacement). An excursion is the maximum
         minus the minimum. It is normalised by the largest excursion of the same rig without stops.
-        If the motion without stops is unbounded, there are no normalised excursions. The figure
-        then shows the largest values even without --physical.
+        Default: --physical for a study file, and --normalised for a laboratory case. If the motion
+        without stops is unbounded, there are no normalised excursions. The figure then shows the
+        largest values even with --normalised.
     """
     from rich.console import Group
 
     from vibroimpact.cli.frequency_grid import default_range, list_frequencies
     from vibroimpact.cli.output import as_plain_text, progress_bar
-    from vibroimpact.cli.results import results
+    from vibroimpact.cli.results import draws_physical, results
     from vibroimpact.cli.rig import subject
     from vibroimpact.datasets.files import write_whole
     from vibroimpact.engine.status import MORE_CYCLES
@@ -121,7 +122,8 @@ def sweep(
         hints = [line.replace(MORE_CYCLES, "--max-cycles") for line in advice(data)]
         text = sweeps.text(data, found, hints)
         curves = figures.resonance_curves
-        written.write(data, "sweep", curves, found=found, physical=physical or None)
+        units = draws_physical(data, what.rig, what, physical)
+        written.write(data, "sweep", curves, found=found, physical=units)
         summary = as_plain_text(Group(rig_facts.text(what.rig), text))
         written.files["summary"] = write_whole(written.path("sweep", "txt"), summary)
     return written.tell(sweeps.facts(data, found, hints), text)

@@ -9,7 +9,6 @@ from .cycle import hysteresis_cycle as hysteresis_cycle
 from .demands import fragility_curves as fragility_curves
 from .demands import incremental_curves as incremental_curves
 from .design import design_chart as design_chart
-from .design import pareto_front as pareto_front
 from .earthquake import earthquake_page as earthquake_page
 from .ensembles import resonance_bands as resonance_bands
 from .ensembles import sensitivity_bars as sensitivity_bars
@@ -25,6 +24,7 @@ from .history import time_history as time_history
 from .lines import spectrum_lines as spectrum_lines
 from .loops import force_loop as force_loop
 from .motion_page import motion_page as motion_page
+from .pareto import pareto_front as pareto_front
 from .portrait import phase_portrait as phase_portrait
 from .record import record_history as record_history
 from .resonance import resonance_curves as resonance_curves
@@ -32,4 +32,5 @@ from .response_spectra import response_spectra as response_spectra
 from .scenarios import Mark as Mark
 from .scenarios import scenario_map as scenario_map
 from .sections import section_diagram as section_diagram
+from .sizes import figure_size as figure_size
 from .style import save_figure as save_figure

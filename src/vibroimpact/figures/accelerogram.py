@@ -8,9 +8,10 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.response_spectra import response_spectra
-from vibroimpact.figures.style import EDGE, also_in_g, panels
+from vibroimpact.figures.style import EDGE, also_in_g, note_peak, panels
 from vibroimpact.model import GRAVITY, Record
 
 
@@ -55,22 +56,13 @@ def accelerogram(
     ax.plot(record.time, record.acceleration, color="black", linewidth=0.7, zorder=3)
     at = int(np.abs(record.acceleration).argmax())
     peak = float(record.acceleration[at])
-    ax.plot([record.time[at]], [peak], "o", color="#c8102e", markersize=4, zorder=4)
-    late = record.time[at] > 0.7 * record.duration
-    ax.annotate(
-        f"{peak:.4g} m/s² = {peak / GRAVITY:.3g} g at {record.time[at]:.5g} s".replace("-", "−"),
-        (record.time[at], peak),
-        (-8 if late else 8, 0),
-        textcoords="offset points",
-        ha="right" if late else "left",
-        va="center",
-        fontsize="small",
-    )
     ax.set_xlim(0.0, record.duration)
-    ax.margins(y=0.1)
+    words = f"{peak:.4g} m/s² = {peak / GRAVITY:.3g} g at {record.time[at]:.5g} s"
+    note_peak(ax, record.time[at], peak, words)
     ax.set_xlabel("time (s)")
     ax.set_ylabel("base acceleration\n$A_t$ (m/s²)")
     also_in_g(ax)
     if spectrum is not None:
         response_spectra(spectrum, given[1])
+    fit_labels(*given)
     return given

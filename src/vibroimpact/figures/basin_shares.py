@@ -11,9 +11,9 @@ from matplotlib.patches import Patch
 from vibroimpact.errors import InputError
 from vibroimpact.figures.basins import colour_of
 from vibroimpact.figures.branches import axis_unit
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.figures.style import LEGEND
 
 _ROUNDING = 1e-9
 """Rounding error of a sum of shares (per cent)."""
@@ -56,7 +56,14 @@ def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
         ax.fill_between(
             x, low, high, facecolor=colour_of(number), edgecolor="black", linewidth=0.6, zorder=2
         )
-        handles.append(Patch(facecolor=colour_of(number), edgecolor="black", linewidth=0.5))
+        handles.append(
+            Patch(
+                facecolor=colour_of(number),
+                edgecolor="black",
+                linewidth=0.5,
+                label=f"motion {number + 1}",
+            )
+        )
         widest = int(np.argmax(share[:, number]))
         if share[widest, number] > 4.0:
             inner = slice(1, -1) if len(x) > 2 else slice(None)
@@ -96,10 +103,6 @@ def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
         xlabel=f"{along.attrs['long_name']} ({unit})",
         ylabel="share of the states (%)",
     )
-    ax.legend(
-        handles,
-        [f"motion {number + 1}" for number in range(share.shape[1])],
-        ncols=min(share.shape[1], 5),
-        **LEGEND,
-    )
+    add_legend(ax, handles, columns=5)
+    fit_labels(ax)
     return ax

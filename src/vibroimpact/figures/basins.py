@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from vibroimpact.attraction.adaptive_curve import CONTINUES
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.model.written_units import unit
@@ -93,6 +94,16 @@ def basin_portrait(
     more = data.sizes["attractor"] - _LISTED
     if more > 0:
         handles.append(Patch(facecolor="none", label=f"and {more} more"))
+    if shade and _lateness(data) is not None:
+        red, green, blue = ((1.0 - _SHADE) * part for part in to_rgb(COLOURS[0]))
+        handles.append(
+            Patch(
+                facecolor=(red, green, blue),
+                edgecolor="black",
+                linewidth=0.5,
+                label="darker: settles later",
+            )
+        )
     labels = data["basin"].values
     for code, colour, text in (
         (-1, _GIVEN_UP, "computation stopped"),
@@ -111,17 +122,15 @@ def basin_portrait(
     if manifolds is not None:
         handles += _curves(ax, manifolds)
     _name(ax, _motions(data))
-    ax.legend(
-        handles=handles,
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.11),
-        ncols=1 if len(handles) < 4 else 2,
-        frameon=False,
-        fontsize="small",
-        borderaxespad=0.0,
+    add_legend(
+        ax,
+        handles,
+        columns=1 if len(handles) < 4 else 2,
+        place="below",
         handlelength=1.6,
         handleheight=1.2,
     )
+    fit_labels(ax)
     return ax
 
 
@@ -137,15 +146,24 @@ def _image(data: xr.Dataset, shade: bool) -> NDArray[np.float64]:
         + [to_rgb(colour_of(i)) for i in range(data.sizes["attractor"])]
     )
     image: NDArray[np.float64] = palette[labels + 2]
-    cycles = data["capture_cycles"].values
-    if shade and (cycles > 0).any():
-        late = np.log1p(np.where(cycles > 0, cycles, 0))
-        # The few that are caught first or last set no scale.
-        soon, full = np.quantile(late[cycles > 0], [0.02, 0.995])
-        share = np.clip((late - soon) / max(full - soon, 1e-9), 0.0, 1.0)
-        dark = _SHADE * share * (cycles > 0) * (labels >= 0)
-        image = image * (1.0 - dark[..., None])
+    if shade and (late := _lateness(data)) is not None:
+        image = image * (1.0 - _SHADE * late[..., None])
     return image
+
+
+def _lateness(data: xr.Dataset) -> NDArray[np.float64] | None:
+    """Return how late each state was identified, from 0 to 1, or None if all were at once."""
+    cycles = data["capture_cycles"].values
+    known = (cycles > 0) & (data["basin"].values >= 0)
+    if not known.any():
+        return None
+    late = np.log1p(np.where(cycles > 0, cycles, 0))
+    # The few that are caught first or last set no scale.
+    soon, full = np.quantile(late[cycles > 0], [0.02, 0.995])
+    if full <= soon:
+        return None
+    share: NDArray[np.float64] = np.clip((late - soon) / (full - soon), 0.0, 1.0) * known
+    return share
 
 
 def _motions(data: xr.Dataset) -> list[xr.Dataset]:

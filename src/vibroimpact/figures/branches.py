@@ -15,9 +15,10 @@ from vibroimpact.datasets.description import own_outputs
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.labels import Names
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.figures.style import LEGEND, SWEEPS
+from vibroimpact.figures.style import SWEEPS
 from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
 from vibroimpact.stability.branch_styles import QUANTITIES
@@ -110,7 +111,8 @@ def branch_diagram(
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])
     x, y = scale * data[name].values, factor * data[quantity].values
-    for part, stable in _pieces(data):
+    pieces = _pieces(data)
+    for part, stable in pieces:
         ax.plot(
             x[part],
             y[part],
@@ -121,10 +123,16 @@ def branch_diagram(
             gapcolor=None if stable else "white",
             zorder=2.5 if stable else 2,
         )
+    drawn_kinds = {stable for _, stable in pieces}
     handles: list[Any] = [
-        Line2D([], [], color="black", linewidth=1.4, label="stable"),
-        Line2D([], [], color="black", linewidth=0.9, linestyle=(0, (4, 2)), label="unstable"),
+        Line2D([], [], color="black", label=f"{label} orbits", **style)
+        for stable, label, style in (
+            (True, "stable", {"linewidth": 1.4}),
+            (False, "unstable", {"linewidth": 0.9, "linestyle": (0, (4, 2))}),
+        )
+        if stable in drawn_kinds
     ]
+    lines = len(handles)
     kinds = data["bifurcation_kind"].values
     for kind, mark in MARKS.items():
         mine = kinds == kind
@@ -142,16 +150,17 @@ def branch_diagram(
             zorder=4,
         )
         handles.append(drawn[0])
-    found = handles[2:]
+    found = handles[lines:]
     if sweep is not None:
         handles += _marks_of(sweep, data, ax, quantity, factor)
     ax.set_xlim(x.min(), x.max())
     ax.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
     ax.set_ylabel(label)
-    ax.legend(handles=handles, ncols=4, **LEGEND)
+    add_legend(ax, handles)
     names = Names(ax, found)
     for part, name in _orbits(data):
         names.write(x[part], y[part], name, "black", once=True)
+    fit_labels(ax)
     return ax
 
 

@@ -8,7 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch, Rectangle
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels, new_axes
+from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model import laboratory
 from vibroimpact.scenarios.scenario import Scenario
@@ -49,7 +51,12 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
                 f"found[{code}]: {scenario!r} is not a scenario; use one of {', '.join(SCENARIOS)}"
             )
     bumpers, gaps = list(laboratory.BUMPERS), list(laboratory.GAPS)
-    axes = Panels(new_axes(1, len(laboratory.ACCELERATIONS), (9.6, 4.0), sharey=True)[0])
+    count = len(laboratory.ACCELERATIONS)
+    # Headings of narrow panels have two lines, and their legend has more lines.
+    narrow = columns_that_fit(count) < count
+    size = (9.6, 6.0 if narrow else 4.0)
+    break_ = "\n" if narrow else " "
+    axes = Panels(new_axes(1, count, size, sharey=True)[0])
     figure = axes[0].get_figure(root=True)
     assert figure is not None
     for ax, (name, value) in zip(axes, laboratory.ACCELERATIONS.items(), strict=True):
@@ -66,13 +73,14 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
             [f"{b}  {1e-3 * laboratory.BUMPERS[b]:g}" for b in bumpers],
         )
         ax.tick_params(length=0)
-        ax.set_title(f"{name}: {_PER_GRAVITY * value:.0f} % of gravity", fontsize="medium")
+        ax.set_title(f"{name}:{break_}{_PER_GRAVITY * value:.0f} % of gravity", fontsize="medium")
         ax.set_xlabel("total gap $G$ (mm)")
-    axes[0].set_ylabel("bumper stiffness $K_j$ (kN/m)")
+    axes[0].set_ylabel("bumper stiffness\n$K_j$ (kN/m)")
     if title:
         figure.suptitle(title)
-    figure.legend(
-        handles=[
+    add_legend(
+        figure,
+        [
             Patch(
                 facecolor=SCENARIOS[s.label].colour,
                 edgecolor=SCENARIOS[s.label].line,
@@ -83,13 +91,11 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
             for s in Scenario
             if s.label in found.values()
         ],
-        loc="outside lower center",
-        ncols=3,
-        frameon=False,
-        fontsize="small",
+        columns=3,
         handlelength=2.4,
         handleheight=1.2,
     )
+    fit_labels(*axes)
     return axes
 
 

@@ -11,10 +11,11 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import Shown, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
-from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
+from vibroimpact.figures.style import EDGE, SHADE, panels
 
 _LINES: dict[str, Any] = {
     "right": {"linestyle": "-", "linewidth": 1.3},
@@ -92,7 +93,8 @@ def clearances(
     near.set_ylabel("clearance (mm),\nmagnified")
     near.set_xlabel("time in forcing cycles $t/T$ (–)")
     whole.axvspan(*near.get_xlim(), color=SHADE, zorder=0)
-    whole.legend(ncols=4, **LEGEND)
+    add_legend(whole)
+    fit_labels(*given)
     return given
 
 

@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import MARKS, axis_unit
 from vibroimpact.figures.labels import Names
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.figures.style import LEGEND
 
 _DASHES = {
     "fold": "-",
@@ -90,10 +90,11 @@ def bifurcation_curves(
             seen.add("cusp")
     ax.set_xlabel(f"{given[0][first].attrs['long_name']} ({units[0]})")
     ax.set_ylabel(f"{given[0][second].attrs['long_name']} ({units[1]})")
-    ax.legend(ncols=4, **LEGEND)
+    add_legend(ax)
     written = Names(ax)
     for name, data in zip(names, given, strict=True):
         if name not in ("", data.attrs["kind"]):
             x, y = (k * data[p].values for k, p in zip(scales, (first, second), strict=True))
             written.write(x, y, name, MARKS[data.attrs["kind"]].colour, once=False)
+    fit_labels(ax)
     return ax

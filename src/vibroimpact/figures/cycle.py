@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 
 from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.figures.base_motion import base_label
+from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import (
     axes_or_new,
     force_unit,
@@ -75,4 +76,5 @@ def hysteresis_cycle(
     ax.set_xlabel(base_label("relative displacement $u$ (mm)", given.values()))
     ax.set_ylabel(label)
     name_lines(ax, curves)
+    fit_labels(ax)
     return ax

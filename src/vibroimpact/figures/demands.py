@@ -9,11 +9,13 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes.fragility import lacking
 from vibroimpact.earthquakes.suites import fractiles, known
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.style import LEGEND, fit_x_axis
+from vibroimpact.figures.style import fit_x_axis
 from vibroimpact.model import GRAVITY, to_si
 from vibroimpact.model.quantities import LENGTH
 
@@ -71,9 +73,16 @@ def incremental_curves(
     factor, label = _LABELS.get(quantity, (1.0, _plain_label(demands, quantity)))
     unit, symbol = _level_unit(demands)
     level = unit * demands["scale"].values
-    for one in values.transpose("record", "scale").values:
+    for number, one in enumerate(values.transpose("record", "scale").values):
         finite = np.where(np.isfinite(one), one, np.nan)
-        ax.plot(level, factor * finite, color="0.75", linewidth=0.6, zorder=2)
+        ax.plot(
+            level,
+            factor * finite,
+            color="0.75",
+            linewidth=0.6,
+            label=None if number else "single records",
+            zorder=2,
+        )
     found = fractiles(demands, quantity, _FRACTILES)[quantity]
     for share, dashes in zip(_FRACTILES, _DASHES, strict=True):
         curve = found.sel(fractile=share).values
@@ -83,7 +92,7 @@ def incremental_curves(
             color="black",
             linestyle=dashes,
             linewidth=1.5,
-            label=f"{100 * share:g} %",
+            label=f"{100 * share:g} % fractile",
             zorder=3,
         )
     if limit is not None:
@@ -92,7 +101,8 @@ def incremental_curves(
     ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
     ax.set_xlabel(_level_label(demands, symbol))
     ax.set_ylabel(label)
-    ax.legend(ncols=4, **LEGEND)
+    add_legend(ax)
+    fit_labels(ax)
     return ax
 
 
@@ -190,8 +200,9 @@ def fragility_curves(
     fit_x_axis(ax, level)
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(_level_label(fragility, symbol))
-    ax.set_ylabel("probability of exceeding the limit (–)")
-    ax.legend(ncols=1 if others else len(ax.get_legend_handles_labels()[1]), **LEGEND)
+    ax.set_ylabel(f"probability of {_exceedance(fragility)} (–)")
+    add_legend(ax, columns=1 if others else 4)
+    fit_labels(ax)
     return ax
 
 
@@ -224,6 +235,20 @@ def _value(data: xr.Dataset, dim: str, value: object) -> str:
     unit = data[dim].attrs.get("units", "1")
     number = value if isinstance(value, str) else f"{value:.4g}"
     return f"{dim.replace('_', ' ')} {number}{'' if unit == '1' else f' {unit}'}"
+
+
+def _exceedance(fragility: xr.Dataset) -> str:
+    """Return which limit of which quantity is exceeded."""
+    about = json.loads(fragility.attrs["parameters"])
+    quantity, limit = str(about["quantity"]), float(about["limit"])
+    variable = VARIABLES.get(quantity)
+    if quantity in _LABELS:
+        factor, label = _LABELS[quantity]
+        name, unit = label[:-1].rsplit(" (", 1)
+    else:
+        factor, unit = 1.0, variable.units if variable else ""
+        name = variable.long_name if variable else quantity.replace("_", " ")
+    return f"{name} > {factor * limit:.4g} {'' if unit == '1' else unit}".rstrip()
 
 
 def _plain_label(data: xr.Dataset, quantity: str) -> str:

@@ -1,7 +1,9 @@
-"""Design charts: displacement and acceleration over parameters, and Pareto fronts."""
+"""Design charts: displacement and acceleration over parameters."""
 
 from __future__ import annotations
 
+import json
+import math
 import textwrap
 from typing import Any
 
@@ -18,26 +20,25 @@ from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.design.limits import excesses
 from vibroimpact.errors import InputError
 from vibroimpact.figures.interpolation import finer, finer_axis, nearest
+from vibroimpact.figures.legends import add_legend, apply_layout, fit_labels
 from vibroimpact.figures.levels import number_lines
-from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.style import LEGEND, panels
-from vibroimpact.model import GRAVITY
+from vibroimpact.figures.style import panels
+from vibroimpact.model import GRAVITY, Oscillator, Rig
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH
-from vibroimpact.model.units import pretty
 from vibroimpact.scenarios.axes import logarithmic
 
 _Array = NDArray[np.float64]
 
-_QUANTITIES = {
+QUANTITIES = {
     "peak_displacement": (1e3, "largest displacement $|u|$ (mm)"),
     "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration $|\\ddot u + A_t|$ (g)"),
     "peak_force": (1e-3, "largest contact force (kN)"),
 }
+_PRESENT = "#c05a00"
+"""Colour of the mark of the present design."""
 _LEVELS = 9
-_NAMED = 5
-"""Largest number of points of a front whose parameters are listed."""
 
 
 def design_chart(
@@ -52,6 +53,9 @@ def design_chart(
     Contour lines have labels with their values where there is enough room. Dots mark Pareto-optimal
     designs. A thick dashed line connects the designs that just have no contact, next to designs
     with contact. The required gap is slightly smaller than along this line; see `required_gap`.
+
+    A star, or a vertical line in a chart over one parameter, marks the present design, which is the
+    rig with its own values, if it lies within the chart.
 
     In hatched areas a limit is exceeded. The edges of these areas are interpolated between the
     designs, on the scales of the axes, like the contour lines. Next to a design without finite
@@ -74,10 +78,10 @@ def design_chart(
     InputError
         If ``data`` is not a dataset of `design_chart` with one or two varied parameters.
     """
-    dims = _dims(data)
+    dims = parameters_of(data)
     for name in quantities:
-        if name not in _QUANTITIES:
-            raise InputError(f"quantities: {name!r}; pass one or more of {', '.join(_QUANTITIES)}")
+        if name not in QUANTITIES:
+            raise InputError(f"quantities: {name!r}; pass one or more of {', '.join(QUANTITIES)}")
     if len(dims) > 2 or min(data.sizes[dim] for dim in dims) < 2:
         raise InputError(
             f"data: its dimensions are {dict(data.sizes)}, but the chart requires one or two, with "
@@ -85,131 +89,20 @@ def design_chart(
         )
     count = len(quantities)
     drawn = panels(axes, count, "one per quantity", (4.9 * count, 4.6), title, beside=True)
-    for ax, name in zip(drawn, quantities, strict=True):
-        (_curve if len(dims) == 1 else _contours)(ax, data, name)
+    if len(dims) == 1:
+        for ax, name in zip(drawn, quantities, strict=True):
+            _curve(ax, data, name)
+        fit_labels(*drawn)
+        return drawn
+    lines = [_contours(ax, data, name) for ax, name in zip(drawn, quantities, strict=True)]
+    fit_labels(*drawn)
+    apply_layout(*drawn)
+    for ax, (levels, marks) in zip(drawn, lines, strict=True):
+        number_lines(ax, levels, marks)
     return drawn
 
 
-def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
-    """Draw the acceleration of all designs over their displacement, with the Pareto front.
-
-    Some designs, which are evenly spaced along the front, are numbered. Their parameters are listed
-    next to the axes. Crosses mark designs that exceed a limit.
-
-    Parameters
-    ----------
-    data
-        Dataset of `design_chart`.
-    ax
-        Axes to draw on. Default: a new figure.
-    title
-        Title of the figure, if a new one is made.
-
-    Raises
-    ------
-    InputError
-        If ``data`` is not a dataset of `design_chart`, or if no design was computed.
-    """
-    dims = _dims(data)
-    u, a = (
-        _QUANTITIES[name][0] * data[name].values.ravel()
-        for name in ("peak_displacement", "peak_acceleration")
-    )
-    best = data["pareto"].values.ravel().astype(bool)
-    finite = np.isfinite(u) & np.isfinite(a)
-    if not finite.any():
-        raise InputError("data: no design has finite peaks; compute other designs to draw them")
-    ax = axes_or_new(ax, (6.4, 4.8), title)
-    hits = data["hitting"].values.ravel() > 0.0
-    beyond = _beyond(data).ravel()
-    looks = (
-        (beyond, "x", "0.75", 4.0, 2, "exceeds a limit"),
-        (hits & ~beyond, "o", "0.75", 4.0, 2, "hits a stop"),
-        (~hits & ~beyond, "o", "none", 9.0, 5, "hits no stop"),
-    )
-    for mine, mark, face, size, above, label in looks:
-        if (finite & mine).any():
-            ax.plot(
-                u[finite & mine],
-                a[finite & mine],
-                linestyle="",
-                marker=mark,
-                markersize=size,
-                markerfacecolor=face,
-                markeredgecolor="0.5",
-                markeredgewidth=0.7,
-                label=label,
-                zorder=above,
-            )
-    order = np.flatnonzero(best)[np.lexsort((a[best], u[best]))]
-    if best.any():
-        ax.plot(
-            u[order],
-            a[order],
-            color="black",
-            linewidth=1.2,
-            marker="s",
-            markersize=4.5,
-            label=_best(data),
-            zorder=4,
-        )
-    ax.set_xlabel(_quantity(data, "peak_displacement")[1])
-    ax.set_ylabel(_quantity(data, "peak_acceleration")[1])
-    ax.set_ylim(bottom=0.0)
-    ax.margins(x=0.08)
-    if best.any():
-        _name_points(ax, data, dims, order, u, a)
-    ax.legend(ncols=2 if beyond.any() else 3, **LEGEND)
-    return ax
-
-
-def _name_points(
-    ax: Axes, data: xr.Dataset, dims: list[str], order: NDArray[Any], u: _Array, a: _Array
-) -> None:
-    """Number some points that are evenly spaced along the front, and list their parameters."""
-    wide, high = max(np.ptp(u[order]), 1e-12), max(np.ptp(a[order]), 1e-12)
-    along = np.concatenate(
-        [[0.0], np.cumsum(np.hypot(np.diff(u[order]) / wide, np.diff(a[order]) / high))]
-    )
-    wanted = np.linspace(0.0, along[-1], min(_NAMED, len(order)))
-    chosen = dict.fromkeys(int(np.abs(along - at).argmin()) for at in wanted)
-    lines = []
-    for number, k in enumerate(chosen, start=1):
-        at = np.unravel_index(order[k], data["pareto"].shape)
-        told = [_told(dim, float(data[dim].values[i])) for dim, i in zip(dims, at, strict=True)]
-        lines.append(f"{number}  {', '.join(told)}")
-        ax.annotate(
-            str(number),
-            (u[order[k]], a[order[k]]),
-            xytext=(-4.0, -4.0),
-            textcoords="offset points",
-            ha="right",
-            va="top",
-            fontsize="small",
-            fontweight="bold",
-            zorder=6,
-        )
-    names = ", ".join(str(data[dim].attrs["long_name"]) for dim in dims)
-    if len(chosen) < len(order):
-        names = f"{len(chosen)} of the {len(order)} designs that are {_best(data)}: {names}"
-    told_of = "\n".join([*textwrap.wrap(names, 26), *lines])
-    ax.text(
-        1.02,
-        1.0,
-        told_of,
-        transform=ax.transAxes,
-        ha="left",
-        va="top",
-        fontsize="small",
-        linespacing=1.4,
-    )
-
-
-def _told(name: str, value: float) -> str:
-    return pretty(float(f"{value:.3g}"), PARAMETERS[name].quantity)
-
-
-def _beyond(data: xr.Dataset) -> NDArray[np.bool_]:
+def beyond_limits(data: xr.Dataset) -> NDArray[np.bool_]:
     """Return which designs exceed a limit."""
     if "within_limits" not in data:
         return np.zeros(data["pareto"].shape, dtype=bool)
@@ -217,20 +110,27 @@ def _beyond(data: xr.Dataset) -> NDArray[np.bool_]:
     return found
 
 
-def _best(data: xr.Dataset) -> str:
+def best_label(data: xr.Dataset) -> str:
     """Return the label of the front. Designs that exceed a limit may lie beyond it."""
-    return f"not dominated {'within the limits' if _beyond(data).any() else 'by another'}"
+    return f"not dominated {'within the limits' if beyond_limits(data).any() else 'by another'}"
 
 
-def _dims(data: Any) -> list[str]:
+def parameters_of(data: Any) -> list[str]:
+    """Return the names of the parameters that are varied.
+
+    Raises
+    ------
+    InputError
+        If the data are not a dataset of designs.
+    """
     if not isinstance(data, xr.Dataset) or "pareto" not in data:
         raise InputError("data: this is not a dataset of designs; use the result of design_chart")
     return [str(dim) for dim in data["pareto"].dims]
 
 
-def _quantity(data: xr.Dataset, name: str) -> tuple[float, str]:
+def quantity_label(data: xr.Dataset, name: str) -> tuple[float, str]:
     """Return factor and label of a quantity, with its fractile if some records exceed it."""
-    factor, label = _QUANTITIES[name]
+    factor, label = QUANTITIES[name]
     share = fractile_of(data)
     return factor, label if share is None else (
         f"{label}\n{100.0 * share:g} % fractile over the records"
@@ -267,20 +167,39 @@ def _axis(axis: Any, values: xr.DataArray) -> _Array:
     return drawn
 
 
+def _present(data: xr.Dataset, dims: list[str]) -> list[float]:
+    """Return the values of parameters of the rig itself, in the units of the axes.
+
+    A value is NaN if the rig has none, for example a common gap if the gaps of its stops differ.
+    """
+    about = json.loads(data.attrs["parameters"])
+    if "oscillator" not in about:
+        return [math.nan for _ in dims]
+    rig = Rig(Oscillator.model_validate(about["oscillator"]))
+    found = []
+    for dim in dims:
+        try:
+            value = PARAMETERS[dim].read(rig)
+        except InputError:
+            value = math.nan
+        found.append(_unit(dim, data[dim].values)[0] * value)
+    return found
+
+
 def _sorted(data: xr.Dataset) -> xr.Dataset:
     return data.sortby([str(dim) for dim in data["pareto"].dims])
 
 
 def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
     data = _sorted(data)
-    (dim,) = _dims(data)
-    factor, label = _quantity(data, name)
+    (dim,) = parameters_of(data)
+    factor, label = quantity_label(data, name)
     x = _axis(ax.xaxis, data[dim])
     y = factor * np.where(np.isfinite(data[name].values), data[name].values, np.nan)
     ax.plot(x, y, color="black", linewidth=1.4, zorder=3)
     best = data["pareto"].values.astype(bool)
-    ax.plot(x[best], y[best], "o", color="black", markersize=4.0, label=_best(data))
-    beyond = _beyond(data)
+    ax.plot(x[best], y[best], "o", color="black", markersize=4.0, label=best_label(data))
+    beyond = beyond_limits(data)
     if beyond.any():
         ax.plot(x[beyond], y[beyond], "x", color="0.5", markersize=5.0, label="exceeds a limit")
     free = ~(data["hitting"].values > 0.0)
@@ -293,19 +212,23 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
         markeredgecolor="0.5",
         label="hits no stop",
     )
+    (present,) = _present(data, [dim])
+    if x.min() <= present <= x.max():
+        ax.axvline(present, color=_PRESENT, linestyle="-.", linewidth=1.0, label="present design")
     ax.set_ylabel(label)
     ax.set_ylim(bottom=0.0)
-    ax.legend(ncols=2, **LEGEND)
+    add_legend(ax, columns=2)
 
 
-def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
+def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Line2D]]:
+    """Draw contours, and return their levels and the marks that their numbers must not cover."""
     data = _sorted(data)
-    second, first = _dims(data)
+    second, first = parameters_of(data)
     # A gap lies along the bottom, whichever was named first.
     if second == "gap":
         first, second = second, first
     data = data.transpose(second, first)
-    factor, label = _quantity(data, name)
+    factor, label = quantity_label(data, name)
     x, y = _axis(ax.xaxis, data[first]), _axis(ax.yaxis, data[second])
     # Contours between nodes are straight lines, whatever the axes' scales.
     points = finer_axis(ax.xaxis, x), finer_axis(ax.yaxis, y)
@@ -338,7 +261,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
                 label="first of these designs to hit no stop",
             )
         )
-    if _beyond(data).any():
+    if beyond_limits(data).any():
         handles.append(_hatch(ax, *points, _excess(data)))
     best = np.argwhere(data["pareto"].values.astype(bool))
     (dots,) = ax.plot(
@@ -349,25 +272,35 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> None:
         markersize=4.0,
         color="black",
         clip_on=False,
-        label=_best(data),
+        label=best_label(data),
         zorder=5,
     )
-    number_lines(ax, levels, [dots, *edges])
+    stars = []
+    right, up = _present(data, [first, second])
+    if x.min() <= right <= x.max() and y.min() <= up <= y.max():
+        stars = ax.plot(
+            [right],
+            [up],
+            linestyle="",
+            marker="*",
+            markersize=10.0,
+            color=_PRESENT,
+            markeredgecolor="white",
+            markeredgewidth=0.6,
+            clip_on=False,
+            label="present design",
+            zorder=6,
+        )
+    marks = [*([dots] if len(best) else []), *stars]
     if not len(best):
-        dots.remove()  # where no design is, it would still take room
-    ax.legend(
-        handles=[*([dots] if len(best) else []), *handles],
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.16),
-        frameon=False,
-        ncols=2,
-        fontsize="small",
-    )
+        dots.remove()
+    add_legend(ax, [*marks, *handles], columns=2, place="below")
+    return levels, [*marks, *edges]
 
 
 def _excess(data: xr.Dataset) -> _Array:
     """Return values at the points of `finer_axis` that are above 0 where a limit is exceeded."""
-    beyond = _beyond(data)
+    beyond = beyond_limits(data)
     each = np.array(
         [one.transpose(*data["pareto"].dims).values for one in excesses(data)]
         or [np.full(beyond.shape, np.nan)]

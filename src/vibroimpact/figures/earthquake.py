@@ -11,10 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import SIDES, Shown, named, shown
 from vibroimpact.figures.notebook import Drawing, Panel, Panels
 from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
-from vibroimpact.figures.style import EDGE, LEGEND, also_in_g, fit_x_axis
+from vibroimpact.figures.sizes import columns_that_fit, size_of_new
+from vibroimpact.figures.style import EDGE, also_in_g, fit_x_axis, note_peak
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, fitting
@@ -42,6 +44,10 @@ def earthquake_page(
     - the force of isolator and stops over the displacement;
     - response spectra, if they are passed.
 
+    The largest absolute values of the record, the displacement, the acceleration and the force are
+    marked and written. At an impact on a rigid stop the force is infinite, so the largest force is
+    that between impacts.
+
     Parameters
     ----------
     motion
@@ -65,14 +71,17 @@ def earthquake_page(
         If the dataset does not hold a motion through a record, or if a spectrum is invalid.
     """
     stops = stops_of(motion)
-    figure = Drawing(figsize=(7.2, 9.4), layout="constrained")
-    grid = figure.add_gridspec(4, 2, height_ratios=[1.0, 1.4, 1.4, 1.9])
+    beside = columns_that_fit(2) > 1 or not spectra
+    size = (7.2, 9.4) if beside else (7.2, 12.0)
+    figure = Drawing(figsize=size_of_new(size), layout="constrained")
+    heights = [1.0, 1.4, 1.4, 1.9, *([] if beside else [1.7])]
+    grid = figure.add_gridspec(len(heights), 2, height_ratios=heights)
     new: dict[str, Any] = {"axes_class": Panel}
     base = figure.add_subplot(grid[0, :], **new)
     others = [figure.add_subplot(grid[row, :], sharex=base, **new) for row in (1, 2)]
-    last = [figure.add_subplot(grid[3, 0] if spectra else grid[3, :], **new)]
+    last = [figure.add_subplot(grid[3, 0] if spectra and beside else grid[3, :], **new)]
     if spectra:
-        last.append(figure.add_subplot(grid[3, 1], **new))
+        last.append(figure.add_subplot(grid[3, 1] if beside else grid[4, :], **new))
     (curve,) = shown(named(motion, records=True))
     _histories((base, *others), motion, curve, stops)
     _force(last[0], motion, curve)
@@ -81,6 +90,7 @@ def earthquake_page(
     figure.align_ylabels([base, *others])
     if title:
         figure.suptitle(title)
+    fit_labels(base, *others, *last)
     return Panels((base, *others, *last))
 
 
@@ -94,6 +104,9 @@ def _histories(
     base.plot(time, motion["base_acceleration"].values, color="black", linewidth=0.7)
     base.set_ylabel("base acceleration\n$A_t$ (m/s²)")
     base.set_xlim(time[0], time[-1])
+    ground = motion["base_acceleration"].values
+    at = int(np.abs(ground).argmax())
+    note_peak(base, time[at], ground[at], _in_g(ground[at]))
     for ax, variable, factor in ((moved, "displacement", 1e3), (shaken, "acceleration", 1.0)):
         ax.plot(curve.at, factor * curve.values[variable], color="black", linewidth=0.8, zorder=3)
         contact_bands(ax, motion)
@@ -105,6 +118,12 @@ def _histories(
     for ax in (base, moved):
         ax.tick_params(labelbottom=False)
     gap_lines(moved, stops)
+    for ax, variable, factor in ((moved, "displacement", 1e3), (shaken, "acceleration", 1.0)):
+        values = factor * curve.values[variable]
+        at = int(np.nanargmax(np.abs(values)))
+        size = float(values[at])
+        words = _in_g(size) if variable == "acceleration" else f"{size:.4g} mm"
+        note_peak(ax, float(curve.at[at]), size, words)
     handles = stops_legend(stops, motion)
     begun = motion["event_contact"].values >= 1
     for side, (mark, colour) in _MARKS.items():
@@ -133,7 +152,11 @@ def _histories(
                 )
             )
     if handles:
-        moved.legend(handles=handles, ncols=5, **{**LEGEND, "columnspacing": 1.0})
+        add_legend(moved, handles, columns=5, columnspacing=1.0)
+
+
+def _in_g(acceleration: float) -> str:
+    return f"{acceleration:.4g} m/s² = {acceleration / GRAVITY:.3g} g"
 
 
 def _force(ax: Axes, motion: xr.Dataset, curve: Shown) -> None:
@@ -147,6 +170,9 @@ def _force(ax: Axes, motion: xr.Dataset, curve: Shown) -> None:
     for side, gap in curve.gaps.items():
         at = 1e3 * gap * (1.0 if side == "right" else -1.0)
         ax.axvline(at, color="black", linestyle="--", linewidth=0.8, zorder=1)
+    at = int(np.nanargmax(np.abs(pull)))
+    size = float(pull[at]) / scale
+    note_peak(ax, 1e3 * float(curve.values["displacement"][at]), size, f"{size:.4g} {unit}")
     ax.set_xlabel("relative displacement $u$ (mm)")
     ax.set_ylabel(f"force of isolator and stops ({unit})")
 
@@ -174,4 +200,4 @@ def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
     ax.set_xlabel("natural period (s)")
     ax.set_ylabel("spectral acceleration (g)")
     ax.grid(True, which="major", linewidth=0.4, color="0.85")
-    ax.legend(ncols=2, **{**LEGEND, "columnspacing": 1.0})
+    add_legend(ax, columns=2, columnspacing=1.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,13 +14,17 @@ from matplotlib.patches import Patch
 from vibroimpact.earthquakes.suites import fractiles
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
+from vibroimpact.figures.legends import add_legend, break_lines, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, fit_x_axis, panels
+from vibroimpact.figures.style import MOTIONS, SWEEPS, fit_x_axis, panels
+from vibroimpact.model import Oscillator
 from vibroimpact.model.parameters import PARAMETERS
 
 _HATCHES = {"forward": "", "backward": "////"}
+_FULL = 0.9
+"""Share of the distance between bars that the name of a parameter may cover."""
 _LIGHT = {"forward": 0.25, "backward": 0.0}
 
 
@@ -114,8 +119,9 @@ def resonance_bands(
         ax.set_ylabel(label)
         fit_x_axis(ax, frequency)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    drawn[0].legend(handles=handles, ncols=3, **LEGEND)
+    add_legend(drawn[0], handles, columns=3)
     drawn[-1].set_xlabel("excitation frequency (Hz)")
+    fit_labels(*drawn)
     return drawn
 
 
@@ -157,7 +163,8 @@ def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | N
         _bars(ax, data)
     _, label = axis_label(data["mean"], str(data.attrs["quantity"]))
     ax.set_ylabel(f"share of the variance of\n{label.rsplit(' (', 1)[0]} (–)")
-    ax.legend(ncols=2, **LEGEND)
+    add_legend(ax, columns=2)
+    fit_labels(ax)
     return ax
 
 
@@ -185,8 +192,13 @@ def _bars(ax: Axes, data: xr.Dataset) -> None:
             label=label,
         )
     ax.axhline(0.0, color="black", linewidth=0.8)
-    # In two lines: some are long.
-    ax.set_xticks(at, [_words(name).replace(" of ", "\nof ", 1) for name in names])
+    ax.set_xticks(at, [_words(data, name) for name in names])
+    room = _FULL * ax.bbox.width / max(len(names), 1)
+    below = ax.get_xticklabels()
+    for text in below:
+        break_lines(text, room, None)
+    upright = any(text.get_window_extent().width > room for text in below)
+    ax.set_xticks(at, [text.get_text() for text in below], rotation=90.0 if upright else 0.0)
 
 
 def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
@@ -203,7 +215,7 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
             markersize=look.size,
             markevery=max(1, len(x) // 20),
             markerfacecolor=look.colour if look.filled else "none",
-            label=_words(str(name)),
+            label=_words(data, str(name)),
         )
     fit_x_axis(ax, x)
     # Beyond 0 and 1 an estimate is nothing but its error.
@@ -213,5 +225,7 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
     ax.set_xlabel(f"{meaning.get('long_name', over.replace('_', ' '))} ({unit})")
 
 
-def _words(name: str) -> str:
-    return PARAMETERS[name].long_name
+def _words(data: xr.Dataset, name: str) -> str:
+    """Return the name of a parameter in words, as it is in the rig of the dataset."""
+    rig = Oscillator.model_validate(json.loads(data.attrs["parameters"])["oscillator"])
+    return PARAMETERS[name].of(rig).long_name

@@ -10,9 +10,10 @@ from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.figures.style import LEGEND, MOTIONS, fit_x_axis
+from vibroimpact.figures.style import MOTIONS, fit_x_axis
 from vibroimpact.model.names import literal
 
 _WIDE = 2.0
@@ -90,5 +91,6 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
     fit_x_axis(ax, x)
     ax.set_xlabel(f"{found[name].attrs['long_name']} ({unit})")
     ax.set_ylabel("Lyapunov exponents (1/s)")
-    ax.legend(ncols=2, **LEGEND)
+    add_legend(ax, columns=2)
+    fit_labels(ax)
     return ax

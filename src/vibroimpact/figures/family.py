@@ -14,9 +14,10 @@ from matplotlib.patches import FancyArrowPatch
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units, in_unit
-from vibroimpact.figures.style import FREE, LEGEND, SWEEPS, fit_x_axis
+from vibroimpact.figures.style import FREE, SWEEPS, fit_x_axis
 from vibroimpact.model.names import literal
 from vibroimpact.response.resonance import features
 
@@ -106,7 +107,7 @@ def resonance_family(
     free
         Whether the motion without stops is drawn. It is drawn only if it is the same for all rigs.
     legend
-        Whether there is a legend to the right of the axes. `family_legend` returns its entries.
+        Whether there is a legend above the axes. `family_legend` returns its entries.
     title
         Title of the figure, if a new one is made.
 
@@ -136,7 +137,7 @@ def resonance_family(
                     f"{field}: {name!r} is not a rig of data; the names of its rigs are accepted: "
                     f"{', '.join(names)}"
                 )
-    ax = axes_or_new(ax, (8.4, 5.0), title)
+    ax = axes_or_new(ax, (7.2, 5.2), title)
     factor, label, flight, normalised = _QUANTITIES[quantity]
     factor = in_unit(factor)
     frequency = data["frequency"].values
@@ -164,14 +165,8 @@ def resonance_family(
     ax.set_xlabel("excitation frequency $f$ (Hz)")
     ax.set_ylabel(base_label(label, [data]))
     if legend:
-        ax.legend(
-            handles=family_legend(ax),
-            loc="upper left",
-            bbox_to_anchor=(1.01, 1.0),
-            frameon=False,
-            fontsize=LEGEND["fontsize"],
-            borderaxespad=0.0,
-        )
+        add_legend(ax, family_legend(ax), columns=6)
+    fit_labels(ax)
     return ax
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
-
 import numpy as np
 import xarray as xr
 from matplotlib import colormaps
@@ -11,13 +9,12 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.plane import node_edges, plane_axes
 
 _MOST = 12
 """Largest count up to which each count has its own colour."""
-_LETTER = 0.62
-"""Width of a letter, as a share of the font size."""
 
 
 def feature_map(
@@ -66,12 +63,11 @@ def feature_map(
     )
     plane_axes(ax, data[first], data[second])
     bar = ax.figure.colorbar(mesh, ax=ax)
-    height = 72.0 * ax.get_window_extent().height / ax.figure.dpi
-    letters = int(height / (_LETTER * float(bar.ax.yaxis.label.get_fontsize())))
-    bar.set_label(
-        textwrap.fill(f"{data[name].attrs['long_name']}\N{NO-BREAK SPACE}(–)", max(letters, 12))
-    )
+    bar.set_label(f"{data[name].attrs['long_name']} (–)")
     if norm is not None:
         bar.set_ticks(list(range(int(values.max()) + 1)))
         bar.ax.minorticks_off()
+    fit_labels(ax)
+    # The panels of other maps in the same figure take some of its height later.
+    fit_labels(bar.ax, share=0.8)
     return ax

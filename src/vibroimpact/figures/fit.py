@@ -11,8 +11,10 @@ from scipy.special import chdtri
 
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels, new_axes
-from vibroimpact.figures.style import EDGE, LEGEND, SHADE, panels
+from vibroimpact.figures.sizes import columns_that_fit
+from vibroimpact.figures.style import EDGE, SHADE, panels
 from vibroimpact.model.names import literal
 from vibroimpact.model.parameters import PARAMETERS
 
@@ -72,7 +74,8 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
         curves = str(result["test_kind"].sel(test=test).values) == "curves"
         ax.set_xlabel("excitation frequency $f$ (Hz)" if curves else "time $t$ (s)")
         ax.set_ylabel(f"{literal(test)}\nresidual / noise (–)")
-    given[0].legend(ncols=2, **LEGEND)
+    add_legend(given[0], columns=2)
+    fit_labels(*given)
     return given
 
 
@@ -103,7 +106,7 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
             "result: this fit has no profiles; pass the result of identify with profiles=True"
         )
     keys = [str(key) for key in result["parameter"].values]
-    columns = min(_COLUMNS, len(keys))
+    columns = columns_that_fit(min(_COLUMNS, len(keys)))
     rows = -(-len(keys) // columns)
     made = new_axes(rows, columns, (2.9 * columns, 0.3 + 2.5 * rows))
     limit = float(chdtri(1, 1.0 - float(result.attrs["confidence"])))
@@ -127,12 +130,14 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
         ax.plot(fine / factor, np.interp(fine, x, root) ** 2, color="black", linewidth=1.0)
         ax.plot(x / factor, y, "ko", markersize=3.5)
         ax.xaxis.set_major_locator(MaxNLocator(4))
+        ax.ticklabel_format(axis="x", useOffset=False)
         ax.set_xlabel(f"{key.replace('_', ' ')} ({unit.symbol if unit and unit.symbol else '–'})")
         ax.set_ylim(-0.1, 2.2 * limit)
     for row in made:
         row[0].set_ylabel("increase of\nthe deviance (–)")
     if title:
         made[0, 0].figure.suptitle(title)
+    fit_labels(*made.ravel()[: len(keys)])
     return Panels(made.ravel()[: len(keys)])
 
 
@@ -184,7 +189,8 @@ def fit_history(
                 label="fitted", zorder=3)  # fmt: skip
         ax.set_ylabel(f"{VARIABLES[variable].long_name}\n({unit})")
     given[-1].set_xlabel("time $t$ (s)")
-    given[0].legend(ncols=2, **LEGEND)
+    add_legend(given[0], columns=2)
+    fit_labels(*given)
     return given
 
 

@@ -14,6 +14,7 @@ from matplotlib.patches import Patch
 
 from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.figures.base_motion import base_label
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import (
     SIDES,
     Shown,
@@ -25,7 +26,7 @@ from vibroimpact.figures.motion_style import (
 )
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
-from vibroimpact.figures.style import EDGE, LEGEND, panels
+from vibroimpact.figures.style import EDGE, panels
 
 
 class _Panel(NamedTuple):
@@ -105,7 +106,8 @@ def time_history(
     for ax, panel in zip(given, drawn, strict=True):
         history_panel(ax, curves, panel)
     given[-1].set_xlabel("time in forcing cycles $t/T$ (–)")
-    given[0].legend(handles=history_legend(curves) + handles, ncols=4, **LEGEND)
+    add_legend(given[0], history_legend(curves) + handles)
+    fit_labels(*given)
     return given
 
 
@@ -170,6 +172,12 @@ def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
     ax.set_ylabel(panel.label)
 
 
+def gap_entry(stops: int) -> Line2D:
+    """Return the legend entry of the lines at the gaps of one or two stops."""
+    label = "gaps" if stops > 1 else "gap"
+    return Line2D([], [], color="black", linestyle="--", linewidth=0.8, label=label)
+
+
 def history_legend(curves: list[Shown]) -> list[Artist]:
     """Return the legend handles of the curves, gaps, bands and marks."""
     entries: list[Artist] = [
@@ -178,7 +186,7 @@ def history_legend(curves: list[Shown]) -> list[Artist]:
     ]
     present = [name for name in SIDES.values() if any(name in c.gaps for c in curves)]
     if present:
-        entries.append(Line2D([], [], color="black", linestyle="--", linewidth=0.8, label="gaps"))
+        entries.append(gap_entry(len(present)))
     for name in present:
         colour, hatch = _band(curves[0], name, len(curves))
         entries.append(

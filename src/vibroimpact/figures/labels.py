@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
@@ -22,8 +23,8 @@ _ON = 0.01
 """Distance from a name below which a curve is assumed to have this name."""
 _STEP = 0.005
 """Spacing of the points at which a curve is checked."""
-_LETTER = 0.07
-"""Width of a letter, in inches."""
+_LETTER = 0.6
+"""Width of a letter, as a share of the font size."""
 
 
 class Names:
@@ -36,7 +37,8 @@ class Names:
         self.ax = ax
         ax.autoscale_view()  # which matplotlib would put off until it draws
         self._to_panel = ax.transData + ax.transAxes.inverted()
-        self._letter = _LETTER * ax.figure.dpi / ax.bbox.width
+        size = FontProperties(size="small").get_size_in_points()
+        self._letter = _LETTER * size / 72.0 * ax.figure.dpi / ax.bbox.width
         self._names: list[_Array] = []
         self._marks = [
             spot for line in marks for spot in self._to_panel.transform(line.get_xydata())

@@ -7,15 +7,16 @@ from typing import NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 _Array = NDArray[np.float64]
 
 _SIZE = 8.0
-"""Font size in points."""
+"""Font size (points) for which the lengths below, in inches, are meant."""
 _LETTER = 0.072
-"""Width of a letter in inches, the unit of all lengths below."""
+"""Width of a letter."""
 _HEIGHT = 0.14
 """Height of a number, with its white margin."""
 _LEFT = 0.06
@@ -62,7 +63,9 @@ def number_lines(
         Lines and marks that must not be covered.
     """
     ax.autoscale_view()  # which matplotlib would put off until it draws
-    size = np.array([ax.bbox.width, ax.bbox.height]) / ax.figure.dpi
+    font = FontProperties(size="small").get_size_in_points()
+    # Lengths are in inches at the font size 8.
+    size = np.array([ax.bbox.width, ax.bbox.height]) / ax.figure.dpi * _SIZE / font
     to_inches = ax.transData + ax.transAxes.inverted()
     seen = [(mark, size * to_inches.transform(mark.get_xydata())) for mark in marks]
     spots = np.concatenate(
@@ -98,7 +101,7 @@ def number_lines(
             transform_rotates_text=True,
             ha="center",
             va="center_baseline",
-            fontsize=_SIZE,
+            fontsize=font,
             color="0.05",
             bbox={"boxstyle": "square,pad=0.1", "facecolor": "white", "edgecolor": "none"},
             zorder=4,

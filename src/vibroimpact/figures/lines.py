@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
+from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new, looks
 from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.model.written_units import unitless
@@ -112,4 +113,5 @@ def spectrum_lines(
         above.set_xlabel("frequency (Hz)")
     if len(given) > 1:
         ax.legend(loc="upper right", frameon=False, fontsize="small")
+    fit_labels(ax)
     return ax

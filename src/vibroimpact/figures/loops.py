@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.style import MOTIONS
 from vibroimpact.model import (
@@ -86,6 +87,7 @@ def force_loop(
         zero(0.0, color="0.7", linewidth=0.6, zorder=0)
     ax.set_xlabel(what)
     ax.set_ylabel("force (kN)")
+    fit_labels(ax)
     return ax
 
 

@@ -11,8 +11,9 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.style import EDGE, LEGEND, SHADE, SWEEPS, panels
+from vibroimpact.figures.style import EDGE, SHADE, SWEEPS, panels
 from vibroimpact.measurements.features import measured_features
 from vibroimpact.model.quantities import GRAVITY
 from vibroimpact.response.curve_pair import judged
@@ -131,7 +132,8 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
         ax.set_ylabel(panel.label)
     given[-1].set_xlabel("excitation frequency $f$ (Hz)")
-    given[0].legend(ncols=2, **LEGEND)
+    add_legend(given[0], columns=2)
+    fit_labels(*given)
     return given
 
 

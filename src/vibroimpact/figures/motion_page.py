@@ -13,11 +13,13 @@ from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.history import PANELS, history_legend, history_panel, panels_of
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.lines import spectrum_lines
 from vibroimpact.figures.motion_style import Shown, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Grid, new_axes
 from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.portrait import phase_portrait
+from vibroimpact.figures.sizes import is_print
 from vibroimpact.response.spectrum import fourier_spectrum
 
 ROWS = 2 + len(PANELS)
@@ -102,18 +104,11 @@ def motion_page(
             )
         grid = made.reshape(ROWS, count).view(Grid)
         handles = _columns(grid, columns, cycles, highest)
-        grid[-1, 0].legend(
-            handles=handles,
-            loc="upper left",
-            bbox_to_anchor=(0.0, -0.35),
-            ncols=3,
-            frameon=False,
-            fontsize="small",
-            borderaxespad=0.0,
-        )
+        add_legend(grid[-1, 0], handles, columns=3, place="below")
+        fit_labels(*grid.flat)
         return grid
     paper = next(paper for paper in _PAPERS if count <= paper.columns)
-    with rc_context({"font.size": paper.text}):
+    with rc_context({} if is_print() else {"font.size": paper.text}):
         grid = new_axes(
             ROWS,
             count,
@@ -123,9 +118,6 @@ def motion_page(
         )
         handles = _columns(grid, columns, cycles, highest)
         figure = grid[0, 0].figure
-        for ax in figure.axes:
-            # Marks are made later, too, with the size of that time if none is set.
-            ax.tick_params(labelsize=paper.text)
         for column in grid.T:
             for ax in column[2:-1]:
                 ax.tick_params(labelbottom=False)
@@ -133,13 +125,10 @@ def motion_page(
             ax.set_ylabel("")
         if title:
             figure.suptitle(title)
-        figure.legend(
-            handles=handles,
-            loc="outside lower center",
-            ncols=min(len(handles), 2 + 2 * min(count, 3)) if count > 2 else min(len(handles), 4),
-            frameon=False,
-            fontsize="medium",
+        add_legend(
+            figure, handles, columns=4 if count < 3 else 2 + 2 * min(count, 3), fontsize="medium"
         )
+        fit_labels(*grid.flat)
     return grid
 
 

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from vibroimpact import errors
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import new_axes
 from vibroimpact.figures.own_units import in_unit
-from vibroimpact.figures.style import LEGEND, MOTIONS, SWEEPS, Look
+from vibroimpact.figures.style import MOTIONS, SWEEPS, Look, lay_out
 from vibroimpact.measurements.read import is_measured
 from vibroimpact.model import Record
 from vibroimpact.model.names import literal
@@ -147,6 +148,7 @@ def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axe
         If the value is not Axes.
     """
     if isinstance(ax, Axes):
+        lay_out(ax)
         return ax
     if ax is not None:
         raise InputError(
@@ -162,7 +164,7 @@ def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axe
 def name_lines(ax: Axes, curves: list[Shown]) -> None:
     """Add a legend above the axes if there is more than one motion."""
     if len(curves) > 1:
-        ax.legend(ncols=min(len(curves), 3), **LEGEND)
+        add_legend(ax, columns=3)
 
 
 def _measured(motion: xr.Dataset, look: Look, cycles: float) -> Shown:

@@ -13,25 +13,44 @@ from io import BytesIO
 from typing import Any
 
 import numpy as np
-from matplotlib import rc_context
+from matplotlib import rc_context, rcParams
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputWarning
+from vibroimpact.figures.sizes import is_print, size_of_new
 
 _MISSING = re.compile(r"Glyph (\d+) .* missing from font")
+
+
+EMBEDDED: dict[Any, Any] = {"pdf.fonttype": 42, "ps.fonttype": 42}
+"""Embed fonts as TrueType. Journals refuse Type 3, which is the default of matplotlib."""
 
 
 class Drawing(Figure):
     """A figure that a notebook displays. Its text is set by matplotlib, and never by LaTeX."""
 
+    def __init__(self, *args: Any, **how: Any) -> None:
+        super().__init__(*args, **how)
+        # Tick labels are made only when the figure is drawn.
+        self._text_size: Any = {"font.size": rcParams["font.size"]}
+        self.is_print = is_print()
+
+    def draw(self, renderer: Any) -> None:
+        """Draw the figure with the font size with which it was made."""
+        with rc_context(self._text_size):
+            super().draw(renderer)
+
     def savefig(self, *args: Any, **how: Any) -> None:
         """Write the figure without LaTeX, which lacks some characters of the labels."""
         for text in self.findobj(Text):
             text.set_usetex(False)
-        with rc_context({"text.usetex": False}), warnings.catch_warnings(record=True) as seen:
+        with (
+            rc_context({"text.usetex": False, **EMBEDDED}),
+            warnings.catch_warnings(record=True) as seen,
+        ):
             warnings.simplefilter("always")
             super().savefig(*args, **how)
         missing = [found[1] for one in seen if (found := _MISSING.match(str(one.message)))]
@@ -78,7 +97,7 @@ class Grid(np.ndarray[Any, np.dtype[Any]]):
 
 def new_axes(rows: int, columns: int, size: tuple[float, float], **how: Any) -> Grid:
     """Return the axes of a new figure. `how` is passed to `Figure.subplots`."""
-    figure = Drawing(figsize=size, layout="constrained")
+    figure = Drawing(figsize=size_of_new(size), layout="constrained")
     made: NDArray[Any] = figure.subplots(
         rows, columns, squeeze=False, subplot_kw={"axes_class": Panel}, **how
     )

@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.figures.base_motion import base_label
+from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
 from vibroimpact.figures.own_units import in_own_units, in_unit
 
@@ -82,4 +83,5 @@ def phase_portrait(
     ax.set_xlabel(base_label("relative displacement $u$ (mm)", given.values()))
     ax.set_ylabel(base_label("relative velocity $\\dot u$ (m/s)", given.values()))
     name_lines(ax, curves)
+    fit_labels(ax)
     return ax

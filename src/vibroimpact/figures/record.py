@@ -13,10 +13,11 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.history import BANDS
+from vibroimpact.figures.history import BANDS, gap_entry
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
-from vibroimpact.figures.style import EDGE, LEGEND, also_in_g, panels
+from vibroimpact.figures.style import EDGE, also_in_g, panels
 
 _ROWS = (
     ("base_acceleration", 1.0, "base acceleration\n$A_t$ (m/s²)"),
@@ -85,7 +86,8 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
             Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
         )
     if handles:
-        given[1].legend(handles=handles, ncols=4, **LEGEND)
+        add_legend(given[1], handles)
+    fit_labels(*given)
     return given
 
 
@@ -118,7 +120,7 @@ def stops_legend(stops: dict[str, dict[str, Any]], motion: xr.Dataset) -> list[A
     """Return legend entries of the gap lines, and of the contact bands of touched stops."""
     handles: list[Any] = []
     if stops:
-        handles.append(Line2D([], [], color="black", linestyle="--", linewidth=0.8, label="gaps"))
+        handles.append(gap_entry(len(stops)))
     for side in stops:
         if not len(_spans(motion, _SIDES[side])):
             continue

@@ -14,6 +14,7 @@ from matplotlib.patches import FancyArrowPatch, Patch
 from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.measured import halves_of, measured_curves, measured_points
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units
@@ -24,7 +25,7 @@ from vibroimpact.figures.resonance_panels import (
     outputs,
     physical_curves,
 )
-from vibroimpact.figures.style import EDGE, FREE, LEGEND, SHADE, SWEEPS, Look, curve_style, panels
+from vibroimpact.figures.style import EDGE, FREE, SHADE, SWEEPS, Look, curve_style, panels
 from vibroimpact.measurements.read import as_measured, is_measured
 from vibroimpact.response.resonance import Features, Hysteresis, Jump, features
 
@@ -126,7 +127,8 @@ def resonance_curves(
     entries += [line.entry() for one in drawn for line in one.levels]
     if measured is not None:
         entries += measured_points(given[: len(names)], names, data, measured)
-    upper.legend(handles=entries, ncols=2 if len(entries) <= 4 else 3, **LEGEND)
+    add_legend(upper, entries, columns=2 if len(entries) <= 4 else 3)
+    fit_labels(*given)
     return given
 
 

@@ -10,8 +10,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.style import LEGEND, also_in_g, fit_x_axis
+from vibroimpact.figures.style import also_in_g, fit_x_axis
 from vibroimpact.model import Record
 from vibroimpact.model.names import literal
 
@@ -97,7 +98,8 @@ def response_spectra(
     if "acceleration" in quantity:
         also_in_g(ax)
     ax.grid(True, which="major", linewidth=0.4, color="0.85")
-    ax.legend(ncols=2 if grouped else min(len(every), 5), **LEGEND)
+    add_legend(ax, columns=2 if grouped else 5)
+    fit_labels(ax)
     return ax
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.plane import node_edges, plane_axes
@@ -129,18 +130,16 @@ def scenario_map(
         if mark.label:
             handles.append(line)
     plane_axes(ax, data[first], data[second])
-    ax.legend(
-        handles=handles,
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.14),
-        ncols=2,
-        frameon=False,
-        fontsize=7.6,
-        borderaxespad=0.0,
+    add_legend(
+        ax,
+        handles,
+        columns=2,
+        place="below",
         columnspacing=1.2,
         handlelength=2.2,
         handleheight=1.2,
     )
+    fit_labels(ax)
     return ax
 
 

@@ -16,9 +16,10 @@ from vibroimpact.datasets.description import own_outputs
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.branches import MARKS, axis_unit
+from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
-from vibroimpact.figures.style import LEGEND, SWEEPS, Look, fit_x_axis, panels
+from vibroimpact.figures.style import SWEEPS, Look, fit_x_axis, panels
 
 _Array = NDArray[np.float64]
 
@@ -134,8 +135,7 @@ def section_diagram(
     if branches is not None:
         handles += _lines(drawn, branches, scale)
     # Above the marks of bifurcations, half of which stand above the panel.
-    above = {**LEGEND, "bbox_to_anchor": (0.5, 1.03)}
-    top.legend(handles=handles, ncols=4, **above)
+    add_legend(top, handles, apart=6.0)
     top.set_ylabel(label)
     for ax, output in zip(between, own, strict=True):
         ax.set_ylabel(textwrap.fill(axis_label(data[output], output)[1], _WIDTH))
@@ -144,6 +144,7 @@ def section_diagram(
     bottom.set_ylabel("largest\nexponent (1/s)")
     bottom.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
     top.figure.align_ylabels()
+    fit_labels(*drawn)
     return drawn
 
 
@@ -202,17 +203,24 @@ def _handle(look: Look) -> Line2D:
 def _rows(motions: NDArray[np.str_], periods: NDArray[np.int64]) -> dict[str, float]:
     """Return the positions of motions without a period on the axis of periods."""
     held = [motion for motion in _NO_PERIOD if (motions == motion).any()]
-    # As far apart as their names are high, however many doublings the axis shows.
-    step = max(1.0, 0.25 * np.log2(max(int(periods.max()), 2)))
+    most = max(int(periods.max()), 2)
+    powers = _powers(most, len(held))
+    # As far apart as the other ticks, and as their names are high on an axis of many doublings.
+    step = max(float(np.log2(powers[1] / powers[0])), 0.25 * np.log2(most))
     return {motion: float(2.0 ** (-step * (k + 1))) for k, motion in enumerate(held)}
+
+
+def _powers(most: int, rows: int) -> list[int]:
+    """Return the periods with a tick on an axis up to a period, which also has some rows."""
+    powers = [2**k for k in range(most.bit_length())]
+    return powers if len(powers) + rows <= 5 else powers[::2]
 
 
 def _periods(ax: Axes, periods: NDArray[np.int64], rows: dict[str, float]) -> None:
     """Set an axis of periods on which a doubling is one step, and the rows below it."""
     ax.set_yscale("log", base=2)
     most = max(int(periods.max()), 2)
-    powers = [2**k for k in range(most.bit_length())]
-    chosen = powers if len(powers) + len(rows) <= 5 else powers[::2]
+    chosen = _powers(most, len(rows))
     ticks = [*reversed(rows.values()), *map(float, chosen)]
     labels = [*reversed(rows), *(f"{power:g}" for power in chosen)]
     ax.set_yticks(ticks, labels)
@@ -228,6 +236,8 @@ def _lines(drawn: Panels, branches: xr.Dataset, scale: float) -> list[Line2D]:
     kinds = branches["bifurcation_kind"].values
     for kind, mark in MARKS.items():
         values = scale * branches["bifurcation_value"].values[kinds == kind]
+        low, high = drawn[0].get_xlim()
+        values = values[(values >= low) & (values <= high)]
         for value in values:
             for ax in drawn:
                 ax.axvline(value, color=mark.colour, linestyle=":", linewidth=0.8, zorder=1)

@@ -7,18 +7,23 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
+from matplotlib import rcParams
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError
-from vibroimpact.figures.notebook import Panels, new_axes
+from vibroimpact.figures.notebook import EMBEDDED, Drawing, Panels, new_axes
+from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.written_units import unitless
 
 FORMATS = ("png", "pdf", "svg")
+_SCREEN, _PRINT, _MOST_DPI = 200.0, 600.0, 2400.0
+"""Pixels per inch."""
 
 
 class Look(NamedTuple):
@@ -81,16 +86,6 @@ SHADE = "0.9"
 EDGE = "0.55"
 """Grey of hatches and edges on shaded ranges."""
 
-LEGEND: dict[str, Any] = {
-    "loc": "lower center",
-    "bbox_to_anchor": (0.5, 1.01),
-    "frameon": False,
-    "fontsize": "small",
-    "borderaxespad": 0.0,
-    "columnspacing": 1.6,
-}
-"""Position of a legend: above the panel, where it does not cover a curve."""
-
 
 def curve_style(look: Look, points: int, marks: int = 45) -> dict[str, Any]:
     """Return the keywords of `Axes.plot` for a curve. On a dense curve not every point has a mark.
@@ -132,9 +127,9 @@ def panels(
 ) -> Panels:
     """Return the axes that were passed, or the axes of a new figure with several panels.
 
-    The panels are arranged below each other, or side by side with ``beside``. Their heights are
-    equal, unless ``heights`` is passed. Panels below each other share the horizontal axis, unless
-    ``sharex`` is False.
+    The panels are arranged below each other or, with ``beside``, as many side by side as fit. Their
+    heights are equal, unless ``heights`` is passed. Panels below each other share the horizontal
+    axis, unless ``sharex`` is False.
 
     Raises
     ------
@@ -142,18 +137,45 @@ def panels(
         If axes are passed, but not as many as there are panels.
     """
     if axes is None:
-        rows, columns = (1, count) if beside else (count, 1)
+        columns = columns_that_fit(count) if beside else 1
+        rows = -(-count // columns)
+        if beside:
+            size = (size[0] * columns / count, size[1] * rows)
         made = new_axes(rows, columns, size, sharex=sharex and not beside, height_ratios=heights)
+        for unused in made.ravel()[count:]:
+            unused.remove()
         figure = made[0, 0].figure
         figure.align_ylabels()
         if title:
             figure.suptitle(title)
-        return Panels(made.ravel())
+        return Panels(made.ravel()[:count])
     given = Panels(np.ravel(axes))
     if len(given) != count:
         wanted = "1 is" if count == 1 else f"{count} are"
         raise InputError(f"axes: {len(given)} given; {wanted} accepted ({what})")
+    for ax in given:
+        lay_out(ax)
     return given
+
+
+def lay_out(ax: Axes) -> None:
+    """Make room for labels and legends in a figure that has neither a layout engine nor margins.
+
+    With the margins of matplotlib, the labels of small figures are outside the figure.
+    """
+    figure, place = ax.get_figure(root=True), ax.get_subplotspec()
+    if figure is None or place is None or figure.get_layout_engine() is not None:
+        return
+    grid = place.get_topmost_subplotspec().get_gridspec()
+    usual_margins: Any = rcParams
+    sides = ("left", "right", "bottom", "top", "wspace", "hspace")
+    usual = all(
+        getattr(figure.subplotpars, side) == usual_margins[f"figure.subplot.{side}"]
+        and getattr(grid, side, None) is None
+        for side in sides
+    )
+    if usual:
+        figure.set_layout_engine("constrained")
 
 
 def fit_x_axis(ax: Axes, values: ArrayLike) -> None:
@@ -166,6 +188,39 @@ def fit_x_axis(ax: Axes, values: ArrayLike) -> None:
         if line.get_marker() in ("None", "none", "", None):
             line.set_marker("o")
             line.set_markersize(4.0)
+
+
+def note_peak(ax: Axes, x: float, y: float, words: str) -> None:
+    """Mark a peak with a dot, and write its value above it, or below it if it is negative.
+
+    Call it when the horizontal limits and the values of the panel are final.
+    """
+    ax.plot([x], [y], "o", color="#c8102e", markersize=4, zorder=5)
+    up = y >= 0.0
+    text = ax.annotate(
+        words.replace("-", "−"),
+        (x, y),
+        (0.0, 4.0 if up else -4.0),
+        textcoords="offset points",
+        ha="center",
+        va="bottom" if up else "top",
+        fontsize="small",
+        zorder=6,
+    )
+    text.set_path_effects([withStroke(linewidth=2.0, foreground="white")])
+    ax.autoscale_view()  # which matplotlib would put off until it draws
+    # The text stays between the sides of the panel.
+    box = text.get_window_extent()
+    at = ax.transData.transform((x, y))[0]
+    half = 0.5 * box.width + 2.0
+    shift = np.clip(at, ax.bbox.x0 + half, max(ax.bbox.x1 - half, ax.bbox.x0 + half)) - at
+    text.xyann = (shift * 72.0 / ax.figure.dpi, 4.0 if up else -4.0)
+    low, high = ax.get_ylim()
+    share = min(1.3 * (box.height + 6.0) / ax.bbox.height, 0.6)
+    if up:
+        ax.set_ylim(top=max(high, y + share * (y - low) / (1.0 - share)))
+    else:
+        ax.set_ylim(bottom=min(low, y - share * (high - y) / (1.0 - share)))
 
 
 def also_in_g(ax: Axes) -> None:
@@ -184,11 +239,12 @@ def _from_g(multiple: ArrayLike) -> NDArray[np.float64]:
     return np.asarray(multiple, dtype=float) * GRAVITY
 
 
-def save_figure(drawn: Any, path: Path | str) -> Path:
+def save_figure(drawn: Any, path: Path | str, *, dpi: float | None = None) -> Path:
     """Write a figure to a PNG, PDF or SVG file.
 
     The same data always give the same file, byte for byte, because the file contains no date and no
-    version number. The text of an SVG file can be searched and edited.
+    version number. PDF files contain their fonts as TrueType. The text of an SVG file can be
+    searched and edited.
 
     Parameters
     ----------
@@ -196,6 +252,10 @@ def save_figure(drawn: Any, path: Path | str) -> Path:
         A Figure, or the Axes that a function of this package returned.
     path
         File name. Its ending (``.png``, ``.pdf`` or ``.svg``) selects the format.
+    dpi
+        Pixels per inch of a PNG file, and of those parts of a PDF or SVG file that are pixels, such
+        as the areas of basins and the many points of chaotic motions. Default: 200 for a PNG file
+        whose size is not set by `figure_size`, and 600 for all others.
 
     Raises
     ------
@@ -219,8 +279,14 @@ def save_figure(drawn: Any, path: Path | str) -> Path:
     first = drawn if isinstance(drawn, Figure) else next(iter(np.ravel(drawn)), None)
     if not isinstance(first, Artist) or (figure := first.get_figure(root=True)) is None:
         raise InputError(f"figure: {drawn!r} is not a figure; pass a Figure or Axes of matplotlib")
+    if dpi is None:
+        on_screen = kind == "png" and not (isinstance(figure, Drawing) and figure.is_print)
+        dpi = _SCREEN if on_screen else _PRINT
+    elif not 1.0 <= dpi <= _MOST_DPI:
+        raise InputError(f"dpi: {dpi!r}; pass a number from 1 to {_MOST_DPI:g}")
     # SVG marks its parts with random names unless it is given a seed.
-    with matplotlib.rc_context({"svg.hashsalt": "vibroimpact", "svg.fonttype": "none"}):
+    fixed: dict[Any, Any] = {"svg.hashsalt": "vibroimpact", "svg.fonttype": "none", **EMBEDDED}
+    with matplotlib.rc_context(fixed):
         picture = io.BytesIO()
-        figure.savefig(picture, format=kind, dpi=200, metadata=blank[kind])
+        figure.savefig(picture, format=kind, dpi=dpi, metadata=blank[kind])
     return write_whole(path, picture.getvalue())

@@ -7,6 +7,7 @@ this registry. A new parameter is a new entry of `PARAMETERS`.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple, cast
 
@@ -58,6 +59,9 @@ def in_units(units: str) -> Quantity:
     return next(quantity for quantity, text in _UNITS.items() if text == units)
 
 
+_BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
+"""Words in names of parameters that refer to the stops on both sides."""
+
 _PEAKS = {
     "displacement": "peak base displacement",
     "force": "peak force on the mass",
@@ -93,8 +97,20 @@ class Parameter(NamedTuple):
         return _UNITS.get(self.quantity, self.quantity.symbol)
 
     def of(self, rig: Oscillator) -> Parameter:
-        """Return the parameter with its unit in a rig, which may depend on an exponent."""
-        return self if self.measured is None else self._replace(quantity=self.measured(rig))
+        """Return the parameter with its unit and its name in a rig.
+
+        An exponent of the rig may set the unit. If the rig has only one stop, a name that refers to
+        both stops becomes that of this stop.
+        """
+        found = self if self.measured is None else self._replace(quantity=self.measured(rig))
+        sides = [side for side in ("right", "left") if getattr(rig, side) is not None]
+        if len(sides) != 1:
+            return found
+        return found._replace(
+            long_name=_BOTH_STOPS.sub(
+                lambda both: f"the {sides[0]} {both[1].removesuffix('s')}", found.long_name
+            )
+        )
 
     def beside(self, value: float, factor: float = 2.0) -> float:
         """Return another accepted value: `factor` times as large or as small, or for 0 near 1."""

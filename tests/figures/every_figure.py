@@ -1,0 +1,201 @@
+"""Every figure, with data: what the tests of all figures draw."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, partial
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+import vibroimpact as vi
+from earthquakes.made import lognormal
+from earthquakes.rigs import RIGS, noise
+from figures import test_basin_shares as shares
+from figures import test_basins as basins
+from figures import test_branches as branches
+from figures import test_ensembles as ensembles
+from figures import test_motion_style as motions
+from figures import test_physical_axes as physical
+from figures import test_resonance_curves as curves
+from figures import test_resonance_family as family
+from figures import test_scenarios as scenarios
+from figures import test_sections as sections
+from vibroimpact import figures
+
+CASE = vi.laboratory.case("B2-G1-A3")
+RECORD = noise(8)
+PERIODS = np.geomspace(0.05, 2.0, 20)
+SCALES = np.linspace(0.2, 3.0, 10)
+WIDE = (-0.012, 0.012), (-0.1, 0.1)
+
+
+@cache
+def quake() -> xr.Dataset:
+    return vi.simulate(vi.Rig(RIGS["bumpers"], RECORD), tail=1.0, samples=4)
+
+
+@cache
+def spectra() -> dict[str, xr.Dataset]:
+    mass = vi.floor_record(quake())
+    return {
+        "ground": vi.response_spectrum(RECORD, PERIODS),
+        "mass": vi.response_spectrum(mass, PERIODS),
+    }
+
+
+@cache
+def manifolds() -> xr.Dataset:
+    return vi.manifolds("B3-10mm-A3", None, *WIDE, frequency=0.7, longest=2.0)
+
+
+@cache
+def designs(first: str = "gap", *others: str) -> xr.Dataset:
+    """Return designs, of which some exceed a limit."""
+    values = {
+        "gap": np.linspace(0.01, 0.3, 5),
+        "bumper_stiffness": np.geomspace(100.0, 2000.0, 4),
+    }
+    vary = {name: values[name] for name in (first, *others)}
+    limits = {"peak_displacement": 0.12}
+    return vi.design_chart(
+        RIGS["bumpers"], vary, records=[noise(k, count=120) for k in (8, 9)], limits=limits
+    )
+
+
+@cache
+def fit() -> xr.Dataset:
+    """Return a fit to curves and to a history of a rig that is known."""
+    rig = vi.Rig(CASE.oscillator, CASE.amplitude)
+    swept = vi.sweep(rig, np.arange(1.0, 4.0, 0.25))
+    swept = swept[["displacement_excursion", "acceleration_excursion"]]
+    for number, name in enumerate(swept):
+        error = np.random.default_rng(number).standard_normal(swept[name].shape)
+        swept[name] = swept[name] * (1.0 + 0.02 * error)
+    history = vi.steady(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)), samples=64)
+    free = {"bumper_stiffness": None, "bumper_damping": None}
+    return vi.identify(
+        rig, {"curves": swept, "history": history}, free, tried=0, starts=1, profiles=True
+    )
+
+
+@cache
+def demands() -> xr.Dataset:
+    return lognormal(np.random.default_rng(1), 12, SCALES, 0.4)
+
+
+@cache
+def fragility() -> xr.Dataset:
+    return vi.fragility(demands(), "peak_displacement", 1.0)
+
+
+@cache
+def exponents() -> xr.Dataset:
+    rigs = {"B3-10mm-A3": "B3-10mm-A3", "B2-G1-A3": CASE}
+    return vi.lyapunov_exponents(rigs, [1.1], 64, vary={"gap": [3e-3, 4e-3, 5e-3]})
+
+
+class Drawn(NamedTuple):
+    """A figure: a function that draws it, and the number of axes that it draws on."""
+
+    draw: Callable[..., Any]
+    axes: int = 1
+    """Number of axes, or 0 if it always makes a new figure."""
+
+
+def _over(make: Callable[[], Any], draw: Callable[..., Any], **options: Any) -> Callable[..., Any]:
+    """Return a function that draws the data that another makes when they are needed."""
+    return lambda **how: draw(make(), **options, **how)
+
+
+def _both(name: str, **options: Any) -> Callable[..., Any]:
+    return _over(motions.both, getattr(figures, name), **options)
+
+
+EVERY: dict[str, Drawn] = {
+    "resonance_curves": Drawn(
+        _over(partial(curves.swept, "B2-G1-A3"), figures.resonance_curves, physical=False), 2
+    ),
+    "resonance_curves, chaotic": Drawn(
+        _over(partial(curves.swept, "B3-G1-A3"), figures.resonance_curves), 2
+    ),
+    "resonance_curves, physical": Drawn(
+        _over(partial(physical.swept, physical.BUILDING), figures.resonance_curves, physical=True),
+        3,
+    ),
+    "resonance_family": Drawn(_over(family.swept, figures.resonance_family)),
+    "time_history": Drawn(_both("time_history"), 3),
+    "clearances": Drawn(_both("clearances"), 2),
+    "phase_portrait": Drawn(_both("phase_portrait")),
+    "hysteresis_cycle": Drawn(_both("hysteresis_cycle")),
+    "spectrum_lines": Drawn(
+        lambda **how: figures.spectrum_lines(
+            {name: vi.fourier_spectrum(one) for name, one in motions.both().items()}, **how
+        )
+    ),
+    "motion_page": Drawn(lambda **how: figures.motion_page({"2 Hz": motions.both()}, **how), 5),
+    "force_loop": Drawn(
+        lambda **how: figures.force_loop(vi.BilinearIsolator(5e5, 3e4, 1e3, 0.0), "20 mm", **how)
+    ),
+    "branch_diagram": Drawn(
+        lambda **how: figures.branch_diagram(
+            branches.diagram(), sweep=branches.swept(), quantity="eta_d", **how
+        )
+    ),
+    "branch_diagram, many": Drawn(
+        _over(branches.several, figures.branch_diagram, quantity="displacement_excursion")
+    ),
+    "bifurcation_curves": Drawn(
+        lambda **how: figures.bifurcation_curves(
+            {"folds": branches.curve("fold"), "grazings": branches.curve("grazing")}, **how
+        )
+    ),
+    "section_diagram": Drawn(
+        lambda **how: figures.section_diagram(
+            sections.diagram(), branches=sections.branch(), **how
+        ),
+        3,
+    ),
+    "exponent_curves": Drawn(_over(exponents, figures.exponent_curves)),
+    "basin_portrait": Drawn(
+        lambda **how: figures.basin_portrait(basins.made(), manifolds=manifolds(), **how)
+    ),
+    "basin_shares": Drawn(_over(shares.made, figures.basin_shares)),
+    "scenario_map": Drawn(_over(scenarios.made, figures.scenario_map)),
+    "feature_map": Drawn(_over(scenarios.made, figures.feature_map, name="chaotic_count")),
+    "scenario_cases": Drawn(
+        lambda **how: figures.scenario_cases(
+            {"B2-G1-A3": "S3", "B1-G2-A1": "S0", "B4-G4-A2": "S4", "B3-G3-A3": "S2"}, **how
+        ),
+        0,
+    ),
+    "accelerogram": Drawn(
+        lambda **how: figures.accelerogram(
+            RECORD, vi.response_spectrum(RECORD, PERIODS, [0.02, 0.05]), **how
+        ),
+        2,
+    ),
+    "response_spectra": Drawn(
+        lambda **how: figures.response_spectra(
+            vi.response_spectrum(RECORD, PERIODS, [0.02, 0.05, 0.1, 0.2]), **how
+        )
+    ),
+    "record_history": Drawn(_over(quake, figures.record_history), 4),
+    "earthquake_page": Drawn(lambda **how: figures.earthquake_page(quake(), spectra(), **how), 0),
+    "incremental_curves": Drawn(_over(demands, figures.incremental_curves, limit=1.5)),
+    "fragility_curves": Drawn(_over(fragility, figures.fragility_curves)),
+    "design_chart": Drawn(
+        _over(partial(designs, "gap", "bumper_stiffness"), figures.design_chart), 2
+    ),
+    "design_chart, one parameter": Drawn(_over(designs, figures.design_chart), 2),
+    "pareto_front": Drawn(_over(partial(designs, "gap", "bumper_stiffness"), figures.pareto_front)),
+    "resonance_bands": Drawn(_over(ensembles.drawn, figures.resonance_bands), 2),
+    "sensitivity_bars": Drawn(
+        lambda **how: figures.sensitivity_bars(ensembles.indices().isel(frequency=1), **how)
+    ),
+    "sensitivity_bars, curves": Drawn(_over(ensembles.indices, figures.sensitivity_bars)),
+    "fit_residuals": Drawn(_over(fit, figures.fit_residuals), 2),
+    "fit_profiles": Drawn(_over(fit, figures.fit_profiles), 0),
+    "fit_history": Drawn(_over(fit, figures.fit_history, test="history"), 3),
+}
