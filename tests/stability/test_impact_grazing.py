@@ -103,7 +103,7 @@ def test_a_branch_that_is_born_in_the_grazing_of_free_flight_ends_there(gap, lef
     grazes = reaches(float(wall.gap), 0.6, 1.2)[0]
     branches = np.unique(data["branch"])
     ended = [data.attrs[f"branch_{i}_ended_{end}"] for i in branches for end in ("low", "high")]
-    assert f"it meets the orbits {whose} at {grazes:.9g}, where they graze" in ended
+    assert f"it meets the orbits {whose} at {grazes:.9g} Hz, where they graze" in ended
     for i in branches:
         told = listed(data.isel(bifurcation=data["bifurcation_branch"].values == i))
         # The mirror image of an event is one on the other side.

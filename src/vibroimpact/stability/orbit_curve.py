@@ -152,20 +152,20 @@ class Branch:
         if self.rested.comes_again(here.orbit):
             return (
                 [],
-                f"beyond {here.orbit.value:.9g}, the branch repeats the orbits in which the mass "
+                f"beyond {_place(here.orbit)}, the branch repeats the orbits in which the mass "
                 "comes to rest",
             )
         if self._returned(here, there):
             return [there], CLOSED
         if there.arclength - here.arclength >= _APART and neutral(here) and neutral(there):
-            return [], f"orbits are not isolated beyond {here.orbit.value:.9g}: {CONTINUUM}"
+            return [], f"orbits are not isolated beyond {_place(here.orbit)}: {CONTINUUM}"
         if (pole := self._pole(here, there)) is not None:
             return [there], pole
         met = None if here.orbit.section.count % 2 else parent(here.orbit, there.orbit)
         if met is not None:
             # Beyond, the same orbits come again, half a period later.
             cycles = met.section.period
-            return [there], f"it meets the orbits of period {cycles} at {met.value:.9g}"
+            return [there], f"it meets the orbits of period {cycles} at {_place(met)}"
         return None
 
     def _pole(self, here: Station, there: Station) -> str | None:
@@ -182,7 +182,7 @@ class Branch:
         left = times * (value - here.orbit.value) / growth
         if abs(left) > _STANDS * abs(value - self.first.orbit.value):
             return None
-        name = there.orbit.section.family.parameter.name
+        near = there.orbit.section.family.equation(value + left)
         damped = there.orbit.rig.oscillator.isolator.damping > 0.0
         beyond = f"beyond {times:.1g} times the first orbit" if damped else "without bound"
         limit = (
@@ -190,7 +190,7 @@ class Branch:
             if damped
             else f"{times:.1g} times the first orbit"
         )
-        return f"the motion grows {beyond} near {name} = {value + left:.6g} ({limit})"
+        return f"the motion grows {beyond} near {near} ({limit})"
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:
         """The orbit at the end of the range, if there is one."""
@@ -255,7 +255,7 @@ class Branch:
         """See `Path`."""
         if (met := shrinks_onto(here.orbit)) is not None:
             return _born_grazing(met)
-        return beyond(here.orbit, "orbit", f"{here.orbit.value:.9g}")
+        return beyond(here.orbit, "orbit", _place(here.orbit))
 
     def corner(self, here: Station, length: float) -> list[Station]:
         """See `Path`: the last orbit with the contacts of `here`, and one just after it."""
@@ -385,11 +385,16 @@ def solved(start: Station, length: float) -> Orbit | None:
     return Branch(start, -math.inf, math.inf).stepped(start, length)
 
 
+def _place(orbit: Orbit) -> str:
+    """The value of the parameter at an orbit, with its unit."""
+    return orbit.section.family.written(orbit.value, 9)
+
+
 def _born_grazing(met: Orbit) -> str:
     """Why a branch ends that has shrunk onto a simpler orbit, which grazes."""
     period = met.section.period
     whose = "that are their own mirror image" if met.section.mirror else f"of period {period}"
-    return f"it meets the orbits {whose} at {met.value:.9g}, where they graze"
+    return f"it meets the orbits {whose} at {_place(met)}, where they graze"
 
 
 def near_other_contacts(last: Orbit, along: _Array, ahead: float) -> bool:
