@@ -10,8 +10,9 @@ import xarray as xr
 from rich.console import RenderableType
 from rich.table import Table
 
+from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.quantities import ACCELERATION, FORCE, IMPULSE, LENGTH, Quantity
-from vibroimpact.model.units import forcing, pretty
+from vibroimpact.model.units import pretty
 
 _DIGITS = 4
 _SAME = 1e-9
