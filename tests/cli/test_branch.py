@@ -64,7 +64,7 @@ def test_summary(whole):
     lines = [line.rstrip() for line in out.splitlines()]
     for line in (
         "B2-G1-A3",
-        "beginning: the range ends at 0.3; end: the range ends at 5",
+        "beginning: the range ends at 0.3 Hz; end: the range ends at 5 Hz",
         "Files",
         "  out/B2-G1-A3-frequency-branches.nc",
         "  out/B2-G1-A3-frequency-branches.png",
@@ -125,8 +125,8 @@ def test_json(run, tmp_path):
     (branch,) = facts["branches"]
     assert (branch["branch"], branch["period"], branch["closed"]) == (0, 1, False)
     assert (branch["ended_low"], branch["ended_high"]) == (
-        "the range ends at 1",
-        "the range ends at 4",
+        "the range ends at 1 Hz",
+        "the range ends at 4 Hz",
     )
     data = vi.load(tmp_path / facts["files"]["data"])
     assert branch["points"] == data.sizes["point"]

@@ -112,7 +112,7 @@ def test_grazing_in_closed_form(run, tmp_path):
     np.testing.assert_allclose(data["gap"], exact, rtol=1e-9)
     assert sorted(data["gap"].values[[0, -1]]) == pytest.approx([1e-3, 20e-3])
     ends = {one["ended_low"], one["ended_high"]}
-    assert ends == {"the range of gap ends at 0.001", "the range of gap ends at 0.02"}
+    assert ends == {"the range of gap ends at 1 mm", "the range of gap ends at 20 mm"}
 
 
 def test_two_parameters_neither_of_which_is_the_frequency(run, tmp_path):

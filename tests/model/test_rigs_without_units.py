@@ -10,9 +10,11 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.errors import InputError
+from vibroimpact.model.frequency_text import forcings
 from vibroimpact.model.quantities import ANGLE, FREQUENCY, LENGTH, fitting
+from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.study import read_rig_study
-from vibroimpact.model.units import forcings, has_unit, pretty, with_si_unit
+from vibroimpact.model.units import pretty, with_si_unit
 from vibroimpact.model.written_units import has_no_units, unitless, write_for, written_for
 
 SOFT = vi.Isolator(1.0, 0.1)

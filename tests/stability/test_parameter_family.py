@@ -74,8 +74,8 @@ def test_over_the_gap_into_preload(frequency):
         for gap in (1e-3, -1e-3)
     ]
     for data in ways:
-        assert data.attrs["ended_low"] == "the range ends at -0.001"
-        assert data.attrs["ended_high"] == "the range ends at 0.001"
+        assert data.attrs["ended_low"] == "the range ends at -1 mm"
+        assert data.attrs["ended_high"] == "the range ends at 1 mm"
         assert np.abs(np.diff(data["displacement_max"])).max() < 1e-4
         for i in (0, -1):
             last = data.isel(point=i)

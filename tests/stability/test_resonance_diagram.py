@@ -26,8 +26,8 @@ def test_one_branch_has_the_attributes_of_any():
     assert set(data["branch"].values) == {0}
     assert data.attrs["branch_0_closed"] == 0
     assert {data.attrs[f"branch_0_ended_{end}"] for end in ("low", "high")} == {
-        "the range ends at 3",
-        "the range ends at 4",
+        "the range ends at 3 Hz",
+        "the range ends at 4 Hz",
     }
 
 

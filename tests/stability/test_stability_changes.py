@@ -75,10 +75,9 @@ def test_a_branch_that_grows_until_its_points_are_used_up_says_so():
 def test_a_branch_ends_where_its_motion_grows_without_bound():
     """Long before its points are used up: at the resonance, from either side of it."""
     rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.3))
-    resonance = 0.5 / np.pi
     for frequency, end in ((0.11, "high"), (0.19, "low")):
         data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, frequency)), span=(0.1, 0.2))
-        assert f"without bound near frequency = {resonance:.6g}" in data.attrs[f"ended_{end}"]
+        assert "without bound near ω = 1 (" in data.attrs[f"ended_{end}"]
         assert data.sizes["point"] < 2500
         ratio = data["displacement_max"].max() / data["displacement_max"].min()
         assert ratio > 1e3
@@ -89,7 +88,7 @@ def test_a_slightly_damped_resonance_is_passed(damping_ratio):
     """However large it is: its peak is that of the closed form."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2.0 * damping_ratio))
     data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, 0.11)), span=(0.1, 0.2))
-    assert data.attrs["ended_high"] == "the range ends at 0.2"
+    assert data.attrs["ended_high"] == "the range ends at ω = 1.25663706"
     peak = 0.5 / damping_ratio
     assert float(data["displacement_max"].max()) == pytest.approx(peak, rel=1e-3)
 

@@ -47,9 +47,9 @@ def basins(
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
-    from vibroimpact.cli.rig import forcing_slug, subject
+    from vibroimpact.cli.rig import subject
     from vibroimpact.facts import basins as facts
-    from vibroimpact.model.units import forcing
+    from vibroimpact.model.frequency_text import forcing, forcing_slug
 
     what = subject(rig, changes, output.name)
     shaken, window = states.rig(what), states.window()

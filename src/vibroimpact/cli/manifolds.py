@@ -72,10 +72,10 @@ def manifolds(
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
-    from vibroimpact.cli.rig import forcing_slug, subject
+    from vibroimpact.cli.rig import subject
     from vibroimpact.datasets.description import motion_parameters
     from vibroimpact.facts import manifolds as facts
-    from vibroimpact.model.units import forcing
+    from vibroimpact.model.frequency_text import forcing, forcing_slug
 
     what = subject(rig, changes, output.name)
     shaken, window = states.rig(what), states.window()

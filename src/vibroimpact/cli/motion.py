@@ -66,9 +66,9 @@ def motion(
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
-    from vibroimpact.cli.rig import forcing_slug, subject
+    from vibroimpact.cli.rig import subject
     from vibroimpact.facts import motions as facts
-    from vibroimpact.model.units import forcing
+    from vibroimpact.model.frequency_text import forcing, forcing_slug
     from vibroimpact.stability.named_motions import named_motions
 
     what = subject(rig, changes, output.name)

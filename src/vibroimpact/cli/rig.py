@@ -30,7 +30,7 @@ from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.names import check_name, file_stem, literal
 from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
 from vibroimpact.model.rig import Rig, as_periodic, is_nothing, with_stated_units
-from vibroimpact.model.units import forcing, to_si
+from vibroimpact.model.units import to_si
 from vibroimpact.model.written_units import write_for
 from vibroimpact.response.plausibility import doubt_gaps
 
@@ -146,10 +146,6 @@ def subject(
     ------
     InputError
         If the code, the file or a value of the options is invalid.
-
-    Notes
-    -----
-    Everything that the command writes from here on has units, unless the rig has none.
     """
     found = _named(text, options)
     if shaken is not None:
@@ -163,7 +159,7 @@ def subject(
         return with_stated_units(changed(found.oscillator, given), stated), shaking
 
     oscillator, shaking = rig_of(options)
-    write_for(oscillator)
+    write_for(oscillator)  # until the end of the command
     shaking = otherwise if shaking is None else shaking
     if shaking is None and unshaken:
         shaking = Rig(oscillator).vibrating_freely().periodic
@@ -185,11 +181,6 @@ def subject(
     )
     doubt_gaps(Rig(what.oscillator, what.shaking))
     return what
-
-
-def forcing_slug(frequency: float) -> str:
-    """Return a frequency (Hz) as a part of a file name, such as ``"2.5Hz"`` or ``"omega1"``."""
-    return forcing(frequency, 10).replace("ω = ", "omega").replace(" ", "")
 
 
 def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated | None:

@@ -74,13 +74,14 @@ def simulate(
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
-    from vibroimpact.cli.rig import forcing_slug, subject
+    from vibroimpact.cli.rig import subject
     from vibroimpact.cli.states import rig_at
     from vibroimpact.facts import trajectory as facts
     from vibroimpact.model import Record
     from vibroimpact.model.count_checks import whole
+    from vibroimpact.model.frequency_text import forcing, forcing_slug
     from vibroimpact.model.quantities import DIMENSIONLESS
-    from vibroimpact.model.units import forcing, to_si
+    from vibroimpact.model.units import to_si
 
     what = subject(rig, changes, output.name, unshaken=True)
     table = what.simulate_table

@@ -29,7 +29,8 @@ from pydantic import Field, create_model, model_validator
 from vibroimpact.errors import InputError
 from vibroimpact.model import Model, study
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, LENGTH, TIME, VELOCITY
-from vibroimpact.model.validation import Accepts, NumberOrText, WholeNumber
+from vibroimpact.model.validation import Accepts
+from vibroimpact.model.wrong_kinds import NumberOrText, WholeNumber
 
 _MOST = 2**63 - 1
 """Largest accepted whole number: the engine counts with 64 bits."""

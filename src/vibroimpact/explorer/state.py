@@ -8,6 +8,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.written_units import SI
 from vibroimpact.scenarios.axes import one_sine
 
 Direction = Literal["forward", "backward"]
@@ -49,7 +50,7 @@ class State(NamedTuple):
 
 
 def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) -> State:
-    """Return the initial state for a rig.
+    """Return the initial state for a rig. The numbers of a rig without units become SI units.
 
     Parameters
     ----------
@@ -68,7 +69,8 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
         If the rig is invalid or is not shaken by one sine, or if its isolator has no stiffness.
     """
     given = one_sine(as_rig(rig), "amplitude")
-    oscillator, shaken = given.oscillator, given.sine
+    # The page has units at all its axes and fields.
+    oscillator, shaken = given.oscillator.replace(units=SI), given.sine
     natural = oscillator.natural_frequency
     low, high = span or (_short(LOWEST * natural), _short(HIGHEST * natural))
     if not 0.0 < low < high:

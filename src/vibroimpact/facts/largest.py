@@ -11,6 +11,7 @@ from rich.console import RenderableType
 from rich.table import Table
 
 from vibroimpact.datasets.description import base_at_rest, own_outputs
+from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DIMENSIONLESS,
@@ -19,7 +20,7 @@ from vibroimpact.model.quantities import (
     LENGTH,
     Quantity,
 )
-from vibroimpact.model.units import forcing, plain, pretty
+from vibroimpact.model.units import plain, pretty
 
 _DIGITS = 4
 _SAME = 1e-9

@@ -13,6 +13,7 @@ from rich.text import Text
 from vibroimpact.datasets.description import base_at_rest, noted
 from vibroimpact.facts.number_format import with_unit
 from vibroimpact.facts.status import status_facts
+from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.quantities import (
     ACCELERATION,
     ENERGY,
@@ -22,7 +23,7 @@ from vibroimpact.model.quantities import (
     VELOCITY,
     fitting,
 )
-from vibroimpact.model.units import forcing, plain
+from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import unit
 from vibroimpact.response.motion_phases import touches
 from vibroimpact.response.plausibility import STIFF

@@ -26,6 +26,7 @@ from vibroimpact.model import (
     Stop,
     to_dimensionless,
 )
+from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.quantities import (
     DAMPING,
     FORCE,
@@ -33,7 +34,7 @@ from vibroimpact.model.quantities import (
     MASS,
     STIFFNESS,
 )
-from vibroimpact.model.units import forcing, pretty
+from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import NONE, unitless
 
 

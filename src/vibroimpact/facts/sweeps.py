@@ -11,7 +11,8 @@ from rich.text import Text
 from vibroimpact.datasets.description import noted
 from vibroimpact.facts import largest
 from vibroimpact.facts.tables import titled_table
-from vibroimpact.model.units import forcing, forcing_heading, forcings, plain
+from vibroimpact.model.frequency_text import forcing, forcing_heading, forcings
+from vibroimpact.model.units import plain
 from vibroimpact.response.plausibility import STIFF, UNBOUNDED
 from vibroimpact.response.resonance import Features, Range
 

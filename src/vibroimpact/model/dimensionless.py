@@ -28,8 +28,9 @@ from vibroimpact.model.oscillator import Oscillator, Units
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, MASS, STIFFNESS
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
-from vibroimpact.model.units import has_unit, to_si
+from vibroimpact.model.units import to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 from vibroimpact.model.written_units import SI
 

@@ -25,9 +25,10 @@ from vibroimpact.model.built_in import as_isolator, as_stop
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, Isolator, IsolatorLaw
 from vibroimpact.model.isolators.design import designed
 from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
+from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.stops import STOPS, Bumper, RigidStop, Stop
 from vibroimpact.model.stops.bumper import returning
-from vibroimpact.model.units import has_unit, pretty, to_si
+from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 from vibroimpact.model.written_units import NONE, SI, written_for
 

@@ -17,7 +17,8 @@ from vibroimpact.model.html_table import table
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.record import Record
-from vibroimpact.model.units import has_unit, pretty, to_si
+from vibroimpact.model.stated_units import has_unit
+from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import NONE, SI, written_for
 
 Shaking: TypeAlias = float | str | Harmonic | Periodic | Record | Sequence[float | str]

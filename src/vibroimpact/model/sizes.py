@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, shown, warn_of_input
 
 SMALLEST, LARGEST = 1e-100, 1e100
 """Smallest and largest accepted size in SI units."""
@@ -21,3 +21,15 @@ def check_size(value: object, number: float, smallest: float = 0.0) -> float:
         limit = smallest if abs(number) < smallest else LARGEST
         raise InputError(f"{shown(value)} is too {wrong} {limit:g} (absolute value in SI units)")
     return number
+
+
+_FAR_OVERDAMPED = 2.0
+"""A damping ratio from which on a percentage is more likely."""
+
+
+def doubt_damping_ratio(value: float, field: str) -> None:
+    """Issue a warning if a damping ratio was probably meant in percent."""
+    if value >= _FAR_OVERDAMPED:
+        warn_of_input(
+            field, [f"{value:g} is {value:g} times the critical damping; did you mean {value:g} %?"]
+        )

@@ -21,7 +21,8 @@ from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import ANGLE, TIME
 from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig, as_periodic, is_nothing, with_stated_units
-from vibroimpact.model.validation import Accepts, Model, NumberOrText, validate
+from vibroimpact.model.validation import Accepts, Model, validate
+from vibroimpact.model.wrong_kinds import NumberOrText
 
 _Study = TypeVar("_Study", bound="RigStudy")
 

@@ -18,11 +18,10 @@ from decimal import Decimal
 from functools import lru_cache
 from typing import Any
 
-from vibroimpact.errors import InputError, shown, warn_of_input
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model import quantities
 from vibroimpact.model.quantities import (
     ACCELERATION,
-    ANGLE,
     FORCE,
     FREQUENCY,
     GRAVITY,
@@ -46,8 +45,6 @@ _NAMES: dict[tuple[tuple[str, float], ...], str] = _ALSO_NAMED | {
     q.base: q.phrase for q in vars(quantities).values() if isinstance(q, Quantity)
 }
 
-_FAR_OVERDAMPED = 2.0
-"""A damping ratio from which on a percentage is more likely."""
 _LEAST, _MOST = 1e-5, 1e9
 """Sizes between which a number is written without a power of ten."""
 
@@ -200,11 +197,9 @@ def accepted(
 
 
 def with_si_unit(value: float, quantity: Quantity) -> str:
-    """Write a value with its SI unit. A value of a rig without units has none."""
-    if unitless() and quantity is FREQUENCY:
-        return f"ω = {math.tau * value:g}"
-    if unitless() and quantity is not ANGLE:
-        return f"{value:g}"
+    """Write a value with its SI unit, unless the rig has no units."""
+    if unitless():
+        return pretty(value, quantity)
     return f"{value:g} {quantity.symbol}".rstrip()
 
 
@@ -255,14 +250,6 @@ def to_si_of_any(value: object, field: str) -> tuple[float, tuple[float, float, 
     return number + 0.0, (mass, length, time)
 
 
-def doubt_damping_ratio(value: float, field: str) -> None:
-    """Issue a warning if a damping ratio was probably meant in percent."""
-    if value >= _FAR_OVERDAMPED:
-        warn_of_input(
-            field, [f"{value:g} is {value:g} times the critical damping; did you mean {value:g} %?"]
-        )
-
-
 def plain(value: float, digits: int = 6) -> str:
     """Write a number with `digits` significant digits, without a power of ten if possible."""
     text = f"{value:.{digits}g}"
@@ -288,8 +275,8 @@ def pretty(value: float, quantity: Quantity, digits: int = 6) -> str:
     Returns
     -------
     str
-        Text such as ``"510 kN/m"``, ``"7.5 mm"``, ``"0.134 g"`` or ``"0.15"``. A value of a rig
-        without units is only a number, and a frequency is its angular frequency, ``"ω = 2"``.
+        Text such as ``"510 kN/m"``, ``"7.5 mm"`` or ``"0.15"``. Values of a rig without units are
+        numbers, and a frequency is ``"ω = 2"``.
     """
     if not math.isfinite(value):
         return with_si_unit(value, quantity)
@@ -298,39 +285,6 @@ def pretty(value: float, quantity: Quantity, digits: int = 6) -> str:
     # What rounds up to the next unit is written in that: 1 MN, not 1000 kN.
     unit = quantity.unit(float(f"{value:.{digits}g}"))
     return f"{plain(value / unit.size, digits)} {unit.symbol}".rstrip()
-
-
-def has_unit(value: object) -> bool:
-    """Return whether a value states a unit of mass, length or time, such as ``"5 mm"``.
-
-    A percentage and an angle do not; neither does a text that is no quantity.
-    """
-    if hasattr(value, "to_base_units"):  # of pint
-        value = str(value)
-    if not isinstance(value, str):
-        return False
-    try:
-        return any(to_si_of_any(value, "value")[1] or ())
-    except InputError:
-        return False
-
-
-def forcing(frequency: float, digits: int = 6) -> str:
-    """Write a frequency (Hz) with its unit, or as ``"ω = 2"`` if the rig has no units."""
-    return forcings(frequency, frequency, digits=digits)
-
-
-def forcings(low: float, high: float, digits: int = 6, to: str = " to ") -> str:
-    """Write a range of frequencies (Hz), such as ``"0.5 to 5 Hz"`` or ``"ω = 0.5 to 5"``."""
-    turn = math.tau if unitless() else 1.0
-    ends = dict.fromkeys(plain(turn * end, digits) for end in (low, high))
-    span = to.join(ends)
-    return f"ω = {span}" if unitless() else f"{span} Hz"
-
-
-def forcing_heading(name: str = "frequency") -> tuple[float, str]:
-    """Return factor and heading of a column of frequencies: in Hz, or ω of a rig without units."""
-    return (math.tau, "ω") if unitless() else (1.0, f"{name} (Hz)")
 
 
 def _number(value: Any, quantity: Quantity) -> float:

@@ -11,11 +11,10 @@ import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self, TypeAlias, TypeVar, cast, get_args
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
 
 from pydantic import (
     BaseModel,
-    BeforeValidator,
     ConfigDict,
     GetCoreSchemaHandler,
     ValidationError,
@@ -29,6 +28,7 @@ from vibroimpact.model.keys import MOST, SHOWN, listed, unknown_key
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.sizes import SMALLEST, check_size
 from vibroimpact.model.units import accepted, pretty, read
+from vibroimpact.model.wrong_kinds import path_of, wrong_kind
 
 _FIELD = re.compile(r"[a-z_]+(\.[a-z_]+)*: ")
 _Init = TypeVar("_Init", bound=Callable[..., None])
@@ -87,23 +87,6 @@ class Accepts:
             return self.of(info.data)(value)
 
         return core_schema.with_info_before_validator_function(beside, handler(source))
-
-
-def _number_or_text(value: object) -> object:
-    if isinstance(value, bool) or not isinstance(value, int | float | str):
-        raise InputError(f"{shown(value)} is not a number or text with a unit")
-    return value
-
-
-def _whole_number(value: object) -> object:
-    if isinstance(value, bool) or not isinstance(value, int | float) or value != value // 1:
-        raise InputError(f"{shown(value)} is not a whole number")
-    return value
-
-
-NumberOrText: TypeAlias = Annotated[float | str, BeforeValidator(_number_or_text)]
-"""A value that is read later, because its quantity depends on other values."""
-WholeNumber: TypeAlias = Annotated[int, BeforeValidator(_whole_number)]
 
 
 class Choice:
@@ -350,7 +333,7 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     kind = mistake["type"]
     steps, wanted = _along(model, location)
     holder = _along(model, location[:-1])[1]
-    path = _path(where, steps)
+    path = path_of(where, steps)
     if kind == "value_error":
         problem = str(mistake["ctx"]["error"])
         if path and _FIELD.match(problem):
@@ -368,35 +351,8 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     elif kind in ("model_type", "model_attributes_type"):
         problem = f"{value} is not a table; pass a table of {listed(in_order(wanted))}"
     else:
-        problem = f"{value} {_wrong(mistake)}{_example(model, location)}"
+        problem = f"{value} {wrong_kind(mistake)}{_example(model, location)}"
     return f"{path}: {problem}" if path else problem
-
-
-def _wrong(mistake: ErrorDetails) -> str:
-    """Describe what is wrong with a value, in the words of this package instead of pydantic's."""
-    kind, context = mistake["type"], mistake.get("ctx", {})
-    if kind == "literal_error":
-        return f"is unknown; {context['expected']} is accepted"
-    if kind == "greater_than_equal":
-        return f"is less than {context['ge']}"
-    if kind == "less_than_equal":
-        return f"is greater than {context['le']}"
-    for start, words in _NOT.items():
-        if kind.startswith(start):
-            return words
-    message = mistake["msg"]
-    return f"is invalid: {message[:1].lower()}{message[1:]}"
-
-
-_NOT = {
-    "string_": "is not text in quotes",
-    "list_": "is not a list in brackets",
-    "dict_": "is not a table of names and values",
-    "int_": "is not a whole number",
-    "float_": "is not a number",
-    "bool_": "is not true or false",
-}
-"""What is wrong with a value, by the beginning of pydantic's name of the error."""
 
 
 def _example(model: type[BaseModel], location: tuple[int | str, ...]) -> str:
@@ -406,16 +362,6 @@ def _example(model: type[BaseModel], location: tuple[int | str, ...]) -> str:
         if field is not None:
             return f"; write it as in {field.examples[0]}" if field.examples else ""
     return ""
-
-
-def _path(where: str, steps: list[int | str]) -> str:
-    path = where
-    for step in steps:
-        if isinstance(step, int):
-            path += f"[{step}]"
-        else:
-            path += f".{step}" if path else step
-    return path
 
 
 def _choice(model: type[BaseModel], name: str) -> Choice | None:

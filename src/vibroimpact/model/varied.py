@@ -13,7 +13,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.units import doubt_damping_ratio, pretty, to_si
+from vibroimpact.model.sizes import doubt_damping_ratio
+from vibroimpact.model.units import pretty, to_si
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
 """Parameters that also set a damping. They are set first, so that a varied damping replaces it."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.model.units import forcing, forcings
+from vibroimpact.model.frequency_text import forcing, forcings
 from vibroimpact.response.resonance import Hysteresis
 from vibroimpact.scenarios.evidence import Evidence
 from vibroimpact.scenarios.thresholds import Thresholds

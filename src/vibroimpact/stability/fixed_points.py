@@ -109,6 +109,11 @@ class Orbit:
         return float(self.point[section_map.PARAMETER])
 
     @property
+    def place(self) -> str:
+        """The parameter as text, with its unit."""
+        return self.section.family.written(self.value, 9)
+
+    @property
     def contacts(self) -> tuple[int, int]:
         """Contacts with the right and the left bumper in a period."""
         right = int(self.facts[section_map.CONTACTS_RIGHT])

@@ -14,7 +14,7 @@ from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import State, equilibrium
-from vibroimpact.model.units import forcing
+from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.written_units import written_for
 from vibroimpact.response.engine_input import as_state, engine_state
 from vibroimpact.stability.bifurcations import own_mirror

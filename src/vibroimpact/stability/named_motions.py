@@ -8,8 +8,8 @@ import xarray as xr
 
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
+from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.units import forcing
 from vibroimpact.model.written_units import written_for
 from vibroimpact.response.sections import stroboscopic_section
 from vibroimpact.response.spectrum import fourier_spectrum

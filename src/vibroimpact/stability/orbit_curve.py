@@ -105,9 +105,6 @@ class Branch:
         """Sizes of the state's components and the parameter."""
         return self.first.orbit.section.scale
 
-    def _range_end(self, value: float) -> str:
-        return f"the range ends at {self.first.orbit.section.family.written(value, 9)}"
-
     def stepped(self, here: Station, length: float) -> Orbit | None:
         """Predict and correct: an orbit of the same branch, whatever its contacts."""
         section = here.orbit.section
@@ -140,32 +137,32 @@ class Branch:
 
     def end(self, here: Station, there: Station) -> tuple[list[Station], str] | None:
         """See `Path`."""
-        value = there.orbit.value
+        value, written = there.orbit.value, there.orbit.section.family.written
         if not self.low <= value <= self.high:
             bound = self.low if value < self.low else self.high
-            return self._on_bound(here, bound), self._range_end(bound)
+            return self._on_bound(here, bound), f"the range ends at {written(bound, 9)}"
         if value in (self.low, self.high):
-            return [there], self._range_end(value)
+            return [there], f"the range ends at {written(value, 9)}"
         if slid(there.orbit):
             # The impacts by which it differed are gone: beyond, the same orbits come again.
             return [replace(there, tangent=-here.tangent)], _born_grazing(simplest(there.orbit))
         if self.rested.comes_again(here.orbit):
             return (
                 [],
-                f"beyond {here.orbit.value:.9g}, the branch repeats the orbits in which the mass "
+                f"beyond {here.orbit.place}, the branch repeats the orbits in which the mass "
                 "comes to rest",
             )
         if self._returned(here, there):
             return [there], CLOSED
         if there.arclength - here.arclength >= _APART and neutral(here) and neutral(there):
-            return [], f"orbits are not isolated beyond {here.orbit.value:.9g}: {CONTINUUM}"
+            return [], f"orbits are not isolated beyond {here.orbit.place}: {CONTINUUM}"
         if (pole := self._pole(here, there)) is not None:
             return [there], pole
         met = None if here.orbit.section.count % 2 else parent(here.orbit, there.orbit)
         if met is not None:
             # Beyond, the same orbits come again, half a period later.
             cycles = met.section.period
-            return [there], f"it meets the orbits of period {cycles} at {met.value:.9g}"
+            return [there], f"it meets the orbits of period {cycles} at {met.place}"
         return None
 
     def _pole(self, here: Station, there: Station) -> str | None:
@@ -182,7 +179,7 @@ class Branch:
         left = times * (value - here.orbit.value) / growth
         if abs(left) > _STANDS * abs(value - self.first.orbit.value):
             return None
-        name = there.orbit.section.family.parameter.name
+        near = there.orbit.section.family.equation(value + left)
         damped = there.orbit.rig.oscillator.isolator.damping > 0.0
         beyond = f"beyond {times:.1g} times the first orbit" if damped else "without bound"
         limit = (
@@ -190,7 +187,7 @@ class Branch:
             if damped
             else f"{times:.1g} times the first orbit"
         )
-        return f"the motion grows {beyond} near {name} = {value + left:.6g} ({limit})"
+        return f"the motion grows {beyond} near {near} ({limit})"
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:
         """The orbit at the end of the range, if there is one."""
@@ -255,7 +252,7 @@ class Branch:
         """See `Path`."""
         if (met := shrinks_onto(here.orbit)) is not None:
             return _born_grazing(met)
-        return beyond(here.orbit, "orbit", f"{here.orbit.value:.9g}")
+        return beyond(here.orbit, "orbit", here.orbit.place)
 
     def corner(self, here: Station, length: float) -> list[Station]:
         """See `Path`: the last orbit with the contacts of `here`, and one just after it."""
@@ -389,7 +386,7 @@ def _born_grazing(met: Orbit) -> str:
     """Why a branch ends that has shrunk onto a simpler orbit, which grazes."""
     period = met.section.period
     whose = "that are their own mirror image" if met.section.mirror else f"of period {period}"
-    return f"it meets the orbits {whose} at {met.value:.9g}, where they graze"
+    return f"it meets the orbits {whose} at {met.place}, where they graze"
 
 
 def near_other_contacts(last: Orbit, along: _Array, ahead: float) -> bool:

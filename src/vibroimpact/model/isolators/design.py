@@ -16,7 +16,8 @@ from vibroimpact.model.quantities import (
     MASS,
     PERIOD,
 )
-from vibroimpact.model.units import doubt_damping_ratio, one_of
+from vibroimpact.model.sizes import doubt_damping_ratio
+from vibroimpact.model.units import one_of
 from vibroimpact.model.validation import Accepts
 
 if TYPE_CHECKING:
