@@ -24,7 +24,7 @@ export class Knobs {
   }
 
   show(state, choices) {
-    const shape = JSON.stringify([state.controls.map((knob) => [knob.path, knob.group]), state.laws, state.together]);
+    const shape = JSON.stringify([state.controls.map((knob) => [knob.path, knob.group, knob.label]), state.laws, state.together]);
     if (shape !== this.shape) this.build(state, choices);
     this.shape = shape;
     for (const knob of state.controls) {
