@@ -17,7 +17,7 @@ from vibroimpact.explorer.run import serving
 IMAGES = Path(__file__).parents[2] / "docs/images"
 GAPS = ("7.5 mm", "15 mm", "25 mm")
 _PATIENCE = 3000
-_HEIGHT = 390
+_HEIGHT = 394
 """Of the first panel of the curves, with what stands above it."""
 
 

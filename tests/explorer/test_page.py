@@ -168,6 +168,64 @@ def test_the_point_of_the_map_is_dragged(opened):
     until(page, "document.getElementById('text-stops-gap').value === '7.5 mm'")
 
 
+CLIPPED = """() => [...document.querySelectorAll("#words pre, #words")]
+    .filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.id)"""
+
+
+def test_the_words_are_read_in_full(opened):
+    page = opened()
+    page.set_viewport_size({"width": 1280, "height": 720})
+    page.click("#tab-words")
+    until(page, "document.getElementById('words-curves').textContent.includes('Resonances')")
+    assert "depth (mm)" in page.inner_text("#words-motion")
+    assert page.evaluate(CLIPPED) == []
+    assert page.locator("#panels svg").first.bounding_box()["width"] > 200
+    page.click("#tab-motion")
+    until(page, "document.querySelector('#panels svg').clientWidth > 300")
+
+
+def test_symbols_have_real_subscripts(opened):
+    page = opened()
+    page.click("#tab-words")
+    until(page, "document.getElementById('words-curves').textContent.includes('Resonances')")
+    for box in ("#groups", "#panels", "#words", "#map"):
+        text = page.text_content(box)
+        assert not re.search(r"[A-Za-zα-ω]_[a-z]", text), box
+    symbol = "#groups label[for='text-stops-stiffness'] i"
+    assert page.inner_html(symbol) == "K<sub>j</sub>"
+    assert page.inner_html("#groups label[for='text-stops-gap_ratio'] i") == "δ<sub>0</sub>"
+    assert "η" in page.locator("#panels text:has(tspan)").first.text_content()
+    rows = "[...document.querySelectorAll('#words-curves .cell')].map((one) => one.offsetWidth)"
+    widths = page.evaluate(rows)
+    assert len(set(widths)) == 1, "tables keep their columns"
+
+
+def test_scenarios_have_their_meanings_at_the_map(opened):
+    page = opened()
+    page.click("#tab-map")
+    page.locator("#map .rig").wait_for(state="attached")
+    lines = page.locator("#map .basins li").all_inner_texts()
+    assert [line.replace("\n", " ")[:2] for line in lines][:7] == [f"S{k}" for k in range(7)]
+    assert "left hysteresis or non-regular resonances" in lines[4]
+    assert page.get_attribute("#evidence abbr", "title") is not None
+
+
+def test_an_amplitude_has_the_unit_of_any_excitation(opened):
+    page = opened()
+    for given, label in (
+        ("120 N", "force amplitude F"),
+        ("5 mm", "base displacement X"),
+        ("0.4 kg m", "unbalance m e"),
+        ("0.05 g", "base acceleration A"),
+    ):
+        before = curve(page)
+        page.fill("#text-amplitude", given)
+        page.keyboard.press("Enter")
+        until_bent(page, before)
+        assert page.inner_text("label[for='text-amplitude']") == label
+        assert page.input_value("#text-amplitude") == given
+
+
 def test_laws_and_presets(opened):
     page = opened()
     page.uncheck("#together")

@@ -72,8 +72,28 @@ def test_one_side_alone():
 
 
 @pytest.mark.parametrize(
+    ("text", "of", "size"),
+    [
+        ("120 N", "force", 120.0),
+        ("5 mm", "displacement", 0.005),
+        ("0.4 kg m", "unbalance", 0.4),
+        ("0.5", "acceleration", 0.5),
+    ],
+)
+def test_the_unit_of_an_amplitude_selects_the_excitation(text, of, size):
+    turned = CASE._replace(shaking=CASE.shaking.replace(phase=0.3))
+    moved = change.moved(turned, "amplitude", text)
+    assert (moved.shaking.of, moved.shaking.amplitude) == (of, pytest.approx(size))
+    assert (moved.shaking.frequency, moved.shaking.phase) == (CASE.shaking.frequency, 0.3)
+    assert change.moved(moved, "amplitude", 2.0).shaking.of == of
+    assert change.moved(moved, "amplitude", "0.02 g").shaking.of == "acceleration"
+    assert knobs(moved)["amplitude"].low < size < knobs(moved)["amplitude"].high
+
+
+@pytest.mark.parametrize(
     ("path", "value", "words"),
     [
+        ("amplitude", "2 kg", "is a mass"),
         ("stops.gap", "12 kg", "mass"),
         ("mass", "-3", "greater than 0"),
         ("amplitude", "0", "greater than 0"),

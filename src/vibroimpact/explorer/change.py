@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer.laws import isolator_of, stop_of
 from vibroimpact.explorer.state import ON_DEMAND, State
-from vibroimpact.model import Oscillator, to_si
+from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import FREQUENCY
@@ -32,7 +32,8 @@ def moved(state: State, path: str, value: float | str) -> State:
         ``"right.gap"``, ``"stops.gap"`` (both sides), ``"amplitude"``, ``"damping_ratio"`` and
         ``"stops.gap_ratio"``.
     value
-        The new value, in SI units or as text with a unit.
+        The new value, in SI units or as text with a unit. The unit of an amplitude selects the
+        excitation: ``"0.05 g"``, ``"5 mm"``, ``"120 N"`` or ``"0.4 kg m"``.
 
     Raises
     ------
@@ -42,8 +43,7 @@ def moved(state: State, path: str, value: float | str) -> State:
     rig = state.oscillator
     part, _, name = path.rpartition(".")
     if path == "amplitude":
-        size, _ = sized(value, state.shaking.of, "amplitude", positive=True)
-        return state._replace(shaking=state.shaking.replace(amplitude=size))
+        return state._replace(shaking=_shaken(state.shaking, value))
     if path in OF_RIG:
         number = to_si(value, PARAMETERS[path].quantity, path, above=0.0)
         moved = PARAMETERS[path].vary(state.rig, number)
@@ -61,6 +61,18 @@ def moved(state: State, path: str, value: float | str) -> State:
     for side in present:
         rig = _stop_moved(state, rig, side, name, value)
     return state._replace(oscillator=rig)
+
+
+def _shaken(shaking: Harmonic, value: float | str) -> Harmonic:
+    """The shaking with another amplitude, of another quantity if a text has its unit."""
+    of = shaking.of
+    try:
+        size, of = sized(value, of, "amplitude", positive=True)
+    except InputError:
+        if not isinstance(value, str):
+            raise
+        size, of = sized(value, None, "amplitude", positive=True)
+    return Harmonic(size, shaking.frequency, shaking.phase, of)
 
 
 def _stop_moved(

@@ -11,6 +11,7 @@ from vibroimpact.explorer.change import DIMENSIONLESS, OF_RIG, SIDES, one_sided
 from vibroimpact.explorer.laws import free_displacement
 from vibroimpact.explorer.state import State
 from vibroimpact.model import Bumper, Model, Oscillator
+from vibroimpact.model.excitation import Of
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import (
     DAMPING,
@@ -49,7 +50,6 @@ _SYMBOLS = {
     "stiffness": "K_j",
     "damping": "C_j",
     "gap": "G",
-    "amplitude": "A",
     "damping_ratio": "ξ",
     "isolator_period": "T",
     "stiffness_ratio": "λ",
@@ -57,6 +57,17 @@ _SYMBOLS = {
     "relaxation_time": "τ",
     "restitution": "e",
 }
+
+
+_LABELS = {"force": "constant force"}
+"""Labels of knobs whose fields do not tell them from others."""
+_AMPLITUDES: dict[Of, tuple[str, str]] = {
+    "acceleration": ("base acceleration", "A"),
+    "displacement": ("base displacement", "X"),
+    "force": ("force amplitude", "F"),
+    "unbalance": ("unbalance", "m e"),
+}
+"""Label and symbol of the amplitude."""
 
 
 class Control(NamedTuple):
@@ -98,7 +109,10 @@ def _physical(state: State, first: State) -> Iterator[Control]:
     sizes = _Sizes(state)
     begun = first.shaking.amplitude if first.shaking.of == shaken.of else shaken.amplitude
     ends = (begun / _TENFOLD, begun * _TENFOLD, True)
-    yield _control("amplitude", "shaking", "amplitude", shaken.amplitude, shaken.quantity, ends)
+    label, symbol = _AMPLITUDES[shaken.of]
+    yield _control("amplitude", "shaking", label, shaken.amplitude, shaken.quantity, ends)._replace(
+        symbol=symbol
+    )
     yield from _fields(rig, old, "", "mass and isolator", sizes)
     yield from _fields(rig.isolator, old.isolator, "isolator", "mass and isolator", sizes)
     if rig.right == rig.left and state.together:
@@ -123,7 +137,8 @@ def _fields(
         stop = name not in ("", "isolator")
         ends = _ends(field, accepts.quantity, begun or 0.0, accepts, sizes, _WIDE if stop else None)
         path = f"{name}.{field}" if name else field
-        yield _control(path, group, field.replace("_", " "), value, accepts.quantity, ends)
+        label = _LABELS.get(path, field.replace("_", " "))
+        yield _control(path, group, label, value, accepts.quantity, ends)
 
 
 class _Sizes:

@@ -23,6 +23,7 @@ from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.units import pretty
 from vibroimpact.scenarios.axes import one_sine
+from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.tasks.threads import Progress, Stopped
 
 Message = dict[str, Any]
@@ -81,6 +82,7 @@ class Session:
             "isolators": isolator_laws(),
             "stops": stop_laws(),
             "scenarios": {name: area.colour for name, area in SCENARIOS.items()},
+            "meanings": {one.label: one.meaning for one in Scenario},
             "plane": {"x": plane.STIFFNESS, "y": plane.GAP},
         }
 

@@ -1,5 +1,7 @@
 // The knobs: a slider and a text for each number of the rig, in groups, and the laws.
 
+import { written } from "./plot.js";
+
 const STEPS = 1000;
 const WORDS = { "kelvin-voigt": "spring and dashpot", rigid: "rigid", power: "power law (Hertz)", jankowski: "Jankowski", none: "none" };
 
@@ -22,7 +24,7 @@ export class Knobs {
   }
 
   show(state, choices) {
-    const shape = JSON.stringify([state.controls.map((knob) => [knob.path, knob.group]), state.laws, state.together]);
+    const shape = JSON.stringify([state.controls.map((knob) => [knob.path, knob.group, knob.label]), state.laws, state.together]);
     if (shape !== this.shape) this.build(state, choices);
     this.shape = shape;
     for (const knob of state.controls) {
@@ -64,7 +66,7 @@ export class Knobs {
     const id = knob.path.replaceAll(".", "-");
     const box = made("div", { className: "knob" }, group);
     const title = made("label", { htmlFor: `text-${id}`, textContent: `${knob.label} ` }, box);
-    if (knob.symbol) made("i", { textContent: knob.symbol }, title);
+    if (knob.symbol) written(made("i", {}, title), knob.symbol);
     const text = made("input", { type: "text", id: `text-${id}`, value: knob.text, autocomplete: "off", spellcheck: false }, box);
     text.setAttribute("aria-describedby", `why-${id}`);
     const slider = made("input", { type: "range", id: `knob-${id}`, min: 0, max: STEPS, step: 1 }, box);

@@ -5,6 +5,7 @@ import { Knobs } from "./knobs.js";
 import { Link } from "./link.js";
 import { Motion } from "./motion.js";
 import { Basins, Plane } from "./plane.js";
+import { fixed } from "./plot.js";
 import { asPicture, copy, keep } from "./save.js";
 
 // Milliseconds after which a page that waits says so, and says why it may take so long.
@@ -100,12 +101,22 @@ function show(next) {
   const ratio = (name) => state.controls.find((knob) => knob.path === `stops.${name}`)?.value;
   const point = [ratio("stiffness_ratio"), ratio("gap_ratio")];
   tab(TABS.find((name) => state.shown.includes(name)) ?? beside);
-  plane.at(point.includes(undefined) ? null : point, choices.plane, choices.scenarios);
+  plane.at(point.includes(undefined) ? null : point, choices.plane, choices);
   document.title = `${state.name} – vibroimpact explorer`;
   history.replaceState(null, "", `#${state.address}`);
 }
 
+// A line of evidence, in which other scenarios tell their meaning.
+function explained(text) {
+  const line = document.createElement("li");
+  for (const part of text.split(/\b(S[0-6])\b/)) {
+    line.append(choices.meanings?.[part] ? Object.assign(document.createElement("abbr"), { textContent: part, title: choices.meanings[part] }) : part);
+  }
+  return line;
+}
+
 function tab(name) {
+  document.querySelector("main").classList.toggle("reading", name === "words");
   for (const one of TABS) {
     id(one).hidden = one !== name;
     id(`tab-${one}`).setAttribute("aria-selected", one === name);
@@ -131,19 +142,19 @@ function drawn(message) {
   if (message.picture === "curves") {
     curves.show(message, resting);
     if (message.n === asked) document.body.classList.remove("late");
-    if (message.words) id("words-curves").textContent = message.words;
+    if (message.words) fixed(id("words-curves"), message.words);
     requestAnimationFrame(() => {
       document.body.dataset.drawn = message.n ?? "";
       document.body.dataset.fine = message.fine;
     });
   } else if (message.picture === "motion") {
     motion.show(message);
-    if (message.table) id("words-motion").textContent = message.table.trim();
+    if (message.table) fixed(id("words-motion"), message.table.trim());
     curves.mark({ direction: message.direction, frequency: message.frequency });
   } else if (message.picture === "scenario") {
     id("scenario-name").textContent = message.scenario;
     id("scenario-meaning").textContent = message.meaning + (message.confidence === null ? "" : ` (confidence ${Math.round(100 * message.confidence)} %)`);
-    id("evidence").replaceChildren(...message.evidence.map((text) => Object.assign(document.createElement("li"), { textContent: text })));
+    id("evidence").replaceChildren(...message.evidence.map(explained));
   } else if (message.picture === "branch") curves.orbits(message);
   else if (message.picture === "map") plane.show(message);
   else if (message.picture === "basins") basins.show(message);

@@ -4,6 +4,7 @@ import { Chart, element } from "./plot.js";
 
 // Told apart by how light they are as well.
 const BASINS = ["#fbe9c0", "#3f6ea3", "#a6c8e4", "#7d3340", "#c99a6b", "#275a45", "#d8b4cf", "#555"];
+const short = (name) => (name === "unclassified" ? "?" : name);
 const letter = (k) => String.fromCharCode(65 + k);
 
 // Edges of cells half-way between the nodes.
@@ -19,6 +20,8 @@ export class Plane {
     this.chart = new Chart(parent, { name: "Scenarios over stiffness ratio and gap ratio. The point marks the rig.", x: "stiffness ratio λ (–)", y: "gap ratio δ0 (–)", xlog: true });
     this.chart.redraw = () => this.draw();
     this.move = move;
+    this.legend = parent.appendChild(document.createElement("ul"));
+    this.legend.className = "basins";
     this.gesture = 0;
     const box = this.chart.box;
     box.tabIndex = 0;
@@ -57,8 +60,19 @@ export class Plane {
   }
 
   // Where the rig is; nowhere if it has no λ and δ0 of both sides.
-  at(point, ranges, colours) {
-    Object.assign(this, { point, ranges, colours });
+  at(point, ranges, { scenarios, meanings }) {
+    if (scenarios && !this.colours) {
+      this.legend.replaceChildren(
+        ...Object.entries(meanings).map(([name, meaning]) => {
+          const item = document.createElement("li");
+          const key = Object.assign(document.createElement("b"), { textContent: short(name) });
+          key.style.background = scenarios[name];
+          item.append(key, meaning);
+          return item;
+        }),
+      );
+    }
+    Object.assign(this, { point, ranges, colours: scenarios });
     this.draw();
   }
 
@@ -75,7 +89,7 @@ export class Plane {
           const [width, height] = [chart.toX(xs[i + 1]) - x, chart.toY(ys[j]) - y];
           const name = picture.names[cell];
           element("rect", { x, y, width: width + 0.5, height: height + 0.5, fill: this.colours[name] }, chart.layers.bands);
-          if (width > 17) element("text", { x: x + width / 2, y: y + height / 2 + 4, "text-anchor": "middle", class: "on-colour" }, chart.layers.bands, name === "unclassified" ? "?" : name);
+          if (width > 17) element("text", { x: x + width / 2, y: y + height / 2 + 4, "text-anchor": "middle", class: "on-colour" }, chart.layers.bands, short(name));
         }),
       );
     }

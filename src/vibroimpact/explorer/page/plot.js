@@ -3,10 +3,45 @@
 const NS = "http://www.w3.org/2000/svg";
 const MARGIN = { left: 62, right: 10, top: 8, bottom: 34 };
 
+// Parts of a text of which every second one is a subscript: "K_j" and "δ0" have one.
+const SYMBOL = /(?<!\w)([A-Za-zα-ωΑ-Ω])_([a-z0-9]{1,3})(?!\w)|([δω])(0)(?!\d)/gu;
+export function subscripts(text) {
+  const parts = [""];
+  let end = 0;
+  for (const found of text.matchAll(SYMBOL)) {
+    parts[parts.length - 1] += text.slice(end, found.index) + (found[1] ?? found[3]);
+    parts.push(found[2] ?? found[4], "");
+    end = found.index + found[0].length;
+  }
+  parts[parts.length - 1] += text.slice(end);
+  return parts;
+}
+
+// A text of the page with its subscripts.
+export function written(node, text) {
+  node.replaceChildren(...subscripts(text).map((part, k) => (k % 2 ? Object.assign(document.createElement("sub"), { textContent: part }) : part)));
+}
+
+// The same where all signs are equally wide: a subscript is as wide as the signs that it replaces.
+export function fixed(node, text) {
+  const parts = subscripts(text);
+  node.replaceChildren(
+    ...parts.map((part, k) => {
+      if (k % 2 === 0) return part;
+      const box = Object.assign(document.createElement("span"), { className: "cell" });
+      box.style.width = `${part.length + (/\d/.test(part) ? 0 : 1)}ch`;
+      box.append(Object.assign(document.createElement("sub"), { textContent: part }));
+      return box;
+    }),
+  );
+}
+
 export function element(name, attributes = {}, parent = null, text = "") {
   const made = document.createElementNS(NS, name);
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-  if (text) made.textContent = text;
+  const [first, ...others] = subscripts(text);
+  if (first) made.textContent = first;
+  others.forEach((part, k) => element("tspan", k % 2 ? { dy: "-0.22em" } : { dy: "0.3em", "font-size": "0.75em" }, made).append(part));
   if (parent) parent.append(made);
   return made;
 }
