@@ -61,6 +61,7 @@ HEADERS = {
     "numbers": "values in cm/s2\n400 0.005\n",
     "a number": "values in cm/s2, dt = 0.005 s\n400\n",
     "comments": "# samples: 400\n% fs = 200 Hz\n! units: gal\n",
+    "a sentence": "Kobe, Japan, one, two, three, four, five, six\n400 POINTS AT 0.005 SEC, GAL\n",
     "a duration": "400 samples, sampled at 200 Hz\nrecord length (s): 2.00\nacceleration in gal\n",
 }
 
@@ -128,6 +129,7 @@ COMPONENTS = {
     "names": "#AmplitudeUnit:  gal\n#SampleRate(Hz): 200\nTime U N E\n",
     "units": "Time[s],U[gal],N[gal],E[gal]\n",
     "units below": "Time\tU\tN\tE\ns\tgal\tgal\tgal\n",
+    "no name of the times": "SAMPLE RATE 200 HZ\n(gal)\n   U    N    E\n",
     "a list of units": "# units: s, gal, gal, gal\nTime,U,N,E\n",
 }  # fmt: skip
 

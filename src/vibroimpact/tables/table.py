@@ -102,7 +102,7 @@ def read_table(file: File) -> Table:
     cells, lines = cells[used:], lines[used:]
     width = Counter(map(len, cells)).most_common(1)[0][0]
     few_columns(width, file.path, file.what)
-    head = column_headings(rows.above, width, rows.delimiter)
+    head = _headings(rows, cells, width)
     # The line above a single column may state all of it, as a sentence.
     named = frozenset() if head is None or width == 1 else head.lines
     headings = tuple(h for h in (*rows.above, *rows.comments) if h.at not in named)
@@ -148,6 +148,19 @@ def read_table(file: File) -> Table:
         stamps,
         rows.decimal,
     )
+
+
+def _headings(rows: Rows, cells: list[list[str]], width: int) -> Headings | None:
+    """Return the names of the columns. They may leave out that of the times, the first column."""
+    head = column_headings(rows.above, width, rows.delimiter)
+    if head is not None or width < 3:
+        return head
+    head = column_headings(rows.above, width - 1, rows.delimiter)
+    first = [rows.number(row[0]) if row else None for row in cells]
+    times = np.array([math.nan if one is None else one for one in first])
+    if head is None or not any(head.names) or not rises(times):
+        return None
+    return Headings(["time", *head.names], [_NO_UNITS, *head.units], head.lines)
 
 
 def _with_listed(units: Units, listed: str) -> Units:
