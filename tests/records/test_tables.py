@@ -223,9 +223,17 @@ def test_the_user_settles_a_contradiction(tmp_path):
     check(written(tmp_path, "# units: g\ntime (s),acc (gal)\n" + rows), unit="gal")
 
 
-@pytest.mark.parametrize("peak", ["PGA = {0:.2f} gal", "PGA = {1:.4f} g", "max value: {0:.1f}"])
+@pytest.mark.parametrize(
+    "peak",
+    [
+        "PGA = {0:.2f} gal",
+        "PGA = {1:.4f} g",
+        "max value: {0:.1f}",
+        "min = {2:.2f}, max = {3:.2f} gal",
+    ],
+)
 def test_a_stated_peak_that_fits(tmp_path, peak):
-    head = "# " + peak.format(PEAK, PEAK / 980.665) + "\n"
+    head = "# " + peak.format(PEAK, PEAK / 980.665, A.min(), A.max()) + "\n"
     check(written(tmp_path, f"{head}time (s),acc (gal)\n" + columns(TIME, A)))
 
 
