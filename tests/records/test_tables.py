@@ -151,9 +151,11 @@ def test_components_beside_their_times(tmp_path, header):
     ],
 )
 def test_a_first_column_that_does_not_rise_is_a_component(tmp_path, head):
-    path = written(tmp_path, head + columns(A, B, C, mark="," if "," in head else "  "))
-    for name, expected in (("N-S", A), ("E-W", B), ("U-D", C)):
-        check(path, expected, component=name)
+    for sign in (1.0, -1.0):
+        values = [sign * one for one in (A, B, C)]
+        path = written(tmp_path, head + columns(*values, mark="," if "," in head else "  "))
+        for name, expected in zip(("N-S", "E-W", "U-D"), values, strict=True):
+            check(path, expected, component=name)
 
 
 def test_times_in_any_column_numbers_of_rows_and_repeated_times(tmp_path):
