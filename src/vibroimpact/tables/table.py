@@ -112,9 +112,7 @@ def read_table(file: File) -> Table:
         np.array(places),
         statements,
         headings,
-        time_column(found, statements.step, arrangement in ("pairs", "rows"))
-        if stamps is None
-        else stamps,
+        time if stamps is None else stamps,
         arrangement,
         has_names,
         notes,
