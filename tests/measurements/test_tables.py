@@ -163,3 +163,11 @@ def test_stamps_in_whole_seconds_need_a_rate(tmp_path):
 def test_a_logger_that_writes_utf_16(tmp_path):
     data = read(tmp_path, table("Time (s)\tacc (g)\n", TIME, A, mark="\t"), "utf-16")
     np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
+
+
+@pytest.mark.parametrize("row", ["{0:.3f},Run #2,{1:.4f} # note", "Run #2,{0:.3f},{1:.4f}"])
+def test_a_number_sign_within_a_cell_is_no_comment(tmp_path, row):
+    names = "Time (s),run,acc (g)" if row.startswith("{") else "run,Time (s),acc (g)"
+    rows = [row.format(t, a) for t, a in zip(TIME, A, strict=True)]
+    data = read(tmp_path, "\n".join([names, *rows]) + "\n")
+    np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)

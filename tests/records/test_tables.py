@@ -61,6 +61,7 @@ HEADERS = {
     "numbers": "values in cm/s2\n400 0.005\n",
     "a number": "values in cm/s2, dt = 0.005 s\n400\n",
     "comments": "# samples: 400\n% fs = 200 Hz\n! units: gal\n",
+    "a sentence": "Kobe, Japan, one, two, three, four, five, six\n400 POINTS AT 0.005 SEC, GAL\n",
     "a duration": "400 samples, sampled at 200 Hz\nrecord length (s): 2.00\nacceleration in gal\n",
 }
 
@@ -128,6 +129,7 @@ COMPONENTS = {
     "names": "#AmplitudeUnit:  gal\n#SampleRate(Hz): 200\nTime U N E\n",
     "units": "Time[s],U[gal],N[gal],E[gal]\n",
     "units below": "Time\tU\tN\tE\ns\tgal\tgal\tgal\n",
+    "no name of the times": "SAMPLE RATE 200 HZ\n(gal)\n   U    N    E\n",
     "a list of units": "# units: s, gal, gal, gal\nTime,U,N,E\n",
 }  # fmt: skip
 
@@ -149,9 +151,11 @@ def test_components_beside_their_times(tmp_path, header):
     ],
 )
 def test_a_first_column_that_does_not_rise_is_a_component(tmp_path, head):
-    path = written(tmp_path, head + columns(A, B, C, mark="," if "," in head else "  "))
-    for name, expected in (("N-S", A), ("E-W", B), ("U-D", C)):
-        check(path, expected, component=name)
+    for sign in (1.0, -1.0):
+        values = [sign * one for one in (A, B, C)]
+        path = written(tmp_path, head + columns(*values, mark="," if "," in head else "  "))
+        for name, expected in zip(("N-S", "E-W", "U-D"), values, strict=True):
+            check(path, expected, component=name)
 
 
 def test_times_in_any_column_numbers_of_rows_and_repeated_times(tmp_path):
@@ -221,9 +225,17 @@ def test_the_user_settles_a_contradiction(tmp_path):
     check(written(tmp_path, "# units: g\ntime (s),acc (gal)\n" + rows), unit="gal")
 
 
-@pytest.mark.parametrize("peak", ["PGA = {0:.2f} gal", "PGA = {1:.4f} g", "max value: {0:.1f}"])
+@pytest.mark.parametrize(
+    "peak",
+    [
+        "PGA = {0:.2f} gal",
+        "PGA = {1:.4f} g",
+        "max value: {0:.1f}",
+        "min = {2:.2f}, max = {3:.2f} gal",
+    ],
+)
 def test_a_stated_peak_that_fits(tmp_path, peak):
-    head = "# " + peak.format(PEAK, PEAK / 980.665) + "\n"
+    head = "# " + peak.format(PEAK, PEAK / 980.665, A.min(), A.max()) + "\n"
     check(written(tmp_path, f"{head}time (s),acc (gal)\n" + columns(TIME, A)))
 
 

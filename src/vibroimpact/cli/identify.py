@@ -91,7 +91,7 @@ def identify(
         variables are detected from the names of the columns.
     units
         Variable or column, and its unit, such as displacement-excursion mm. The option may be
-        repeated. Default: the units in the file.
+        repeated. Required if the file states no unit. Default: the units in the file.
     group
         Name of the test that is read, if a file contains several tests. Default: the only test in
         the file.

@@ -64,14 +64,16 @@ def read_measurement(
         They are required only for columns whose names are not understood.
     units
         Units by variable or by column, such as ``{"displacement_excursion": "mm"}``. They replace
-        the units in the file.
+        the units in the file, and are required if the file states none. Times without a unit are in
+        s, and frequencies in Hz.
     direction
         Sweep direction of curves, ``"forward"`` or ``"backward"``, if the file does not state it.
     group
         Name of the test. It is required if the file holds several tests.
     amplitude
         Peak base acceleration of the test (m/s², or text such as ``"0.05 g"``). It replaces the
-        value in the file (``amplitude = 0.05 g``, ``amplitude_g = 0.05``).
+        value in the file (``amplitude = 0.05 g``, ``amplitude_g = 0.05``), and is required if that
+        value has no unit.
     frequency
         Forcing frequency (Hz) of a time history. It replaces the value in the file.
     decimal
@@ -92,7 +94,9 @@ def read_measurement(
     Raises
     ------
     InputError
-        If the file cannot be read, or if a column or a unit is ambiguous.
+        If the file cannot be read, if a column or a unit is ambiguous, if the unit of a quantity is
+        not stated, or if a text table states a number of samples, a step or a duration that its
+        values contradict.
 
     Warns
     -----

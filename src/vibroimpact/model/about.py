@@ -184,8 +184,14 @@ def _check_peaks(found: Channel, unit: str, factor: float, quantity: Quantity, p
 
 
 def _peaks(values: NDArray[np.float64]) -> list[float]:
-    """The largest absolute values, also without the mean, which networks subtract."""
-    return [float(np.abs(values).max()), float(np.abs(values - values.mean()).max())]
+    """What may be stated as the peak, the largest absolute value first.
+
+    Some headers state the largest and the least value; networks subtract the mean.
+    """
+    found = [float(np.abs(values).max())]
+    for part in (values, values - values.mean()):
+        found += [float(part.max()), float(-part.min())]
+    return found
 
 
 def _near(peak: Peak, size: float, factor: float) -> bool:

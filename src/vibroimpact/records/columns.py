@@ -6,10 +6,11 @@ import numpy as np
 
 from vibroimpact.records.channel import Channel, Format
 from vibroimpact.tables.checks import check_count, sampling
+from vibroimpact.tables.column import Column
 from vibroimpact.tables.file import File
 from vibroimpact.tables.headings import is_index
 from vibroimpact.tables.statements import Peak, Statements
-from vibroimpact.tables.table import Column, Table, is_row_number, read_table
+from vibroimpact.tables.table import Table, read_table
 from vibroimpact.tables.units import is_acceleration, parted
 
 
@@ -58,7 +59,7 @@ def _components(table: Table) -> list[int]:
     rows = [
         i
         for i in numeric
-        if is_row_number(table.columns[i])
+        if table.columns[i].is_row_number
         and len(numeric) > 1
         and (is_index(table.columns[i].name) or (counted and i == 0))
     ]

@@ -96,17 +96,25 @@ def _names(text: str, width: int, delimiter: str | None) -> list[str] | None:
         names = [_clean(name) for name in cut_heading(bare, mark)]
         if len(names) == width + 1 and not names[-1]:
             names.pop()
-        if len(names) == width and _can_be_names(names, width):
+        # Commas in a line above numbers between blanks may be those of a sentence.
+        is_sure = listed or mark == delimiter or _are_usual(names)
+        if len(names) == width and is_sure and _can_be_names(names, width):
             return names
     if width == 1:
         return None
     names = [_clean(name) for name in _WORD.findall(bare)]
     if len(names) != width or not _can_be_names(names, width):
         return None
+    return names if listed or _are_usual(names) else None
+
+
+def _are_usual(names: list[str]) -> bool:
+    """Return whether words are names or units of columns, not those of a sentence."""
+    if not names:
+        return False
     usual = all(_TIME.fullmatch(parted(n)[0]) or _USUAL.fullmatch(parted(n)[0]) for n in names)
-    if listed or usual or are_units(names) or any(map(unit_of, names)) or _TIME.fullmatch(names[0]):
-        return names
-    return None  # a sentence
+    has_unit = any(map(unit_of, names))
+    return usual or are_units(names) or has_unit or bool(_TIME.fullmatch(parted(names[0])[0]))
 
 
 def _clean(name: str) -> str:

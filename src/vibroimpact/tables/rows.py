@@ -15,8 +15,8 @@ from vibroimpact.tables.times import STAMPS, stamp
 ABSENT = {"", "nan", "na", "n/a", "none", "null", "-", "--", "#n/a", "missing"}
 """Cells of missing values."""
 _COMMENT = ("#", "%", "//", "!")
-_BEHIND = re.compile(r"\s*#(?!n/a).*$|\s*!.*$", re.IGNORECASE)
-"""A comment after the values of a row."""
+_MARK = re.compile(r"#(?!n/a)|!", re.IGNORECASE)
+"""The mark of a comment after the values of a row."""
 _END = re.compile(r"\W*end\W+(?:of\W+)?(?:the\W+)?(?:data|file|record)\W*|\s*/&\s*", re.IGNORECASE)
 _NUMBER = re.compile(
     r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?|inf(?:inity)?)", re.IGNORECASE
@@ -112,7 +112,7 @@ def split_rows(file: File) -> Rows:
             ends.append(at)
         else:
             if "#" in line or "!" in line:
-                line = _BEHIND.sub("", line)
+                line = _without_comment(line, delimiter, decimal)
             found.append((at, _cells(line, delimiter, decimal)))
     rows = _rows(found, decimal)
     if not rows:
@@ -122,6 +122,16 @@ def split_rows(file: File) -> Rows:
     kept = {at for at, _ in rows}
     headings += [Heading(at, file.lines[at].strip(), False) for at, _ in found if at not in kept]
     return _body(file, headings, rows, ends, delimiter, decimal)
+
+
+def _without_comment(line: str, delimiter: str | None, decimal: Decimal) -> str:
+    """A row without the comment after its values. A mark may also belong to a cell: ``Run #2``."""
+    for mark in _MARK.finditer(line):
+        before = line[: mark.start()]
+        is_last = delimiter is None or delimiter not in line[mark.start() :]
+        if is_last or _words(_cells(before, delimiter, decimal), decimal) == 0:
+            return before
+    return line
 
 
 def _rows(lines: list[tuple[int, list[str]]], decimal: Decimal) -> list[tuple[int, list[str]]]:

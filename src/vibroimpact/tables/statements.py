@@ -43,7 +43,7 @@ _COUNT_NAME = (
     r"(?:n_?(?:pts|points|data|samples|values)"
     r"|(?:no|nr|num|number)\.? ?(?:of)? ?(?:\w+[ _]){0,2}?(?:pts|points|samples|values|data)"
     r"(?:[ _](?:points|samples|values))?|(?:data|sample|total)[ _]*(?:points|samples|count)"
-    r"|samples|points|pts)"
+    r"|samples|points|pts|anzahl (?:der )?\w*(?:punkte|werte))"
 )
 _KEY = r"(?<![A-Za-z_])"
 _STEP = re.compile(

@@ -8,7 +8,6 @@ themselves and the stated count decide; where they do not, an error asks for a s
 from __future__ import annotations
 
 import math
-import re
 from collections import Counter
 from typing import Literal, NamedTuple
 
@@ -16,49 +15,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.tables.column import Array, Column
 from vibroimpact.tables.file import File
-from vibroimpact.tables.headings import (
-    Headings,
-    column_headings,
-    is_index,
-    is_time,
-    listed_units,
-)
+from vibroimpact.tables.headings import Headings, column_headings, is_time, listed_units
 from vibroimpact.tables.limits import few_columns
 from vibroimpact.tables.rows import Heading, Rows, split_rows
-from vibroimpact.tables.statements import Number, Statements, read_statements, same
-from vibroimpact.tables.times import (
-    IN_A_SECOND,
-    counts_samples,
-    rises,
-    seconds_since_start,
-    spacing,
-    stamp,
-    stated_order,
-)
+from vibroimpact.tables.statements import Number, Statements, read_statements
+from vibroimpact.tables.time_column import time_column, with_stamps
+from vibroimpact.tables.times import counts_samples, rises, spacing
 from vibroimpact.tables.units import Units, parted
 
 Arrangement = Literal["columns", "lines", "pairs", "rows"]
-Array = NDArray[np.float64]
-
 _NO_UNITS = Units(None)
 _FEW = 3
 """Fewest lines of which the last may be shorter because the values end there."""
-
-
-class Column(NamedTuple):
-    """A column of a table."""
-
-    name: str
-    """Name as it is written, with its unit. Empty if the file does not name it."""
-    units: Units
-    values: Array | NDArray[np.str_]
-    """Numbers, NaN where they are missing; or words."""
-
-    @property
-    def is_numeric(self) -> bool:
-        """Whether the column has numbers."""
-        return self.values.dtype.kind == "f"
 
 
 class Table(NamedTuple):
@@ -102,7 +72,7 @@ def read_table(file: File) -> Table:
     cells, lines = cells[used:], lines[used:]
     width = Counter(map(len, cells)).most_common(1)[0][0]
     few_columns(width, file.path, file.what)
-    head = column_headings(rows.above, width, rows.delimiter)
+    head = _headings(rows, cells, width)
     # The line above a single column may state all of it, as a sentence.
     named = frozenset() if head is None or width == 1 else head.lines
     headings = tuple(h for h in (*rows.above, *rows.comments) if h.at not in named)
@@ -134,20 +104,34 @@ def read_table(file: File) -> Table:
             for i, (name, units) in enumerate(zip(head.names, head.units, strict=True))
         ]
         places = lines
-    found, stamps = _with_stamps(file, found, headings, lines)
+    found, stamps = with_stamps(file, found, headings, lines)
+    time = time_column(found, statements.step, arrangement in ("pairs", "rows"))
     return Table(
         file,
         tuple(found),
         np.array(places),
         statements,
         headings,
-        _time(found, statements, arrangement) if stamps is None else stamps,
+        time if stamps is None else stamps,
         arrangement,
         has_names,
         notes,
         stamps,
         rows.decimal,
     )
+
+
+def _headings(rows: Rows, cells: list[list[str]], width: int) -> Headings | None:
+    """Return the names of the columns. They may leave out that of the times, the first column."""
+    head = column_headings(rows.above, width, rows.delimiter)
+    if head is not None or width < 3:
+        return head
+    head = column_headings(rows.above, width - 1, rows.delimiter)
+    first = [rows.number(row[0]) if row else None for row in cells]
+    times = np.array([math.nan if one is None else one for one in first])
+    if head is None or not any(head.names) or not rises(times):
+        return None
+    return Headings(["time", *head.names], [_NO_UNITS, *head.units], head.lines)
 
 
 def _with_listed(units: Units, listed: str) -> Units:
@@ -313,93 +297,3 @@ def _rearranged(
     if arrangement == "pairs":
         return [flat[::2], flat[1::2]], places[::2]
     return [flat], places
-
-
-def _with_stamps(
-    file: File, columns: list[Column], headings: tuple[Heading, ...], lines: list[int]
-) -> tuple[list[Column], int | None]:
-    """Return columns in which dates and times of day are times in s, and the number of the column.
-
-    A column of dates beside one of times of day is joined with it.
-    """
-    found = {}
-    for i, column in enumerate(columns):
-        if not column.is_numeric:
-            read = [stamp(str(cell)) for cell in column.values]
-            if all(read):
-                found[i] = [one for one in read if one]
-    clocks = [i for i, read in found.items() if all(one.seconds is not None for one in read)]
-    if not clocks:
-        return columns, None
-    at = clocks[0]
-    stamps = found[at]
-    days = [i for i, read in found.items() if all(one.seconds is None for one in read)]
-    first = str(columns[at].values[0])
-    if days and stamps[0].date is None:
-        stamps = [
-            one._replace(date=day.date, year_first=day.year_first)
-            for one, day in zip(stamps, found[days[0]], strict=True)
-        ]
-        first = f"{columns[days[0]].values[0]} {first}"
-    else:
-        days = []
-    named = [columns[i].name for i in (*days[:1], at)]
-    times = seconds_since_start(stamps, stated_order([*named, *(h.text for h in headings)]))
-    if times is None:
-        raise file.refused(
-            lines[0],
-            f"{first!r} begins dates that do not exist in one order of day and month; write dates "
-            "as 2024-05-31, or pass step= (--step)",
-        )
-    joined = Column(columns[at].name or "time", Units("s"), times)
-    kept = [joined if i == at else one for i, one in enumerate(columns) if i not in days[:1]]
-    return kept, next(i for i, c in enumerate(kept) if c is joined)
-
-
-_OTHER_AXES = re.compile(r"f(?:req(?:uency)?)?|hz|period", re.IGNORECASE)
-
-
-def _time(columns: list[Column], stated: Statements, arrangement: Arrangement) -> int | None:
-    """Return the column of times: that which the header names, or that rises evenly."""
-    if len(columns) < 2:
-        return None
-    if arrangement in ("pairs", "rows"):
-        return 0
-    numeric = [i for i, column in enumerate(columns) if column.is_numeric]
-    for i in numeric:
-        if columns[i].name and is_time(columns[i].name):
-            return i
-    if numeric and not columns[numeric[0]].name and _may_be_times(columns[numeric[0]]):
-        first = numeric[0]
-    else:
-        first = -1
-    even = [i for i in numeric if _may_be_times(columns[i]) and _is_even(columns[i])]
-    # The numbers of the rows are even, too; they are the times of a step of 1 s, if of any.
-    others = [i for i in even if not is_row_number(columns[i])]
-    if others and (first < 0 or is_row_number(columns[first])):
-        return others[0]
-    if first < 0 and even and even[0] == numeric[0]:
-        first = even[0]
-    if first < 0 or not is_row_number(columns[first]):
-        return None if first < 0 else first
-    is_step = stated.step is None or same(stated.step.value, 1.0)
-    return first if is_step and not is_index(columns[first].name) else None
-
-
-def _may_be_times(column: Column) -> bool:
-    unit = column.units.unit
-    is_other = bool(_OTHER_AXES.fullmatch(column.name.partition("(")[0].strip()))
-    return (
-        (unit is None or unit in IN_A_SECOND)
-        and not is_other
-        and rises(np.asarray(column.values, dtype=float))
-    )
-
-
-def _is_even(column: Column) -> bool:
-    return spacing(np.asarray(column.values, dtype=float)).step is not None
-
-
-def is_row_number(column: Column) -> bool:
-    """Return whether a column may be the numbers of the rows."""
-    return column.is_numeric and counts_samples(np.asarray(column.values, dtype=float))
