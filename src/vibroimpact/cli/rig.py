@@ -28,8 +28,9 @@ from vibroimpact.model.excitation import sized
 from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.names import check_name, file_stem, literal
+from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
 from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
-from vibroimpact.model.rig import Rig, as_periodic, is_nothing, with_stated_units
+from vibroimpact.model.rig import Rig, with_stated_units
 from vibroimpact.model.units import to_si
 from vibroimpact.model.written_units import write_for
 from vibroimpact.response.plausibility import doubt_gaps

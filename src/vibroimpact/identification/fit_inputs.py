@@ -17,10 +17,11 @@ from vibroimpact.measurements.read import as_measured
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.names import check_name
 from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.read_rig import as_rig
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import ANY_FREQUENCY, Rig, as_periodic
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty, to_si
 
 BASE = "the measured base"

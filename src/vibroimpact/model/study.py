@@ -18,9 +18,10 @@ from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.laboratory import Parameters
 from vibroimpact.model.names import check_name
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
 from vibroimpact.model.quantities import ANGLE, TIME
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import Rig, as_periodic, is_nothing, with_stated_units
+from vibroimpact.model.rig import Rig, with_stated_units
 from vibroimpact.model.validation import Accepts, Model, validate
 from vibroimpact.model.wrong_kinds import NumberOrText
 

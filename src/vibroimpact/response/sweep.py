@@ -26,9 +26,10 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import State, to_si
 from vibroimpact.model.count_checks import check_max_events, share, whole
+from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.read_rig import AnyRig, as_rig, as_rigs
-from vibroimpact.model.rig import Rig, as_periodic
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import (

@@ -20,7 +20,8 @@ from vibroimpact.model.access import scale_of
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.parameters import PARAMETERS, parameter
-from vibroimpact.model.rig import ANY_FREQUENCY, Rig, as_periodic
+from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 
 _Array = NDArray[np.float64]

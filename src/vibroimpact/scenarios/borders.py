@@ -17,7 +17,8 @@ import xarray as xr
 from vibroimpact.datasets.description import describe, excitation_from
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator
-from vibroimpact.model.rig import ANY_FREQUENCY, Rig
+from vibroimpact.model.periodic_shaking import ANY_FREQUENCY
+from vibroimpact.model.rig import Rig
 from vibroimpact.response.sweep import sweep
 from vibroimpact.scenarios.axes import Base, one_sine
 from vibroimpact.scenarios.evidence import evidence

@@ -32,8 +32,8 @@ from vibroimpact.model import Oscillator, Rig, State
 from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, share, whole
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.parameters import read_span
+from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
-from vibroimpact.model.rig import as_periodic
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs

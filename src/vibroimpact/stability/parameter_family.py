@@ -16,7 +16,8 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.rig import Rig, as_periodic
+from vibroimpact.model.periodic_shaking import as_periodic
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import written_for
 from vibroimpact.response.engine_input import system_vector

@@ -1,0 +1,75 @@
+"""Read a periodic shaking: an amplitude, one amplitude per frequency, or an excitation."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import cast
+
+from vibroimpact.arguments import is_list
+from vibroimpact.errors import InputError
+from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
+from vibroimpact.model.record import Record
+
+ANY_FREQUENCY = 1.0
+"""Placeholder (Hz) for the frequency of a periodic shaking whose frequency is open. It has no
+meaning."""
+
+
+def is_nothing(shaking: object) -> bool:
+    """Return whether a shaking is an amplitude of 0, such as ``"0 g"``, so that nothing shakes."""
+    if not isinstance(shaking, str | float | int) or isinstance(shaking, bool):
+        return False
+    try:
+        return sized(shaking, None, "shaking")[0] == 0.0
+    except InputError:  # reported where it is read
+        return False
+
+
+def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] | None]:
+    """Read a periodic shaking: an amplitude, amplitudes, a `Harmonic` or a `Periodic`.
+
+    Returns
+    -------
+    shaking, amplitudes
+        If only an amplitude is passed, the frequency has no meaning. `amplitudes` are those of a
+        list; the shaking has the largest one.
+
+    Raises
+    ------
+    InputError
+        If it is invalid, missing, or 0.
+    """
+    if isinstance(value, Record):
+        raise InputError(
+            f"{where}: a Record has no period, but a periodic excitation is required; use a "
+            "Harmonic or a Periodic, or call simulate for the Record"
+        )
+    if value is None:
+        raise InputError(
+            f"{where}: missing, and the rig has no shaking; pass an acceleration greater than 0, "
+            'such as "0.05 g", or a displacement, a force or an unbalance'
+        )
+    if isinstance(value, Harmonic | Periodic):
+        if value.amplitude == 0.0:
+            raise InputError(
+                f"{where}: 0; pass an amplitude greater than 0 (simulate computes free vibrations)"
+            )
+        return value, None
+    if is_list(value):
+        sizes, of = [], None
+        for i, one in enumerate(cast("Sequence[float | str]", value)):
+            size, of = sized(one, of, f"{where}[{i}]", positive=True)
+            sizes.append(size)
+        if not sizes:
+            raise InputError(f"{where}: the list is empty; pass one amplitude per frequency")
+        return Harmonic(max(sizes), ANY_FREQUENCY, of=of), tuple(sizes)
+    size, of = sized(value, None, where, positive=True)
+    return Harmonic(size, ANY_FREQUENCY, of=of), None
+
+
+def several(amplitudes: tuple[float, ...]) -> str:
+    """Say that one amplitude is needed where a rig has a list of them."""
+    return (
+        f"shaking: a list of {len(amplitudes)} amplitudes belongs to the frequencies of a sweep, "
+        'but one amplitude is needed here; pass one amplitude, such as Rig(oscillator, "0.05 g")'
+    )
