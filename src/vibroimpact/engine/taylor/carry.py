@@ -246,7 +246,7 @@ def _per_speed(plan: Vector, motion: Motion, side: int, sign: float) -> float:
         return 0.0
     push = push_of(plan, side, closing, motion.right if side == RIGHT else motion.left)
     gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
-    return stop_force(plan, side, push, sign * motion.u - gap, closing) / closing  # type: ignore[no-any-return]
+    return stop_force(plan, side, push, sign * motion.u - gap, closing) / closing
 
 
 @kernel
