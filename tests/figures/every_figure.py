@@ -16,6 +16,7 @@ from figures import test_basin_shares as shares
 from figures import test_basins as basins
 from figures import test_branches as branches
 from figures import test_ensembles as ensembles
+from figures import test_force_on_the_mass as unbalance
 from figures import test_motion_style as motions
 from figures import test_physical_axes as physical
 from figures import test_resonance_curves as curves
@@ -28,6 +29,14 @@ CASE = vi.laboratory.case("B2-G1-A3")
 RECORD = noise(8)
 PERIODS = np.geomspace(0.05, 2.0, 20)
 SCALES = np.linspace(0.2, 3.0, 10)
+OUTPUT = {
+    "power": vi.Output(
+        "mean(damping*velocity**2)",
+        units="W",
+        long_name="mean power of the dashpot of the isolator over one period",
+    )
+}
+NO_UNITS = vi.Rig(vi.Oscillator(1, vi.Isolator(1, 0.1), vi.Bumper(20, 0, 2)), 0.5)
 WIDE = (-0.012, 0.012), (-0.1, 0.1)
 
 
@@ -91,6 +100,28 @@ def fragility() -> xr.Dataset:
 
 
 @cache
+def own_outputs() -> dict[str, xr.Dataset]:
+    """Return a sweep, branches and a bifurcation diagram with an output of a long name."""
+    grid = np.linspace(1.0, 4.0, 16)
+    return {
+        "sweep": vi.sweep(CASE, grid, outputs=OUTPUT),
+        "branches": vi.resonance_diagram(CASE, (1.0, 4.0), outputs=OUTPUT),
+        "diagram": vi.bifurcation_diagram(
+            sections.CASE, "gap", (4.7e-3, 5e-3), 7, frequency=1.12, outputs=OUTPUT
+        ),
+    }
+
+
+@cache
+def no_units() -> dict[str, xr.Dataset]:
+    return {
+        "sweep": vi.sweep(NO_UNITS, np.linspace(0.12, 0.24, 13)),
+        "motion": vi.steady(NO_UNITS, frequency=0.2),
+        "branches": vi.resonance_diagram(NO_UNITS, (0.12, 0.24)),
+    }
+
+
+@cache
 def exponents() -> xr.Dataset:
     rigs = {"B3-10mm-A3": "B3-10mm-A3", "B2-G1-A3": CASE}
     return vi.lyapunov_exponents(rigs, [1.1], 64, vary={"gap": [3e-3, 4e-3, 5e-3]})
@@ -124,17 +155,34 @@ EVERY: dict[str, Drawn] = {
         _over(partial(physical.swept, physical.BUILDING), figures.resonance_curves, physical=True),
         3,
     ),
+    "resonance_curves, unbalance": Drawn(
+        _over(unbalance.swept, figures.resonance_curves, physical=False), 3
+    ),
+    "resonance_curves, unbalance, physical": Drawn(
+        _over(unbalance.swept, figures.resonance_curves, physical=True), 4
+    ),
+    "resonance_curves, own output": Drawn(
+        lambda **how: figures.resonance_curves(own_outputs()["sweep"], **how), 3
+    ),
+    "resonance_curves, no units": Drawn(
+        lambda **how: figures.resonance_curves(no_units()["sweep"], physical=True, **how), 3
+    ),
     "resonance_family": Drawn(_over(family.swept, figures.resonance_family)),
     "time_history": Drawn(_both("time_history"), 3),
+    "time_history, unbalance": Drawn(_over(unbalance.motion, figures.time_history), 4),
     "clearances": Drawn(_both("clearances"), 2),
     "phase_portrait": Drawn(_both("phase_portrait")),
     "hysteresis_cycle": Drawn(_both("hysteresis_cycle")),
+    "hysteresis_cycle, unbalance": Drawn(_over(unbalance.motion, figures.hysteresis_cycle)),
     "spectrum_lines": Drawn(
         lambda **how: figures.spectrum_lines(
             {name: vi.fourier_spectrum(one) for name, one in motions.both().items()}, **how
         )
     ),
     "motion_page": Drawn(lambda **how: figures.motion_page({"2 Hz": motions.both()}, **how), 5),
+    "motion_page, no units": Drawn(
+        lambda **how: figures.motion_page({"one": no_units()["motion"]}, **how), 5
+    ),
     "force_loop": Drawn(
         lambda **how: figures.force_loop(vi.BilinearIsolator(5e5, 3e4, 1e3, 0.0), "20 mm", **how)
     ),
@@ -146,6 +194,16 @@ EVERY: dict[str, Drawn] = {
     "branch_diagram, many": Drawn(
         _over(branches.several, figures.branch_diagram, quantity="displacement_excursion")
     ),
+    "branch_diagram, own output": Drawn(
+        lambda **how: figures.branch_diagram(
+            own_outputs()["branches"], sweep=own_outputs()["sweep"], quantity="power", **how
+        )
+    ),
+    "branch_diagram, no units": Drawn(
+        lambda **how: figures.branch_diagram(
+            no_units()["branches"], sweep=no_units()["sweep"], quantity="peak_displacement", **how
+        )
+    ),
     "bifurcation_curves": Drawn(
         lambda **how: figures.bifurcation_curves(
             {"folds": branches.curve("fold"), "grazings": branches.curve("grazing")}, **how
@@ -156,6 +214,9 @@ EVERY: dict[str, Drawn] = {
             sections.diagram(), branches=sections.branch(), **how
         ),
         3,
+    ),
+    "section_diagram, own output": Drawn(
+        lambda **how: figures.section_diagram(own_outputs()["diagram"], **how), 4
     ),
     "exponent_curves": Drawn(_over(exponents, figures.exponent_curves)),
     "basin_portrait": Drawn(
@@ -181,6 +242,7 @@ EVERY: dict[str, Drawn] = {
             vi.response_spectrum(RECORD, PERIODS, [0.02, 0.05, 0.1, 0.2]), **how
         )
     ),
+    "response_spectra, records": Drawn(_over(spectra, figures.response_spectra)),
     "record_history": Drawn(_over(quake, figures.record_history), 4),
     "earthquake_page": Drawn(lambda **how: figures.earthquake_page(quake(), spectra(), **how), 0),
     "incremental_curves": Drawn(_over(demands, figures.incremental_curves, limit=1.5)),

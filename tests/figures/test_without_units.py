@@ -99,6 +99,8 @@ def test_figures_accept_keywords(motion):
     ("label", "without"),
     [
         ("excitation frequency $f$ (Hz)", "excitation frequency $\\omega$"),
+        ("excitation frequency\n$f$ (Hz)", "excitation frequency\n$\\omega$"),
+        ("frequency\n(Hz)", "frequency\n$\\omega$"),
         ("clearance (mm),\nmagnified", "clearance,\nmagnified"),
         ("largest contact\nforce ()", "largest contact\nforce"),
         ("phase (rad)", "phase (rad)"),

@@ -23,7 +23,7 @@ from vibroimpact.response.resonance import Features
 _Draw = TypeVar("_Draw", bound=Callable[..., Any])
 
 _UNIT = re.compile(r"\s\((?:mm|m|m/s²|m s-2|g|m/s|mm/s|s|ms|1/s|–|1|[kM]?N(?: s)?|[mk]?J|)\)")
-_HERTZ = re.compile(r"(?: \$f\$)? \(Hz\)")
+_HERTZ = re.compile(r"(\s)(?:\$f\$\s)?\(Hz\)")
 
 
 def in_own_units(draw: _Draw) -> _Draw:
@@ -54,7 +54,7 @@ def in_unit(factor: float) -> float:
 
 def without_unit(label: str) -> str:
     """Return the label of an axis without its unit, and with ω for a frequency."""
-    return _UNIT.sub("", _HERTZ.sub(r" $\\omega$", label))
+    return _UNIT.sub("", _HERTZ.sub(r"\1$\\omega$", label))
 
 
 def _turned(value: Any) -> Any:
