@@ -86,7 +86,7 @@ def inches(value: float | str, name: str) -> float:
     Raises
     ------
     InputError
-        If the value is no length, or no size of a figure.
+        If the value is not a length, or not a size that a figure can have.
     """
     metres = to_si(value, LENGTH, name, above=0.0)
     if not _LEAST <= metres <= _MOST:

@@ -39,7 +39,7 @@ def _announced(file: File, first: int = 0, last: int = _SEARCHED) -> int | None:
 def recognises(file: File) -> bool:
     """Return whether a file has this format: one of its first lines contains NPTS.
 
-    It is no comment, and no further line of words follows it.
+    This line is not a comment, and no further line of words follows it.
     """
     at = _announced(file)
     if at is None or not _OF_PEER.search(line := file.lines[at]) or _COMMENT.match(line):

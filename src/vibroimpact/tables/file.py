@@ -16,7 +16,7 @@ from vibroimpact.tables.decimal_mark import Decimal
 from vibroimpact.tables.limits import regular, unpacked
 
 _TEXT = re.compile(r"[A-Za-z]{4}")
-"""Text that is no damaged number. NaN and inf have three letters."""
+"""Text that cannot be a damaged number. NaN and inf have three letters."""
 _HEADER = 120
 """Largest number of lines of a header."""
 _PACKED = b"\x1f\x8b"

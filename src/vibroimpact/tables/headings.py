@@ -122,7 +122,7 @@ def _clean(name: str) -> str:
 
 
 def _can_be_names(names: list[str], width: int) -> bool:
-    """Return whether cells are no numbers and no entry of a key and a value."""
+    """Return whether cells are neither numbers nor an entry of a key and a value."""
     if not any(names) or (width == 1 and re.search(r"[:=]", names[0])):
         return False
     if width == 2 and names[0] and _states([": ".join(names), " ".join(names)]):

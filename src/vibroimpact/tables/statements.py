@@ -2,7 +2,7 @@
 
 Networks and loggers write these in any order and wording: ``NPTS= 800, DT= .005 SEC``,
 ``SampleRate(Hz): 50``, ``800 POINTS AT 0.005 SEC``, ``"Sampling interval";"10";"ms"``. A statement
-is read by its key or, without a key, by its unit. What is not understood is no statement.
+is read by its key or, without a key, by its unit. What is not understood is left out.
 """
 
 from __future__ import annotations
