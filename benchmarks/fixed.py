@@ -31,7 +31,6 @@ COMMANDS = {
     "classify": (_CASE,),
     "identify": (_TEST, "--rig", _CASE, "--free", "gap", "--starts", "1"),
     "map": ("--x", "gap-ratio", "0.2:0.4:2", "--y", "stiffness-ratio", "5:10:2", "--refine", "0"),
-    "paper": ("--only", "table1"),
     "cache": (),
 }
 """Words of each command by its name; `explore` serves a page until it is ended."""

@@ -23,6 +23,7 @@ def test_an_oscillator_is_a_table_of_values_with_units():
         "right.stiffness": "510 kN/m",
         "right.damping": "0.73766 kN s/m",
         "right.gap": "7.5 mm",
+        "right.memory": "1.44639 ms",
         "left": "None",
     }
     assert "Oscillator" in CASE.oscillator._repr_html_()
