@@ -181,6 +181,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "right": vi.RigidStop(0.5, 0.1),
             "left": None,
             "force": 0.0,
+            "units": "none",
         },
         "Periodic": {
             "frequency": 1.0,

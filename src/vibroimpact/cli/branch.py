@@ -86,7 +86,7 @@ def branch(
         laboratory case.
     physical
         Draw the largest displacement (mm) instead of eta_d, and the largest acceleration (g)
-        instead of eta_a.
+        instead of eta_a. Default: yes for a study file, no for a laboratory case.
     random
         Number of random initial states at each of 40 values of the parameter. Motions that start
         from these states help to find isolated branches. An isolated branch has stable orbits, but

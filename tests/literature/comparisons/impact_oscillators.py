@@ -246,7 +246,8 @@ def bounced(nominal: float, stiffness: float = 1e10) -> float:
     stop = vi.Bumper(stiffness, 2.0 * z * math.sqrt(stiffness), 0.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0), stop)
     data = vi.simulate(vi.Rig(rig, vi.Harmonic(0.0, 1.0)), 0.5, vi.State(0.0, 1.0), samples=1)
-    return -float(data["event_velocity"][0])
+    left = data["event_contact"].values == 0
+    return -float(data["event_velocity"].values[left][0])
 
 
 def _restitution(nominal: float) -> Comparison:
