@@ -13,9 +13,9 @@ from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
 from vibroimpact.figures.own_units import in_own_units, in_unit
 
-_MOST_VECTORS = 50_000
-"""Number of points from which a curve is rasterised in SVG and PDF files, which otherwise would be
-very large."""
+_MOST_VECTORS = 200_000
+"""Number of points from which a curve is rasterised in SVG and PDF files. Fewer points are smaller as
+lines than as an image of 600 dpi."""
 
 
 @in_own_units
