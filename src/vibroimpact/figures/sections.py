@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 from typing import Any
 
 import numpy as np
@@ -39,8 +38,6 @@ _ELSE = Look("from other initial states", "0.35", "-.", 0.8, "x", 4.0, True)
 
 _HEIGHTS = (3.2, 1.0, 1.4)
 _OF_AN_OUTPUT = 1.4
-_WIDTH = 18
-"""Characters of a line of the label of an own output."""
 _NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")
 """Types of motions that have their own row on the axis of periods, below the period 1."""
 
@@ -138,7 +135,7 @@ def section_diagram(
     add_legend(top, handles, apart=6.0)
     top.set_ylabel(label)
     for ax, output in zip(between, own, strict=True):
-        ax.set_ylabel(textwrap.fill(axis_label(data[output], output)[1], _WIDTH))
+        ax.set_ylabel(axis_label(data[output], output)[1])
     _periods(middle, data["period"].values, rows)
     bottom.axhline(0.0, color="0.3", linewidth=0.7, zorder=1)
     bottom.set_ylabel("largest\nexponent (1/s)")
