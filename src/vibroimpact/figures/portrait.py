@@ -14,8 +14,8 @@ from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines,
 from vibroimpact.figures.own_units import in_own_units, in_unit
 
 _MOST_VECTORS = 200_000
-"""Number of points from which a curve is rasterised in SVG and PDF files. Lines through fewer points
-are smaller than an image of 600 dpi."""
+"""Number of points from which a curve is an image of 600 dpi in SVG and PDF files. With fewer
+points, lines make a smaller file."""
 
 
 @in_own_units

@@ -257,8 +257,10 @@ class Rig:
         """
         natural = self.oscillator.angular_frequency / math.tau
         hertz = self.frequency or natural or 1.0
-        phase = 0.0 if self.shaking is None else self.periodic.phase
-        return self.with_parts(self.oscillator, Harmonic(0.0, hertz, phase), keep_open=False)
+        still = Harmonic(0.0, hertz)
+        if self.shaking is not None:
+            still = still.replace(phase=self.periodic.phase, of=self.periodic.of)
+        return self.with_parts(self.oscillator, still, keep_open=False)
 
     @property
     def hardest(self) -> Rig:
