@@ -160,7 +160,7 @@ def test_refused(wrong, told):
     [
         (
             {"span": (1.0, 2.0)},
-            r"basins\[0\]: these basins were computed at frequency = 0.3 Hz, outside",
+            r"basins\[0\]: these basins were computed at frequency ω = 1.88496, outside",
         ),
         (
             {"rig": vi.Rig(ONE_STOP, 1.5)},

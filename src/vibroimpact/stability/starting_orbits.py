@@ -211,7 +211,7 @@ def _value_of(fam: Family, span: tuple[float, float], one: xr.Dataset, field: st
     if not span[0] <= value <= span[1]:
         low, high, own = (fam.written(x) for x in (*span, value))
         raise InputError(
-            f"{field}: these basins were computed at {fam.parameter.name} = {own}, outside the "
+            f"{field}: these basins were computed at {fam.parameter.name} {own}, outside the "
             f"range from {low} to {high}; widen this range, or remove these basins"
         )
     return value
