@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+import warnings
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from typing import Any, Literal
 
 import numpy as np
+from matplotlib import rc_context
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import RendererAgg
@@ -15,6 +18,8 @@ from matplotlib.legend import Legend
 from matplotlib.offsetbox import OffsetBox, VPacker
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox, IdentityTransform
+
+from vibroimpact.figures.notebook import Drawing
 
 Place = Literal["above", "below"]
 
@@ -236,28 +241,50 @@ def fit_labels(*axes: Axes, share: float = _FULL) -> None:
     share
         Share of a side that a label may cover.
     """
-    if not any(_length(text, None) > 0.5 * side for ax in axes for text, side in _labels(ax)):
-        return
-    apply_layout(*axes)
-    for ax in axes:
-        for text, side in _labels(ax):
-            if _length(text, None) > share * side:
-                # The lines of a title say different things.
-                whole = text.get_text()
-                lines = whole.split("\n") if text is ax.title else [_unbroken(whole)]
-                broken = []
-                for line in lines:
-                    text.set_text(line)
-                    break_lines(text, share * side, None)
-                    broken.append(text.get_text())
-                text.set_text("\n".join(broken))
+    with _as_saved(axes):
+        if not any(_length(text, None) > 0.5 * side for ax in axes for text, side in _labels(ax)):
+            return
+        apply_layout(*axes)
+        for ax in axes:
+            for text, side in _labels(ax):
+                if _length(text, None) > share * side:
+                    # The lines of a title say different things.
+                    whole = text.get_text()
+                    lines = whole.split("\n") if text is ax.title else [_unbroken(whole)]
+                    broken = []
+                    for line in lines:
+                        text.set_text(line)
+                        break_lines(text, share * side, None)
+                        broken.append(text.get_text())
+                    text.set_text("\n".join(broken))
 
 
 def apply_layout(*axes: Axes) -> None:
     """Give panels the sizes that they have when their figure is drawn."""
-    for figure in {ax.get_figure(root=True) for ax in axes}:
-        if figure is not None and (engine := figure.get_layout_engine()) is not None:
-            engine.execute(figure)
+    with _as_saved(axes):
+        for figure in _figures(axes):
+            if (engine := figure.get_layout_engine()) is not None:
+                engine.execute(figure)
+
+
+@contextmanager
+def _as_saved(axes: Sequence[Axes]) -> Iterator[None]:
+    """Measure texts as `Drawing.savefig` writes them: without LaTeX.
+
+    Characters that the font lacks are reported when the figure is saved.
+    """
+    drawings = [figure for figure in _figures(axes) if isinstance(figure, Drawing)]
+    for figure in drawings:
+        for text in figure.findobj(Text):
+            text.set_usetex(False)
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing from font")
+        with rc_context({"text.usetex": False}) if drawings else nullcontext():
+            yield
+
+
+def _figures(axes: Sequence[Axes]) -> set[Figure]:
+    return {figure for ax in axes if (figure := ax.get_figure(root=True)) is not None}
 
 
 def _labels(ax: Axes) -> list[tuple[Text, float]]:
