@@ -6,6 +6,7 @@ import codeop
 import re
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import pytest
 
 from docs.snippets import FENCE, PAGES, PICTURE, ROOT, run_page
@@ -21,11 +22,15 @@ def name(page: Path) -> str:
 def test_blocks_run_and_print_what_is_shown(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = page.read_text(encoding="utf-8")
-    for shown in run_page(text, name(page)):
-        line = text.count("\n", 0, shown.start) + 1
-        assert shown.agrees, (
-            f"{name(page)}:{line} shows\n{shown.expected}\nbut this is printed\n{shown.printed}"
-        )
+    try:
+        for shown in run_page(text, name(page)):
+            line = text.count("\n", 0, shown.start) + 1
+            assert shown.agrees, (
+                f"{name(page)}:{line} shows\n{shown.expected}\n"
+                f"but this is printed\n{shown.printed}"
+            )
+    finally:
+        plt.close("all")
     if page.parent.name == "tutorials":
         assert all(any(Path().rglob(Path(target).name)) for target in PICTURE.findall(text))
 

@@ -155,7 +155,7 @@ def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
             "shaking: scenarios are not defined for a Periodic",
         ),
         (CASE.oscillator, [0.3, 0.4], "shaking: 2 amplitudes, but a scenario is defined for one"),
-        (CASE.oscillator, 0.0, "shaking: 0"),
+        (CASE.oscillator, 0.0, "shaking: missing, and the rig has no shaking"),
         (
             CASE.oscillator.replace(isolator=vi.Isolator(0.0, 1.0)),
             0.3,
