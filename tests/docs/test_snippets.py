@@ -26,8 +26,7 @@ def test_blocks_run_and_print_what_is_shown(page, tmp_path, monkeypatch):
         for shown in run_page(text, name(page)):
             line = text.count("\n", 0, shown.start) + 1
             assert shown.agrees, (
-                f"{name(page)}:{line} shows\n{shown.expected}\n"
-                f"but this is printed\n{shown.printed}"
+                f"{name(page)}:{line} shows\n{shown.expected}\nbut this is printed\n{shown.printed}"
             )
     finally:
         plt.close("all")
