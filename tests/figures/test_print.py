@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 import vibroimpact as vi
 from figures.every_figure import EVERY, Drawn
 from figures.printed_text import pieces, problems
+from samples import sample
 from vibroimpact import figures
 from vibroimpact.figures import figure_size, save_figure
 from vibroimpact.figures.legends import add_legend, break_lines
@@ -67,12 +68,12 @@ def test_at_the_width_of_a_column(name, tmp_path) -> None:
     assert all("TrueType" in line and " yes " in line for line in fonts)
 
 
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("name", sample([*EVERY], [*EVERY][::3]))
 def test_on_the_screen(name) -> None:
     assert problems(figure_of(EVERY[name].draw())) == []
 
 
-@pytest.mark.parametrize("size", [8.0, 10.0])
+@pytest.mark.parametrize("size", sample([8.0, 10.0], [8.0]))
 @pytest.mark.parametrize("name", [name for name, one in EVERY.items() if one.axes])
 def test_on_own_axes(name, size) -> None:
     with plt.rc_context({"font.size": size}):

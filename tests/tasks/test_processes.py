@@ -53,11 +53,8 @@ def test_each_item_once_and_in_order():
 
 
 def test_the_same_processes_serve_again():
-    first, second = (
-        {pid for _, pid in each(lambda i, _: (i, os.getpid()), range(8), threads=TWO)}
-        for _ in range(2)
-    )
-    assert first & second
+    pids = {pid for _ in range(3) for pid in each(lambda *_: os.getpid(), range(8), threads=TWO)}
+    assert len(pids) <= 2
 
 
 def test_what_a_task_raises_is_raised_here():
