@@ -18,9 +18,10 @@ WITHOUT = {
 
 @pytest.mark.parametrize("law", WITHOUT.values(), ids=WITHOUT)
 def test_a_sweep_says_that_there_is_no_bound_and_draws_physical_units(law):
-    data = vi.sweep(vi.Rig(vi.Oscillator(1.0, law, STOP), 1.0), np.linspace(0.05, 0.4, 71))
+    oscillator = vi.Oscillator(1.0, law, STOP, units="SI")
+    data = vi.sweep(vi.Rig(oscillator, 1.0), np.linspace(0.05, 0.4, 71))
     assert UNBOUNDED in data.attrs["notes"]
-    assert "divided by 1, " in data.attrs["notes"]  # A M/K, of a rig without units
+    assert "1 m" in data.attrs["notes"]  # A M/K
     axes = resonance_curves(data)
     assert "(g)" in axes[0].get_ylabel()
     largest = max(line for line in data["peak_displacement"].values.ravel())
