@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 import re
 import shlex
 import sys
@@ -25,6 +26,7 @@ from filecmp import cmp
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
+from unittest.mock import patch
 
 from printed import same_print
 from vibroimpact.cli import main
@@ -82,7 +84,12 @@ def _console(code: str, start: int) -> Iterator[Shown]:
         if words[:1] != ["vibroimpact"]:
             raise AssertionError(f"a console block shows vibroimpact only, not {piece[1]!r}")
         out, err = io.StringIO(), io.StringIO()
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        with (
+            contextlib.redirect_stdout(out),
+            contextlib.redirect_stderr(err),
+            # A busy machine, or one that compiles, may take long enough for lines of progress.
+            patch("vibroimpact.tasks.progress.LINES", math.inf),
+        ):
             ended = main(words[1:])
         said = "".join(line for line in err.getvalue().splitlines(True) if "compiling" not in line)
         if piece[2] and ended != (2 if "error:" in piece[2] else 0):
