@@ -28,10 +28,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from unittest.mock import patch
 
-from printed import same_print
-from vibroimpact.cli import main
-
 ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "tests"))  # as a script
+
+from printed import same_print  # noqa: E402
+from vibroimpact.cli import main  # noqa: E402
+
 PAGES = sorted(
     [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")],
 )
