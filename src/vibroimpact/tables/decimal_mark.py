@@ -64,8 +64,3 @@ def decimal_mark(lines: Iterable[str], where: str) -> Decimal:
             "the thousands separators from the file"
         )
     return "," if numbers else "."
-
-
-def pointed(line: str) -> str:
-    """Return a line with decimal points in place of decimal commas."""
-    return re.sub(r"(?<=\d),(?=\d)|(?<![\d,]),(?=\d)", ".", line)

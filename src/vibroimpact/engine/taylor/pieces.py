@@ -213,14 +213,6 @@ def facing_of(mode: int, side: int) -> float:
 
 
 @kernel
-def velocity_series(plan: Vector, scale: float) -> None:
-    """Write the series of x′, times a number and per step, to ASKED."""
-    for n in range(DEGREE):
-        plan[ASKED + n] = scale * ((n + 1) * plan[X + n + 1])
-    plan[ASKED + DEGREE] = 0.0
-
-
-@kernel
 def push_series(plan: Vector, mode: int, side: int) -> None:
     """Write the force per unit mass of the pressed bumper on a side, over the step, to ASKED."""
     facing = facing_of(mode, side)
