@@ -14,7 +14,6 @@ from concurrent.futures import ThreadPoolExecutor
 
 from vibroimpact import engine
 from vibroimpact.engine import jit
-from vibroimpact.engine.batch import trajectory
 from vibroimpact.engine.earthquakes import respond
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.measure import measure_phases
@@ -22,32 +21,18 @@ from vibroimpact.engine.parameters import Drive, Law, free_rig, rig_vector
 from vibroimpact.engine.record_forcing import follow
 from vibroimpact.tasks.threads import available
 
-ONE_SINE = {
+RIGS = {
     "Curved": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0)),
     "Yielding": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(friction=1.0)),
     "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None),
     "Apart": free_rig(),
+    "Several": rig_vector(1.0, 1.0, 0.1, None, None, drive=Drive(weights=((1.0, 0.0), (0.0, 1.0)))),
+    "Recorded": rig_vector(1.0, 1.0, 0.1, None, None, drive=Drive(interval=1.0)),
 }
-"""A rig for each flow of one sine; what takes longest begins first."""
-
-_LAWS = {"": Law(), "Curved": Law(cubic=1.0), "Yielding": Law(friction=1.0)}
-_SEVERAL = Drive(weights=((1.0, 0.0), (0.0, 1.0)))
-_RECORD = Drive(interval=1.0)
-
-RIGS = {
-    **ONE_SINE,
-    **{
-        f"{name}{forcing}": rig_vector(1.0, 1.0, 0.1, None, None, drive=drive, law=law)
-        for forcing, drive in (("Several", _SEVERAL), ("Recorded", _RECORD))
-        for name, law in _LAWS.items()
-    },
-}
-"""A rig for each flow."""
+"""A rig for each flow; what takes longest begins first."""
 
 ONLY_RECORDS = (follow, respond)
 """Entries that only records go into."""
-RECORDS = (*ONLY_RECORDS, measure_phases)
-"""Entries that records go into."""
 
 
 def entries(flow: str = "Apart") -> list[Entry]:
@@ -59,11 +44,9 @@ def entries(flow: str = "Apart") -> list[Entry]:
         for value in vars(importlib.import_module(name)).values()
         if type(value) is Entry and value.function.__module__ == name
     ]
-    if flow.endswith("Recorded"):
-        return list(RECORDS)
-    if flow in ("CurvedSeveral", "YieldingSeveral"):
-        return [trajectory]
-    return [one for one in every if one not in ONLY_RECORDS]
+    if flow == "Recorded":
+        return [*ONLY_RECORDS, measure_phases]
+    return [one for one in every if flow in ("Curved", "Yielding") or one not in ONLY_RECORDS]
 
 
 def compile_for(flow: str) -> None:

@@ -46,61 +46,37 @@ from vibroimpact.engine.yielding.layout import PLAN as YIELDING_PLAN
 
 
 class Apart(NamedTuple):
-    """Bumpers that cannot be touched at once."""
+    """Bumpers that cannot be touched at once, shaken by one sine."""
 
     memory: Vector
 
 
 class AnyStops(NamedTuple):
-    """Rigid stops, and bumpers that overlap."""
+    """Rigid stops, and bumpers that overlap, shaken by one sine."""
 
     memory: Vector
 
 
 class Several(NamedTuple):
-    """Any stops, shaken by several harmonics."""
+    """Any linear stops, shaken by several harmonics."""
 
     memory: Vector
 
 
 class Recorded(NamedTuple):
-    """Any stops, shaken by a record."""
+    """Any linear stops, shaken by a record."""
 
     memory: Vector
 
 
 class Curved(NamedTuple):
-    """Any laws, shaken by one sine."""
-
-    memory: Vector
-
-
-class CurvedSeveral(NamedTuple):
-    """Any laws, shaken by several harmonics."""
-
-    memory: Vector
-
-
-class CurvedRecorded(NamedTuple):
-    """Any laws, shaken by a record."""
+    """Any laws, under any shaking."""
 
     memory: Vector
 
 
 class Yielding(NamedTuple):
-    """An isolator that yields or slides between linear stops, shaken by one sine."""
-
-    memory: Vector
-
-
-class YieldingSeveral(NamedTuple):
-    """The same, shaken by several harmonics."""
-
-    memory: Vector
-
-
-class YieldingRecorded(NamedTuple):
-    """The same, shaken by a record."""
+    """An isolator that yields or slides between linear stops, under any shaking."""
 
     memory: Vector
 
@@ -111,32 +87,17 @@ _ADVANCE: dict[type, Callable[..., Any]] = {
     Several: advance_any,
     Recorded: advance_any,
     Curved: advance_taylor,
-    CurvedSeveral: advance_taylor,
-    CurvedRecorded: advance_taylor,
     Yielding: advance_yielding,
-    YieldingSeveral: advance_yielding,
-    YieldingRecorded: advance_yielding,
 }
-_FORCING: dict[type, float] = {
+_LAWS = {Curved: par.BENT, Yielding: par.YIELDING}
+_FORCING = {
+    Apart: par.HARMONIC,
+    AnyStops: par.HARMONIC,
     Several: par.SEVERAL,
     Recorded: par.RAMP,
-    CurvedSeveral: par.SEVERAL,
-    CurvedRecorded: par.RAMP,
-    YieldingSeveral: par.SEVERAL,
-    YieldingRecorded: par.RAMP,
 }
-_CURVED: dict[float, type] = {
-    par.HARMONIC: Curved,
-    par.SEVERAL: CurvedSeveral,
-    par.RAMP: CurvedRecorded,
-}
-_YIELDING: dict[float, type] = {
-    par.HARMONIC: Yielding,
-    par.SEVERAL: YieldingSeveral,
-    par.RAMP: YieldingRecorded,
-}
-_LAWS = dict.fromkeys(_CURVED.values(), par.BENT)
-_LAWS |= dict.fromkeys(_YIELDING.values(), par.YIELDING)
+"""The one forcing that a flow is compiled for. Tables of closed-form motion spend their time in its
+functions; a Taylor step does not notice that they are looked up."""
 
 _TAYLOR = (
     taylor_plan,
@@ -166,7 +127,7 @@ answer(par.YIELDING, yielding_plan, *_TAYLOR)
 def _flow(rig: Vector) -> type:
     laws = par.laws(rig)
     if laws != par.LINEAR:
-        return (_CURVED if laws == par.BENT else _YIELDING)[rig[par.FORCING]]
+        return Curved if laws == par.BENT else Yielding
     if rig[par.FORCING] == par.SEVERAL:
         return Several
     if rig[par.FORCING] == par.RAMP:
@@ -188,7 +149,7 @@ def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
     flow = _flow(rig)
     if rig[par.FORCING] != par.SEVERAL:
-        memory = _room(PLAN if flow not in _YIELDING.values() else YIELDING_PLAN)
+        memory = _room(YIELDING_PLAN if flow is Yielding else PLAN)
     else:
         weights = rig[par.WEIGHTS :]
         memory = _room(several.room(len(weights) // 2))
@@ -204,7 +165,7 @@ def carries(rig: Vector, other: Vector) -> bool:
     if rig[par.CURVED]:
         same = same and kernels.covers(kernels.laws_code(rig), kernels.laws_code(other))
         same = same and bool((kernels.operations(rig) == kernels.operations(other)).all())
-    return bool(same and _flow(rig) in (AnyStops, *_CURVED.values(), _flow(other)))
+    return bool(same and _flow(rig) in (AnyStops, Curved, _flow(other)))
 
 
 class PlanType(types.CPointer):
@@ -212,7 +173,7 @@ class PlanType(types.CPointer):
 
     def __init__(self, flow: type) -> None:
         self.flow = flow
-        self.forcing = _FORCING.get(flow, par.HARMONIC)
+        self.forcing = _FORCING.get(flow)
         self.laws = _LAWS.get(flow, par.LINEAR)
         super().__init__(types.float64)  # type: ignore[no-untyped-call]
         self.name = f"Plan({flow.__name__})"

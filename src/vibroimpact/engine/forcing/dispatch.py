@@ -1,4 +1,4 @@
-"""How a kernel finds the forcing: by the type of its plan.
+"""How a kernel finds the forcing: by the type of its plan, or by the number in it.
 
 A forcing is a linear clock of two numbers (s, c) that goes on by itself, and A_t, the base
 acceleration that it stands for, which is linear in them. It is a module with these kernels:
@@ -44,14 +44,25 @@ FORCINGS: dict[float, ModuleType] = {
 
 
 def _by_forcing(name: str) -> Callable[..., Any]:
+    one, many, line = (getattr(module, name) for module in (harmonic, several, ramp))
+
     def plain(plan: Any, *args: Any) -> Any:
         return getattr(FORCINGS[plan[par.FORCING]], name)(plan, *args)
+
+    def looked_up(plan: Any, *args: Any) -> Any:
+        kind = plan[par.FORCING]
+        if kind == par.HARMONIC:
+            return one(plan, *args)
+        if kind == par.RAMP:
+            return line(plan, *args)
+        return many(plan, *args)
 
     plain.__name__ = name
 
     @overload(plain, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
     def _chosen(plan: Any, *args: Any) -> Any:
-        return getattr(FORCINGS[getattr(plan, "forcing", par.HARMONIC)], name).py_func
+        kind = getattr(plan, "forcing", par.HARMONIC)
+        return looked_up if kind is None else getattr(FORCINGS[kind], name).py_func
 
     return plain
 
