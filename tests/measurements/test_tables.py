@@ -171,3 +171,60 @@ def test_a_number_sign_within_a_cell_is_no_comment(tmp_path, row):
     rows = [row.format(t, a) for t, a in zip(TIME, A, strict=True)]
     data = read(tmp_path, "\n".join([names, *rows]) + "\n")
     np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "variable"),
+    [("Beschleunigung", "m/s²", "acceleration"),
+     ("Tischbeschleunigung", "m/s²", "base_acceleration"),
+     ("Weg", "m", "displacement"), ("Verschiebung", "m", "displacement"),
+     ("Relativverschiebung", "m", "displacement"), ("Auslenkung", "m", "displacement"),
+     ("Geschwindigkeit", "m/s", "velocity"), ("Kraft", "N", "contact_force"),
+     ("Anschlagkraft", "N", "contact_force"), ("Accélération", "m/s²", "acceleration"),
+     ("Déplacement", "m", "displacement"), ("Aceleración", "m/s²", "acceleration"),
+     ("Spostamento", "m", "displacement"), ("Accelerazione base", "m/s²", "base_acceleration")],
+)  # fmt: skip
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "utf-16"])
+def test_names_in_other_languages(tmp_path, name, unit, variable, encoding):
+    rows = zip(TIME, A, strict=True)
+    text = "".join(f"{t:.4f};{a:.4f}\n".replace(".", ",") for t, a in rows)
+    data = read(tmp_path, f"Zeit [s];{name} [{unit}]\n" + text, encoding)
+    np.testing.assert_allclose(data[variable], A, rtol=1e-12)
+
+
+def test_a_column_that_is_not_understood_is_proposed_for_a_quantity_of_its_unit(tmp_path):
+    text = table("Time (s),ai0 (g),ai1 (mm)\n", TIME, A, B)
+    with pytest.raises(vi.InputError, match=r"columns=\{'acceleration': 'ai0'\}"):
+        read(tmp_path, text)
+    data = read(tmp_path, text, columns={"acceleration": "ai0"})
+    np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("name", "each"), [("time_us", 1e6), ("millis", 1e3), ("t_ns", 1e9)])
+def test_units_of_times_in_names(tmp_path, name, each):
+    data = read(tmp_path, table(f"{name},acc (g)\n", each * TIME, A))
+    np.testing.assert_allclose(data["time"], TIME, rtol=1e-12, atol=1e-12)
+
+
+def test_times_since_1970_without_a_unit(tmp_path):
+    rows = (f"{1709632800000 + round(1e3 * t)},{a}\n" for t, a in zip(TIME, A, strict=True))
+    data = read(tmp_path, "timestamp,acc (g)\n" + "".join(rows))
+    np.testing.assert_allclose(np.diff(data["time"]), 0.005, rtol=1e-3)
+    assert "times are read in ms since 1970" in data.attrs["notes"]
+
+
+def test_values_that_loggers_write_for_none_are_missing(tmp_path):
+    text = table("Time (s),acc (g)\n", TIME, A).replace(
+        f"\n0.5000,{A[100]:.4f}", "\n0.5000,1.#QNAN"
+    )
+    data = read(tmp_path, text)
+    assert np.isnan(data["acceleration"][100])
+    assert int(np.isnan(data["acceleration"]).sum()) == 1
+
+
+def test_the_first_row_is_a_row_although_a_cell_of_it_is_a_word(tmp_path):
+    rows = enumerate(zip(TIME, A, strict=True))
+    text = "".join(f"{t:.4f},{a:.4f},{'start' if i == 0 else ''}\n" for i, (t, a) in rows)
+    data = read(tmp_path, "Time (s),acc (g),Marker\n" + text)
+    np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
+    assert "Marker" in data.attrs["left_out"]
