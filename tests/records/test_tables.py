@@ -446,3 +446,14 @@ def test_a_missing_value_is_shown_with_its_column(tmp_path):
 def test_brackets_of_full_width(tmp_path):
     text = columns(1e3 * TIME, A)
     check(written(tmp_path, "时间（ms）,加速度（gal）\n" + text))
+
+
+@pytest.mark.parametrize(
+    ("head", "mark"),
+    [("acceleration in gal\nNPTS = 400, DT = 0.005\n", " "),
+     ("Time (s), Acc (gal)\nNPTS = 400\n", ","), ("acceleration in gal\nNPTS = 400\n", ", ")],
+)  # fmt: skip
+def test_a_count_above_as_many_rows_of_columns_is_no_file_of_peer(tmp_path, head, mark):
+    check(written(tmp_path, head + columns(TIME, A, mark=mark)))
+    text = f"acceleration in gal, dt = 0.005\nN-S E-W U-D\nNPTS = 400\n{columns(A, B, C, mark=' ')}"
+    check(written(tmp_path, text), B, component="2")
