@@ -228,3 +228,25 @@ def test_the_first_row_is_a_row_although_a_cell_of_it_is_a_word(tmp_path):
     data = read(tmp_path, "Time (s),acc (g),Marker\n" + text)
     np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
     assert "Marker" in data.attrs["left_out"]
+
+
+def test_resonance_curves_in_german(tmp_path):
+    rows = [(f, way) for way in ("aufwärts", "abwärts") for f in (1.0, 1.5, 2.0)]
+    text = "".join(f"{f};{way};{i}.5;{i}\n".replace(".", ",") for i, (f, way) in enumerate(rows, 1))
+    head = "Frequenz [Hz];Richtung;Weg Spitze-Spitze [mm];Beschleunigung pp [m/s²]\n"
+    data = read(tmp_path, head + text, "latin-1")
+    np.testing.assert_allclose(
+        data["displacement_excursion"].sel(direction="backward"), [0.0045, 0.0055, 0.0065]
+    )
+    np.testing.assert_allclose(data["acceleration_excursion"].sel(direction="forward"), [1, 2, 3])
+
+
+def test_a_unit_of_the_file_that_cannot_be_used_is_replaced_by_that_of_the_user(tmp_path):
+    text = table("Time (s),acc (V)\n", TIME, A)
+    with pytest.raises(vi.InputError, match=r"'1 V' is not.*pass the right one as units=\{'acc'"):
+        read(tmp_path, text)
+    np.testing.assert_allclose(read(tmp_path, text, units={"acc": "g"})["acceleration"], A * G)
+    path = tmp_path / "test.csv"
+    with pytest.raises(vi.InputError, match=r"'1 V' is not.*pass the right one as unit="):
+        vi.Record.read(path)
+    np.testing.assert_allclose(vi.Record.read(path, unit="g").acceleration, A * G)

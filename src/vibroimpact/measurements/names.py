@@ -50,9 +50,13 @@ HISTORIES: dict[str, Quantity] = {
 AXES: dict[str, Quantity] = {"frequency": FREQUENCY, "time": TIME}
 QUANTITIES: dict[str, Quantity] = {**AXES, **CURVES, **HISTORIES}
 
-_FORWARD = {"forward", "fwd", "fw", "up", "upward", "upwards", "rising", "increasing", "increase"}
+_FORWARD = {
+    "forward", "fwd", "fw", "up", "upward", "upwards", "rising", "increasing", "increase",
+    "aufwarts", "aufwaerts",
+}  # fmt: skip
 _BACKWARD = {
     "backward", "bwd", "bw", "down", "downward", "downwards", "falling", "decreasing", "decrease",
+    "abwarts", "abwaerts",
 }  # fmt: skip
 _KINDS = {
     "max": {"max", "maximum", "most", "maxima", "highest"},
@@ -126,7 +130,7 @@ def meaning(name: str, stated: str | None = None) -> Meaning | None:
     key = "_".join(words)
     if key in QUANTITIES or key == "direction":
         return Meaning(key)
-    if words in (["dir"], ["sweep"], ["sense"], ["sweep", "direction"]):
+    if words in (["dir"], ["sweep"], ["sense"], ["sweep", "direction"], ["richtung"]):
         return Meaning("direction")
     unit = ending(words, sure=sure)
     if unit is not None:
@@ -236,7 +240,15 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
         where = f"measurement: {path!r}, column {column.name!r}"
         if quantity is DIMENSIONLESS and unit.strip() == "%":
             return values / 100.0, None
-        size = to_si(f"1 {spelled(unit)}", quantity, where)
+        try:
+            size = to_si(f"1 {spelled(unit)}", quantity, where)
+        except InputError as error:
+            if said is not None:
+                raise
+            raise InputError(
+                f"{error}; if the file states a wrong unit, pass the right one as "
+                f"units={{{column.name!r}: UNIT}} (--units)"
+            ) from None
         return values * size, "; ".join(notes) or None
     if quantity is not DIMENSIONLESS:
         notes.append(f"{column.name!r} has no unit, so {quantity.symbol} was assumed")
@@ -279,7 +291,7 @@ def direction_of(word: object, path: str, where: str) -> Direction:
     InputError
         If it is none of these.
     """
-    text = str(word).strip().lower()
+    text = plain(str(word).lower())
     if text in _FORWARD | {"f", "1", "1.0", "+1"}:
         return "forward"
     if text in _BACKWARD | {"b", "-1", "-1.0", "0", "0.0", "2", "2.0"}:

@@ -135,7 +135,8 @@ def _unit(
     except InputError as error:
         if unit is not None:
             raise
-        raise InputError(f"record: {path!r}: {error}") from None
+        told = "if the file states a wrong unit, pass the right one as unit= (--unit)"
+        raise InputError(f"record: {path!r}: {error}; {told}") from None
     for other in () if unit else found.others:
         if not _same(other, factor, quantity):
             of = f" of {found.component!r}" if found.component else ""

@@ -130,7 +130,9 @@ def words_of(name: str) -> list[str]:
 
 
 _PEAK = re.compile(
-    r"(?<![a-z])(?:peak|pk|p)[ _-]?(?:to|2)?[ _-]?(?:peak|pk|p)(?![a-z])", re.IGNORECASE
+    r"(?<![a-z])(?:(?:peak|pk|p)[ _-]?(?:to|2)?[ _-]?(?:peak|pk|p)|spitze[ -](?:zu[ -])?spitze)"
+    r"(?![a-z])",
+    re.IGNORECASE,
 )
 
 
