@@ -141,9 +141,10 @@ def missing_columns(table: Columns, known: Mapping[int, Meaning], left: list[str
         wanted, listed = ["frequency", "displacement_excursion"], []
     units = {column.name: column.unit for column in table.columns}
     fitting = [(key, name) for name in left for key in _of_unit(units[name], listed)]
+    first = []
     if len(wanted) == 1 and fitting:
-        wanted, left = [fitting[0][0]], [fitting[0][1], *left]
-    spare = [*left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
+        wanted, first = [fitting[0][0]], [fitting[0][1]]
+    spare = [*first, *left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
     told = [f"{name!r} is read as {found}" for name, found in read.items()]
     told += [f"{name!r} is not understood" for name in left]
     pairs = list(zip(wanted, spare, strict=False))
