@@ -112,7 +112,7 @@ class Rig:
         if frequency is not None:
             own = to_si(frequency, FREQUENCY, "frequency", above=0.0)
             if amplitudes is not None:
-                raise InputError(several(amplitudes))
+                raise InputError(_one_needed(oscillator, shaking, amplitudes))
             if isinstance(shaking, Record):
                 raise InputError(
                     f"frequency: {own:g} Hz, but the shaking is a Record, which has no frequency; "
@@ -161,7 +161,7 @@ class Rig:
             amplitudes.
         """
         if self.amplitudes is not None:
-            raise InputError(several(self.amplitudes))
+            raise InputError(_one_needed(self.oscillator, self.shaking, self.amplitudes))
         if isinstance(self.shaking, Harmonic | Periodic):
             return self.shaking
         return as_periodic(self.shaking, "shaking")[0]  # which says what is wrong
@@ -346,6 +346,15 @@ class Rig:
         if isinstance(self.shaking, Harmonic) and self.frequency is None:
             return pretty(self.shaking.amplitude, self.shaking.quantity)
         return "open" if self.shaking is None else str(self.shaking)
+
+
+def _one_needed(
+    oscillator: Oscillator, shaking: Repeated | Record | None, amplitudes: tuple[float, ...]
+) -> str:
+    """Say that one amplitude is needed, with an example in the units of the oscillator."""
+    assert isinstance(shaking, Harmonic)  # as a list is read
+    with written_for(oscillator):
+        return several(amplitudes, shaking)
 
 
 def _misplaced(value: object) -> str:
