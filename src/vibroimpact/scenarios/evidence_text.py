@@ -9,7 +9,6 @@ from vibroimpact.response.resonance import Hysteresis
 from vibroimpact.scenarios.evidence import Evidence
 from vibroimpact.scenarios.thresholds import Thresholds
 
-
 _REMEDIES = {
     "displacement": "end the frequencies lower",
     "unbalance": "classify the rig over a base with the displacement m e/M, under which the mass "
