@@ -36,7 +36,8 @@ def isolator(table):
         (
             OWN + "[excitation]\namplitude = [1, 2]\n",
             "excitation.amplitude: [1, 2] is not a number or text with a unit; write it as in "
-            'amplitude = "0.05 g"; for several harmonics, amplitudes = ["1 mm", "2 mm"]',
+            'amplitude = "0.05 g" (one at all frequencies); for several harmonics, amplitudes = '
+            '["1 mm", "2 mm"]; for one amplitude per frequency, use sweep in Python',
         ),
         (
             OWN + "[excitation]\namplitudes = [1, [2]]\n",

@@ -36,7 +36,7 @@ QUANTITIES = {
     "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration $|\\ddot u + A_t|$ (g)"),
     "peak_force": (1e-3, "largest contact force (kN)"),
 }
-_PRESENT = "#c05a00"
+PRESENT = "#c05a00"
 """Colour of the mark of the present design."""
 _LEVELS = 9
 
@@ -167,8 +167,8 @@ def _axis(axis: Any, values: xr.DataArray) -> _Array:
     return drawn
 
 
-def _present(data: xr.Dataset, dims: list[str]) -> list[float]:
-    """Return the values of parameters of the rig itself, in the units of the axes.
+def present_values(data: xr.Dataset, dims: list[str]) -> list[float]:
+    """Return the values of parameters of the rig itself, in SI units.
 
     A value is NaN if the rig has none, for example a common gap if the gaps of its stops differ.
     """
@@ -182,8 +182,16 @@ def _present(data: xr.Dataset, dims: list[str]) -> list[float]:
             value = PARAMETERS[dim].read(rig)
         except InputError:
             value = math.nan
-        found.append(_unit(dim, data[dim].values)[0] * value)
+        found.append(value)
     return found
+
+
+def _present_on_axes(data: xr.Dataset, dims: list[str]) -> list[float]:
+    """Return the values of `present_values` in the units of the axes."""
+    return [
+        _unit(dim, data[dim].values)[0] * value
+        for dim, value in zip(dims, present_values(data, dims), strict=True)
+    ]
 
 
 def _sorted(data: xr.Dataset) -> xr.Dataset:
@@ -212,9 +220,9 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
         markeredgecolor="0.5",
         label="hits no stop",
     )
-    (present,) = _present(data, [dim])
+    (present,) = _present_on_axes(data, [dim])
     if x.min() <= present <= x.max():
-        ax.axvline(present, color=_PRESENT, linestyle="-.", linewidth=1.0, label="present design")
+        ax.axvline(present, color=PRESENT, linestyle="-.", linewidth=1.0, label="present design")
     ax.set_ylabel(label)
     ax.set_ylim(bottom=0.0)
     add_legend(ax, columns=2)
@@ -276,7 +284,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Li
         zorder=5,
     )
     stars = []
-    right, up = _present(data, [first, second])
+    right, up = _present_on_axes(data, [first, second])
     if x.min() <= right <= x.max() and y.min() <= up <= y.max():
         stars = ax.plot(
             [right],
@@ -284,7 +292,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Li
             linestyle="",
             marker="*",
             markersize=10.0,
-            color=_PRESENT,
+            color=PRESENT,
             markeredgecolor="white",
             markeredgewidth=0.6,
             clip_on=False,

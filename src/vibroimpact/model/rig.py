@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias, cast
 
 import numpy as np
@@ -66,6 +66,10 @@ class Rig:
     amplitudes : tuple of float or None
         One amplitude per frequency of a sweep, in the units of the shaking.
     name : str or None
+    published : bool
+        Whether the rig is that of a published laboratory case, whose resonance curves figures and
+        commands draw as η by default. It is kept if parameters are changed. The rig of a study
+        file is not published.
 
     Raises
     ------
@@ -88,6 +92,7 @@ class Rig:
     frequency: float | None
     amplitudes: tuple[float, ...] | None
     name: str | None
+    published: bool = field(compare=False)
 
     def __init__(
         self,
@@ -112,7 +117,7 @@ class Rig:
         if frequency is not None:
             own = to_si(frequency, FREQUENCY, "frequency", above=0.0)
             if amplitudes is not None:
-                raise InputError(several(amplitudes))
+                raise InputError(_one_needed(oscillator, shaking, amplitudes))
             if isinstance(shaking, Record):
                 raise InputError(
                     f"frequency: {own:g} Hz, but the shaking is a Record, which has no frequency; "
@@ -129,15 +134,17 @@ class Rig:
         frequency: float | None,
         amplitudes: tuple[float, ...] | None,
         name: str | None,
+        published: bool = False,
     ) -> None:
-        for field, value in (
+        for attribute, value in (
             ("oscillator", oscillator),
             ("shaking", shaking),
             ("frequency", frequency),
             ("amplitudes", amplitudes),
             ("name", name),
+            ("published", published),
         ):
-            object.__setattr__(self, field, value)
+            object.__setattr__(self, attribute, value)
 
     @property
     def amplitude(self) -> float:
@@ -161,7 +168,7 @@ class Rig:
             amplitudes.
         """
         if self.amplitudes is not None:
-            raise InputError(several(self.amplitudes))
+            raise InputError(_one_needed(self.oscillator, self.shaking, self.amplitudes))
         if isinstance(self.shaking, Harmonic | Periodic):
             return self.shaking
         return as_periodic(self.shaking, "shaking")[0]  # which says what is wrong
@@ -196,11 +203,17 @@ class Rig:
 
     @classmethod
     def of_open_frequency(
-        cls, oscillator: Oscillator, shaking: Repeated | Record | None, name: str | None = None
+        cls,
+        oscillator: Oscillator,
+        shaking: Repeated | Record | None,
+        name: str | None = None,
+        *,
+        published: bool = False,
     ) -> Rig:
         """Return a rig with the shape of a periodic shaking, but with an open frequency."""
         rig = cls(oscillator, shaking, name=name)
         object.__setattr__(rig, "frequency", None)
+        object.__setattr__(rig, "published", published)
         return rig
 
     @property
@@ -241,7 +254,9 @@ class Rig:
         InputError
             As in `periodic`. Also if the frequency is invalid.
         """
-        return Rig(self.oscillator, self.periodic, frequency, self.name)
+        moved = Rig(self.oscillator, self.periodic, frequency, self.name)
+        object.__setattr__(moved, "published", self.published)
+        return moved
 
     @property
     def is_shaken(self) -> bool:
@@ -268,7 +283,7 @@ class Rig:
         if self.amplitudes is None:
             return self
         hardest = object.__new__(Rig)
-        hardest._set(self.oscillator, self.shaking, self.frequency, None, self.name)
+        hardest._set(self.oscillator, self.shaking, self.frequency, None, self.name, self.published)
         return hardest
 
     def levels(self, count: int) -> NDArray[np.float64]:
@@ -308,7 +323,14 @@ class Rig:
         if isinstance(shaking, Harmonic | Periodic) and not (frequency is None and keep_open):
             frequency = shaking.frequency
         changed = object.__new__(Rig)
-        changed._set(oscillator, shaking or self.shaking, frequency, self.amplitudes, self.name)
+        changed._set(
+            oscillator,
+            shaking or self.shaking,
+            frequency,
+            self.amplitudes,
+            self.name,
+            self.published,
+        )
         return changed
 
     def __repr__(self) -> str:
@@ -346,6 +368,15 @@ class Rig:
         if isinstance(self.shaking, Harmonic) and self.frequency is None:
             return pretty(self.shaking.amplitude, self.shaking.quantity)
         return "open" if self.shaking is None else str(self.shaking)
+
+
+def _one_needed(
+    oscillator: Oscillator, shaking: Repeated | Record | None, amplitudes: tuple[float, ...]
+) -> str:
+    """Say that one amplitude is needed, with an example in the units of the oscillator."""
+    assert isinstance(shaking, Harmonic)  # as a list is read
+    with written_for(oscillator):
+        return several(amplitudes, shaking)
 
 
 def _misplaced(value: object) -> str:
