@@ -72,7 +72,7 @@ def describe(
 
 
 def base_at_rest(data: xr.Dataset) -> bool:
-    """Return whether a force on the mass shakes all rigs of a dataset, so that the base is at rest.
+    """Return whether the base is at rest: a force on the mass or nothing shakes all rigs.
 
     It is False if the dataset does not say what shakes them.
     """
@@ -82,7 +82,9 @@ def base_at_rest(data: xr.Dataset) -> bool:
 
 def _stands(parameters: Mapping[str, Any]) -> bool:
     rigs = parameters.get("rigs", [parameters])
-    return bool(rigs) and all(one.get("of") in ON_THE_MASS for one in rigs)
+    return bool(rigs) and all(
+        one.get("of") in ON_THE_MASS or one.get("amplitude") == 0.0 for one in rigs
+    )
 
 
 def _remove_units(dataset: xr.Dataset) -> None:
