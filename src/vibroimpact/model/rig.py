@@ -358,7 +358,8 @@ def _misplaced(value: object) -> str:
 def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> Oscillator:
     """Return the oscillator for values that may state units, such as its shaking, by their names.
 
-    A mass and a stiffness of 1 are 1 kg and 1 N/m after all if another value has a unit.
+    A mass and a stiffness of 1 are 1 kg and 1 N/m after all if another value has a unit, unless
+    ``units="none"`` was passed.
 
     Raises
     ------
@@ -368,10 +369,16 @@ def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> O
     if oscillator.units != NONE:
         return oscillator
     for name, value in values.items():
+        if isinstance(value, Record) and value.about.source and not oscillator.may_have_units:
+            raise InputError(
+                f"{name}: {value.about.source!r} contains accelerations in {value.about.unit}, but "
+                'the rig has no units (units is "none"); pass Record(numbers, step), whose numbers '
+                "have no unit, or remove units"
+            )
         parts = cast("Sequence[object]", value) if is_list(value) else [value]
         if not any(map(_states_unit, parts)):
             continue
-        if not oscillator.of_ones:
+        if not oscillator.may_have_units:
             raise InputError(
                 f'{name}: {shown(value)} has a unit, but the rig has none (units is "none"); pass '
                 "a number without a unit, or remove units"
