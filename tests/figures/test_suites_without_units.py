@@ -92,7 +92,9 @@ def test_earthquake_page(oscillator):
     assert bool([text for text in texts(page) if UNIT.search(text)]) != none
     reach = max(np.nanmax(np.abs(line.get_ydata())) for line in page[1].lines[1:2])
     factor = 1.0 if none else 1e3
-    assert reach == pytest.approx(factor * float(abs(groups["motion"]["displacement"]).max()), rel=1e-3)
+    assert reach == pytest.approx(
+        factor * float(abs(groups["motion"]["displacement"]).max()), rel=1e-3
+    )
     drawn = figures.response_spectra(groups["floor"])
     assert bool([text for text in texts(drawn) if UNIT.search(text)]) != none
 

@@ -220,6 +220,12 @@ def test_a_record_with_a_unit_needs_a_rig_with_units(tmp_path):
     ):
         with pytest.raises(InputError, match=r"contains accelerations in g, but the rig has no"):
             call()
+    bare = vi.Record.read(path, unit="none")
+    assert bare.acceleration.tolist() == pytest.approx((record.acceleration / 9.80665).tolist())
+    assert vi.Rig(stated, bare).oscillator.units == "none"
+    assert vi.Rig(vi.Oscillator(1, SOFT), bare).oscillator.units == "none"
+    with pytest.raises(InputError, match=r"was read without a unit, but the rig has units"):
+        vi.Rig(vi.Oscillator(2, SOFT), bare)
     for call in (
         lambda: vi.demands(stated, [vi.Record([0, 1, 0], 0.1)], gaps=["5 mm", "6 mm"]),
         lambda: vi.demands(stated, [vi.Record([0, 1, 0], 0.1)], ["0.1 g"], intensity="pga"),
