@@ -154,7 +154,9 @@ def test_a_spring_that_just_yields_has_a_derivative_on_each_side():
     assert slope(-1e-6) == pytest.approx(slope(-1e-5), rel=1e-4)
     assert 0.4 < slope(-1e-6) < 0.45
     yields = kept < 0.9
-    assert kept == (pytest.approx(slope(-1e-6), rel=1e-4) if yields else pytest.approx(1, abs=1e-12))
+    assert kept == (
+        pytest.approx(slope(-1e-6), rel=1e-4) if yields else pytest.approx(1, abs=1e-12)
+    )
 
 
 @pytest.mark.parametrize("phase", [0.0, 1.5, 3.0, 4.5])

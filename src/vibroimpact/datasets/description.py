@@ -66,8 +66,9 @@ def describe(
     if told := "\n".join(notes):
         dataset.attrs["notes"] = told
     dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
-    if parameters_without_units(dataset.attrs.get("parameters", "{}")):
-        _remove_units(dataset)
+    # The rigs of a fit are an attribute of their own.
+    if parameters_without_units(dataset.attrs.get("rigs", dataset.attrs.get("parameters", "{}"))):
+        remove_units(dataset)
     return dataset
 
 
@@ -87,8 +88,8 @@ def _stands(parameters: Mapping[str, Any]) -> bool:
     )
 
 
-def _remove_units(dataset: xr.Dataset) -> None:
-    """Mark a dataset of rigs without units, whose numbers are dimensionless."""
+def remove_units(dataset: xr.Dataset) -> xr.Dataset:
+    """Mark a dataset of rigs without units, whose numbers are dimensionless, and return it."""
     dataset.attrs[ATTRIBUTE] = NONE
     for variable in dataset.variables.values():
         units = variable.attrs["units"]
@@ -98,6 +99,7 @@ def _remove_units(dataset: xr.Dataset) -> None:
             variable.attrs["units"] = "1"
         if "m/s" in str(variable.attrs.get("comment")):
             del variable.attrs["comment"]  # which lists the units of components
+    return dataset
 
 
 def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:

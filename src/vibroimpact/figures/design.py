@@ -23,10 +23,12 @@ from vibroimpact.figures.interpolation import finer, finer_axis, nearest
 from vibroimpact.figures.legends import add_legend, apply_layout, fit_labels
 from vibroimpact.figures.levels import number_lines
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units, in_unit, without_unit
 from vibroimpact.figures.style import panels
 from vibroimpact.model import GRAVITY, Oscillator, Rig
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model.written_units import unitless
 from vibroimpact.scenarios.axes import logarithmic
 
 _Array = NDArray[np.float64]
@@ -41,6 +43,7 @@ PRESENT = "#c05a00"
 _LEVELS = 9
 
 
+@in_own_units
 def design_chart(
     data: xr.Dataset,
     axes: Any = None,
@@ -131,6 +134,7 @@ def parameters_of(data: Any) -> list[str]:
 def quantity_label(data: xr.Dataset, name: str) -> tuple[float, str]:
     """Return factor and label of a quantity, with its fractile if some records exceed it."""
     factor, label = QUANTITIES[name]
+    factor, label = in_unit(factor), without_unit(label) if unitless() else label
     share = fractile_of(data)
     return factor, label if share is None else (
         f"{label}\n{100.0 * share:g} % fractile over the records"
@@ -140,6 +144,8 @@ def quantity_label(data: xr.Dataset, name: str) -> tuple[float, str]:
 def _unit(name: str, values: _Array) -> tuple[float, str]:
     """Return factor and unit of a parameter: mm for lengths, a unit of fitting size for others."""
     quantity = PARAMETERS[name].quantity
+    if unitless():
+        return 1.0, ""
     if quantity is LENGTH:
         return 1e3, "mm"
     largest = float(np.abs(values).max())
@@ -160,7 +166,7 @@ def _axis(axis: Any, values: xr.DataArray) -> _Array:
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())
     drawn: _Array = factor * values.values
-    label = f"{values.attrs['long_name']} ({unit})"
+    label = f"{values.attrs['long_name']} ({unit})" if unit else str(values.attrs["long_name"])
     axis.axes.set(
         **{f"{which}lim": (drawn.min(), drawn.max()), f"{which}label": textwrap.fill(label, 44)}
     )

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.figures.design import (
     PRESENT,
-    QUANTITIES,
     best_label,
     beyond_limits,
     parameters_of,
@@ -23,6 +22,7 @@ from vibroimpact.figures.design import (
 )
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.units import pretty
 
@@ -35,6 +35,7 @@ _SAME = 1e-9
 """Relative difference up to which a value of a chart is that of the rig."""
 
 
+@in_own_units
 def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw the acceleration of all designs over their displacement, with the Pareto front.
 
@@ -60,7 +61,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     """
     dims = parameters_of(data)
     u, a = (
-        QUANTITIES[name][0] * data[name].values.ravel()
+        quantity_label(data, name)[0] * data[name].values.ravel()
         for name in ("peak_displacement", "peak_acceleration")
     )
     best = data["pareto"].values.ravel().astype(bool)

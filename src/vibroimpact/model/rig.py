@@ -389,20 +389,33 @@ def _misplaced(value: object) -> str:
 def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> Oscillator:
     """Return the oscillator for values that may state units, such as its shaking, by their names.
 
-    A mass and a stiffness of 1 are 1 kg and 1 N/m after all if another value has a unit.
+    A mass and a stiffness of 1 are 1 kg and 1 N/m after all if another value has a unit, unless
+    ``units="none"`` was passed.
 
     Raises
     ------
     InputError
         If a value states a unit, but the rig has none for another reason.
     """
+    for name, value in values.items():
+        if isinstance(value, Record) and value.about.unit == NONE and oscillator.units != NONE:
+            raise InputError(
+                f"{name}: {value.about.source!r} was read without a unit, but the rig has units; "
+                "read it with its unit, such as g"
+            )
     if oscillator.units != NONE:
         return oscillator
     for name, value in values.items():
+        if isinstance(value, Record) and _states_unit(value) and not oscillator.may_have_units:
+            raise InputError(
+                f"{name}: {value.about.source!r} contains accelerations in {value.about.unit}, but "
+                'the rig has no units (units is "none"); if the numbers of the record are '
+                'dimensionless, read it with unit="none" (--unit none); otherwise remove units'
+            )
         parts = cast("Sequence[object]", value) if is_list(value) else [value]
         if not any(map(_states_unit, parts)):
             continue
-        if not oscillator.of_ones:
+        if not oscillator.may_have_units:
             raise InputError(
                 f'{name}: {shown(value)} has a unit, but the rig has none (units is "none"); pass '
                 "a number without a unit, or remove units"
@@ -412,5 +425,9 @@ def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> O
 
 
 def _states_unit(value: object) -> bool:
-    """Return whether a value states a unit. The file of a record always has one."""
-    return bool(value.about.source) if isinstance(value, Record) else has_unit(value)
+    """Return whether a value states a unit. A file of a record has one, or is read with "none"."""
+    return _has_unit_of_file(value) if isinstance(value, Record) else has_unit(value)
+
+
+def _has_unit_of_file(record: Record) -> bool:
+    return bool(record.about.source) and record.about.unit != NONE
