@@ -22,7 +22,7 @@ def curves_of(
     reach: tuple[float, float] = (LOW, HIGH),
 ) -> Figure:
     """Draw the curves. For S3 the three frequencies of Figs. 8 and 12 are marked."""
-    axes = resonance_curves(study.curves(code, parameters, *reach))
+    axes = resonance_curves(study.curves(code, parameters, *reach), physical=False)
     if code == S3:
         places = study.regular_places(code, parameters)
         frequency_marks(axes, dict(zip(NAMES, places, strict=True)))

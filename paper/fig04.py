@@ -35,7 +35,7 @@ def draw(study: PublishedStudy) -> Figure:
     add_legend(cycle, columns=1)
     upper = figure.add_subplot(grid[0, 1])
     lower = figure.add_subplot(grid[1, 1], sharex=upper)
-    resonance_curves(data, [upper, lower])
+    resonance_curves(data, [upper, lower], physical=False)
     upper.tick_params(labelbottom=False)
     figure.align_ylabels([upper, lower])
     return figure

@@ -233,6 +233,28 @@ def test_one_of_several_amplitudes_is_never_chosen(name, key, tmp_path):
         function(**given)
 
 
+@pytest.mark.parametrize(
+    ("oscillator", "listed"),
+    [
+        (OSCILLATOR, ["0.05 g", "0.04 g"]),
+        (OSCILLATOR, ["5 mm", "4 mm"]),
+        (OSCILLATOR, ["120 N", "100 N"]),
+        (OSCILLATOR, ["0.4 kg m", "0.1 kg m"]),
+        (OSCILLATOR, [0.25, 0.5]),
+        (vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), units="none"), [0.25, 0.5]),
+    ],
+)
+def test_the_example_in_the_message_about_a_list_works_as_it_stands(oscillator, listed):
+    """It is the first amplitude of the list, in the quantity and the units of the rig."""
+    with pytest.raises(vi.InputError) as caught:
+        vi.steady(vi.Rig(oscillator, listed), frequency="2 Hz")
+    example = str(caught.value).split("such as ")[1]
+    rig = eval(example, {"Rig": vi.Rig, "oscillator": oscillator})
+    assert rig.periodic.of == vi.Rig(oscillator, listed[0]).periodic.of
+    assert rig.amplitude == pytest.approx(vi.Rig(oscillator, listed[0]).amplitude, rel=1e-5)
+    assert vi.simulate(rig, 1, frequency="2 Hz")["status"] == 0
+
+
 def test_functions_of_a_motion_need_one_amplitude():
     assert {name for name, _ in _takes_a_rig()} >= {"steady", "simulate", "orbit", "branch"}
     rig = vi.Rig(arguments.rig(), LISTED)

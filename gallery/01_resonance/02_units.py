@@ -15,6 +15,6 @@ bumper = vi.Bumper(stiffness="510 kN/m", damping="0.9 kN s/m", gap="7.5 mm")
 machine = vi.Oscillator("550 kg", vi.Isolator("26.8 kN/m", "1.1 kN s/m"), right=bumper, left=bumper)
 curves = vi.sweep(vi.Rig(machine, "0.05 g"), [k / 50 for k in range(25, 201)])
 
-axes = resonance_curves(curves, physical=True)
+axes = resonance_curves(curves)
 frequency_marks(axes, {"A": machine.natural_frequency, "B": "3 Hz"})
 axes

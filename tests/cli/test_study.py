@@ -266,7 +266,7 @@ class TestWhatShakes:
     @pytest.mark.parametrize(
         ("text", "csv", "message"),
         [
-            ('step = "1 ms"', "0.1\nnan\n0.2", r"line 2: nan is not finite"),
+            ('step = "1 ms"', "0.1\nnan\n0.2", r"line 2: a value is missing"),
             (
                 'step = "1 ms"\nunit = "g"',
                 "0.1",

@@ -80,3 +80,42 @@ def test_json_keeps_hertz_and_says_that_there_are_no_units(study, tmp_path, caps
     found = json.loads(capsys.readouterr().out)
     assert found["oscillator"]["units"] == "none"
     assert found["frequency"] == 0.2
+
+
+def _none(tmp_path):
+    stated = tmp_path / "none.toml"
+    stated.write_text(ONE.replace("mass = 1", 'mass = 1\nunits = "none"'))
+    return stated
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("sweep", "--amplitude", "5mm"),
+        ("sweep", "--gap", "2 m"),
+        ("branch", "--frequency", "0.2", "--parameter", "gap", "--from", "5mm", "--to", "3"),
+        ("design", "--vary", "gap", "5mm:6mm"),
+    ],
+)
+def test_stated_none_refuses_a_unit_of_an_option(tmp_path, capsys, words):
+    command, *options = words
+    assert main([command, str(_none(tmp_path)), *options, "-o", str(tmp_path)]) == 2
+    told = capsys.readouterr().err
+    assert "has a unit, but the rig has none" in told
+    assert len(told.strip().splitlines()) == 1
+
+
+def test_designs_and_records_without_units(tmp_path, capsys):
+    rig, record = str(_none(tmp_path)), tmp_path / "shake.txt"
+    record.write_text("".join(f"{0.1 * n:.1f} {0.8 * (n % 7 - 3)}\n" for n in range(200)))
+    assert main(["design", rig, "--vary", "gap", "1:3", "-o", str(tmp_path)]) == 0
+    summary = capsys.readouterr().out.partition("\nFiles\n")[0]
+    assert "Required gap: 5" in summary
+    assert not UNIT.findall(summary)
+    words = ["earthquake", rig, str(record), "-o", str(tmp_path)]
+    assert main([*words, "--unit", "g"]) == 2
+    assert "contains accelerations in g, but the rig has no units" in capsys.readouterr().err
+    assert main([*words, "--unit", "none"]) == 0
+    summary = capsys.readouterr().out.partition("\nFiles\n")[0]
+    assert "peak of the base" in summary
+    assert not UNIT.findall(summary)

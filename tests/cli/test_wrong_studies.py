@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from vibroimpact.cli import main
 from vibroimpact.cli.study import read_study
 from vibroimpact.errors import InputError
 
@@ -36,7 +37,8 @@ def isolator(table):
         (
             OWN + "[excitation]\namplitude = [1, 2]\n",
             "excitation.amplitude: [1, 2] is not a number or text with a unit; write it as in "
-            'amplitude = "0.05 g"; for several harmonics, amplitudes = ["1 mm", "2 mm"]',
+            'amplitude = "0.05 g" (one at all frequencies); for several harmonics, amplitudes = '
+            '["1 mm", "2 mm"]; for one amplitude per frequency, use sweep in Python',
         ),
         (
             OWN + "[excitation]\namplitudes = [1, [2]]\n",
@@ -121,3 +123,12 @@ def test_no_value_of_a_wrong_kind_leaks_the_words_of_a_library(tmp_path, table, 
     assert f"{table}.{key}".strip(".") in message
     for leak in ("input should", "valid", ".float", ".str", ".int", "parse", "instance"):
         assert leak not in message
+
+
+@pytest.mark.parametrize("key", ["F0", "force", "unbalance"])
+def test_a_force_is_written_as_the_amplitude(key, tmp_path, capsys):
+    path = tmp_path / "one.toml"
+    path.write_text(f'[oscillator]\nmass = 1\n[excitation]\n{key} = "500 N"\n')
+    assert main(["sweep", str(path)]) == 2
+    assert f"excitation.{key}: unknown key" in (error := capsys.readouterr().err)
+    assert 'write it as amplitude: its unit says what it is, such as "500 N"' in error

@@ -85,6 +85,28 @@ def test_the_front(data) -> None:
     assert " N/m" in told or " kN/m" in told
 
 
+def test_the_present_design_is_marked_where_it_was_computed() -> None:
+    """By its own response; beside the designs, none is known, which the legend states."""
+    stop = RIGS["bumpers"].right
+    rig = RIGS["bumpers"].replace(left=stop)
+    gap, stiffness = stop.gap, stop.stiffness
+    own = vi.design_chart(
+        rig,
+        {"gap": [0.5 * gap, gap, 2.0 * gap], "bumper_stiffness": [stiffness, 3.0 * stiffness]},
+        records=noise(8, count=120),
+    )
+    ax = pareto_front(own)
+    (star,) = (line for line in ax.lines if line.get_label() == "present design")
+    here = own.sel(gap=gap, bumper_stiffness=stiffness)
+    assert star.get_xdata() == pytest.approx(1e3 * float(here["peak_displacement"]))
+    assert star.get_ydata() == pytest.approx(float(here["peak_acceleration"]) / GRAVITY)
+    assert "present design" in [text.get_text() for text in ax.get_legend().get_texts()]
+    beside = own.drop_sel(gap=gap)
+    told = [text.get_text() for text in pareto_front(beside).get_legend().get_texts()]
+    assert "present design: not computed" in told
+    assert "present design" not in told
+
+
 def test_of_a_long_front_some_are_numbered() -> None:
     long = vi.design_chart(
         RIGS["bumpers"], {"gap": np.linspace(0.01, 0.3, 25)}, records=noise(8, count=120)

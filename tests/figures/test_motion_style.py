@@ -180,7 +180,9 @@ def test_forward_is_red_and_backward_blue(draw):
         for way, look in SWEEPS.items():
             assert drawn[f"{way} branch"].get_color() == look.colour
             assert drawn[f"{way} branch"].get_linestyle() == look.dashes
-        assert [text.get_text() for text in ax.get_legend().get_texts()] == list(motions)
+        marks = ["stroboscopic section"] if draw is phase_portrait else []
+        texts = [text.get_text() for text in ax.get_legend().get_texts()]
+        assert texts == [*motions, *marks]
 
 
 def test_other_motions_are_neither_red_nor_blue_and_differ():
@@ -557,7 +559,7 @@ def test_page_has_one_legend_below():
     assert {"forward branch", "backward branch", "motion", "gaps"} < set(texts)
     assert {"right contact", "left contact", "peak in contact"} < set(texts)
     alone = motion_page({"free": bare()})[0, 0].figure.legends[0]
-    assert [text.get_text() for text in alone.get_texts()] == ["motion"]
+    assert [text.get_text() for text in alone.get_texts()] == ["motion", "stroboscopic section"]
 
 
 def tripled() -> xr.Dataset:

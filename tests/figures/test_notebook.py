@@ -30,7 +30,7 @@ def rigs():
 
 
 DRAWN: dict[str, Callable[..., object]] = {
-    "resonance_curves": lambda **on: figures.resonance_curves(swept(), **on),
+    "resonance_curves": lambda **on: figures.resonance_curves(swept(), physical=False, **on),
     "resonance_family": lambda **on: figures.resonance_family(rigs(), **on),
     "time_history": lambda **on: figures.time_history(steady(), **on),
     "clearances": lambda **on: figures.clearances(steady(), **on),

@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
+from vibroimpact.cli import main, results
 from vibroimpact.figures import branch_diagram, resonance_curves
 from vibroimpact.model import GRAVITY
 
@@ -103,3 +104,49 @@ def test_a_branch_in_engineers_units() -> None:
         assert most == pytest.approx(factor * float(data[quantity].max()), rel=1e-12)
     stiff = vi.branch(vi.Rig(BUILDING, shaken), start, span=(31e6, 32e6), parameter="stiffness")
     assert branch_diagram(stiff).get_xlabel().endswith("(MN/m)")
+
+
+@pytest.mark.parametrize(
+    ("rig", "eta"),
+    [
+        ("B2-G1-A3", True),
+        (vi.laboratory.case("B2-G1-A3", parameters="identified"), True),
+        (vi.laboratory.case("B2-G1-A3").rig, True),
+        (vi.Rig(vi.laboratory.case("B2-G1-A3").oscillator, "0.05 g"), False),
+        ("case.toml", False),
+        ("own.toml", False),
+    ],
+    ids=["code", "case", "rig of a case", "own rig", "study of a case", "own study"],
+)
+def test_only_published_cases_are_normalised_by_default(rig, eta, tmp_path, monkeypatch) -> None:
+    """In Python and on the command line alike: a study file is not a case, even if it names one."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "case.toml").write_text('case = "B2-G1-A3"\n', encoding="utf-8")
+    (tmp_path / "own.toml").write_text(
+        "[oscillator]\nmass = 1\nisolator = { stiffness = 40, damping = 2 }\n"
+        'right = { stiffness = 800, damping = 1, gap = "5 mm" }\n'
+        '[excitation]\namplitude = "0.05 g"\n',
+        encoding="utf-8",
+    )
+    grid = [1.0, 1.1, 1.2]
+    data = vi.sweep(rig, grid)
+    label = resonance_curves(data)[0].get_ylabel()
+    assert ("eta_a" in label) == eta
+    assert ("(g)" in label) != eta
+    vi.save(data, tmp_path / "kept.nc")
+    assert resonance_curves(vi.load(tmp_path / "kept.nc"))[0].get_ylabel() == label
+    one = vi.sweeps([rig], grid).isel(rig=0)
+    assert resonance_curves(one)[0].get_ylabel() == label
+    assert "eta_a" in resonance_curves(data, physical=False)[0].get_ylabel()
+    assert "(g)" in resonance_curves(data, physical=True)[0].get_ylabel()
+    if isinstance(rig, str):
+        decided = []
+        decide = results.draws_physical
+
+        def noted(*arguments):
+            decided.append(decide(*arguments))
+            return decided[-1]
+
+        monkeypatch.setattr(results, "draws_physical", noted)
+        assert main(["sweep", rig, "--frequencies", "1Hz,1.1Hz,1.2Hz"]) == 0
+        assert decided == [not eta]

@@ -25,7 +25,7 @@ from vibroimpact.response.resonance import features
 def swept(code: str, start=0.5, stop=5.0, step=0.1, parameters="table") -> xr.Dataset:
     case = vi.laboratory.case(code, parameters)
     grid = [round(start + k * step, 9) for k in range(round((stop - start) / step) + 1)]
-    return vi.sweep(vi.Rig(case.oscillator, case.amplitude), grid)
+    return vi.sweep(case, grid)
 
 
 def arrows(ax) -> dict[str, FancyArrowPatch]:

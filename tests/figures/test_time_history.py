@@ -254,3 +254,29 @@ def test_what_is_no_time_history_is_refused():
         time_history(xr.Dataset())
     with pytest.raises(vi.InputError, match=r"cycles: -1"):
         time_history(motion(), cycles=-1)
+
+
+def texts(ax) -> list[str]:
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_a_free_vibration_is_not_forced_and_its_base_is_at_rest():
+    stop = vi.Bumper("10 kN/m", 0, "1 m")
+    rig = vi.Rig(vi.Oscillator("2 kg", vi.Isolator("1 kN/m", "2 N s/m"), right=stop))
+    data = vi.simulate(rig, 3, vi.State(0.02, 0.0), frequency="4 Hz")
+    assert data["displacement"].attrs["long_name"] == "absolute displacement"
+    axes = time_history(data)
+    assert axes[2].get_xlabel() == "time in cycles of 0.25 s $t/T$ (–)"
+    labels = " ".join(ax.get_ylabel() for ax in axes)
+    assert "relative" not in labels
+    assert "A_t" not in labels
+    assert texts(axes[0]) == ["motion", "gap"]  # it touches nothing
+    plain = vi.Rig(vi.Oscillator(1, vi.Isolator(1, 0.1)))
+    label = time_history(vi.simulate(plain, 3, vi.State(0.02, 0.0)))[2].get_xlabel()
+    assert label == "time in cycles of 6.283 $t/T$"
+
+
+def test_the_star_of_an_impact_on_a_rigid_stop_has_a_name():
+    wall = vi.Oscillator(1, vi.Isolator(1, 0.1), right=vi.RigidStop(0.8, 1))
+    axes = time_history(vi.steady(vi.Rig(wall, 1.0, "1.6 rad/s")))
+    assert texts(axes[0]) == ["motion", "gap", "impact"]

@@ -193,3 +193,51 @@ def test_results_record_that_there_are_no_units(tmp_path):
     assert "unit_system" not in usual.attrs
     assert usual["displacement_max"].attrs["units"] == "m"
     assert usual["displacement_max"].values.tolist() == data["displacement_max"].values.tolist()
+
+
+@pytest.mark.parametrize("value", ["5 mm", "0.05 g", ["1 mm", "2 mm"]])
+def test_stated_none_is_kept_for_a_mass_and_a_stiffness_of_1(value):
+    stated = vi.Oscillator(1, SOFT, units="none")
+    for oscillator in (stated, stated.replace(right=vi.Bumper(20.0, 0.0, 2.0))):
+        with pytest.raises(InputError, match=r"^shaking: .* has a unit, but the rig has none"):
+            vi.Rig(oscillator, value)
+    recognised = vi.Oscillator(1, SOFT).replace(right=vi.Bumper(20.0, 0.0, 2.0))
+    assert vi.Rig(recognised, value).oscillator.units == "SI"
+
+
+def test_a_record_with_a_unit_needs_a_rig_with_units(tmp_path):
+    path = tmp_path / "shake.txt"
+    path.write_text("".join(f"{0.01 * n} {0.1 * (n % 5 - 2)}\n" for n in range(50)))
+    record = vi.Record.read(path, unit="g")
+    stated = vi.Oscillator(1, SOFT, vi.Bumper(20.0, 0.0, 2.0), units="none")
+    assert vi.Rig(vi.Oscillator(1, SOFT), record).oscillator.units == "SI"
+    assert vi.Rig(stated, vi.Record(record.acceleration, 0.01)).oscillator.units == "none"
+    for call in (
+        lambda: vi.Rig(stated, record),
+        lambda: vi.demands(stated, record),
+        lambda: vi.required_gap(stated, records=record),
+        lambda: vi.design_chart(stated, {"gap": [1, 2]}, records=record),
+    ):
+        with pytest.raises(InputError, match=r"contains accelerations in g, but the rig has no"):
+            call()
+    bare = vi.Record.read(path, unit="none")
+    assert bare.acceleration.tolist() == pytest.approx((record.acceleration / 9.80665).tolist())
+    assert vi.Rig(stated, bare).oscillator.units == "none"
+    assert vi.Rig(vi.Oscillator(1, SOFT), bare).oscillator.units == "none"
+    with pytest.raises(InputError, match=r"was read without a unit, but the rig has units"):
+        vi.Rig(vi.Oscillator(2, SOFT), bare)
+    for call in (
+        lambda: vi.demands(stated, [vi.Record([0, 1, 0], 0.1)], gaps=["5 mm", "6 mm"]),
+        lambda: vi.demands(stated, [vi.Record([0, 1, 0], 0.1)], ["0.1 g"], intensity="pga"),
+        lambda: vi.design_chart(vi.Rig(stated, 0.5), {"gap": ["5 mm", "6 mm"]}),
+    ):
+        with pytest.raises(InputError, match=r"^(gaps|scales): .* has a unit, but the rig has"):
+            call()
+    assert "unit_system" not in vi.demands(vi.Oscillator(1, SOFT), record).attrs
+
+
+def test_a_study_that_states_none_refuses_a_unit(tmp_path):
+    path = tmp_path / "one.toml"
+    path.write_text(STUDY.format(units='units = "none"', amplitude='"5 mm"'))
+    with pytest.raises(InputError, match=r"excitation.amplitude: '5 mm' has a unit, but the rig"):
+        read_rig_study(path)

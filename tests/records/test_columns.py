@@ -51,7 +51,7 @@ def test_units(tmp_path):
 @pytest.mark.parametrize(
     ("text", "step", "unit", "line"),
     [
-        ("1\nnan\n2\n", 0.1, "m/s^2", r"record: .*, line 2: nan is not finite"),
+        ("1\nnan\n2\n", 0.1, "m/s^2", r"record: .*, line 2: a value is missing"),
         ("1\n", 0.1, "m/s^2", r".*acceleration: 1 given; pass one sequence of at least 2"),
         ("", 0.1, "m/s^2", r"record: .* has no numbers"),
         ("words only\n", 0.1, "m/s^2", r"record: .* has no numbers"),

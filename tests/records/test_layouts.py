@@ -190,7 +190,7 @@ DAMAGED = {
         3,
         "the row has 1 number, but the rows above have 2",
     ),
-    "columns, nan": (["0 1", "0.1 nan", "0.2 3"], 2, "nan is not finite"),
+    "columns, nan": (["0 1", "0.1 nan", "0.2 3"], 2, "a value is missing"),
     "columns, announced": (["3 0.01", "1", "2"], 1, "the file announces 3 values, but 2 follow"),
 }
 
@@ -327,3 +327,12 @@ def test_sac_in_either_order_of_bytes_and_miniseed(tmp_path):
     both.write_bytes(both.read_bytes()[:-300])
     with pytest.raises(vi.InputError, match="is a damaged MSEED file"):
         vi.Record.read(both)
+
+
+def test_negative_numbers_of_free_format_that_touch_each_other(tmp_path):
+    head = peer("NPTS=   4, DT= .01 SEC")[:4]
+    path = tmp_path / "touching.AT2"
+    path.write_text("\n".join([*head, "-12.009201-12.014842 -1.5E+00", "  3.000000", ""]))
+    np.testing.assert_allclose(
+        vi.Record.read(path).acceleration / 9.80665, [-12.009201, -12.014842, -1.5, 3.0]
+    )

@@ -299,7 +299,7 @@ def test_a_component_with_holes_does_not_keep_others_from_being_read(tmp_path):
     )
     path = written(tmp_path, "Time (s),Acc (gal),Temp (gal)\n" + rows)
     check(path, component="Acc")
-    with pytest.raises(vi.InputError, match="line 3: nan is not finite"):
+    with pytest.raises(vi.InputError, match="line 3, column 'Temp': a value is missing"):
         vi.Record.read(path, "Temp")
 
 
@@ -318,3 +318,142 @@ def test_a_count_above_a_table_is_no_file_of_peer(tmp_path):
     for head in ("# NPTS = 400\n", "NPTS = 400\nUNITS: GAL\n"):
         path = written(tmp_path, head + "time (s),acc (gal)\n" + columns(TIME, A))
         assert check(path).about.format == "columns"
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_the_first_rows_are_rows_although_a_cell_of_them_is_a_word(tmp_path, count):
+    words = ["start"] * count + [""] * (COUNT - count)
+    rows = zip(TIME, A, words, strict=True)
+    text = "".join(f"{t:.3f},{a:.3f},{word}\n" for t, a, word in rows)
+    path = written(tmp_path, "Time (s),Acceleration (gal),Marker\n" + text)
+    with pytest.warns(vi.InputWarning, match="columns of words were left out: Marker"):
+        check(path)
+    stamps = (datetime(2024, 3, 5, 10) + timedelta(seconds=float(t)) for t in TIME)
+    rows = zip(stamps, A, words, strict=True)
+    text = "".join(f"{t.isoformat(' ', 'milliseconds')},{a:.3f},{word}\n" for t, a, word in rows)
+    path = written(tmp_path, "Time,Acceleration (gal),Marker\n" + text)
+    with pytest.warns(vi.InputWarning, match="columns of words were left out: Marker"):
+        check(path)
+
+
+def test_a_word_in_place_of_the_first_value_is_refused(tmp_path):
+    text = columns(TIME, A).replace("\n0.005,", "\n0.005,OVL", 1).replace("0.000,", "0.000,OVL", 1)
+    path = written(tmp_path, "Time (s),Acceleration (gal)\n" + text)
+    with pytest.raises(vi.InputError, match=r"line 2, column 'Acceleration': 'OVL.* is not a numb"):
+        vi.Record.read(path)
+
+
+@pytest.mark.parametrize("word", ["1.#QNAN", "-1.#IND", "1.#INF", "1.#IND00", "nan(ind)"])
+def test_values_of_windows_that_are_not_finite_are_no_numbers(tmp_path, word):
+    text = columns(TIME, A).replace("\n0.500,", f"\n0.500,{word}~", 1)
+    text = "".join(line.partition("~")[0] + "\n" for line in text.splitlines())
+    with pytest.raises(
+        vi.InputError, match=r"line 102, column 'Accel.*: (?:a value is missing|inf is not)"
+    ):
+        vi.Record.read(written(tmp_path, "Time (s),Acceleration (gal)\n" + text))
+
+
+@pytest.mark.parametrize(
+    ("name", "each"),
+    [("timestamp_us", 1e6), ("t_us", 1e6), ("Time us", 1e6), ("micros", 1e6), ("time_µs", 1e6),
+     ("millis", 1e3), ("ms", 1e3), ("msec", 1e3), ("time_msec", 1e3), ("Time (milliseconds)", 1e3),
+     ("TimeMs", 1e3), ("Time in ms", 1e3), ("time_ns", 1e9), ("Timestamp (ns)", 1e9),
+     ("nanoseconds", 1e9), ("Time [nsec]", 1e9)],
+)  # fmt: skip
+def test_units_of_times_in_names(tmp_path, name, each):
+    check(written(tmp_path, f"{name},acc (gal)\n" + columns(each * TIME, A)))
+
+
+@pytest.mark.parametrize(("unit", "each"), [("ms", 10**3), ("us", 10**6), ("ns", 10**9)])
+def test_times_since_1970_without_a_unit(tmp_path, unit, each):
+    rows = (
+        f"{1709632800 * each + round(each * t)},{a:.3f}\n" for t, a in zip(TIME, A, strict=True)
+    )
+    path = written(tmp_path, "timestamp,acc (gal)\n" + "".join(rows))
+    with pytest.warns(vi.InputWarning, match=f"times are read in {unit} since 1970"):
+        record = vi.Record.read(path)
+    assert record.step == pytest.approx(STEP, rel=1e-6)
+
+
+def test_names_of_other_numbers_of_columns_name_none_of_them(tmp_path):
+    """With one name too few, a name would be that of the column before it."""
+    path = written(tmp_path, "Time (s),Acc (gal)\n" + columns(TIME, A, B))
+    check(path, component="1")
+    check(path, B, component="2")
+    with pytest.raises(vi.InputError, match="pass '1', '2'"):
+        vi.Record.read(path, "Acc")
+
+
+@pytest.mark.parametrize("head", ["NS component, PGA = {} gal", "NS; peak acceleration = {} gal"])
+def test_a_peak_beside_words_above_two_columns_is_no_name(tmp_path, head):
+    check(written(tmp_path, head.format(f"{PEAK:.3f}") + "\n" + columns(TIME, A, mark=" ")))
+    path = written(tmp_path, head.format(f"{100.0 * PEAK:.3f}") + "\n" + columns(TIME, A, mark=" "))
+    with pytest.raises(vi.InputError, match="unit: missing"):  # of none is this the peak
+        vi.Record.read(path)
+
+
+@pytest.mark.parametrize("kind", ["TSPAIR", "SLIST"])
+def test_a_rate_after_a_number_of_samples_is_no_second_number(tmp_path, kind):
+    head = f"TIMESERIES XX_NWH_00_HNE_R, 400 samples, 200 sps, 2024-03-05T10:00:00.000, {kind}, "
+    text = lines(A, 6)
+    if kind == "TSPAIR":
+        stamps = (datetime(2024, 3, 5, 10) + timedelta(seconds=float(t)) for t in TIME)
+        pairs_ = zip(stamps, A, strict=True)
+        text = "".join(f"{t.isoformat(timespec='microseconds')}  {a:.3f}\n" for t, a in pairs_)
+    check(written(tmp_path, head + "FLOAT, CM/S**2\n" + text))
+
+
+def test_the_header_of_campbell_loggers(tmp_path):
+    head = (
+        '"TOA5","NWH","CR1000","1234","CR1000.Std.32","CPU:a.CR1","5555","Table1"\n'
+        '"TIMESTAMP","RECORD","North","East"\n"TS","RN","gal","gal"\n"","","Smp","Smp"\n'
+    )
+    stamps = (datetime(2024, 3, 5, 10) + timedelta(seconds=float(t)) for t in TIME)
+    rows = zip(stamps, A, B, strict=True)
+    text = "".join(
+        f'"{t.isoformat(" ", "milliseconds")}",{i},{a:.3f},{b:.3f}\n'
+        for i, (t, a, b) in enumerate(rows)
+    )
+    check(written(tmp_path, head + text), component="North")
+    check(written(tmp_path, head + text), B, component="East")
+
+
+def test_comments_after_a_semicolon(tmp_path):
+    head = (
+        ";Title, made up\n;Start_time, 2024-03-05, 10:00:00.000\n;Temperature, -999.00, deg C\n"
+        ";SampleRate, 200,Hz\n;Headers, time,Ax,Ay,Az\n"
+    )
+    path = written(tmp_path, head + columns(TIME, A, B, C))
+    check(path, B, component="Ay", unit="gal")
+    # With semicolons between the columns, the first name may be left out.
+    rows = (f"{i};{a:.3f};{b:.3f}\n" for i, (a, b) in enumerate(zip(A, B, strict=True)))
+    path = written(tmp_path, "fs = 200 Hz\n;North (gal);East (gal)\n" + "".join(rows))
+    check(path, B, component="East")
+
+
+def test_a_column_without_values_is_no_component(tmp_path):
+    rows = "".join(f"{t:.3f},,{a:.3f}\n" for t, a in zip(TIME, A, strict=True))
+    check(written(tmp_path, "Time (s),North (gal),East (gal)\n" + rows))
+
+
+def test_a_missing_value_is_shown_with_its_column(tmp_path):
+    text = columns(TIME, A, B).replace(f"0.500,{A[100]:.3f}", "0.500,", 1)
+    path = written(tmp_path, "Time (s),North (gal),East (gal)\n" + text)
+    with pytest.raises(vi.InputError, match="line 102, column 'North': a value is missing"):
+        vi.Record.read(path, "North")
+
+
+def test_brackets_of_full_width(tmp_path):
+    text = columns(1e3 * TIME, A)
+    check(written(tmp_path, "时间（ms）,加速度（gal）\n" + text))
+
+
+@pytest.mark.parametrize(
+    ("head", "mark"),
+    [("acceleration in gal\nNPTS = 400, DT = 0.005\n", " "),
+     ("Time (s), Acc (gal)\nNPTS = 400\n", ","), ("acceleration in gal\nNPTS = 400\n", ", ")],
+)  # fmt: skip
+def test_a_count_above_as_many_rows_of_columns_is_no_file_of_peer(tmp_path, head, mark):
+    check(written(tmp_path, head + columns(TIME, A, mark=mark)))
+    text = f"acceleration in gal, dt = 0.005\nN-S E-W U-D\nNPTS = 400\n{columns(A, B, C, mark=' ')}"
+    check(written(tmp_path, text), B, component="2")

@@ -32,4 +32,5 @@ def test_a_sweep_says_that_there_is_no_bound_and_draws_physical_units(law):
 def test_a_damped_one_has_a_bound():
     data = vi.sweep(vi.Rig(vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), STOP), 1.0), [0.1, 0.2])
     assert "notes" not in data.attrs
-    assert "eta_a" in resonance_curves(data)[0].get_ylabel()
+    assert resonance_curves(data)[0].get_ylabel() == "largest absolute\nacceleration"
+    assert "eta_a" in resonance_curves(data, physical=False)[0].get_ylabel()

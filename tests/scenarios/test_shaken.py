@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.response.resonance import Hysteresis
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.borders import jump_border
+from vibroimpact.scenarios.classification import scenario
 from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.scenarios.sweep_frequencies import frequencies, highest
@@ -46,6 +48,65 @@ def test_an_unbalance_is_a_displacement_of_the_base() -> None:
     )
 
 
+def _of_unit_frequency(ratio: float, stiffness_ratio: float = 25.9) -> vi.Oscillator:
+    """A rig of 1 Hz whose gaps are so many times the free flight over a base that moves by 2 mm."""
+    rig = vi.from_dimensionless(
+        stiffness_ratio, 1.0, 0.01, 0.15, stiffness=(2.0 * np.pi) ** 2
+    ).oscillator
+    bumper = rig.right.replace(gap=ratio * 2e-3 / (2.0 * 0.15 * np.sqrt(1.0 - 0.15**2)))
+    return rig.replace(right=bumper, left=bumper)
+
+
+@pytest.mark.parametrize("ratio", [1.2, 0.97, 0.7])
+def test_growth_of_the_acceleration_hides_no_scenario_in_silence(ratio: float) -> None:
+    """The same motion u as over a base that moves by m e/M, but ü grows as ω² without contact.
+
+    Where the mass hits nothing, that is S0. Otherwise the top of η_a is no resonance.
+    """
+    rig = _of_unit_frequency(ratio)
+    found = classify(vi.Rig(rig, vi.Harmonic(2e-3 * rig.mass, 1.0, of="unbalance")))
+    moved = classify(vi.Rig(rig, "2 mm"))
+    assert moved.scenario == ("S0" if ratio > 1.0 else "S2")
+    assert "hides" not in moved.evidence
+    assert found.features.contact == moved.features.contact
+    if ratio > 1.0:
+        assert found.scenario == "S0"
+        return
+    assert found.scenario == "unclassified"
+    assert found.confidence == 1.0
+    assert "undecided: η_a grows with the frequency without contact" in found.evidence
+    assert "m e/M" in found.evidence
+    assert "outside the frequency range" not in found.evidence
+    assert "\n" not in found.evidence
+
+
+def test_a_left_hysteresis_below_the_hidden_resonance_is_not_s4() -> None:
+    """Ranges below the end of the sweep are below the primary resonance only if that is there."""
+    rig = _of_unit_frequency(0.7)
+    found = classify(vi.Rig(rig, vi.Harmonic(2e-3 * rig.mass, 1.0, of="unbalance")))
+    assert found.features.hidden_by == "unbalance"
+    wide = Hysteresis("left", 2.0, 3.0, 1.9, 3.1, True)
+    features = found.features._replace(left=(wide,))
+    assert features.extent(0.02) >= 0.08
+    assert scenario(features, vi.Thresholds()) is Scenario.UNCLASSIFIED
+    assert scenario(features._replace(hidden_by=None), vi.Thresholds()) is Scenario.S4
+
+
+def test_a_resonance_that_stands_out_keeps_its_scenario_under_an_unbalance() -> None:
+    rig = _of_unit_frequency(0.4, 2.0)
+    found = classify(vi.Rig(rig, vi.Harmonic(2e-3 * rig.mass, 1.0, of="unbalance")))
+    assert found.scenario == classify(vi.Rig(rig, "2 mm")).scenario == "S6"
+
+
+def test_far_above_the_resonance_the_growth_over_a_moving_base_hides_it_too() -> None:
+    """There ü + A_t → 2ξ ω₀ ω X, which passes the resonance at some ten times its frequency."""
+    rig = _of_unit_frequency(0.97, 2.0)
+    found = classify(vi.Rig(rig, "2 mm"), np.arange(0.4, 15.0, 0.02))
+    assert found.scenario == "unclassified"
+    assert "undecided: η_a grows with the frequency without contact" in found.evidence
+    assert "end the frequencies lower" in found.evidence
+
+
 @pytest.mark.parametrize(("ratio", "named"), [(1.2, "S0"), (0.97, "S2"), (0.7, "S2")])
 def test_gaps_are_scaled_by_free_flight_under_what_is_held(ratio: float, named: str) -> None:
     """u_max = X/(2ξ√(1 − ξ²)) of a base that moves by X, at 1/√(1 − 2ξ²) times f0.
@@ -53,10 +114,7 @@ def test_gaps_are_scaled_by_free_flight_under_what_is_held(ratio: float, named: 
     What only grazes at one acceleration is carried on by one displacement, which shakes the more
     the higher the frequency.
     """
-    rig = vi.from_dimensionless(25.9, 1.0, 0.01, 0.15, stiffness=(2.0 * np.pi) ** 2).oscillator
-    peak = 2e-3 / (2.0 * 0.15 * np.sqrt(1.0 - 0.15**2))
-    bumper = rig.right.replace(gap=ratio * peak)
-    found = classify(vi.Rig(rig.replace(right=bumper, left=bumper), "2 mm"))
+    found = classify(vi.Rig(_of_unit_frequency(ratio), "2 mm"))
     assert found.features.gap_ratio == pytest.approx(ratio, rel=1e-12)
     assert found.features.within
     assert found.scenario == named

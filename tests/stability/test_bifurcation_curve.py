@@ -206,4 +206,5 @@ def test_grazing_of_rigid_stops_in_closed_form(left, other, low, high):
     size = data[other].values if other == "amplitude" else shaken.amplitude
     gap = data[other].values if other == "gap" else 0.025
     swing = size / np.hypot(26.8e3 / 550.0 - omega**2, 2.0 * omega)
-    np.testing.assert_allclose(swing, gap * np.ones_like(omega), rtol=1e-8)
+    # A curve is exact to a share of the sizes at its start.
+    np.testing.assert_allclose(swing, gap * np.ones_like(omega), rtol=0.0, atol=1e-8 * 0.025)

@@ -74,6 +74,7 @@ def test_free_flight():
     )
 
 
+@pytest.mark.filterwarnings("ignore:. of 12 motions were still converging:RuntimeWarning")
 def test_threads_change_nothing():
     rigs = [vi.laboratory.case(c) for c in CASES[:3]]
     seen = []

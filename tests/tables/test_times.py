@@ -42,7 +42,8 @@ def test_what_can_be_times():
 FORMATS = [
     "%Y-%m-%dT%H:%M:%S.%f", "%Y-%m-%d %H:%M:%S,%f", "%Y/%m/%d-%H:%M:%S.%f", "%d.%m.%Y %H:%M:%S.%f",
     "%d/%m/%Y %H:%M:%S.%f", "%m/%d/%Y %I:%M:%S.%f %p", "%d.%m.%y %H:%M:%S.%f", "%H:%M:%S.%f",
-    "%Y-%m-%dT%H:%M:%S.%fZ", "%Y-%m-%dT%H:%M:%S.%f+02:00",
+    "%Y-%m-%dT%H:%M:%S.%fZ", "%Y-%m-%dT%H:%M:%S.%f+02:00", "%d-%b-%Y %H:%M:%S.%f",
+    "%d %B %Y %H:%M:%S.%f", "%b %d, %Y %H:%M:%S.%f", "%Y%m%dT%H%M%S.%f", "%Y%m%dT%H%M%SZ",
 ]  # fmt: skip
 
 
@@ -58,6 +59,8 @@ FORMATS = [
 )
 def test_stamps_across_midnights_months_and_years(form, start):
     steps = 0.005 * np.arange(900)
+    if "%f" not in form:
+        steps = np.arange(900.0)
     at = [datetime(*start) + timedelta(seconds=round(float(one), 3)) for one in steps]
     found = [stamp(one.strftime(form)) for one in at]
     assert all(found)

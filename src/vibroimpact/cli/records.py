@@ -49,7 +49,8 @@ class RecordOptions:
     component for all, or one per record, such as 90,Up."""
     unit: _Stated = None
     """Unit of the values, such as g or cm/s^2. If it is a unit of length, such as mm, the values
-    are displacements and are differentiated twice. Required if the file states no unit. For several
+    are displacements and are differentiated twice. If it is none, the values are the numbers of a
+    rig without units. Required if the file states no unit. For several
     records, pass one unit for all, or one per record."""
     step: Annotated[_Stated, Parameter(allow_leading_hyphen=True)] = None
     """Time between samples, such as 10ms. It replaces the step or the times in the file. For

@@ -108,14 +108,14 @@ class Results:
 def draws_physical(data: xr.Dataset, rig: Rig, what: Subject, physical: bool | None) -> bool:
     """Return whether a figure has physical units instead of η_a and η_d.
 
-    By default, it has them for the rig of a study file. η_a and η_d belong to the published cases.
-    They require a bounded motion without stops.
+    By default, it has them unless the rig is published, as in `figures.resonance_curves`. η_a and
+    η_d require a bounded motion without stops.
     """
     from vibroimpact.model.unbounded import has_no_bound
 
     if not data["eta_d"].notnull().any() or has_no_bound(rig):
         return True
-    return what.study is not None if physical is None else physical
+    return not what.rig.published if physical is None else physical
 
 
 @contextmanager

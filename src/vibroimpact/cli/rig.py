@@ -92,7 +92,9 @@ class Subject(NamedTuple):
     @property
     def rig(self) -> Rig:
         """The rig. If its shaking is periodic, the frequency is open."""
-        return Rig.of_open_frequency(self.oscillator, self.shaking, self.name)
+        return Rig.of_open_frequency(
+            self.oscillator, self.shaking, self.name, published=self.study is None
+        )
 
     def at(self, hertz: float, phase: float | None = None) -> Repeated:
         """Return the periodic shaking at a frequency (Hz)."""

@@ -113,7 +113,8 @@ def simulate(
             written.write(data, "history", figures.record_history)
         else:
             hertz = shaken.harmonic.frequency
-            title = f"{what.title}, {forcing(hertz, 10)}"
+            free = shaken.harmonic.amplitude == 0.0
+            title = f"{what.title}, {'free vibration' if free else forcing(hertz, 10)}"
             name = f"{forcing_slug(hertz)}-history"
             written.write(data, name, figures.time_history, title, cycles=last)
     return written.tell(facts.facts(data), facts.text(data))

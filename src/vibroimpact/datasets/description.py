@@ -66,13 +66,14 @@ def describe(
     if told := "\n".join(notes):
         dataset.attrs["notes"] = told
     dataset.attrs = {**origin(created_by, parameters), **dataset.attrs}
-    if parameters_without_units(dataset.attrs.get("parameters", "{}")):
-        _remove_units(dataset)
+    # The rigs of a fit are an attribute of their own.
+    if parameters_without_units(dataset.attrs.get("rigs", dataset.attrs.get("parameters", "{}"))):
+        remove_units(dataset)
     return dataset
 
 
 def base_at_rest(data: xr.Dataset) -> bool:
-    """Return whether a force on the mass shakes all rigs of a dataset, so that the base is at rest.
+    """Return whether the base is at rest: a force on the mass or nothing shakes all rigs.
 
     It is False if the dataset does not say what shakes them.
     """
@@ -82,11 +83,13 @@ def base_at_rest(data: xr.Dataset) -> bool:
 
 def _stands(parameters: Mapping[str, Any]) -> bool:
     rigs = parameters.get("rigs", [parameters])
-    return bool(rigs) and all(one.get("of") in ON_THE_MASS for one in rigs)
+    return bool(rigs) and all(
+        one.get("of") in ON_THE_MASS or one.get("amplitude") == 0.0 for one in rigs
+    )
 
 
-def _remove_units(dataset: xr.Dataset) -> None:
-    """Mark a dataset of rigs without units, whose numbers are dimensionless."""
+def remove_units(dataset: xr.Dataset) -> xr.Dataset:
+    """Mark a dataset of rigs without units, whose numbers are dimensionless, and return it."""
     dataset.attrs[ATTRIBUTE] = NONE
     for variable in dataset.variables.values():
         units = variable.attrs["units"]
@@ -96,6 +99,7 @@ def _remove_units(dataset: xr.Dataset) -> None:
             variable.attrs["units"] = "1"
         if "m/s" in str(variable.attrs.get("comment")):
             del variable.attrs["comment"]  # which lists the units of components
+    return dataset
 
 
 def origin(created_by: str, parameters: dict[str, Any] | None) -> dict[str, str]:

@@ -14,7 +14,7 @@ from vibroimpact.arguments import is_pair
 from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.design.worst_sine import Sines
 from vibroimpact.earthquakes.peak_demands import Shaken, peaks
-from vibroimpact.earthquakes.run_plan import digest, suite
+from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
@@ -22,6 +22,7 @@ from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, share
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
 from vibroimpact.model.read_rig import as_rig
+from vibroimpact.model.rig import with_stated_units
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.tasks.threads import Progress, Workers
@@ -207,8 +208,9 @@ def design_rig(
                 "frequency_span: the shaking is a record, which has no forcing frequency; remove "
                 "frequency_span"
             )
-        return found.oscillator, ByRecords(
-            suite(records),
+        shaking = suite(records)
+        return with_stated_units(found.oscillator, in_words(shaking)), ByRecords(
+            shaking,
             to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),
             None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
         )

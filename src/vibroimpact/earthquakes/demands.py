@@ -18,7 +18,16 @@ from vibroimpact.arguments import check_list, check_progress, is_list
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, PEAKS, RESIDUALS, Shaken, peaks
-from vibroimpact.earthquakes.run_plan import Block, Runs, blocks, chunks, digest, runs, suite
+from vibroimpact.earthquakes.run_plan import (
+    Block,
+    Runs,
+    blocks,
+    chunks,
+    digest,
+    in_words,
+    runs,
+    suite,
+)
 from vibroimpact.earthquakes.seismic_response import with_both_sides
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -28,6 +37,7 @@ from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import with_si_unit
+from vibroimpact.model.written_units import has_no_units
 from vibroimpact.response.plausibility import doubt_gaps
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
@@ -127,8 +137,8 @@ def demands(
         If a value is invalid, or if the folder ``store`` holds another computation.
     """
     check_progress(progress)
-    rigs = runs(rig, gaps, vary)
     shaking = suite(records)
+    rigs = runs(rig, gaps, vary, {**in_words(shaking), "scales": scales})
     scaled = measure(intensity)
     levels = _levels(scales, scaled)
     known, factors = scaled.factors(list(shaking.values()), levels)
@@ -172,7 +182,9 @@ def demands(
     notes = [*record_notes(shaking), *_doubted(rigs.rigs, next(iter(shaking.values())), data)]
     data = describe(data, CREATED_BY, settings, notes, rigs.varied)
     for name in ("scale", "intensity"):
-        data[name].attrs.update(units=scaled.units, long_name=scaled.name)
+        data[name].attrs["long_name"] = scaled.name
+        if not has_no_units(data):
+            data[name].attrs["units"] = scaled.units
     _warn(found["status"])
     return data
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from vibroimpact.datasets.description import remove_units
 from vibroimpact.earthquakes.floor_record import floor_record
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.seismic_response import seismic_response
@@ -13,6 +14,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import to_si
+from vibroimpact.model.written_units import has_no_units
 from vibroimpact.response.response_spectrum import response_spectrum
 from vibroimpact.response.simulate import compute_history
 from vibroimpact.tasks.threads import Progress
@@ -53,11 +55,16 @@ def earthquake_response(
     motion = compute_history(rig, None, None, samples, after, progress=progress)
     if int(motion["status"]) != Status.DONE:
         raise InputError(f"the motion could not be computed: {motion.attrs['message']}")
+    spectra = {
+        "ground": response_spectrum(rig.record, _PERIODS, _DAMPING),
+        "floor": response_spectrum(floor_record(motion), _PERIODS, _DAMPING),
+    }
+    if has_no_units(rig):
+        spectra = {name: remove_units(one) for name, one in spectra.items()}
     return {
         "response": seismic_response(rig, tail=after, progress=progress),
         "motion": motion,
-        "ground": response_spectrum(rig.record, _PERIODS, _DAMPING),
-        "floor": response_spectrum(floor_record(motion), _PERIODS, _DAMPING),
+        **spectra,
     }
 
 

@@ -16,6 +16,7 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, Rig
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.read_rig import as_rigs, is_one_rig
+from vibroimpact.model.rig import with_stated_units
 from vibroimpact.model.varied import Varied, varied, vary_all
 
 _Array = NDArray[np.float64]
@@ -60,8 +61,15 @@ class Runs(NamedTuple):
         return vary_all(Rig(rig), pairs).oscillator
 
 
-def runs(rig: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None) -> Runs:
+def runs(
+    rig: Any,
+    gaps: ArrayLike | None,
+    vary: Mapping[str, ArrayLike] | None,
+    others: Mapping[str, object] | None = None,
+) -> Runs:
     """Read the rigs: one, or several by name or in a list; and what is varied of each.
+
+    ``others`` are values, by their names in messages, that may state a unit, too.
 
     Raises
     ------
@@ -77,13 +85,15 @@ def runs(rig: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None)
         if "gap" in given:
             raise InputError("gaps: given together with vary['gap']; remove one of the two")
         given = {"gap": gaps, **given}
+    stated = {**(others or {}), **{_field(name): values for name, values in given.items()}}
+    rigs = {name: with_stated_units(one, stated) for name, one in rigs.items()}
     one = next(iter(rigs.values()))
     every = tuple(
         varied(
             name,
             values,
             one,
-            "gaps" if name == "gap" else f"vary[{name!r}]",
+            _field(name),
             NOT_VARIED,
             "depends on the shaking, which is not varied here",
         )
@@ -93,6 +103,16 @@ def runs(rig: Any, gaps: ArrayLike | None, vary: Mapping[str, ArrayLike] | None)
     for at in itertools.product(*((0, n - 1) for n in found.shape)):
         found.oscillator(at)  # refused before anything is computed
     return found
+
+
+def _field(name: str) -> str:
+    """Return the name of the values of a parameter in messages."""
+    return "gaps" if name == "gap" else f"vary[{name!r}]"
+
+
+def in_words(records: Mapping[str, Record]) -> dict[str, Record]:
+    """Return records by their names in messages."""
+    return {f"records[{name!r}]": record for name, record in records.items()}
 
 
 def suite(records: Any) -> dict[str, Record]:

@@ -24,6 +24,7 @@ from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import GRAVITY, Oscillator, Record
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import unit, unitless
 
 _SIDES = ("right", "left")
 
@@ -61,13 +62,13 @@ def text(
 ) -> RenderableType:
     """Return a response as a table and a sentence."""
     table = plain_table()
-    shaken = f"{plain(record.peak, 5)} m/s² = {plain(record.peak / GRAVITY, 4)} g"
-    when = f"at {plain(record.peak_time, 6)} s of {plain(record.duration, 6)} s"
+    shaken = _acceleration(record.peak)
+    when = f"at {plain(record.peak_time, 6)}{unit(' s')} of {plain(record.duration, 6)}{unit(' s')}"
     table.add_row("peak of the base", shaken, when)
     table.add_row("displacement", _both(response, "peak_displacement", LENGTHS), "")
     size = float(response["peak_acceleration"])
     ratio = f"{plain(size / record.peak, 4)} times that of the base" if record.peak else ""
-    table.add_row("acceleration", f"{plain(size, 5)} m/s² = {plain(size / GRAVITY, 4)} g", ratio)
+    table.add_row("acceleration", _acceleration(size), ratio)
     if int(response["impact_count"]) or float(response["impulse"]):
         force = _both(response, "peak_force", FORCES)
         table.add_row("contact force", force, f"impulse {_both(response, 'impulse', IMPULSES)}")
@@ -75,9 +76,10 @@ def text(
         table.add_row("contacts", f"{counts[0]} right, {counts[1]} left", "")
     names = ("total_supplied", "total_isolator", "total_bumpers")
     supplied, isolator, stops = (float(response[key]) for key in names)
-    unit = fitting((supplied, isolator, stops), ENERGIES)
+    scale = fitting((supplied, isolator, stops), ENERGIES)
     parts = [
-        f"{plain(value / unit.size, 4)} {unit.symbol}" for value in (supplied, isolator, stops)
+        f"{plain(value / scale.size, 4)} {scale.symbol}".rstrip()
+        for value in (supplied, isolator, stops)
     ]
     lost = f"lost: {parts[1]} in the isolator" + (f", {parts[2]} in the stops" if rig.stops else "")
     table.add_row("energy supplied", parts[0], lost)
@@ -159,17 +161,25 @@ def _times(count: int) -> str:
     return {1: "once", 2: "twice"}.get(count, f"{count} times")
 
 
+def _acceleration(value: float) -> str:
+    """Return an acceleration in m/s² and in g, or as a number if the rig has no units."""
+    number = plain(value, 5)
+    return number if unitless() else f"{number} m/s² = {plain(value / GRAVITY, 4)} g"
+
+
 def _value(value: float, scales: tuple[Scale, ...]) -> str:
-    unit = fitting((value,), scales)
-    return f"{plain(value / unit.size, 4)} {unit.symbol}"
+    scale = fitting((value,), scales)
+    return f"{plain(value / scale.size, 4)} {scale.symbol}".rstrip()
 
 
 def _both(response: xr.Dataset, name: str, scales: tuple[Scale, ...]) -> str:
     """Return the values of both sides in one unit."""
     values = [float(response[f"{name}_{side}"]) for side in _SIDES]
-    unit = fitting(values, scales)
+    scale = fitting(values, scales)
     parts = [
-        f"{plain(value / unit.size, 4)} {unit.symbol}" if math.isfinite(value) else "infinite"
+        f"{plain(value / scale.size, 4)} {scale.symbol}".rstrip()
+        if math.isfinite(value)
+        else "infinite"
         for value in values
     ]
     return ", ".join(f"{part} {side}" for part, side in zip(parts, _SIDES, strict=True))

@@ -9,9 +9,11 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
+from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.facts.number_format import plain
 from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import plain_table
+from vibroimpact.model import RigidStop
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import unit
@@ -63,6 +65,13 @@ def _record_facts(data: xr.Dataset) -> dict[str, Any]:
     }
 
 
+def _deformable(data: xr.Dataset) -> list[str]:
+    """Return the sides with a stop that has a deformation: rigid stops have none."""
+    oscillator = motion_parameters(data)["oscillator"]
+    stops = {side: oscillator[side] for side in ("right", "left")}
+    return [side for side, stop in stops.items() if stop and stop.get("kind") != RigidStop.kind]
+
+
 def text(data: xr.Dataset) -> RenderableType:
     """Return the same as lines."""
     found = facts(data)
@@ -72,8 +81,10 @@ def text(data: xr.Dataset) -> RenderableType:
     rows = [
         ("displacement", pretty(state["displacement"], LENGTH)),
         ("velocity", pretty(state["velocity"], VELOCITY)),
-        ("right bumper", f"deformed by {pretty(state['right_bumper'], LENGTH)}"),
-        ("left bumper", f"deformed by {pretty(state['left_bumper'], LENGTH)}"),
+        *(
+            (f"{side} bumper", f"deformed by {pretty(state[f'{side}_bumper'], LENGTH)}")
+            for side in _deformable(data)
+        ),
         ("contact", touching),
     ]
     if "cycles" in found:

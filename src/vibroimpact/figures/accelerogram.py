@@ -10,11 +10,14 @@ import xarray as xr
 from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import acceleration_text, in_own_units
 from vibroimpact.figures.response_spectra import response_spectra
 from vibroimpact.figures.style import EDGE, also_in_g, note_peak, panels
-from vibroimpact.model import GRAVITY, Record
+from vibroimpact.model import Record
+from vibroimpact.model.written_units import unit
 
 
+@in_own_units
 def accelerogram(
     record: Record,
     spectrum: xr.Dataset | None = None,
@@ -29,8 +32,8 @@ def accelerogram(
     record
         The record.
     spectrum
-        Dataset of `response_spectrum` for the record. Default: the figure has no panel of the
-        spectrum.
+        Dataset of `response_spectrum` for the record. If it has no units, neither has the figure.
+        Default: the figure has no panel of the spectrum.
     axes
         Axes to draw on, one per panel. Default: a new figure.
     title
@@ -57,7 +60,7 @@ def accelerogram(
     at = int(np.abs(record.acceleration).argmax())
     peak = float(record.acceleration[at])
     ax.set_xlim(0.0, record.duration)
-    words = f"{peak:.4g} m/s² = {peak / GRAVITY:.3g} g at {record.time[at]:.5g} s"
+    words = f"{acceleration_text(peak)} at {record.time[at]:.5g}{unit(' s')}"
     note_peak(ax, record.time[at], peak, words)
     ax.set_xlabel("time (s)")
     ax.set_ylabel("base acceleration\n$A_t$ (m/s²)")

@@ -10,7 +10,7 @@ from vibroimpact.datasets.description import base_at_rest
 
 
 def base_label(label: str, data: Iterable[xr.Dataset]) -> str:
-    """Return the label of an axis. If a force on the mass shakes all rigs, the base is at rest.
+    """Return the label of an axis. If a force or nothing shakes all rigs, the base is at rest.
 
     Then the displacement and the velocity are absolute, and the absolute acceleration is ü.
     """

@@ -15,9 +15,11 @@ from vibroimpact.earthquakes.suites import fractiles, known
 from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import fit_x_axis
 from vibroimpact.model import GRAVITY, to_si
 from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model.written_units import unitless
 
 _LABELS = {
     "peak_displacement": (1e3, "largest displacement $|u|$ (mm)"),
@@ -33,6 +35,7 @@ _FRACTILES = (0.16, 0.5, 0.84)
 _DASHES = ("--", "-", "-.")
 
 
+@in_own_units
 def incremental_curves(
     demands: xr.Dataset,
     ax: Axes | None = None,
@@ -71,6 +74,7 @@ def incremental_curves(
     _one_rig(values, "demands")
     ax = axes_or_new(ax, (5.6, 4.0), title)
     factor, label = _LABELS.get(quantity, (1.0, _plain_label(demands, quantity)))
+    factor = in_unit(factor)
     unit, symbol = _level_unit(demands)
     level = unit * demands["scale"].values
     for number, one in enumerate(values.transpose("record", "scale").values):
@@ -106,6 +110,7 @@ def incremental_curves(
     return ax
 
 
+@in_own_units
 def fragility_curves(
     fragility: xr.Dataset, ax: Axes | None = None, *, title: str | None = None
 ) -> Axes:
@@ -245,6 +250,8 @@ def _exceedance(fragility: xr.Dataset) -> str:
     if quantity in _LABELS:
         factor, label = _LABELS[quantity]
         name, unit = label[:-1].rsplit(" (", 1)
+        if unitless():
+            factor, unit = 1.0, ""
     else:
         factor, unit = 1.0, variable.units if variable else ""
         name = variable.long_name if variable else quantity.replace("_", " ")
@@ -259,7 +266,9 @@ def _plain_label(data: xr.Dataset, quantity: str) -> str:
 
 def _level_unit(data: xr.Dataset) -> tuple[float, str]:
     """Return factor and unit of the levels: accelerations are drawn as multiples of gravity."""
-    return (1.0, "") if data["scale"].attrs["units"] == "1" else (1.0 / GRAVITY, "g")
+    if unitless() or data["scale"].attrs["units"] == "1":
+        return 1.0, ""
+    return 1.0 / GRAVITY, "g"
 
 
 def _level_label(data: xr.Dataset, symbol: str) -> str:

@@ -23,10 +23,12 @@ from vibroimpact.figures.interpolation import finer, finer_axis, nearest
 from vibroimpact.figures.legends import add_legend, apply_layout, fit_labels
 from vibroimpact.figures.levels import number_lines
 from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units, in_unit, without_unit
 from vibroimpact.figures.style import panels
 from vibroimpact.model import GRAVITY, Oscillator, Rig
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model.written_units import unitless
 from vibroimpact.scenarios.axes import logarithmic
 
 _Array = NDArray[np.float64]
@@ -36,11 +38,12 @@ QUANTITIES = {
     "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration $|\\ddot u + A_t|$ (g)"),
     "peak_force": (1e-3, "largest contact force (kN)"),
 }
-_PRESENT = "#c05a00"
+PRESENT = "#c05a00"
 """Colour of the mark of the present design."""
 _LEVELS = 9
 
 
+@in_own_units
 def design_chart(
     data: xr.Dataset,
     axes: Any = None,
@@ -131,6 +134,7 @@ def parameters_of(data: Any) -> list[str]:
 def quantity_label(data: xr.Dataset, name: str) -> tuple[float, str]:
     """Return factor and label of a quantity, with its fractile if some records exceed it."""
     factor, label = QUANTITIES[name]
+    factor, label = in_unit(factor), without_unit(label) if unitless() else label
     share = fractile_of(data)
     return factor, label if share is None else (
         f"{label}\n{100.0 * share:g} % fractile over the records"
@@ -140,6 +144,8 @@ def quantity_label(data: xr.Dataset, name: str) -> tuple[float, str]:
 def _unit(name: str, values: _Array) -> tuple[float, str]:
     """Return factor and unit of a parameter: mm for lengths, a unit of fitting size for others."""
     quantity = PARAMETERS[name].quantity
+    if unitless():
+        return 1.0, ""
     if quantity is LENGTH:
         return 1e3, "mm"
     largest = float(np.abs(values).max())
@@ -160,15 +166,15 @@ def _axis(axis: Any, values: xr.DataArray) -> _Array:
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         axis.set_minor_formatter(NullFormatter())
     drawn: _Array = factor * values.values
-    label = f"{values.attrs['long_name']} ({unit})"
+    label = f"{values.attrs['long_name']} ({unit})" if unit else str(values.attrs["long_name"])
     axis.axes.set(
         **{f"{which}lim": (drawn.min(), drawn.max()), f"{which}label": textwrap.fill(label, 44)}
     )
     return drawn
 
 
-def _present(data: xr.Dataset, dims: list[str]) -> list[float]:
-    """Return the values of parameters of the rig itself, in the units of the axes.
+def present_values(data: xr.Dataset, dims: list[str]) -> list[float]:
+    """Return the values of parameters of the rig itself, in SI units.
 
     A value is NaN if the rig has none, for example a common gap if the gaps of its stops differ.
     """
@@ -182,8 +188,16 @@ def _present(data: xr.Dataset, dims: list[str]) -> list[float]:
             value = PARAMETERS[dim].read(rig)
         except InputError:
             value = math.nan
-        found.append(_unit(dim, data[dim].values)[0] * value)
+        found.append(value)
     return found
+
+
+def _present_on_axes(data: xr.Dataset, dims: list[str]) -> list[float]:
+    """Return the values of `present_values` in the units of the axes."""
+    return [
+        _unit(dim, data[dim].values)[0] * value
+        for dim, value in zip(dims, present_values(data, dims), strict=True)
+    ]
 
 
 def _sorted(data: xr.Dataset) -> xr.Dataset:
@@ -212,9 +226,9 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
         markeredgecolor="0.5",
         label="hits no stop",
     )
-    (present,) = _present(data, [dim])
+    (present,) = _present_on_axes(data, [dim])
     if x.min() <= present <= x.max():
-        ax.axvline(present, color=_PRESENT, linestyle="-.", linewidth=1.0, label="present design")
+        ax.axvline(present, color=PRESENT, linestyle="-.", linewidth=1.0, label="present design")
     ax.set_ylabel(label)
     ax.set_ylim(bottom=0.0)
     add_legend(ax, columns=2)
@@ -276,7 +290,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Li
         zorder=5,
     )
     stars = []
-    right, up = _present(data, [first, second])
+    right, up = _present_on_axes(data, [first, second])
     if x.min() <= right <= x.max() and y.min() <= up <= y.max():
         stars = ax.plot(
             [right],
@@ -284,7 +298,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Li
             linestyle="",
             marker="*",
             markersize=10.0,
-            color=_PRESENT,
+            color=PRESENT,
             markeredgecolor="white",
             markeredgewidth=0.6,
             clip_on=False,

@@ -14,12 +14,14 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import SIDES, Shown, named, shown
 from vibroimpact.figures.notebook import Drawing, Panel, Panels
+from vibroimpact.figures.own_units import acceleration_text, in_own_units, in_unit
 from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
 from vibroimpact.figures.sizes import columns_that_fit, size_of_new
 from vibroimpact.figures.style import EDGE, also_in_g, fit_x_axis, note_peak
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, fitting
+from vibroimpact.model.written_units import unit
 from vibroimpact.response.motion_phases import any_recorded
 
 _DASHES = ("-", "--", "-.", ":")
@@ -28,6 +30,7 @@ _MARKS = {1: ("^", "#c8102e"), -1: ("v", "#1f4fbf")}
 """Marks of impacts on the right stop and on the left stop."""
 
 
+@in_own_units
 def earthquake_page(
     motion: xr.Dataset,
     spectra: Mapping[str, xr.Dataset] | None = None,
@@ -106,8 +109,11 @@ def _histories(
     base.set_xlim(time[0], time[-1])
     ground = motion["base_acceleration"].values
     at = int(np.abs(ground).argmax())
-    note_peak(base, time[at], ground[at], _in_g(ground[at]))
-    for ax, variable, factor in ((moved, "displacement", 1e3), (shaken, "acceleration", 1.0)):
+    note_peak(base, time[at], ground[at], acceleration_text(ground[at]))
+    for ax, variable, factor in (
+        (moved, "displacement", in_unit(1e3)),
+        (shaken, "acceleration", 1.0),
+    ):
         ax.plot(curve.at, factor * curve.values[variable], color="black", linewidth=0.8, zorder=3)
         contact_bands(ax, motion)
     moved.set_ylabel("relative\ndisplacement $u$ (mm)")
@@ -118,11 +124,14 @@ def _histories(
     for ax in (base, moved):
         ax.tick_params(labelbottom=False)
     gap_lines(moved, stops)
-    for ax, variable, factor in ((moved, "displacement", 1e3), (shaken, "acceleration", 1.0)):
+    for ax, variable, factor in (
+        (moved, "displacement", in_unit(1e3)),
+        (shaken, "acceleration", 1.0),
+    ):
         values = factor * curve.values[variable]
         at = int(np.nanargmax(np.abs(values)))
         size = float(values[at])
-        words = _in_g(size) if variable == "acceleration" else f"{size:.4g} mm"
+        words = acceleration_text(size) if "acc" in variable else f"{size:.4g}{unit(' mm')}"
         note_peak(ax, float(curve.at[at]), size, words)
     handles = stops_legend(stops, motion)
     begun = motion["event_contact"].values >= 1
@@ -155,26 +164,23 @@ def _histories(
         add_legend(moved, handles, columns=5, columnspacing=1.0)
 
 
-def _in_g(acceleration: float) -> str:
-    return f"{acceleration:.4g} m/s² = {acceleration / GRAVITY:.3g} g"
-
-
 def _force(ax: Axes, motion: xr.Dataset, curve: Shown) -> None:
     """Draw the restoring force of isolator and stops. Its loops are the dissipated energy."""
     rig = any_recorded(motion).oscillator
     pull = rig.force - rig.mass * curve.values["acceleration"]
-    _, scale, unit = fitting([float(np.abs(pull).max())], FORCE.scales)
+    _, scale, symbol = fitting([float(np.abs(pull).max())], FORCE.scales)
     for zero in (ax.axhline, ax.axvline):
         zero(0.0, color="0.7", linewidth=0.6, zorder=0)
-    ax.plot(1e3 * curve.values["displacement"], pull / scale, color="black", linewidth=0.6)
+    ax.plot(in_unit(1e3) * curve.values["displacement"], pull / scale, color="black", linewidth=0.6)
     for side, gap in curve.gaps.items():
-        at = 1e3 * gap * (1.0 if side == "right" else -1.0)
+        at = in_unit(1e3) * gap * (1.0 if side == "right" else -1.0)
         ax.axvline(at, color="black", linestyle="--", linewidth=0.8, zorder=1)
     at = int(np.nanargmax(np.abs(pull)))
     size = float(pull[at]) / scale
-    note_peak(ax, 1e3 * float(curve.values["displacement"][at]), size, f"{size:.4g} {unit}")
+    place = in_unit(1e3) * float(curve.values["displacement"][at])
+    note_peak(ax, place, size, f"{size:.4g} {symbol}".rstrip())
     ax.set_xlabel("relative displacement $u$ (mm)")
-    ax.set_ylabel(f"force of isolator and stops ({unit})")
+    ax.set_ylabel(f"force of isolator and stops ({symbol})")
 
 
 def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
@@ -186,7 +192,7 @@ def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
             )
         ax.plot(
             spectrum["natural_period"].values,
-            spectrum["spectral_acceleration"].values / GRAVITY,
+            spectrum["spectral_acceleration"].values * in_unit(1.0 / GRAVITY),
             color=_COLOURS[i % len(_COLOURS)],
             linestyle=_DASHES[i % len(_DASHES)],
             linewidth=1.2,

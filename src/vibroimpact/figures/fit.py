@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -13,16 +14,19 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels, new_axes
+from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.figures.style import EDGE, SHADE, panels
 from vibroimpact.model.names import literal
 from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.written_units import unitless
 
 _LOOKS = {"forward": ("o", "#c8102e"), "backward": ("s", "#1f4fbf"), "": (".", "black")}
 _COLUMNS = 3
 _UNITS = {"m": (1e3, "mm"), "m s-1": (1.0, "m/s"), "m s-2": (1.0, "m/s²"), "1": (1.0, "–")}
 
 
+@in_own_units
 def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
     """Draw the residuals of a fit for each test, over frequency or time, in standard deviations.
 
@@ -49,6 +53,8 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
     for ax, test in zip(given, tests, strict=True):
         mine = result.isel(point=np.flatnonzero(result["point_test"].values == test))
         size = float(result["noise"].sel(test=test)) or 1.0
+        curves = str(result["test_kind"].sel(test=test).values) == "curves"
+        turn = math.tau if curves and unitless() else 1.0  # ω instead of f
         ax.axhspan(-2.0, 2.0, color=SHADE, zorder=0)
         ax.axhline(0.0, color=EDGE, linewidth=0.8, zorder=1)
         for key in dict.fromkeys(zip(mine["point_direction"].values, mine["point_variable"].values,
@@ -61,7 +67,7 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
             full = variable.startswith(("acceleration", "eta_a"))
             named = VARIABLES[variable].long_name
             ax.plot(
-                mine["point_place"].values[here],
+                turn * mine["point_place"].values[here],
                 mine["fit_residual"].values[here] / size,
                 linestyle="none",
                 marker=mark,
@@ -71,7 +77,6 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
                 label=f"{named}, {direction}" if direction else named,
                 zorder=3,
             )
-        curves = str(result["test_kind"].sel(test=test).values) == "curves"
         ax.set_xlabel("excitation frequency $f$ (Hz)" if curves else "time $t$ (s)")
         ax.set_ylabel(f"{literal(test)}\nresidual / noise (–)")
     add_legend(given[0], columns=2)
@@ -79,6 +84,7 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
     return given
 
 
+@in_own_units
 def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
     """Draw the likelihood profile of each parameter of a fit.
 
@@ -141,6 +147,7 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
     return Panels(made.ravel()[: len(keys)])
 
 
+@in_own_units
 def fit_history(
     result: xr.Dataset, test: str | None = None, axes: Any = None, *, title: str | None = None
 ) -> Panels:
@@ -182,6 +189,7 @@ def fit_history(
     for ax, variable in zip(given, variables, strict=True):
         here = mine["point_variable"].values == variable
         factor, unit = _UNITS[VARIABLES[variable].units]
+        factor = in_unit(factor)
         at = mine["point_place"].values[here]
         ax.plot(at, factor * mine["measured_value"].values[here], "k.", markersize=2.5,
                 label="measured", zorder=2)  # fmt: skip

@@ -12,12 +12,12 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import (
     SIDES,
     Shown,
+    cycles_label,
     cycles_shown,
     force_unit,
     gap_lines,
@@ -95,7 +95,7 @@ def time_history(
     given_motions = named(motions)
     curves = shown(given_motions, cycles_shown(given_motions, cycles, 3))
     drawn, what, handles = panels_of(given_motions), "displacement, acceleration and velocity", []
-    if all(base_at_rest(motion) for motion in given_motions.values()):
+    if all("transmitted_force" in curve.values for curve in curves):
         unit = force_unit(curves)
         label = f"transmitted\nforce ({unit.symbol})"
         drawn.append(_Panel("transmitted_force", 1.0 / unit.size, label))
@@ -105,7 +105,7 @@ def time_history(
     given = panels(axes, count, what, (7.2, 0.4 + 2.4 * count), title)
     for ax, panel in zip(given, drawn, strict=True):
         history_panel(ax, curves, panel)
-    given[-1].set_xlabel("time in forcing cycles $t/T$ (–)")
+    given[-1].set_xlabel(cycles_label(given_motions))
     add_legend(given[0], history_legend(curves) + handles)
     fit_labels(*given)
     return given
@@ -179,7 +179,10 @@ def gap_entry(stops: int) -> Line2D:
 
 
 def history_legend(curves: list[Shown]) -> list[Artist]:
-    """Return the legend handles of the curves, gaps, bands and marks."""
+    """Return the legend handles of the curves, gaps, bands and marks that are drawn.
+
+    An impact on a rigid stop has a star, but no band: it takes no time.
+    """
     entries: list[Artist] = [
         Line2D([], [], color=c.look.colour, linestyle=c.look.dashes, lw=1.1, label=c.look.label)
         for c in curves
@@ -187,30 +190,31 @@ def history_legend(curves: list[Shown]) -> list[Artist]:
     present = [name for name in SIDES.values() if any(name in c.gaps for c in curves)]
     if present:
         entries.append(gap_entry(len(present)))
-    for name in present:
+    touched = {SIDES[side] for c in curves for side, _, _ in c.touching}
+    for name in (name for name in present if name in touched):
         colour, hatch = _band(curves[0], name, len(curves))
         entries.append(
             Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=f"{name} contact")
         )
-    if any(c.touching for c in curves):
-        colour = curves[0].look.colour
-        for label, marker, face in (
-            ("contact begins", "o", colour),
-            ("contact ends", "o", "white"),
-            ("peak in contact", "*", colour),
-        ):
-            entries.append(
-                Line2D(
-                    [],
-                    [],
-                    linestyle="",
-                    marker=marker,
-                    markersize=6 if marker == "*" else 3.5,
-                    markeredgecolor=colour,
-                    markerfacecolor=face,
-                    label=label,
-                )
-            )
+    colour = curves[0].look.colour
+    marks = []
+    if touched:
+        marks = [("contact begins", "o", colour), ("contact ends", "o", "white")]
+    if any(len(c.peaks[0]) for c in curves):
+        marks.append(("peak in contact" if touched else "impact", "*", colour))
+    entries += [
+        Line2D(
+            [],
+            [],
+            linestyle="",
+            marker=marker,
+            markersize=6 if marker == "*" else 3.5,
+            markeredgecolor=colour,
+            markerfacecolor=face,
+            label=label,
+        )
+        for label, marker, face in marks
+    ]
     return entries
 
 

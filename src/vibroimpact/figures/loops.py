@@ -12,8 +12,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
+from vibroimpact.errors import InputError, shown
 from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import without_unit
 from vibroimpact.figures.style import MOTIONS
 from vibroimpact.model import (
     AnyIsolator,
@@ -27,7 +29,10 @@ from vibroimpact.model import (
     PowerBumper,
     to_si,
 )
+from vibroimpact.model.oscillator import Units
 from vibroimpact.model.quantities import FREQUENCY, LENGTH
+from vibroimpact.model.stated_units import has_unit
+from vibroimpact.model.written_units import NONE, SI
 
 _Array = NDArray[np.float64]
 
@@ -44,6 +49,7 @@ def force_loop(
     ax: Axes | None = None,
     *,
     title: str | None = None,
+    units: Units = SI,
 ) -> Axes:
     """Draw the force of an isolator or of a stop over its displacement.
 
@@ -65,12 +71,23 @@ def force_loop(
         Axes to draw on. Default: a new figure.
     title
         Title of the figure, if a new one is made.
+    units
+        ``"none"`` if the numbers of the law are dimensionless, because a law does not state this.
+        The axes then have no units. Default: ``"SI"``.
 
     Raises
     ------
     InputError
-        If the law, the amplitude or the frequency is invalid.
+        If the law, the amplitude or the frequency is invalid, or if the amplitude has a unit
+        although ``units`` is ``"none"``.
     """
+    if units not in (SI, NONE):
+        raise InputError(f"units: {shown(units)} is unknown; 'SI' or 'none' is accepted")
+    if units == NONE and has_unit(amplitude):
+        raise InputError(
+            f'amplitude: {shown(amplitude)} has a unit, but units is "none"; pass a number without '
+            "a unit, or remove units"
+        )
     size = to_si(amplitude, LENGTH, "amplitude", above=0.0)
     omega = math.tau * to_si(frequency, FREQUENCY, "frequency", minimum=0.0)
     ax = axes_or_new(ax, (5.2, 4.0), title)
@@ -82,11 +99,13 @@ def force_loop(
     else:
         u, v, direction = _sine(size, omega, 1.25)
         force, what = isolator_force(law, u, direction, v), "displacement $u$ (mm)"
-    ax.plot(1e3 * u, 1e-3 * force, color=MOTIONS[0].colour, linewidth=1.3)
+    mm, kilonewtons = (1.0, 1.0) if units == NONE else (1e3, 1e-3)
+    ax.plot(mm * u, kilonewtons * force, color=MOTIONS[0].colour, linewidth=1.3)
     for zero in (ax.axhline, ax.axvline):
         zero(0.0, color="0.7", linewidth=0.6, zorder=0)
-    ax.set_xlabel(what)
-    ax.set_ylabel("force (kN)")
+    force_label = "force (kN)"
+    ax.set_xlabel(without_unit(what) if units == NONE else what)
+    ax.set_ylabel(without_unit(force_label) if units == NONE else force_label)
     fit_labels(ax)
     return ax
 

@@ -15,10 +15,10 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.history import PANELS, history_legend, history_panel, panels_of
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.lines import spectrum_lines
-from vibroimpact.figures.motion_style import Shown, cycles_shown, named, shown
+from vibroimpact.figures.motion_style import Shown, cycles_label, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Grid, new_axes
 from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.figures.portrait import phase_portrait
+from vibroimpact.figures.portrait import SECTION, phase_portrait
 from vibroimpact.figures.sizes import is_print
 from vibroimpact.response.spectrum import fourier_spectrum
 
@@ -144,7 +144,9 @@ def _columns(
         given = named(motions)
         curves = _column(axes, given, cycles, highest)
         axes[0].set_title("\n".join([heading, *_kinds(given, heading)]), fontsize="medium", pad=8)
-        for handle in history_legend(curves):
+        drawn = zip(*axes[0].get_legend_handles_labels(), strict=True)
+        section = [handle for handle, label in drawn if label == SECTION]
+        for handle in [*history_legend(curves), *section]:
             handles.setdefault(handle.get_label(), handle)
     return list(handles.values())
 
@@ -163,7 +165,7 @@ def _column(
     panels: list[Axes] = list(axes[2:])
     for ax, panel in zip(panels, panels_of(given), strict=True):
         history_panel(ax, curves, panel)
-    panels[-1].set_xlabel("time in forcing cycles $t/T$ (–)")
+    panels[-1].set_xlabel(cycles_label(given))
     for ax in axes:
         if (legend := ax.get_legend()) is not None:
             legend.remove()

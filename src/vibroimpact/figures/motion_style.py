@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from vibroimpact import errors
@@ -18,9 +19,10 @@ from vibroimpact.figures.notebook import new_axes
 from vibroimpact.figures.own_units import in_unit
 from vibroimpact.figures.style import MOTIONS, SWEEPS, Look, lay_out
 from vibroimpact.measurements.read import is_measured
-from vibroimpact.model import Record
+from vibroimpact.model import Harmonic, Record
 from vibroimpact.model.names import literal
-from vibroimpact.model.quantities import FORCE, Scale
+from vibroimpact.model.quantities import FORCE, TIME, Scale
+from vibroimpact.model.units import pretty
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.motion_phases import any_recorded, phases, recorded, touches
 from vibroimpact.response.sine_fit import forcing_sine, slope
@@ -102,6 +104,20 @@ def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: in
     return float(shared * math.ceil(least / shared))
 
 
+def cycles_label(motions: Mapping[str, xr.Dataset]) -> str:
+    """Return the label of a time axis in cycles, which are no forcing cycles if nothing shakes."""
+    periods = set()
+    for motion in motions.values():
+        shaken = None if _seen(motion) else recorded(motion).excitation
+        if not isinstance(shaken, Harmonic) or shaken.amplitude != 0.0:
+            return "time in forcing cycles $t/T$ (–)"
+        periods.add(shaken.period)
+    if len(periods) > 1:
+        return "time in cycles $t/T$ (–)"
+    length = pretty(float(f"{periods.pop():.4g}"), TIME)
+    return f"time in cycles of {length} $t/T$ (–)"
+
+
 def looks(names: list[str]) -> list[Look]:
     """Return the style of each motion: that of a sweep if its name contains a direction."""
     spare = iter([*MOTIONS, *MOTIONS] * (1 + len(names) // len(MOTIONS)))
@@ -162,9 +178,11 @@ def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axe
 
 
 def name_lines(ax: Axes, curves: list[Shown]) -> None:
-    """Add a legend above the axes if there is more than one motion."""
+    """Add a legend above the axes if there is more than one motion: curves, then marks."""
     if len(curves) > 1:
-        add_legend(ax, columns=3)
+        handles, _ = ax.get_legend_handles_labels()
+        handles.sort(key=lambda handle: not isinstance(handle, Line2D))
+        add_legend(ax, handles, columns=3)
 
 
 def _measured(motion: xr.Dataset, look: Look, cycles: float) -> Shown:

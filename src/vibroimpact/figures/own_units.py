@@ -17,6 +17,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from vibroimpact.model import GRAVITY
 from vibroimpact.model.written_units import unitless, written_for
 from vibroimpact.response.resonance import Features
 
@@ -27,11 +28,12 @@ _HERTZ = re.compile(r"(\s)(?:\$f\$\s)?\(Hz\)")
 
 
 def in_own_units(draw: _Draw) -> _Draw:
-    """Draw the data of the first argument without units if their rigs have none."""
+    """Draw without units if the first dataset or mapping of datasets has none."""
 
     @wraps(draw)
     def drawn(*arguments: Any, **options: Any) -> Any:
-        data = arguments[0] if arguments else next(iter(options.values()), None)
+        every = (*arguments, *options.values())
+        data = next((one for one in every if isinstance(one, Mapping)), None)
         with written_for(data):
             if not unitless():
                 return draw(*arguments, **options)
@@ -50,6 +52,13 @@ def in_own_units(draw: _Draw) -> _Draw:
 def in_unit(factor: float) -> float:
     """Return the factor from SI to the unit of an axis; 1 if the rigs have no units."""
     return 1.0 if unitless() else factor
+
+
+def acceleration_text(value: float) -> str:
+    """Return an acceleration in m/s² and in g, or as a number if the rigs have no units."""
+    if unitless():
+        return f"{value:.4g}"
+    return f"{value:.4g} m/s² = {value / GRAVITY:.3g} g"
 
 
 def without_unit(label: str) -> str:

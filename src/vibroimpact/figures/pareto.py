@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -12,14 +13,16 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.design import (
-    QUANTITIES,
+    PRESENT,
     best_label,
     beyond_limits,
     parameters_of,
+    present_values,
     quantity_label,
 )
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.units import pretty
 
@@ -28,12 +31,19 @@ _Array = NDArray[np.float64]
 _NAMED = 5
 """Largest number of points of a front whose parameters are listed."""
 
+_SAME = 1e-9
+"""Relative difference up to which a value of a chart is that of the rig."""
 
+
+@in_own_units
 def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw the acceleration of all designs over their displacement, with the Pareto front.
 
     Some designs, which are evenly spaced along the front, are numbered. Their parameters are listed
     next to the axes. Crosses mark designs that exceed a limit.
+
+    A star marks the present design, which is the rig itself. If its parameters are not among those
+    of the designs, its response is unknown; the legend then states this.
 
     Parameters
     ----------
@@ -51,7 +61,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     """
     dims = parameters_of(data)
     u, a = (
-        QUANTITIES[name][0] * data[name].values.ravel()
+        quantity_label(data, name)[0] * data[name].values.ravel()
         for name in ("peak_displacement", "peak_acceleration")
     )
     best = data["pareto"].values.ravel().astype(bool)
@@ -92,6 +102,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
             label=best_label(data),
             zorder=4,
         )
+    _mark_present(ax, data, dims, u, a)
     ax.set_xlabel(quantity_label(data, "peak_displacement")[1])
     ax.set_ylabel(quantity_label(data, "peak_acceleration")[1])
     ax.set_ylim(bottom=0.0)
@@ -101,6 +112,31 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     add_legend(ax, columns=2 if beyond.any() else 3)
     fit_labels(ax)
     return ax
+
+
+def _mark_present(ax: Axes, data: xr.Dataset, dims: list[str], u: _Array, a: _Array) -> None:
+    """Mark the design that is the rig itself; report in the legend if it was not computed."""
+    present = present_values(data, dims)
+    if not np.isfinite(present).all():  # as of a common gap of two stops whose gaps differ
+        return
+    same = [
+        np.isclose(data[dim].values, value, rtol=_SAME, atol=0.0)
+        for dim, value in zip(dims, present, strict=True)
+    ]
+    at = np.flatnonzero(reduce(np.logical_and.outer, same))
+    known = at[np.isfinite(u[at]) & np.isfinite(a[at])]
+    ax.plot(
+        u[known] if len(known) else [],
+        a[known] if len(known) else [],
+        linestyle="",
+        marker="*" if len(known) else "",
+        markersize=10.0,
+        color=PRESENT,
+        markeredgecolor="white",
+        markeredgewidth=0.6,
+        label="present design" if len(known) else "present design: not computed",
+        zorder=7,
+    )
 
 
 def _name_points(

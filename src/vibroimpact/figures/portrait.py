@@ -16,6 +16,8 @@ from vibroimpact.figures.own_units import in_own_units, in_unit
 _MOST_VECTORS = 200_000
 """Number of points from which a curve is an image of 600 dpi in SVG and PDF files. With fewer
 points, lines make a smaller file."""
+SECTION = "stroboscopic section"
+"""Legend entry of the points once per forcing cycle."""
 
 
 @in_own_units
@@ -76,6 +78,8 @@ def phase_portrait(
             facecolor=curve.look.colour if curve.look.filled else "white",
             edgecolor="black",
             linewidth=0.3 if long else 0.8,
+            # One entry of the legend for all motions.
+            label=None if ax.collections else SECTION,
             zorder=5,
             rasterized=len(whole) > _MOST_VECTORS,
         )

@@ -21,6 +21,7 @@ from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.resonance_panels import (
     Drawn,
     divides,
+    is_published,
     normalised,
     outputs,
     physical_curves,
@@ -81,9 +82,9 @@ def resonance_curves(
     physical
         Whether physical quantities are drawn instead of η_a and η_d. They are the largest absolute
         acceleration (g), the largest displacement (mm) and, if a stop is touched, the largest
-        contact force. For rigid stops the largest impulse replaces the force. Default: physical
-        quantities are drawn only if the motion without stops is unbounded, because then η has no
-        meaning.
+        contact force. For rigid stops the largest impulse replaces the force. Default: η_a and η_d
+        for a published case, and physical quantities for study files and other rigs; also if the
+        motion without stops is unbounded, because then η has no meaning.
     measured
         Measured curves of `vibroimpact.read_measurement`, which are drawn as open points over the
         computed curves. Their excursions are divided by the excursions of the computed rig without
@@ -107,7 +108,7 @@ def resonance_curves(
     if measured is not None:
         measured = as_measured(measured, "measured")
     if physical is None:
-        physical = not divides(data)
+        physical = not (is_published(data) and divides(data))
     halves = halves_of(measured) if measured is not None else set()
     drawn = physical_curves(data, halves) if physical else normalised(data)
     names = [one.name for one in drawn]

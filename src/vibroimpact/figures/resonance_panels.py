@@ -105,6 +105,11 @@ def outputs(data: xr.Dataset) -> list[Drawn]:
     return found
 
 
+def is_published(data: xr.Dataset) -> bool:
+    """Return whether the rig of a sweep is that of a published case; see `Rig.published`."""
+    return bool(json.loads(data.attrs["parameters"])["rigs"][0].get("published"))
+
+
 def divides(data: xr.Dataset) -> bool:
     """Return whether η has a meaning: it has values, and the motion without stops is bounded.
 

@@ -12,6 +12,7 @@ from matplotlib.axes import Axes
 from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import also_in_g, fit_x_axis
 from vibroimpact.model import Record
 from vibroimpact.model.names import literal
@@ -28,6 +29,7 @@ _COLOURS = ("black", "#c8102e", "#1f4fbf", "#00795c", "#c05a00")
 _MOST = len(_DASHES) * len(_COLOURS)
 
 
+@in_own_units
 def response_spectra(
     spectrum: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -83,7 +85,7 @@ def response_spectra(
         within = groups[:i].count(group)
         ax.plot(
             curve["natural_period"].values[shown],
-            factor * curve.values[shown],
+            in_unit(factor) * curve.values[shown],
             color=_COLOURS[(numbers[group] if grouped else i) % len(_COLOURS)],
             linestyle=_DASHES[(within if grouped else i) % len(_DASHES)],
             linewidth=1.1,

@@ -16,9 +16,11 @@ from vibroimpact.identification.residual_structure import CERTAIN, HINT, Structu
 from vibroimpact.identification.sensor_checks import BAD, sensor_doubts
 from vibroimpact.identification.untouched_stops import Untouched
 from vibroimpact.model.excitation import Harmonic
+from vibroimpact.model.frequency_text import forcings
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ACCELERATION, LENGTH
 from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import unit
 
 _WEAK = 0.25
 """Of a value: an interval whose half is wider leaves a parameter all but undetermined."""
@@ -169,13 +171,18 @@ def amplitude_words(shaken: Any, source: str) -> str:
 
 
 def _shape(name: str, kind: str, what: Structure, amplitude: str) -> list[str]:
-    unit = "Hz" if kind == "curves" else "s"
+    low, high = what.worst[0], what.worst[1]
+    place = (
+        forcings(low, high, 4, " and ")
+        if kind == "curves"
+        else f"{low:.4g} and {high:.4g}{unit(' s')}"
+    )
     lines = []
     if what.chance < CERTAIN:
         lines.append(
             f"{name}: the residuals are not noise: neighbouring residuals are alike (correlation "
-            f"{what.correlation:.2f}), mostly between {what.worst[0]:.4g} and "
-            f"{what.worst[1]:.4g} {unit}; the model is incomplete there"
+            f"{what.correlation:.2f}), mostly between {place}; "
+            f"the model is incomplete there"
         )
     elif what.chance < HINT:
         lines.append(

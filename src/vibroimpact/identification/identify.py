@@ -25,6 +25,7 @@ from vibroimpact.identification.uncertainty import bootstrap, spread
 from vibroimpact.identification.untouched_stops import untouched
 from vibroimpact.model import Rig
 from vibroimpact.model.count_checks import share, whole
+from vibroimpact.model.written_units import written_for
 from vibroimpact.tasks.threads import Progress
 
 _TAIL = 3.0
@@ -207,7 +208,8 @@ def identify(
         "posterior_value": (sampled(problem, x, around, posterior, seed) if posterior else None),
     }
     fit = results.Fit(problem, x, found, around, curves, others, idle)
-    return results.labelled(fit, samples, confidence)
+    with written_for(*(test.rig for test in tests)):
+        return results.labelled(fit, samples, confidence)
 
 
 def fitted_rig(result: xr.Dataset, test: str | None = None) -> Rig:

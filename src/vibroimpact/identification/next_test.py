@@ -23,10 +23,12 @@ from vibroimpact.identification.free_parameters import NEAR_ZERO, SENSORS, size_
 from vibroimpact.identification.results import rig_of
 from vibroimpact.model.count_checks import share as fraction
 from vibroimpact.model.excitation import sized
+from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.response.hold_rows import HoldRows
 from vibroimpact.response.sweep import check_frequencies
 
@@ -47,6 +49,7 @@ _NOISE = 0.02
 """Noise of a future hold, if the tests of the fit were not curves."""
 
 
+@as_first_argument
 def next_test(
     result: xr.Dataset,
     frequencies: Iterable[float | str] | None = None,
@@ -254,10 +257,8 @@ def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
             continue
         best = of.isel(dict(zip(of.dims, _first_least(of.values), strict=True)))
         amplitude = pretty(float(best["candidate_amplitude"]), PARAMETERS["amplitude"].quantity, 3)
-        where = (
-            f"a measurement at {float(best['frequency']):.3g} Hz ({best['direction'].item()}), "
-            f"{amplitude}"
-        )
+        at = forcing(float(best["frequency"]), 3)
+        where = f"a measurement at {at} ({best['direction'].item()}), {amplitude}"
         if what and float(best) > _LITTLE:
             lines.append(
                 "next test: no measurement with a stepped sine would add much information; "

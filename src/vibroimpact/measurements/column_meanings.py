@@ -12,10 +12,12 @@ from vibroimpact.measurements.names import (
     AXES,
     CURVES,
     HISTORIES,
+    QUANTITIES,
     Meaning,
     in_si,
     meaning,
     missing_unit,
+    size_of,
 )
 
 
@@ -137,7 +139,12 @@ def missing_columns(table: Columns, known: Mapping[int, Meaning], left: list[str
     else:
         missing = "the frequency or the time, and the measured quantity, are"
         wanted, listed = ["frequency", "displacement_excursion"], []
-    spare = [*left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
+    units = {column.name: column.unit for column in table.columns}
+    fitting = [(key, name) for name in left for key in _of_unit(units[name], listed)]
+    first = []
+    if len(wanted) == 1 and fitting:
+        wanted, first = [fitting[0][0]], [fitting[0][1]]
+    spare = [*first, *left, *(moving if "frequency" in variables else []), *["NAME"] * len(wanted)]
     told = [f"{name!r} is read as {found}" for name, found in read.items()]
     told += [f"{name!r} is not understood" for name in left]
     pairs = list(zip(wanted, spare, strict=False))
@@ -148,6 +155,11 @@ def missing_columns(table: Columns, known: Mapping[int, Meaning], left: list[str
         f": {', '.join(told)}; {missing} missing, so name the column"
         f"{'s' if len(pairs) > 1 else ''} as in columns={{{said}}} ({typed}){accepted}"
     )
+
+
+def _of_unit(unit: str | None, variables: list[str]) -> list[str]:
+    """The quantities among some that are measured in a unit."""
+    return [key for key in variables if unit and size_of(unit, QUANTITIES[key]) is not None]
 
 
 def _taken(said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, Meaning]) -> bool:

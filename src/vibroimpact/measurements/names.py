@@ -20,7 +20,7 @@ from vibroimpact.model.quantities import (
     Quantity,
 )
 from vibroimpact.model.units import to_si
-from vibroimpact.tables.units import ending, plain, spelled, words_of
+from vibroimpact.tables.units import ending, plain, spelled, time_unit, words_of
 
 Direction = Literal["forward", "backward"]
 
@@ -50,9 +50,13 @@ HISTORIES: dict[str, Quantity] = {
 AXES: dict[str, Quantity] = {"frequency": FREQUENCY, "time": TIME}
 QUANTITIES: dict[str, Quantity] = {**AXES, **CURVES, **HISTORIES}
 
-_FORWARD = {"forward", "fwd", "fw", "up", "upward", "upwards", "rising", "increasing", "increase"}
+_FORWARD = {
+    "forward", "fwd", "fw", "up", "upward", "upwards", "rising", "increasing", "increase",
+    "aufwarts", "aufwaerts",
+}  # fmt: skip
 _BACKWARD = {
     "backward", "bwd", "bw", "down", "downward", "downwards", "falling", "decreasing", "decrease",
+    "abwarts", "abwaerts",
 }  # fmt: skip
 _KINDS = {
     "max": {"max", "maximum", "most", "maxima", "highest"},
@@ -63,22 +67,31 @@ _KINDS = {
 _WHAT = {
     "displacement": {
         "displacement", "displacements", "disp", "displ", "ed", "position", "pos", "defl",
-        "deflection",
+        "deflection", "weg", "verschiebung", "auslenkung", "deplacement", "desplazamiento",
+        "spostamento",
     },
     "acceleration": {
         "acceleration", "acc", "accel", "ea", "accn", "accelerations", "accelerometer",
+        "beschleunigung", "aceleracion", "accelerazione",
     },
-    "velocity": {"velocity", "vel"},
-    "force": {"force", "f_contact"},
+    "velocity": {"velocity", "vel", "geschwindigkeit", "vitesse", "velocidad", "velocita"},
+    "force": {"force", "f_contact", "kraft", "fuerza", "forza"},
 }  # fmt: skip
+_COMPOUND = re.compile(
+    r"(?P<first>[a-z]*?)(?P<what>beschleunigung|verschiebung|auslenkung|geschwindigkeit|kraft|weg)"
+)
+"""German joins words: Tischbeschleunigung, Relativverschiebung."""
 _LETTERS = {
     "d": "displacement", "u": "displacement", "x": "displacement", "a": "acceleration",
     "v": "velocity",
 }  # fmt: skip
 """Quantities of one letter. After a quantity, an x is the axis of a sensor."""
 _ALONG = {"x", "y", "z"}
-_BASE = {"base", "table", "ground", "input", "shaker", "shaketable", "g", "t"}
-_MASS = {"mass", "absolute", "abs"}
+_BASE = {
+    "base", "table", "ground", "input", "shaker", "shaketable", "g", "t", "tisch", "boden",
+    "fusspunkt",
+}  # fmt: skip
+_MASS = {"mass", "masse", "absolute", "absolut", "abs"}
 _BESIDE = {"rel", "relative", "channel", "ch", "sensor", "axis", "measured", "p2p"}
 """Words beside a letter that leave its meaning."""
 _NOT_LINEAR = {"angular", "rotation", "rotational", "gyro", "gyroscope"}
@@ -117,7 +130,7 @@ def meaning(name: str, stated: str | None = None) -> Meaning | None:
     key = "_".join(words)
     if key in QUANTITIES or key == "direction":
         return Meaning(key)
-    if words in (["dir"], ["sweep"], ["sense"], ["sweep", "direction"]):
+    if words in (["dir"], ["sweep"], ["sense"], ["sweep", "direction"], ["richtung"]):
         return Meaning("direction")
     unit = ending(words, sure=sure)
     if unit is not None:
@@ -136,12 +149,10 @@ def meaning(name: str, stated: str | None = None) -> Meaning | None:
     said = set(words)
     if said & {"frequency", "freq", "fexc", "frequenz"} or words in (["f"], ["hz"]):
         return Meaning("frequency", None, "Hz" if words == ["hz"] else unit)
-    if said & {"time", "zeit", "timestamp", "timestamps", "datetime"} or words in (
-        ["t"],
-        ["s"],
-        ["sec"],
-    ):
-        return Meaning("time", None, unit)
+    below_1_s = time_unit(name)
+    named = said & {"time", "zeit", "timestamp", "timestamps", "datetime"}
+    if below_1_s or named or words in (["t"], ["s"], ["sec"]):
+        return Meaning("time", None, below_1_s or unit)
     if "eta" in said or said & {"etad", "etaa"}:
         end = words[-1][-1]
         return Meaning(f"eta_{end}", direction, unit) if end in "ad" else None
@@ -177,7 +188,12 @@ def meaning(name: str, stated: str | None = None) -> Meaning | None:
 
 
 def _axis_apart(word: str, count: int) -> list[str]:
-    """A word without the axis at its end, as in ``accx`` or, alone, ``ax``; and the axis."""
+    """A word without the axis at its end, as in ``accx`` or, alone, ``ax``; and the axis.
+
+    A German compound is its two words.
+    """
+    if joined := _COMPOUND.fullmatch(word):
+        return [part for part in joined.groups() if part]
     found = _GLUED.fullmatch(word) or (
         re.fullmatch("([uadv])([xyz])", word) if count == 1 else None
     )
@@ -193,9 +209,9 @@ def _of_letters(words: list[str], unit: str | None) -> str | None:
     if set(letters) <= _ALONG and unit is not None:
         # The axis of a sensor, whose unit tells what it measures.
         for what, quantity in (("acceleration", ACCELERATION), ("velocity", VELOCITY)):
-            if _size(unit, quantity) is not None:
+            if size_of(unit, quantity) is not None:
                 return what
-    if letters == ["u"] and unit is not None and _size(unit, ACCELERATION) is not None:
+    if letters == ["u"] and unit is not None and size_of(unit, ACCELERATION) is not None:
         return None  # upwards, beside N and E
     return _LETTERS.get(letters[0])
 
@@ -224,7 +240,15 @@ def in_si(column: Column, found: Meaning, said: str | None, path: str) -> tuple[
         where = f"measurement: {path!r}, column {column.name!r}"
         if quantity is DIMENSIONLESS and unit.strip() == "%":
             return values / 100.0, None
-        size = to_si(f"1 {spelled(unit)}", quantity, where)
+        try:
+            size = to_si(f"1 {spelled(unit)}", quantity, where)
+        except InputError as error:
+            if said is not None:
+                raise
+            raise InputError(
+                f"{error}; if the file states a wrong unit, pass the right one as "
+                f"units={{{column.name!r}: UNIT}} (--units)"
+            ) from None
         return values * size, "; ".join(notes) or None
     if quantity is not DIMENSIONLESS:
         notes.append(f"{column.name!r} has no unit, so {quantity.symbol} was assumed")
@@ -246,12 +270,13 @@ def alike(one: str, other: str) -> bool:
     if spelled(one) == spelled(other):
         return True
     return any(
-        (size := _size(one, quantity)) is not None and size == _size(other, quantity)
+        (size := size_of(one, quantity)) is not None and size == size_of(other, quantity)
         for quantity in {each.name: each for each in QUANTITIES.values()}.values()
     )
 
 
-def _size(unit: str, quantity: Quantity) -> float | None:
+def size_of(unit: str, quantity: Quantity) -> float | None:
+    """Return the size of a unit of a quantity in SI units, or None if it is another quantity's."""
     try:
         return to_si(f"1 {spelled(unit)}", quantity, "unit")
     except InputError:
@@ -266,7 +291,7 @@ def direction_of(word: object, path: str, where: str) -> Direction:
     InputError
         If it is none of these.
     """
-    text = str(word).strip().lower()
+    text = plain(str(word).lower())
     if text in _FORWARD | {"f", "1", "1.0", "+1"}:
         return "forward"
     if text in _BACKWARD | {"b", "-1", "-1.0", "0", "0.0", "2", "2.0"}:

@@ -13,6 +13,7 @@ from vibroimpact.errors import InputError, in_one_line
 from vibroimpact.model.count_checks import MOST_SAMPLES
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME, Quantity
 from vibroimpact.model.units import one_of, pretty, to_si
+from vibroimpact.model.written_units import NONE
 from vibroimpact.records.channel import Channel
 from vibroimpact.records.doubts import of_end, of_times
 from vibroimpact.records.read import read_channel
@@ -130,12 +131,19 @@ def _unit(
                 f"unit: missing, because {path!r} states no unit of its values, the largest of "
                 f'which is {largest:g}; pass it, such as unit="g" (--unit g)'
             )
+    if unit == NONE:  # of a dimensionless record, whatever the file states
+        if found.unit is not None:
+            notes.append(
+                f"the values are read as numbers without the unit in the file, {found.unit}"
+            )
+        return NONE, 1.0, ACCELERATION
     try:
         factor, quantity = one_of(f"1 {taken}", [ACCELERATION, LENGTH], "unit")
     except InputError as error:
         if unit is not None:
             raise
-        raise InputError(f"record: {path!r}: {error}") from None
+        told = "if the file states a wrong unit, pass the right one as unit= (--unit)"
+        raise InputError(f"record: {path!r}: {error}; {told}") from None
     for other in () if unit else found.others:
         if not _same(other, factor, quantity):
             of = f" of {found.component!r}" if found.component else ""
@@ -169,7 +177,7 @@ def _check_peaks(found: Channel, unit: str, factor: float, quantity: Quantity, p
     InputError
         If they differ by more than rounding.
     """
-    if quantity is not ACCELERATION:
+    if quantity is not ACCELERATION or unit == NONE:
         return
     for peak in found.peaks:
         size = to_si(f"1 {peak.unit}", quantity, "unit") / factor if peak.unit else 1.0

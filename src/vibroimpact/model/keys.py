@@ -17,6 +17,11 @@ _ELSEWHERE = (
         "amplitude",
         "write the frequency in the table [simulate] or as --frequency",
     ),
+    (
+        ("F0", "force", "unbalance", "acceleration", "displacement"),
+        "amplitude",
+        'write it as amplitude: its unit says what it is, such as "500 N" or "0.4 kg m"',
+    ),
 )
 """Keys that users expect in a table, a key by which the table is recognised, and what to do."""
 

@@ -20,6 +20,7 @@ from itertools import pairwise
 from typing import Literal, NamedTuple, TypeAlias, get_args
 
 from vibroimpact.errors import InputError, shown
+from vibroimpact.model.excitation import Harmonic
 from vibroimpact.model.html_table import table
 from vibroimpact.model.isolators import (
     AnyIsolator,
@@ -30,6 +31,7 @@ from vibroimpact.model.isolators import (
 )
 from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.periodic_shaking import ANY_FREQUENCY
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, STIFFNESS, Quantity
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import Bumper
@@ -120,7 +122,8 @@ class Case:
     @property
     def rig(self) -> Rig:
         """The rig of this test, with an open frequency."""
-        return Rig(self.oscillator, self.amplitude, name=self.code)
+        shaking = Harmonic(self.amplitude, ANY_FREQUENCY)
+        return Rig.of_open_frequency(self.oscillator, shaking, self.code, published=True)
 
     @property
     def slug(self) -> str:

@@ -123,6 +123,8 @@ class Oscillator(Model):
         if not isinstance(data, Mapping):
             return data
         units = data.get("units")
+        if units is None:  # recognised below, so that it does not count as stated
+            data = {name: value for name, value in data.items() if name != "units"}
         if units == NONE:
             for path, value in _values(data):
                 if has_unit(value):
@@ -132,7 +134,7 @@ class Oscillator(Model):
                     )
         elif units is None and _is_one(data.get("mass")):
             stated = any(has_unit(value) for _, value in _values(data))
-            return {**data, "units": SI if stated else None}
+            return {**data, "units": SI} if stated else data
         return data
 
     @field_validator("units", mode="before")
@@ -351,6 +353,29 @@ class Oscillator(Model):
     def of_ones(self) -> bool:
         """Whether the mass and the initial stiffness of the isolator are 1."""
         return self.mass == self.isolator.initial_stiffness == 1.0
+
+    @property
+    def may_have_units(self) -> bool:
+        """Whether a unit that is stated elsewhere makes a rig without units one in SI units.
+
+        This is so if the rig was recognised by its numbers, and False if ``units`` was passed.
+        """
+        return self.of_ones and "units" not in self.model_fields_set
+
+    def replace(self, **changes: Any) -> Self:
+        """Return a copy with some fields changed. It is validated like a new object.
+
+        Units that were recognised stay so, and a unit that is stated later may still correct them.
+
+        Raises
+        ------
+        InputError
+            If a field is unknown, or if its new value is invalid.
+        """
+        made = super().replace(**changes)
+        if not {"units"} & (self.model_fields_set | changes.keys()):
+            made.model_fields_set.discard("units")
+        return made
 
     def mirrored(self) -> Oscillator:
         """Return the mirror image: the stops are exchanged, and the constant force is reversed."""

@@ -9,6 +9,8 @@ from vibroimpact.arguments import is_list
 from vibroimpact.errors import InputError
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
 from vibroimpact.model.record import Record
+from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import unitless
 
 ANY_FREQUENCY = 1.0
 """Placeholder (Hz) for the frequency of a periodic shaking whose frequency is open. It has no
@@ -67,9 +69,15 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
     return Harmonic(size, ANY_FREQUENCY, of=of), None
 
 
-def several(amplitudes: tuple[float, ...]) -> str:
-    """Say that one amplitude is needed where a rig has a list of them."""
+def several(amplitudes: tuple[float, ...], shaken: Repeated) -> str:
+    """Say that one amplitude is needed where a rig has a list of them.
+
+    The example is the first one of the list, which has the quantity and the units of the rig.
+    """
+    one = pretty(amplitudes[0], shaken.quantity)
+    example = one if unitless() else f'"{one}"'
     return (
         f"shaking: a list of {len(amplitudes)} amplitudes belongs to the frequencies of a sweep, "
-        'but one amplitude is needed here; pass one amplitude, such as Rig(oscillator, "0.05 g")'
+        "which it does not state; pass one amplitude, that of the frequency of this motion, such "
+        f"as Rig(oscillator, {example})"
     )

@@ -14,6 +14,7 @@ from vibroimpact.model.count_checks import MOST_SAMPLES
 from vibroimpact.model.html_table import table
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, TIME, Quantity
 from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.written_units import NONE
 from vibroimpact.records.doubts import of_size
 from vibroimpact.tables.decimal_mark import checked
 
@@ -84,8 +85,9 @@ class Record:
         unit
             Unit of the values, such as ``"g"``. It replaces the unit in the file. If it is a unit
             of length, such as ``"mm"``, the values are displacements of the base, and the
-            acceleration is computed from them (see `from_displacement`). Default: the unit in the
-            file. It is required if the file states none.
+            acceleration is computed from them (see `from_displacement`). ``"none"`` reads the
+            numbers as they are, for a rig without units. Default: the unit in the file. It is
+            required if the file states none.
         step
             Time between samples (s, or text with a unit). It replaces the step or the times in the
             file. The values of a file of digitised film, whose times are uneven, are interpolated
@@ -121,7 +123,8 @@ class Record:
                 "subtracted"
             )
             notes.append(told)
-        notes += of_size(record.peak, about.unit if quantity is ACCELERATION else "")
+        if about.unit != NONE:
+            notes += of_size(record.peak, about.unit if quantity is ACCELERATION else "")
         record._about = about._replace(
             station=station or about.station, component=label or about.component, notes=tuple(notes)
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias, cast
 
 import numpy as np
@@ -66,6 +66,10 @@ class Rig:
     amplitudes : tuple of float or None
         One amplitude per frequency of a sweep, in the units of the shaking.
     name : str or None
+    published : bool
+        Whether the rig is that of a published laboratory case, whose resonance curves figures and
+        commands draw as η by default. It is kept if parameters are changed. The rig of a study
+        file is not published.
 
     Raises
     ------
@@ -88,6 +92,7 @@ class Rig:
     frequency: float | None
     amplitudes: tuple[float, ...] | None
     name: str | None
+    published: bool = field(compare=False)
 
     def __init__(
         self,
@@ -112,7 +117,7 @@ class Rig:
         if frequency is not None:
             own = to_si(frequency, FREQUENCY, "frequency", above=0.0)
             if amplitudes is not None:
-                raise InputError(several(amplitudes))
+                raise InputError(_one_needed(oscillator, shaking, amplitudes))
             if isinstance(shaking, Record):
                 raise InputError(
                     f"frequency: {own:g} Hz, but the shaking is a Record, which has no frequency; "
@@ -129,15 +134,17 @@ class Rig:
         frequency: float | None,
         amplitudes: tuple[float, ...] | None,
         name: str | None,
+        published: bool = False,
     ) -> None:
-        for field, value in (
+        for attribute, value in (
             ("oscillator", oscillator),
             ("shaking", shaking),
             ("frequency", frequency),
             ("amplitudes", amplitudes),
             ("name", name),
+            ("published", published),
         ):
-            object.__setattr__(self, field, value)
+            object.__setattr__(self, attribute, value)
 
     @property
     def amplitude(self) -> float:
@@ -161,7 +168,7 @@ class Rig:
             amplitudes.
         """
         if self.amplitudes is not None:
-            raise InputError(several(self.amplitudes))
+            raise InputError(_one_needed(self.oscillator, self.shaking, self.amplitudes))
         if isinstance(self.shaking, Harmonic | Periodic):
             return self.shaking
         return as_periodic(self.shaking, "shaking")[0]  # which says what is wrong
@@ -196,11 +203,17 @@ class Rig:
 
     @classmethod
     def of_open_frequency(
-        cls, oscillator: Oscillator, shaking: Repeated | Record | None, name: str | None = None
+        cls,
+        oscillator: Oscillator,
+        shaking: Repeated | Record | None,
+        name: str | None = None,
+        *,
+        published: bool = False,
     ) -> Rig:
         """Return a rig with the shape of a periodic shaking, but with an open frequency."""
         rig = cls(oscillator, shaking, name=name)
         object.__setattr__(rig, "frequency", None)
+        object.__setattr__(rig, "published", published)
         return rig
 
     @property
@@ -241,7 +254,9 @@ class Rig:
         InputError
             As in `periodic`. Also if the frequency is invalid.
         """
-        return Rig(self.oscillator, self.periodic, frequency, self.name)
+        moved = Rig(self.oscillator, self.periodic, frequency, self.name)
+        object.__setattr__(moved, "published", self.published)
+        return moved
 
     @property
     def is_shaken(self) -> bool:
@@ -268,7 +283,7 @@ class Rig:
         if self.amplitudes is None:
             return self
         hardest = object.__new__(Rig)
-        hardest._set(self.oscillator, self.shaking, self.frequency, None, self.name)
+        hardest._set(self.oscillator, self.shaking, self.frequency, None, self.name, self.published)
         return hardest
 
     def levels(self, count: int) -> NDArray[np.float64]:
@@ -308,7 +323,14 @@ class Rig:
         if isinstance(shaking, Harmonic | Periodic) and not (frequency is None and keep_open):
             frequency = shaking.frequency
         changed = object.__new__(Rig)
-        changed._set(oscillator, shaking or self.shaking, frequency, self.amplitudes, self.name)
+        changed._set(
+            oscillator,
+            shaking or self.shaking,
+            frequency,
+            self.amplitudes,
+            self.name,
+            self.published,
+        )
         return changed
 
     def __repr__(self) -> str:
@@ -348,6 +370,15 @@ class Rig:
         return "open" if self.shaking is None else str(self.shaking)
 
 
+def _one_needed(
+    oscillator: Oscillator, shaking: Repeated | Record | None, amplitudes: tuple[float, ...]
+) -> str:
+    """Say that one amplitude is needed, with an example in the units of the oscillator."""
+    assert isinstance(shaking, Harmonic)  # as a list is read
+    with written_for(oscillator):
+        return several(amplitudes, shaking)
+
+
 def _misplaced(value: object) -> str:
     """Describe the value that was passed instead of an oscillator."""
     if isinstance(value, Harmonic | Periodic | Record):
@@ -358,20 +389,33 @@ def _misplaced(value: object) -> str:
 def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> Oscillator:
     """Return the oscillator for values that may state units, such as its shaking, by their names.
 
-    A mass and a stiffness of 1 are 1 kg and 1 N/m after all if another value has a unit.
+    A mass and a stiffness of 1 are 1 kg and 1 N/m after all if another value has a unit, unless
+    ``units="none"`` was passed.
 
     Raises
     ------
     InputError
         If a value states a unit, but the rig has none for another reason.
     """
+    for name, value in values.items():
+        if isinstance(value, Record) and value.about.unit == NONE and oscillator.units != NONE:
+            raise InputError(
+                f"{name}: {value.about.source!r} was read without a unit, but the rig has units; "
+                "read it with its unit, such as g"
+            )
     if oscillator.units != NONE:
         return oscillator
     for name, value in values.items():
+        if isinstance(value, Record) and _states_unit(value) and not oscillator.may_have_units:
+            raise InputError(
+                f"{name}: {value.about.source!r} contains accelerations in {value.about.unit}, but "
+                'the rig has no units (units is "none"); if the numbers of the record are '
+                'dimensionless, read it with unit="none" (--unit none); otherwise remove units'
+            )
         parts = cast("Sequence[object]", value) if is_list(value) else [value]
         if not any(map(_states_unit, parts)):
             continue
-        if not oscillator.of_ones:
+        if not oscillator.may_have_units:
             raise InputError(
                 f'{name}: {shown(value)} has a unit, but the rig has none (units is "none"); pass '
                 "a number without a unit, or remove units"
@@ -381,5 +425,9 @@ def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> O
 
 
 def _states_unit(value: object) -> bool:
-    """Return whether a value states a unit. The file of a record always has one."""
-    return bool(value.about.source) if isinstance(value, Record) else has_unit(value)
+    """Return whether a value states a unit. A file of a record has one, or is read with "none"."""
+    return _has_unit_of_file(value) if isinstance(value, Record) else has_unit(value)
+
+
+def _has_unit_of_file(record: Record) -> bool:
+    return bool(record.about.source) and record.about.unit != NONE

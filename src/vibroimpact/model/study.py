@@ -44,7 +44,10 @@ class ExcitationTable(Model):
 
     amplitude: NumberOrText | None = Field(
         None,
-        examples=['amplitude = "0.05 g"; for several harmonics, amplitudes = ["1 mm", "2 mm"]'],
+        examples=[
+            'amplitude = "0.05 g" (one at all frequencies); for several harmonics, amplitudes = '
+            '["1 mm", "2 mm"]; for one amplitude per frequency, use sweep in Python'
+        ],
     )
     amplitudes: list[NumberOrText] | None = Field(
         None, examples=['amplitudes = ["1 mm", "0.5 mm"]']

@@ -48,6 +48,8 @@ _NAMES: dict[tuple[tuple[str, float], ...], str] = _ALSO_NAMED | {
 _LEAST, _MOST = 1e-5, 1e9
 """Sizes between which a number is written without a power of ten."""
 
+_OF_ANY_RIG = ("frequency", "angle", "dimensionless number")
+"""Names of quantities whose values may have a unit even if the rig has none."""
 _LONGEST = 200
 """Letters of a number with its unit; patterns of longer texts take long to search."""
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
@@ -157,6 +159,10 @@ def read(
     maximum: float | None = None,
 ) -> float:
     """Convert a value as `to_si` does, but raise errors that do not contain the name of a field."""
+    if unitless() and _names_unit(value, quantity):
+        raise InputError(
+            f"{shown(value)} has a unit, but the rig has none; pass a number without a unit"
+        )
     try:
         number = _number(value, quantity)
         if not math.isfinite(number):
@@ -285,6 +291,17 @@ def pretty(value: float, quantity: Quantity, digits: int = 6) -> str:
     # What rounds up to the next unit is written in that: 1 MN, not 1000 kN.
     unit = quantity.unit(float(f"{value:.{digits}g}"))
     return f"{plain(value / unit.size, digits)} {unit.symbol}".rstrip()
+
+
+def _names_unit(value: object, quantity: Quantity) -> bool:
+    """Return whether a text has a unit that a rig without units cannot have.
+
+    A frequency is entered as of any rig, and a ratio and an angle do not depend on the units.
+    """
+    if not isinstance(value, str) or quantity.name in _OF_ANY_RIG:
+        return False
+    match = _NUMBER.match(value.strip())
+    return match is not None and value.strip()[match.end() :].strip()[:1].isalpha()
 
 
 def _number(value: Any, quantity: Quantity) -> float:

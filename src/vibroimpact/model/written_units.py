@@ -11,10 +11,14 @@ variable, so that each thread and each command has its own.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any, Final
+from functools import wraps
+from typing import Any, Final, ParamSpec, TypeVar
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
 
 NONE: Final = "none"
 SI: Final = "SI"
@@ -49,6 +53,17 @@ def written_for(*subjects: object) -> Iterator[None]:
         _unitless.reset(token)
 
 
+def as_first_argument(function: Callable[_P, _R]) -> Callable[_P, _R]:
+    """Write values as the first argument of the function has them, in the whole function."""
+
+    @wraps(function)
+    def wrapped(*args: _P.args, **kwargs: _P.kwargs) -> _R:
+        with written_for(next(iter((*args, *kwargs.values())), None)):
+            return function(*args, **kwargs)
+
+    return wrapped
+
+
 def write_for(subject: object) -> None:
     """Write values as `written_for` does, from here to the end of the context."""
     _unitless.set(has_no_units(subject))
@@ -81,6 +96,8 @@ def _oscillators(value: object) -> Iterator[Mapping[str, Any]]:
         for name, one in value.items():
             if name == "oscillator" and isinstance(one, Mapping):
                 yield one
+            elif name == "oscillators" and isinstance(one, Mapping):
+                yield from one.values()
             else:
                 yield from _oscillators(one)
     elif isinstance(value, list | tuple):

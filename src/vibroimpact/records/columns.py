@@ -49,7 +49,11 @@ def read(file: File) -> list[Channel]:
 def _components(table: Table) -> list[int]:
     """Numbers of the columns that may be components."""
     times = None if table.time is None else table.columns[table.time]
-    numeric = [i for i, one in enumerate(table.columns) if one.is_numeric and i != table.time]
+    numeric = [
+        i
+        for i, one in enumerate(table.columns)
+        if one.is_numeric and i != table.time and not np.isnan(one.values.astype(float)).all()
+    ]
     repeats = [
         i
         for i in numeric
@@ -107,10 +111,9 @@ def _missing(table: Table, column: Column) -> str:
     if not len(gone):
         return ""
     row = int(gone[0])
-    return (
-        f"line {int(table.lines[row]) + 1}: {column.values[row]} is not finite; replace it by a "
-        "finite number"
-    )
+    of = f", column {parted(column.name)[0]!r}" if column.name else ""
+    told = "a value is missing" if np.isnan(column.values[row]) else "inf is not finite"
+    return f"line {int(table.lines[row]) + 1}{of}: {told}; replace it by a finite number"
 
 
 FORMAT = Format("columns", lambda file: True, read)

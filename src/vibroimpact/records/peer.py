@@ -39,12 +39,17 @@ def _announced(file: File, first: int = 0, last: int = _SEARCHED) -> int | None:
 def recognises(file: File) -> bool:
     """Return whether a file has this format: one of its first lines contains NPTS.
 
-    This line is not a comment, and no further line of words follows it.
+    This line is not a comment, and no further line of words follows it, nor a table of columns with
+    as many rows as the line states values.
     """
     at = _announced(file)
     if at is None or not _OF_PEER.search(line := file.lines[at]) or _COMMENT.match(line):
         return False
-    behind = next((line for line in file.lines[at + 1 :] if line.strip()), "")
+    rows = [line for line in file.lines[at + 1 :] if line.strip()]
+    behind = rows[0] if rows else ""
+    count = _COUNT.search(line) or _BEFORE.match(line)
+    if count and int(count[1]) == len(rows) > 1 and len(re.findall(r"[^,;\s]+", behind)) > 1:
+        return False
     return not re.search(r"(?i)[a-z]*[a-df-z][a-z]{2}", behind.lower().replace("nan", ""))
 
 

@@ -31,6 +31,7 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS, Quantity
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.reports.study import study_text
 from vibroimpact.response.sweep import sweep
 
@@ -51,6 +52,7 @@ class Figure(NamedTuple):
     caption: str
 
 
+@as_first_argument
 def fit_report(
     result: xr.Dataset,
     folder: Path | str,

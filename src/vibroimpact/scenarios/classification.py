@@ -12,8 +12,8 @@ from vibroimpact.scenarios.thresholds import Thresholds
 def scenario(found: Evidence, thresholds: Thresholds) -> Scenario:
     """Name the scenario; the first that fits, in this order.
 
-    0. Unclassified if too little is known; if the resonance lies beyond the frequencies swept,
-       only S4 can be recognised.
+    0. Unclassified if too little is known, or if the growth of η_a with the frequency hides the
+       resonance; if the resonance lies beyond the frequencies swept, only S4 can be recognised.
     1. S0: no bumper is hit.
     2. S5: the bumpers touch the mass at rest, and the curves are smooth.
     3. S1: the gap is nearly free flight's amplitude, and the bumpers are hardly deformed.
@@ -30,7 +30,7 @@ def scenario(found: Evidence, thresholds: Thresholds) -> Scenario:
     smooth = not (found.jumping or extent or secondary) and found.primary_regular
     if math.isinf(found.gap_ratio):  # there is no bumper
         return Scenario.S0
-    if not found.known:
+    if not found.known or found.hidden_by is not None:
         return Scenario.UNCLASSIFIED
     if not found.within:
         return Scenario.S4 if extent >= thresholds.extent else Scenario.UNCLASSIFIED

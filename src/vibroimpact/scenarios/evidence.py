@@ -72,7 +72,7 @@ class Evidence(NamedTuple):
     """Whether most holds of either direction have values, and some have settled."""
     within: bool
     """Whether free flight's resonance lies within the frequencies swept, and the curves do not
-    rise where they end."""
+    rise where they end, unless all of them is free flight."""
     gap_ratio: float
     """δ0 of the smallest gap: over the largest amplitude of free flight at any frequency (at
     those swept, without damping)."""
@@ -99,6 +99,9 @@ class Evidence(NamedTuple):
     folds: tuple[float, ...] | None = None
     """Frequencies at which the branch of the primary resonance turns back (Hz): where it was
     followed, this is exact."""
+    hidden_by: Literal["displacement", "unbalance"] | None = None
+    """Amplitude under which η_a of free flight grows with the frequency, if the largest η_a of a
+    direction is due to this growth: its primary resonance is then unknown. Otherwise None."""
 
     @property
     def jumping(self) -> bool:
@@ -202,9 +205,8 @@ def shown(rig: Rig, curves: Curves, prominence: float) -> Evidence:
     irregular = ~both.settled | (both.period != 1) | uneven
     begins = onset(rig, both, irregular, apart, prominence)
     primary = {p.direction: p for p in found if p.primary and p.curve == "eta_a"}
-    swing = next(
-        (p for p in found if p.primary and p.curve == "eta_d" and p.direction == "forward"), None
-    )
+    swings = {p.direction: p for p in found if p.primary and p.curve == "eta_d"}
+    swing = swings.get("forward")
     beyond = any(p.at_end and p.frequency == frequency[-1] for p in primary.values())
     top = max((p.frequency for p in found if p.primary), default=math.inf)
     return Evidence(
@@ -218,7 +220,7 @@ def shown(rig: Rig, curves: Curves, prominence: float) -> Evidence:
             all(_share(values) >= KNOWN for values in np.isfinite(both.eta_a))
             and _share(both.settled) >= SETTLED
         ),
-        within=not beyond and _resonance_within(rig, both),
+        within=not (beyond and len(touched)) and _resonance_within(rig, both),
         gap_ratio=min(gaps.values(), default=math.inf) / _largest(rig, free),
         penetration=max(
             ((reached[side] - gap) / gap for side, gap in gaps.items() if gap > 0.0),
@@ -247,7 +249,27 @@ def shown(rig: Rig, curves: Curves, prominence: float) -> Evidence:
             and foot_in_contact(both, *_place(peak, both), prominence)
         ),
         peaks=found,
+        hidden_by=_growth(rig, both, primary, swings) if len(touched) else None,
     )
+
+
+def _growth(
+    rig: Rig, both: Swept, primary: dict[Direction, Peak], swings: dict[Direction, Peak]
+) -> Literal["displacement", "unbalance"] | None:
+    """The kind of amplitude that makes the largest η_a of a direction one of growth, or None.
+
+    η_d has its largest value at the resonance, whatever shakes the rig. A largest η_a above that
+    frequency is no resonance if the mass is in free flight there, or where the sweep ends.
+    """
+    of = rig.sine.of
+    if of not in ("displacement", "unbalance"):
+        return None
+    grown = any(
+        peak.frequency > swings[direction].frequency
+        and (peak.at_end or not both.touching[_place(peak, both)])
+        for direction, peak in primary.items()
+    )
+    return of if grown else None
 
 
 def _share(flags: Flags) -> float:

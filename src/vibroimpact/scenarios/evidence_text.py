@@ -9,6 +9,13 @@ from vibroimpact.response.resonance import Hysteresis
 from vibroimpact.scenarios.evidence import Evidence
 from vibroimpact.scenarios.thresholds import Thresholds
 
+_REMEDIES = {
+    "displacement": "end the frequencies lower",
+    "unbalance": "classify the rig over a base with the displacement m e/M, under which the mass "
+    "moves alike relative to the base",
+}
+"""What to do if the growth of η_a hides the primary resonance, by the kind of amplitude."""
+
 
 def in_words(found: Evidence, thresholds: Thresholds) -> str:
     """Describe the curves, beginning with the features that determine the scenario."""
@@ -46,7 +53,12 @@ def in_words(found: Evidence, thresholds: Thresholds) -> str:
         parts.append("no jumps")
     if math.isfinite(found.resonance):
         parts.append(f"resonance at {found.resonance:.3g} times that of free flight")
-    if found.primary_beyond:
+    if found.hidden_by is not None:
+        parts.append(
+            "undecided: η_a grows with the frequency without contact, which hides the primary "
+            f"resonance; {_REMEDIES[found.hidden_by]}"
+        )
+    elif found.primary_beyond:
         parts.append("the primary resonance lies outside the frequency range of the sweep")
     elif not found.within:
         parts.append("the resonance of free flight lies outside the frequency range of the sweep")

@@ -17,6 +17,8 @@ from vibroimpact.tables.limits import regular, unpacked
 
 _TEXT = re.compile(r"[A-Za-z]{4}")
 """Text that cannot be a damaged number. NaN and inf have three letters."""
+TOUCHING = re.compile(r"(?<=\d)(?=[-+]\d*\.\d)")
+"""Place between two numbers of fixed width, the second of which fills its width with its sign."""
 _HEADER = 120
 """Largest number of lines of a header."""
 _PACKED = b"\x1f\x8b"
@@ -146,8 +148,8 @@ class File:
 
     def _cut(self, at: int, width: int | None) -> list[str]:
         line = self.lines[at].rstrip()
-        if not width:
-            return line.split()
+        if not width:  # numbers touch each other where they are negative
+            return TOUCHING.sub(" ", line).split()
         return [line[i : i + width].strip() for i in range(0, len(line), width)]
 
     def _damaged(self, first: int, behind: int, width: int | None) -> InputError | None:

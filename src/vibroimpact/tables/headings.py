@@ -8,22 +8,25 @@ from typing import NamedTuple
 
 from vibroimpact.tables.rows import Heading, cut_heading, number_in
 from vibroimpact.tables.statements import COMPONENT, read_statements
-from vibroimpact.tables.units import Units, are_units, parted, spelled, unit_of, units_of
+from vibroimpact.tables.units import Units, are_units, parted, spelled, time_unit, unit_of, units_of
 
 _WORD = re.compile(r"[^\s(\[;,]+(?:\s*(?:\([^)]*\)|\[[^\]]*\]))?")
 """A name between blanks, which may be followed by a unit in brackets."""
 _LISTED = re.compile(
-    r"^(?:data|channels?|columns?|components?|fields?)[ _]*(?:sequence|order|names?)?\s*[:=]\s*",
+    r"^(?:data|channels?|columns?|components?|fields?)[ _]*(?:sequence|order|names?)?\s*[:=]\s*"
+    r"|^headers?\s*[:=,]\s*",
     re.IGNORECASE,
 )
-"""A key before names of columns, such as ``DataSequence:``."""
+"""A key before names of columns, such as ``DataSequence:`` or ``Headers,``."""
+_PROCESSES = {"", "smp", "avg", "max", "min", "std", "tot", "med"}
+"""How Campbell's loggers computed each column, in a line under the units."""
 _TIME = re.compile(
     r"(?:rel(?:ative)?[ _]|elapsed[ _])?(?:time|zeit|t|sec|secs|seconds)(?:[ _]?stamps?)?"
     r"|date(?:[ _/]?time)?|timestamps?|datum|uhrzeit|clock",
     re.IGNORECASE,
 )
 _INDEX = re.compile(
-    r"no|nr|num|number|n|i|index|idx|sample|samples|row|scan|point|#", re.IGNORECASE
+    r"no|nr|num|number|n|i|index|idx|sample|samples|row|record|scan|point|#", re.IGNORECASE
 )
 _USUAL = re.compile(
     r"(?:comp(?:onent)?|ch(?:annel|an)?|acc(?:el(?:eration)?)?|a|disp(?:lacement)?|vel(?:ocity)?)?"
@@ -73,8 +76,11 @@ def column_headings(above: Sequence[Heading], width: int, delimiter: str | None)
         names = _names(line.text, width, delimiter)
         if names is None:
             continue
+        if under is None and not names[0] and {name.lower() for name in names} <= _PROCESSES:
+            continue
         if under is None and width > 1 and are_units(names):
-            under = [name.strip("[]() ") for name in names], line.at
+            stated = [name.strip("[]() ") for name in names]
+            under = ["" if unit in ("TS", "RN") else unit for unit in stated], line.at
             continue
         beneath: list[str | None] = [*under[0]] if under else [None] * width
         lines = frozenset({line.at} | ({under[1]} if under else set()))
@@ -135,9 +141,9 @@ def _can_be_names(names: list[str], width: int) -> bool:
 
 
 def _states(lines: list[str]) -> bool:
-    """Return whether one of some lines states a count, a step or a duration."""
+    """Return whether one of some lines states a count, a step, a duration or a peak."""
     found = read_statements(enumerate(lines))
-    return bool(found.counts or found.steps or found.durations)
+    return bool(found.counts or found.steps or found.durations or found.peaks)
 
 
 def is_time(name: str) -> bool:
@@ -147,7 +153,8 @@ def is_time(name: str) -> bool:
 
 def _named_with_unit(name: str) -> bool:
     bare, _, end = parted(name)[0].rpartition("_")
-    return bool(bare) and end.lower() in ("s", "ms", "us", "sec") and bool(_TIME.fullmatch(bare))
+    is_in_s = bool(bare) and end.lower() in ("s", "sec") and bool(_TIME.fullmatch(bare))
+    return is_in_s or time_unit(parted(name)[0]) is not None
 
 
 def is_index(name: str) -> bool:

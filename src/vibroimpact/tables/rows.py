@@ -9,22 +9,25 @@ from typing import NamedTuple
 
 from vibroimpact.errors import InputError
 from vibroimpact.tables.decimal_mark import Decimal, decimal_mark
-from vibroimpact.tables.file import File
+from vibroimpact.tables.file import TOUCHING, File
 from vibroimpact.tables.times import STAMPS, stamp
 
 ABSENT = {"", "nan", "na", "n/a", "none", "null", "-", "--", "#n/a", "missing"}
 """Cells of missing values."""
 _COMMENT = ("#", "%", "//", "!")
-_MARK = re.compile(r"#(?!n/a)|!", re.IGNORECASE)
-"""The mark of a comment after the values of a row."""
+_MARK = re.compile(r"(?<!\d\.)#(?!n/a)|!", re.IGNORECASE)
+"""The mark of a comment after the values of a row. Windows writes ``1.#QNAN`` for NaN."""
+_NOT_FINITE = re.compile(
+    r"[-+]?(?:1\.#(?:[qs]?nan|ind|(?P<inf>inf))\d*|nan\((?:ind|snan)\))", re.IGNORECASE
+)
 _END = re.compile(r"\W*end\W+(?:of\W+)?(?:the\W+)?(?:data|file|record)\W*|\s*/&\s*", re.IGNORECASE)
 _NUMBER = re.compile(
     r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:[eEdD][-+]?\d+)?|inf(?:inity)?)", re.IGNORECASE
 )
-
-_TOUCHING = re.compile(r"(?<=\d)(?=[-+]\d*\.\d)")
 _SOME = 400
 """Number of lines that show the separator."""
+_UNEVEN = 0.3
+"""Largest deviation of times of the first rows, as a share of their step."""
 _LONGEST = 60
 """Largest number of characters of a number."""
 
@@ -71,6 +74,8 @@ def number_in(cell: str, decimal: Decimal) -> float | None:
     cell = cell.strip()
     if cell.lower() in ABSENT:
         return float("nan")
+    if of_windows := _NOT_FINITE.fullmatch(cell):
+        return float("inf" if of_windows["inf"] else "nan")
     if decimal == ",":
         cell = cell.replace(",", ".")
     cell = cell.replace("−", "-")
@@ -101,13 +106,15 @@ def split_rows(file: File) -> Rows:
     delimiter = _delimiter([STAMPS.sub("0", line) for line in plain[-_SOME:]], mark)
     # Between semicolons or tabs, a comma in a number is a decimal comma.
     decimal: Decimal = file.decimal or ("," if delimiter in (";", "\t") else mark)
+    # With semicolons between columns, the first cell of a line may be empty.
+    comment = _COMMENT if delimiter == ";" else (*_COMMENT, ";")
     headings: list[Heading] = []
     found: list[tuple[int, list[str]]] = []
     ends: list[int] = []
     for at, line in texts:
         bare = line.strip()
-        if bare.startswith(_COMMENT):
-            headings.append(Heading(at, bare.lstrip("#%/! \t"), True))
+        if bare.startswith(comment):
+            headings.append(Heading(at, bare.lstrip("#%/!; \t"), True))
         elif _END.fullmatch(bare):
             ends.append(at)
         else:
@@ -142,7 +149,9 @@ def _rows(lines: list[tuple[int, list[str]]], decimal: Decimal) -> list[tuple[in
     if not some:
         return []
     width = Counter(len(cells) for _, cells in some).most_common(1)[0][0]
-    first = strict[0][0] if 2 * len(strict) >= len(some) else some[0][0]
+    first = some[0][0]
+    if 2 * len(strict) >= len(some):
+        first = _first_row(lines, [line[0] for line in lines].index(strict[0][0]), decimal)
     found = []
     for (at, cells), words in zip(lines, kinds, strict=True):
         is_empty = all(cell.lower() in ABSENT for cell in cells)
@@ -150,6 +159,32 @@ def _rows(lines: list[tuple[int, list[str]]], decimal: Decimal) -> list[tuple[in
         if words == 0 or (among and (words is not None or is_empty)):
             found.append((at, cells))
     return found
+
+
+def _first_row(lines: list[tuple[int, list[str]]], at: int, decimal: Decimal) -> int:
+    """The line of the first row: of numbers alone, or a row of the same times with words above."""
+    even = [row for row in lines[at : at + 3] if len(row[1]) == len(lines[at][1])]
+    if len(even) < 3:
+        return lines[at][0]
+    for column in range(len(even[0][1])):
+        first, *later = (_along(cells[column], decimal) for _, cells in even)
+        steps = [one - first for one in later]
+        if not steps[0] > 0.0 or abs(steps[1] - 2.0 * steps[0]) > _UNEVEN * steps[0]:
+            continue
+        while at > 0 and len(lines[at - 1][1]) == len(even[0][1]):
+            before = _along(lines[at - 1][1][column], decimal)
+            if not abs(first - before - steps[0]) <= _UNEVEN * steps[0]:
+                break
+            at, first = at - 1, before
+    return lines[at][0]
+
+
+def _along(cell: str, decimal: Decimal) -> float:
+    """The number or the time of day in a cell, NaN if there is neither."""
+    number = number_in(cell, decimal)
+    if number is None and (found := stamp(cell)) and found.seconds is not None:
+        return found.seconds + found.fraction
+    return float("nan") if number is None else number
 
 
 def _words(cells: list[str], decimal: Decimal) -> int | None:
@@ -239,7 +274,7 @@ def _cells(line: str, delimiter: str | None, decimal: Decimal) -> list[str]:
     if delimiter is None:
         bare = line.replace('"', " ").replace("'", " ").strip(" \t,")
         if ":" not in bare:  # numbers of fixed width touch each other where they are negative
-            bare = _TOUCHING.sub(" ", bare)
+            bare = TOUCHING.sub(" ", bare)
         return _joined(re.split(r"\s*,\s*|\s+" if decimal == "." else r"\s+", bare))
     if '"' in line or "'" in line:
         try:

@@ -36,7 +36,7 @@ _UNCLEAR = ("step", "interval", "spacing")
 """Names that may be of other steps than that of times."""
 _RATE_NAME = (
     r"(?:(?:sampl(?:ing|es?)|scan|data|digiti[sz](?:ation|ing)|acquisition|logging|recording)"
-    r"[ _-]*(?:rate|freq(?:uency)?)|f_?s(?:ample)?|abtast(?:rate|frequenz)|sps"
+    r"[ _-]*(?:rate|freq(?:uency)?)|f_?s(?:ample)?|abtast(?:rate|frequenz)|(?<!\d )(?<!\d)sps"
     rf"|samples? ?{_A_SECOND})"
 )
 _COUNT_NAME = (
@@ -59,7 +59,8 @@ _RATE = re.compile(
     re.IGNORECASE,
 )
 _COUNT = re.compile(
-    rf"{_KEY}{_COUNT_NAME}\.? ?(?:[:=;,]|\bis\b| ) ?(?P<number>\d+)(?![.,]?\d| ?(?:per\b|/))",
+    rf"{_KEY}{_COUNT_NAME}\.? ?(?:[:=;,]|\bis\b| ) ?(?P<number>\d+)"
+    rf"(?![.,]?\d| ?(?:per\b|/|sps\b|k?hz\b|{_SECONDS}\b))",
     re.IGNORECASE,
 )
 _LASTS = re.compile(

@@ -22,7 +22,7 @@ from vibroimpact.tables.limits import few_columns
 from vibroimpact.tables.rows import Heading, Rows, split_rows
 from vibroimpact.tables.statements import Number, Statements, read_statements
 from vibroimpact.tables.time_column import time_column, with_stamps
-from vibroimpact.tables.times import counts_samples, rises, spacing
+from vibroimpact.tables.times import counts_samples, rises, spacing, unit_since_1970
 from vibroimpact.tables.units import Units, parted
 
 Arrangement = Literal["columns", "lines", "pairs", "rows"]
@@ -106,6 +106,11 @@ def read_table(file: File) -> Table:
         places = lines
     found, stamps = with_stamps(file, found, headings, lines)
     time = time_column(found, statements.step, arrangement in ("pairs", "rows"))
+    if time is not None and found[time].units.unit is None and statements.time_unit is None:
+        unit = unit_since_1970(np.asarray(found[time].values, dtype=float))
+        if unit:
+            found[time] = found[time]._replace(units=Units(unit))
+            notes = (*notes, f"its times are read in {unit} since 1970, as they are that large")
     return Table(
         file,
         tuple(found),
@@ -127,6 +132,8 @@ def _headings(rows: Rows, cells: list[list[str]], width: int) -> Headings | None
     if head is not None or width < 3:
         return head
     head = column_headings(rows.above, width - 1, rows.delimiter)
+    if head is not None and any(map(is_time, head.names)):
+        return None  # the missing name may be any
     first = [rows.number(row[0]) if row else None for row in cells]
     times = np.array([math.nan if one is None else one for one in first])
     if head is None or not any(head.names) or not rises(times):
@@ -211,7 +218,8 @@ def _values(
     words = [i for i, number in enumerate(numbers) if number is None]
     if not words:
         return np.array(numbers, dtype=float)
-    if len(words) >= 0.5 * len(cells):
+    # A column of remarks may have empty cells.
+    if len(words) >= 0.5 * sum(number is None or number == number for number in numbers):
         return np.array(cells)
     i = words[0]
     of = f", column {parted(name)[0]!r}" if name else ""

@@ -18,8 +18,12 @@ _ROUNDED = 0.25
 """Largest deviation of rounded times. A missing sample gives a deviation of 0.5."""
 _RISING = 0.9
 """Least share of rising steps of a column of times, of which some may be rounded or damaged."""
-IN_A_SECOND = {"s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "min": 1.0 / 60.0, "-": 1.0, "": 1.0}
+IN_A_SECOND = {
+    "s": 1.0, "ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9, "min": 1.0 / 60.0, "-": 1.0, "": 1.0,
+}  # fmt: skip
 """How many of a unit of time make a second."""
+_SINCE_1970 = {"ms": 1e12, "us": 1e15, "ns": 1e18}
+"""Times since 1970 are 1 to 4 times this number in the years from 2001 to 2096."""
 
 _Array = NDArray[np.float64]
 
@@ -68,6 +72,12 @@ def counts_samples(values: _Array) -> bool:
     return values[0] in (0.0, 1.0) and bool((np.diff(values) == 1.0).all())
 
 
+def unit_since_1970(times: _Array) -> str | None:
+    """Return the unit below 1 s of times that can only be times since 1970, or None."""
+    within = (unit for unit, size in _SINCE_1970.items() if size <= times[0] < 4.0 * size)
+    return next(within, None)
+
+
 def _digit(times: _Array) -> float:
     """The size of the last digit that the times are written with."""
     for decimals in range(7):
@@ -90,6 +100,15 @@ STAMPS = re.compile(
 """Dates and times of day within a line."""
 _LONGEST = 60
 """Largest number of characters of a stamp."""
+_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+_MONTH = rf"(?P<month>{'|'.join(_MONTHS)})[a-z]*\.?"
+_NAMED = (
+    re.compile(rf"(?P<day>\d{{1,2}})[ .-]{_MONTH}[ -](?P<year>\d{{4}})(?!\d)", re.IGNORECASE),
+    re.compile(rf"{_MONTH} (?P<day>\d{{1,2}}),? (?P<year>\d{{4}})(?!\d)", re.IGNORECASE),
+)
+"""Dates with the name of a month."""
+_COMPACT = re.compile(r"(\d{4})(\d\d)(\d\d)T(\d\d)(\d\d)(\d\d)")
+"""A date and a time of day without marks."""
 _ORDERS = {"ymd": (0, 1, 2), "dmy": (2, 1, 0), "mdy": (2, 0, 1)}
 """Where year, month and day stand in a date."""
 _STATED = re.compile(r"\b(?:(?P<dmy>dd?([-/.])mm?\2y+)|(?P<mdy>mm?([-/.])dd?\4y+))", re.IGNORECASE)
@@ -110,7 +129,9 @@ class Stamp(NamedTuple):
 
 def stamp(text: str) -> Stamp | None:
     """Read a date, a time of day or both, or return None."""
-    found = _STAMP.fullmatch(text) if len(text) <= _LONGEST else None
+    if len(text) > _LONGEST:
+        return None
+    found = _STAMP.fullmatch(text) or _STAMP.fullmatch(_with_marks(text))
     if found is None or not (found["a"] or found["m"]):
         return None
     date = None
@@ -138,6 +159,16 @@ def stamp(text: str) -> Stamp | None:
         zone = sign * (60 * int(found["zone"][1:3]) + int(found["zone"][-2:]))
     fraction = float(f"0.{found['f']}") if found["f"] else 0.0
     return Stamp(date, seconds, fraction, zone, bool(found["a"]) and len(found["a"]) == 4)
+
+
+def _with_marks(text: str) -> str:
+    """Write a date with the name of a month, or one without marks, as 2024-05-31."""
+    for form in _NAMED:
+        if found := form.search(text):
+            month = 1 + _MONTHS.index(found["month"].lower())
+            date = f"{found['year']}-{month:02d}-{found['day']}"
+            return text[: found.start()] + date + text[found.end() :]
+    return _COMPACT.sub(r"\1-\2-\3T\4:\5:\6", text)
 
 
 def stated_order(lines: Iterable[str]) -> str | None:

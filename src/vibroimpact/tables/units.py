@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from typing import NamedTuple
 
 _ENDS = {
@@ -19,7 +20,9 @@ _CASES = {
     for one in ("Hz", "kHz", "N", "kN", "m", "cm", "mm", "um", "g", "mg", "s", "ms", "rad", "rpm",
                 "in", "inch", "ft", "hertz", "gal", "mgal")
 } | {"sec": "s", "secs": "s", "second": "s", "seconds": "s", "msec": "ms", "usec": "us",
-     "sek": "s", "gals": "gal", "meter": "m", "meters": "m"}  # fmt: skip
+     "sek": "s", "gals": "gal", "meter": "m", "meters": "m", "millisecond": "ms",
+     "milliseconds": "ms", "microsecond": "us", "microseconds": "us", "nsec": "ns",
+     "nanosecond": "ns", "nanoseconds": "ns"}  # fmt: skip
 """Units that may be written in upper or lower case. MN and mN, for example, are different units."""
 
 _POWER = r"(?:(?:\^|\*\*)?-?[1-9]|[²³]|⁻[¹²³])?"
@@ -32,11 +35,19 @@ _AFTER = re.compile(
     r"(?P<mark>(?:(?i:(?:are|is|of|ist)\b|in(?=\s+[A-Za-z(])|[:=;,])\s*)+|(?=[\[(]))(?P<stated>.*)"
 )
 _WHOLE = re.compile(rf"[\[(\"']?\s*({_UNIT})(?:'s)?\s*(?:[\[(\])\"'.,;:]|\s|$)")
-_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]*?)\s*[\])]")
+_BRACKETS = re.compile(r"[\[(（]\s*([^\[\]()（）]*?)\s*[\])）]")
 _AT_END = re.compile(_BRACKETS.pattern + r"\s*$")
 _IN = re.compile(rf"\bin\s+({_UNIT})(?=\s|$|[.,;])", re.IGNORECASE)
 _ACCELERATIONS = re.compile(r"m?g|m?gal|(?:[cm]?m|in|inch|ft)/s\^2", re.IGNORECASE)
 _SHOWN = 30
+_TIME_UNIT = re.compile(
+    r"(?P<name>(?:.*[a-z])?(?:time(?:[ _]?stamps?)?|timestamps?|zeit|elapsed|clock|(?<![a-z])t)"
+    r"(?:[ _.,/-]+(?:in )?|))?"
+    r"(?:(?P<ms>ms|msecs?|millis|milliseconds?)|(?P<us>[uµμ]s|[uµμ]secs?|micros|microseconds?)"
+    r"|(?P<ns>ns|nsecs?|nanos|nanoseconds?))",
+    re.IGNORECASE,
+)
+"""Name of a time with its unit at the end, or the unit alone."""
 
 
 def spelled(unit: str) -> str:
@@ -119,13 +130,19 @@ def words_of(name: str) -> list[str]:
 
 
 _PEAK = re.compile(
-    r"(?<![a-z])(?:peak|pk|p)[ _-]?(?:to|2)?[ _-]?(?:peak|pk|p)(?![a-z])", re.IGNORECASE
+    r"(?<![a-z])(?:(?:peak|pk|p)[ _-]?(?:to|2)?[ _-]?(?:peak|pk|p)|spitze[ -](?:zu[ -])?spitze)"
+    r"(?![a-z])",
+    re.IGNORECASE,
 )
 
 
 def plain(name: str) -> str:
     """Return a name in ASCII letters with separated words, and with short forms of units."""
-    joined = re.sub("[µμ]", "u", name.strip().replace("η", "eta").replace("ü", "acc"))
+    joined = re.sub("[µμ]", "u", name.strip().replace("η", "eta"))
+    joined = re.sub(r"(?<![^\W_])ü(?![^\W\d_])", "acc", joined).replace("ß", "ss")
+    joined = "".join(  # é is e
+        sign for sign in unicodedata.normalize("NFKD", joined) if not unicodedata.combining(sign)
+    )
     joined = re.sub(r"(?:\^|\*\*)2$|²$", "2", joined)
     joined = re.sub(r"/ *s(?:ec)? */ *s(?:ec)?$", "/s2", joined, flags=re.IGNORECASE)
     joined = re.sub(r"(?<![a-z])([cm]?m) */ *s(?:ec)?2$", r"\1s2", joined, flags=re.IGNORECASE)
@@ -140,8 +157,18 @@ def unit_of(name: str) -> str | None:
     bare, unit = parted(name)
     if unit is not None:
         return spelled(unit)
+    if unit := time_unit(bare):
+        return unit
     sure = re.search(r"/ *[A-Za-z0-9]+$", plain(bare)) is not None
     return ending(words_of(bare), sure=sure)
+
+
+def time_unit(name: str) -> str | None:
+    """Return the unit below 1 s in a name such as ``time_us`` or ``millis``, or None."""
+    found = _TIME_UNIT.fullmatch(name.strip())
+    if found is None or (found["name"] is None and name.strip().lower() == "ns"):  # north-south
+        return None
+    return next(unit for unit in ("ms", "us", "ns") if found[unit])
 
 
 class Units(NamedTuple):
@@ -165,11 +192,14 @@ def units_of(name: str, stated: str | None) -> Units:
 
 _LIKE = re.compile(
     r"[\[(]?\s*(?:k?hz|s|secs?|seconds?|ms|msec|us|mm|m|cm|µm|um|g|mg|m?gals?|kn|n|m?v|%|-|–|1"
-    r"|rad/s|rpm|[cm]?m/s\S*|[cm]?m ?s-\d|in|inch)?\s*[\])]?",
+    r"|rad/s|rpm|[cm]?m/s\S*|[cm]?m ?s-\d|in|inch|ts|rn)?\s*[\])]?",
     re.IGNORECASE,
 )
 
 
 def are_units(cells: list[str]) -> bool:
-    """Return whether a line below the names of columns contains their units."""
+    """Return whether a line below the names of columns contains their units.
+
+    Campbell's loggers write TS and RN for times and numbers of rows.
+    """
     return any(cells) and all(_LIKE.fullmatch(cell) for cell in cells)
