@@ -14,6 +14,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 from vibroimpact import engine
 from vibroimpact.engine import jit
+from vibroimpact.engine.batch import trajectory
 from vibroimpact.engine.earthquakes import respond
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.measure import measure_phases
@@ -21,13 +22,19 @@ from vibroimpact.engine.parameters import Drive, Law, free_rig, rig_vector
 from vibroimpact.engine.record_forcing import follow
 from vibroimpact.tasks.threads import available
 
+_YIELDS = Law(friction=1.0)
+_SEVERAL = Drive(weights=((1.0, 0.0), (0.0, 1.0)))
+_RECORD = Drive(interval=1.0)
+
 RIGS = {
     "Curved": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0)),
-    "Yielding": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(friction=1.0)),
+    "Yielding": rig_vector(1.0, 1.0, 0.1, None, None, law=_YIELDS),
     "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None),
     "Apart": free_rig(),
-    "Several": rig_vector(1.0, 1.0, 0.1, None, None, drive=Drive(weights=((1.0, 0.0), (0.0, 1.0)))),
-    "Recorded": rig_vector(1.0, 1.0, 0.1, None, None, drive=Drive(interval=1.0)),
+    "Several": rig_vector(1.0, 1.0, 0.1, None, None, drive=_SEVERAL),
+    "Recorded": rig_vector(1.0, 1.0, 0.1, None, None, drive=_RECORD),
+    "YieldingSeveral": rig_vector(1.0, 1.0, 0.1, None, None, drive=_SEVERAL, law=_YIELDS),
+    "YieldingRecorded": rig_vector(1.0, 1.0, 0.1, None, None, drive=_RECORD, law=_YIELDS),
 }
 """A rig for each flow; what takes longest begins first."""
 
@@ -44,9 +51,11 @@ def entries(flow: str = "Apart") -> list[Entry]:
         for value in vars(importlib.import_module(name)).values()
         if type(value) is Entry and value.function.__module__ == name
     ]
-    if flow == "Recorded":
+    if flow.endswith("Recorded"):
         return [*ONLY_RECORDS, measure_phases]
-    return [one for one in every if flow in ("Curved", "Yielding") or one not in ONLY_RECORDS]
+    if flow == "YieldingSeveral":
+        return [trajectory, measure_phases]
+    return [one for one in every if flow == "Curved" or one not in ONLY_RECORDS]
 
 
 def compile_for(flow: str) -> None:

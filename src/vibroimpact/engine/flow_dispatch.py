@@ -76,7 +76,19 @@ class Curved(NamedTuple):
 
 
 class Yielding(NamedTuple):
-    """An isolator that yields or slides between linear stops, under any shaking."""
+    """An isolator that yields or slides between linear stops, shaken by one sine."""
+
+    memory: Vector
+
+
+class YieldingSeveral(NamedTuple):
+    """The same, shaken by several harmonics."""
+
+    memory: Vector
+
+
+class YieldingRecorded(NamedTuple):
+    """The same, shaken by a record."""
 
     memory: Vector
 
@@ -88,13 +100,21 @@ _ADVANCE: dict[type, Callable[..., Any]] = {
     Recorded: advance_any,
     Curved: advance_taylor,
     Yielding: advance_yielding,
+    YieldingSeveral: advance_yielding,
+    YieldingRecorded: advance_yielding,
 }
-_LAWS = {Curved: par.BENT, Yielding: par.YIELDING}
+_YIELDING: dict[float, type] = {
+    par.HARMONIC: Yielding,
+    par.SEVERAL: YieldingSeveral,
+    par.RAMP: YieldingRecorded,
+}
+_LAWS = {Curved: par.BENT, **dict.fromkeys(_YIELDING.values(), par.YIELDING)}
 _FORCING = {
     Apart: par.HARMONIC,
     AnyStops: par.HARMONIC,
     Several: par.SEVERAL,
     Recorded: par.RAMP,
+    **{flow: forcing for forcing, flow in _YIELDING.items()},
 }
 """The one forcing that a flow is compiled for. Tables of closed-form motion spend their time in its
 functions; a Taylor step does not notice that they are looked up."""
@@ -127,7 +147,7 @@ answer(par.YIELDING, yielding_plan, *_TAYLOR)
 def _flow(rig: Vector) -> type:
     laws = par.laws(rig)
     if laws != par.LINEAR:
-        return Curved if laws == par.BENT else Yielding
+        return Curved if laws == par.BENT else _YIELDING[rig[par.FORCING]]
     if rig[par.FORCING] == par.SEVERAL:
         return Several
     if rig[par.FORCING] == par.RAMP:
@@ -149,7 +169,7 @@ def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
     flow = _flow(rig)
     if rig[par.FORCING] != par.SEVERAL:
-        memory = _room(YIELDING_PLAN if flow is Yielding else PLAN)
+        memory = _room(YIELDING_PLAN if flow in _YIELDING.values() else PLAN)
     else:
         weights = rig[par.WEIGHTS :]
         memory = _room(several.room(len(weights) // 2))
