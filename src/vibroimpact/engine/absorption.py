@@ -12,15 +12,14 @@ from typing import Any
 from numpy import int64
 from numpy.typing import NDArray
 
-from vibroimpact.engine.dispatch import build, too_much_work
+from vibroimpact.engine import flow
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.event_loop import cycle
-from vibroimpact.engine.fixed_point import PARTS, parts_of
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import MODE, Motion, finite, pack, unpacked
-from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.section_map import placed
+from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.motion import U, V
+from vibroimpact.engine.one_mass import PARTS
+from vibroimpact.engine.state import FIRST, copy, finite, put, room, width, wind
 from vibroimpact.engine.status import (
     DONE,
     NOT_FINITE,
@@ -46,16 +45,16 @@ RESULT = 3
 
 
 @kernel
-def holds(trap: Vector, motion: Motion) -> bool:
-    """Whether a motion at the section lies in a trap."""
-    if not abs(motion.u - trap[CENTRE]) <= trap[REACH]:
+def holds(trap: Vector, state: Vector) -> bool:
+    """Whether a state at the section lies in a trap."""
+    if not abs(state[U] - trap[CENTRE]) <= trap[REACH]:
         return False
     form = 0.0
     for i in range(PARTS):
         row = 0.0
         for j in range(PARTS):
-            row += trap[FORM + PARTS * i + j] * (parts_of(motion, j) - trap[CENTRE + j])
-        form += row * (parts_of(motion, i) - trap[CENTRE + i])
+            row += trap[FORM + PARTS * i + j] * (state[FIRST + j] - trap[CENTRE + j])
+        form += row * (state[FIRST + i] - trap[CENTRE + i])
     return form <= 1.0
 
 
@@ -106,15 +105,17 @@ def caught(
     """
     plan = planned(given, rig)
     period = 1.0 / frequency
-    build(plan, amplitude, 2.0 * math.pi * frequency)
-    clock = (math.sin(phase), math.cos(phase))
-    slow = too_much_work(plan, period)
+    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
+    s, c = math.sin(phase), math.cos(phase)
+    here, section = room(), room()
+    slow = flow.too_much_work(plan, period) != 0
     for n in range(len(states)):
+        copy(pointer(states[n]), here, width(plan))
+        wind(plan, here, s, c)
         if anew:
-            mode, point = int(states[n, MODE]), points[n]
-            motion = placed(plan, mode, point[0], point[1], point[2], point[3], point[4], clock)
-        else:
-            motion = unpacked(states[n], clock)
+            for i in range(PARTS):
+                here[FIRST + i] = points[n, i]
+            flow.place(plan, here)
         owner, k = -1, 0
         outcome = TOO_MUCH_WORK if slow else NOT_SETTLED
         while not slow:
@@ -122,12 +123,12 @@ def caught(
                 outcome = STOPPED
                 break
             for i in range(len(traps)):
-                if holds(traps[i], motion):
+                if holds(traps[i], here):
                     owner = int(traps[i, OWNER])
                     break
             if owner < 0 and len(cells):
-                column = math.floor((motion.u - grid[LOW_U]) / grid[STEP_U])
-                row = math.floor((motion.v - grid[LOW_V]) / grid[STEP_V])
+                column = math.floor((here[U] - grid[LOW_U]) / grid[STEP_U])
+                row = math.floor((here[V] - grid[LOW_V]) / grid[STEP_V])
                 if 0 <= row < cells.shape[0] and 0 <= column < cells.shape[1]:
                     owner = cells[row, column]
             if owner >= 0:
@@ -135,16 +136,16 @@ def caught(
                 break
             if k >= max_cycles:
                 break
-            section = motion
-            events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
+            put(plan, here, section)
+            events = flow.cycle(plan, here, s, c, period, max_events)
             k += 1
             if events > max_events:
                 outcome = TOO_MANY_EVENTS
-                motion = section
+                put(plan, section, here)
                 break
-            if not finite(motion):
+            if not finite(plan, here):
                 outcome = NOT_FINITE
                 break
-        pack(motion, states[n])
+        copy(here, pointer(states[n]), width(plan))
         results[n, CAUGHT], results[n, CYCLES], results[n, OUTCOME] = owner, k, outcome
         progress[0] += 1

@@ -12,15 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine.dispatch import build, too_much_work
+from vibroimpact.engine import flow
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.hold import OUTCOME, hold
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.motion import finite, pack, unpacked
-from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.record import Record, write
+from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.observers.record import WRITTEN, note_room, start_notes
+from vibroimpact.engine.state import copy, finite, put, room, width, wind
 from vibroimpact.engine.status import NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 
@@ -64,26 +63,28 @@ def sweep(
     """
     options = (tolerance, max_cycles, window, max_events, transient)
     plan = planned(given, rig)
-    clock = (math.sin(phase), math.cos(phase))
-    motion = unpacked(state, clock)
+    s, c = math.sin(phase), math.cos(phase)
+    here = room()
+    copy(pointer(state), here, width(plan))
     for i in range(len(frequencies)):
         if progress[1] != 0:
             for j in range(i, len(frequencies)):
                 results[j, OUTCOME] = STOPPED
             break
-        motion = hold(
-            plan, motion, amplitudes[i], frequencies[i], clock, options, results[i], progress
-        )
-        pack(motion, states[i])
+        hold(plan, here, amplitudes[i], frequencies[i], s, c, options, results[i], progress)
+        copy(here, pointer(states[i]), width(plan))
         progress[0] += 1
         outcome = results[i, OUTCOME]
         if outcome in (TOO_MANY_EVENTS, TOO_MUCH_WORK, NOT_FINITE):
             # Nothing sound to carry on: the next frequency starts where the sweep did.
-            motion = unpacked(state, clock)
-    pack(motion, state)
+            copy(pointer(state), here, width(plan))
+    copy(here, pointer(state), width(plan))
 
 
-@entry("UniTuple(i8, 3)(f8[::1], f8, f8, f8, f8[::1], f8, f8, i8, i8, f8[:, ::1], f8[:, ::1])")
+@entry(
+    "UniTuple(i8, 3)(f8[::1], f8, f8, f8, f8[::1], f8, f8, i8, i8, f8[:, ::1], f8[:, ::1])",
+    "recorded",
+)
 def trajectory(
     given: Any,
     rig: Vector,
@@ -119,44 +120,40 @@ def trajectory(
     plan = planned(given, rig)
     start = int(first)
     period = 1.0 / frequency
-    build(plan, amplitude, 2.0 * math.pi * frequency)
-    if too_much_work(plan, period):
+    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
+    if flow.too_much_work(plan, period) != 0:
         return start, 0, TOO_MUCH_WORK
-    clock = (math.sin(phase), math.cos(phase))
-    motion = unpacked(state, clock)
+    s, c = math.sin(phase), math.cos(phase)
+    here, section, notes = room(), room(), note_room()
+    copy(pointer(state), here, width(plan))
+    wind(plan, here, s, c)
+    columns = out.shape[1]
     number = start
     count = 0
     outcome = 0
     while number < cycles and outcome == 0 and count + max_events < len(events):
         # A cycle that is given up leaves the state of its section.
-        section = motion
+        put(plan, here, section)
         share = min(1.0, cycles - number)
         length = share * period
         if samples == 0 and share == 1.0 and len(events) == max_events + 1:
             # Nothing is written down: the fast loop.
-            here, motion, _ = cycle(plan, section, clock, length, max_events, UNOBSERVED)
+            happened = flow.cycle(plan, here, s, c, length, max_events)
         else:
             n = int(math.ceil(share * samples - 1e-9))  # noqa: RUF046 (a float to numba)
-            notes = Record(
-                out,
-                number * samples,
-                period / samples if samples else 0.0,
-                n,
-                0,
-                events,
-                count,
-                count + max_events,
-                number,
+            step = period / samples if samples else 0.0
+            start_notes(notes, columns, number * samples, step, n, 0, count, max_events, number)
+            happened = flow.record(
+                plan, here, s, c, length, max_events, notes, pointer(out), pointer(events)
             )
-            here, motion, notes = cycle(plan, section, clock, length, max_events, notes)
-            count = notes.written
-        if here > max_events:
+            count = int(notes[WRITTEN])
+        if happened > max_events:
             outcome = TOO_MANY_EVENTS
-            motion = section
-        elif not finite(motion):
+            put(plan, section, here)
+        elif not finite(plan, here):
             outcome = NOT_FINITE
         number += 1
     if number >= cycles and samples and outcome == 0:
-        write(plan, motion, out, out.shape[1] - 1)
-    pack(motion, state)
+        flow.write(plan, here, pointer(out), columns, columns - 1)
+    copy(here, pointer(state), width(plan))
     return number, count, outcome

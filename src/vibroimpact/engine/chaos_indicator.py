@@ -9,11 +9,9 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.event_loop import cycle
+from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import Clock, Motion, finite
-from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.section_map import placed
+from vibroimpact.engine.state import FIRST, distance, finite, put, room
 
 _APART = 1e-8
 """Distance of the two, as a share of the motion's size."""
@@ -26,64 +24,51 @@ _PLAIN = 12.0
 
 
 @kernel
-def distance(one: Motion, other: Motion, weight: float) -> float:
-    """How far two states are apart, as a velocity."""
-    most = max(abs(one.u - other.u), abs(one.right - other.right), abs(one.left - other.left))
-    return max(weight * most, weight * abs(one.z - other.z), abs(one.v - other.v))
-
-
-@kernel
-def between(plan: Vector, one: Motion, other: Motion, share: float) -> Motion:
-    """The state at a share of the way from one to another."""
-    return placed(
-        plan,
-        one.mode,
-        one.u + share * (other.u - one.u),
-        one.v + share * (other.v - one.v),
-        one.right + share * (other.right - one.right),
-        one.left + share * (other.left - one.left),
-        one.z + share * (other.z - one.z),
-        one.clock,
-    )
-
-
-@kernel
 def runs_away(
-    plan: Vector, motion: Motion, clock: Clock, period: float, weight: float, max_events: int
-) -> tuple[bool, int, Motion]:
+    plan: Vector,
+    state: Vector,
+    s: float,
+    c: float,
+    period: float,
+    units: Vector,
+    max_events: int,
+) -> tuple[bool, int]:
     """Follow a motion until it is plainly chaotic, plainly not, or for so many cycles.
 
     Returns
     -------
-    plain, cycles, motion
-        Whether it is chaotic.
+    plain, cycles
+        Whether it is chaotic; the state is that after so many cycles.
     """
-    apart = _APART * max(weight * abs(motion.u), abs(motion.v))
-    other = placed(
-        plan,
-        motion.mode,
-        motion.u,
-        motion.v + apart,
-        motion.right,
-        motion.left,
-        motion.z,
-        motion.clock,
-    )
+    parts = flow.parts(plan)
+    other, section = room(), room()
+    apart = _APART * flow.size(plan, state)
+    put(plan, state, other)
+    velocity = 0
+    while units[velocity] != 1.0:
+        velocity += 1
+    flow.disturb(plan, other, velocity, apart, period)
     growth = 0.0
     k = 0
     while k < _BESIDE:
-        section = motion
-        events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
-        if events > max_events or not finite(motion):
-            return False, k, section
-        events, other, _ = cycle(plan, other, clock, period, max_events, UNOBSERVED)
+        put(plan, state, section)
+        events = flow.cycle(plan, state, s, c, period, max_events)
+        if events > max_events or not finite(plan, state):
+            put(plan, section, state)
+            return False, k
+        events = flow.cycle(plan, other, s, c, period, max_events)
         k += 1
-        far = distance(motion, other, weight)
+        far = distance(plan, state, other, units)
         if events > max_events or not 0.0 < far < math.inf:
             break
         if k > _TURNS:
             growth += math.log(far / apart)
         if abs(growth) >= _PLAIN:
             break
-        other = between(plan, motion, other, apart / far)
-    return growth >= _PLAIN, k, motion
+        # Bring it back to where it was, on the way to the first.
+        share = apart / far
+        for i in range(FIRST, FIRST + parts):
+            other[i] = state[i] + share * (other[i] - state[i])
+        other[0] = state[0]
+        flow.place(plan, other)
+    return growth >= _PLAIN, k

@@ -11,13 +11,14 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from vibroimpact.engine.dispatch import build, too_much_work
+from vibroimpact.engine import flow
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import Motion, aged, finite, unpacked
-from vibroimpact.engine.observers.demand import Demand, unseen
+from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.motion import U
+from vibroimpact.engine.observers.demand import note_room, start_notes
+from vibroimpact.engine.state import begin_again, copy, finite, room, width, wind
 from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # What is found of a run, the observer's numbers first; then where the mass comes to rest, half the
@@ -36,51 +37,53 @@ _SAME = 1e-9
 
 
 @kernel
-def _outcome(events: int, max_events: int, motion: Motion) -> int:
-    if events > max_events:
+def _line(
+    plan: Vector, state: Vector, s: float, c: float, lasts: float, max_events: int, notes: Vector
+) -> int:
+    """Along one line, which begins a transient; a `Status`."""
+    begin_again(plan, state)
+    if flow.demand(plan, state, s, c, lasts, max_events, notes) > max_events:
         return TOO_MANY_EVENTS
-    return DONE if finite(motion) else NOT_FINITE
+    return DONE if finite(plan, state) else NOT_FINITE
 
 
 @kernel
 def _shaken(
     plan: Vector,
-    motion: Motion,
+    state: Vector,
     record: Vector,
     step: float,
     scale: float,
     max_events: int,
-    notes: Demand,
+    notes: Vector,
     counter: NDArray[Any],
-) -> tuple[int, Motion, Demand]:
+) -> int:
     """Along the record's lines."""
     outcome = DONE
     done = counter[0]
     for i in range(len(record) - 1):
         if counter[1] != 0:
-            return STOPPED, motion, notes
+            return STOPPED
         if i % _TOLD == 0:
             counter[0] = done + i
         begins = scale * record[i]
-        clock = (begins, (scale * record[i + 1] - begins) / step)
-        # The slope changes here: what had died out is a transient again.
-        events, motion, notes = cycle(plan, aged(motion, 0.0), clock, step, max_events, notes)
-        outcome = _outcome(events, max_events, motion)
+        slope = (scale * record[i + 1] - begins) / step
+        outcome = _line(plan, state, begins, slope, step, max_events, notes)
         if outcome != DONE:
             break
-    return outcome, motion, notes
+    return outcome
 
 
 @kernel
 def _freely(
     plan: Vector,
-    motion: Motion,
+    state: Vector,
     step: float,
     length: float,
     max_events: int,
-    notes: Demand,
+    notes: Vector,
     counter: NDArray[Any],
-) -> tuple[int, Motion, Demand]:
+) -> int:
     """While the base stands still."""
     outcome = DONE
     whole = int(length / step)
@@ -88,19 +91,18 @@ def _freely(
     count = whole + (1 if rest > _SHORT * step else 0)
     for i in range(count):
         if counter[1] != 0:
-            return STOPPED, motion, notes
+            return STOPPED
         lasts = step if i < whole else rest
-        events, motion, notes = cycle(plan, aged(motion, 0.0), (0.0, 0.0), lasts, max_events, notes)
-        outcome = _outcome(events, max_events, motion)
+        outcome = _line(plan, state, 0.0, 0.0, lasts, max_events, notes)
         if outcome != DONE:
             break
-    return outcome, motion, notes
+    return outcome
 
 
 @kernel
 def _settled(
     plan: Vector,
-    motion: Motion,
+    state: Vector,
     step: float,
     block: float,
     blocks: int,
@@ -114,21 +116,25 @@ def _settled(
     what nothing damps goes on round the place where it would rest.
     """
     outcome = DONE
-    middle, swing = motion.u, math.inf
+    notes = note_room()
+    middle, swing = state[U], math.inf
     for _ in range(blocks):
-        notes = unseen(0)
-        outcome, motion, notes = _freely(plan, motion, step, block, max_events, notes, counter)
+        start_notes(notes, 0)
+        outcome = _freely(plan, state, step, block, max_events, notes, counter)
         if outcome != DONE:
             break
         last = swing
-        swing = 0.5 * (notes.u_most - notes.u_least)
-        middle = 0.5 * (notes.u_most + notes.u_least)
+        swing = 0.5 * (notes[U_MOST] - notes[U_LEAST])
+        middle = 0.5 * (notes[U_MOST] + notes[U_LEAST])
         if swing <= small or abs(last - swing) <= _SAME * swing:
             break
     return outcome, middle, swing
 
 
-@entry("void(f8[::1], f8[::1], f8, f8[::1], f8, f8[::1], i8, i8, f8, i8, f8, i8[::1], f8[:, ::1])")
+@entry(
+    "void(f8[::1], f8[::1], f8, f8[::1], f8, f8[::1], i8, i8, f8, i8, f8, i8[::1], f8[:, ::1])",
+    "measured",
+)
 def respond(
     given: Any,
     rig: Vector,
@@ -173,6 +179,7 @@ def respond(
         Written. What is known of a run that was given up is not kept.
     """
     before, lines = counter[0], len(record) - 1
+    here, notes = room(), note_room()
     for k in range(len(scales)):
         found = out[k]
         for i in range(FOUND):
@@ -187,33 +194,27 @@ def respond(
             ends = scale * record[i + 1]
             most = max(most, abs(ends))
             steepest = max(steepest, abs((ends - scale * record[i]) / step))
-        build(plan, most, steepest / most if most > 0.0 else 0.0)
-        if too_much_work(plan, step):
+        flow.build(plan, most, steepest / most if most > 0.0 else 0.0)
+        if flow.too_much_work(plan, step) != 0:
             found[OUTCOME] = TOO_MUCH_WORK
             counter[0] = before + (k + 1) * lines
             continue
-        motion = unpacked(state, (0.0, 0.0))
-        notes = unseen(everything)
-        outcome, motion, notes = _shaken(
-            plan, motion, record, step, scale, max_events, notes, counter
-        )
+        copy(pointer(state), here, width(plan))
+        wind(plan, here, 0.0, 0.0)
+        start_notes(notes, everything)
+        outcome = _shaken(plan, here, record, step, scale, max_events, notes, counter)
         if outcome == DONE:
-            outcome, motion, notes = _freely(plan, motion, step, tail, max_events, notes, counter)
+            outcome = _freely(plan, here, step, tail, max_events, notes, counter)
         middle, swing = math.nan, math.nan
         if outcome == DONE and blocks > 0:
-            size = small * max(notes.u_most, -notes.u_least)
+            size = small * max(notes[U_MOST], -notes[U_LEAST])
             outcome, middle, swing = _settled(
-                plan, motion, step, block, blocks, size, max_events, counter
+                plan, here, step, block, blocks, size, max_events, counter
             )
         if outcome == DONE:
-            found[U_LEAST], found[U_MOST] = notes.u_least, notes.u_most
-            found[A_LEAST], found[A_MOST] = notes.a_least, notes.a_most
-            found[FORCE_RIGHT], found[FORCE_LEFT] = notes.force_right, notes.force_left
-            found[IMPULSE_RIGHT], found[IMPULSE_LEFT] = notes.impulse_right, notes.impulse_left
-            found[HITS_RIGHT], found[HITS_LEFT] = notes.hits_right, notes.hits_left
-            if everything:
-                found[WORK], found[LOST] = notes.work, notes.lost
-                found[LOST_STOPS] = notes.lost_stops
+            # Energies are not looked for unless everything is.
+            for i in range(LOST_STOPS + 1 if everything else WORK):
+                found[i] = notes[i]
             found[REST], found[SWING] = middle, swing
         found[OUTCOME] = outcome
         counter[0] = before + (k + 1) * lines

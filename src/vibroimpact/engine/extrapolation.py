@@ -15,20 +15,18 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine import flow
 from vibroimpact.engine.chaos_indicator import runs_away
-from vibroimpact.engine.event_loop import cycle
-from vibroimpact.engine.fixed_point import DYING, PARTS, close_in, parts_of
+from vibroimpact.engine.fixed_point import DYING, close_in
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import stack
-from vibroimpact.engine.motion import Clock, Motion, finite
-from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.section_map import placed
+from vibroimpact.engine.state import FIRST, LARGEST, finite, put, room
 
 _HELD = 3
 """States that are held, the newest first: x and f of each."""
 
-ROOM = _HELD * 2 * PARTS + PARTS
-_GUESS = _HELD * 2 * PARTS
+ROOM = (_HELD * 2 + 1) * LARGEST
+"""They stand one behind the other, and then the guess."""
 
 _NEAR = 0.05
 """Of the motion's size: the longest way that is gone at once."""
@@ -48,28 +46,28 @@ pursuit_room = stack(ROOM)
 
 
 @kernel
-def hold_on(room: Vector, before: Motion, after: Motion) -> None:
+def hold_on(held: Vector, before: Vector, after: Vector, parts: int) -> None:
     """Enter a state and what the map has made of it."""
     for n in range(_HELD - 1, 0, -1):
-        for i in range(2 * PARTS):
-            room[n * 2 * PARTS + i] = room[(n - 1) * 2 * PARTS + i]
-    for i in range(PARTS):
-        x = parts_of(before, i)
-        room[i] = x
-        room[PARTS + i] = parts_of(after, i) - x
+        for i in range(2 * parts):
+            held[n * 2 * parts + i] = held[(n - 1) * 2 * parts + i]
+    for i in range(parts):
+        x = before[FIRST + i]
+        held[i] = x
+        held[parts + i] = after[FIRST + i] - x
 
 
 @kernel
-def size_of(room: Vector, at: int, weight: float) -> float:
-    """The size of a difference, as a velocity."""
+def change_of(held: Vector, units: Vector, parts: int) -> float:
+    """The size of the newest change, as a velocity."""
     largest = 0.0
-    for i in range(PARTS):
-        largest = max(largest, abs(room[at + i]) * (1.0 if i == 1 else weight))
+    for i in range(parts):
+        largest = max(largest, abs(held[parts + i]) * units[i])
     return largest
 
 
 @kernel
-def guess(room: Vector, weight: float) -> tuple[float, float, bool]:
+def guess(held: Vector, units: Vector, parts: int) -> tuple[float, float, bool]:
     """Where the three states that are held lead.
 
     Returns
@@ -78,15 +76,15 @@ def guess(room: Vector, weight: float) -> tuple[float, float, bool]:
         From the newest state's image to the guess, and from the former guess; whether the map, as
         its secants tell it, contracts.
     """
-    one, two = 2 * PARTS, 4 * PARTS
+    one, two, goal = 2 * parts, 4 * parts, _HELD * 2 * parts
     a11, a12, a22, b1, b2 = 0.0, 0.0, 0.0, 0.0, 0.0
     # Of the secants of x, by which those of P are told: P's eigenvalues.
     x11, x12, x22, p11, p12, p21, p22 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for i in range(PARTS):
-        w = 1.0 if i == 1 else weight * weight
-        f = room[PARTS + i]
-        df1, df2 = f - room[one + PARTS + i], room[one + PARTS + i] - room[two + PARTS + i]
-        dx1, dx2 = room[i] - room[one + i], room[one + i] - room[two + i]
+    for i in range(parts):
+        w = units[i] * units[i]
+        f = held[parts + i]
+        df1, df2 = f - held[one + parts + i], held[one + parts + i] - held[two + parts + i]
+        dx1, dx2 = held[i] - held[one + i], held[one + i] - held[two + i]
         a11 += w * df1 * df1
         a12 += w * df1 * df2
         a22 += w * df2 * df2
@@ -115,16 +113,16 @@ def guess(room: Vector, weight: float) -> tuple[float, float, bool]:
         if inside > 0.0:
             radius = 0.5 * (abs(trace) + math.sqrt(inside))
     way, moved = 0.0, 0.0
-    for i in range(PARTS):
-        w = 1.0 if i == 1 else weight
-        f, x = room[PARTS + i], room[i]
-        f1, x1 = room[one + PARTS + i], room[one + i]
+    for i in range(parts):
+        w = units[i]
+        f, x = held[parts + i], held[i]
+        f1, x1 = held[one + parts + i], held[one + i]
         back = first * (f - f1 + x - x1)
-        back += second * (f1 - room[two + PARTS + i] + x1 - room[two + i])
+        back += second * (f1 - held[two + parts + i] + x1 - held[two + i])
         new = x + f - back
         way = max(way, w * abs(back))
-        moved = max(moved, w * abs(new - room[_GUESS + i]))
-        room[_GUESS + i] = new
+        moved = max(moved, w * abs(new - held[goal + i]))
+        held[goal + i] = new
     return way, moved, abs(radius) < DYING
 
 
@@ -135,37 +133,31 @@ def trusted(way: float, moved: float, contracts: bool, scale: float) -> bool:
 
 
 @kernel
-def guessed(plan: Vector, room: Vector, motion: Motion) -> Motion:
-    """The guess as a motion that can be."""
-    u, v, right = room[_GUESS], room[_GUESS + 1], room[_GUESS + 2]
-    left, z = room[_GUESS + 3], room[_GUESS + 4]
-    return placed(plan, motion.mode, u, v, right, left, z, motion.clock)
-
-
-@kernel
 def pursue(
     plan: Vector,
-    motion: Motion,
-    clock: Clock,
+    state: Vector,
+    s: float,
+    c: float,
     period: float,
-    weight: float,
+    units: Vector,
     tolerance: float,
     max_cycles: int,
     max_events: int,
     asked: float,
-) -> tuple[bool, bool, int, Motion]:
+) -> tuple[bool, bool, int]:
     """Follow a motion of one cycle, and go ahead where it is seen where it leads.
 
     Behind `asked` cycles it is asked whether it is plainly chaotic.
 
     Returns
     -------
-    found, plain, cycles, motion
+    found, plain, cycles
         Whether it was reached to the tolerance, and whether it is plainly chaotic; if not found,
-        the motion is one that following gave.
+        the state is one that following gave.
     """
-    room = pursuit_room()
-    kept = motion  # what following gave, before going ahead
+    held, kept, section = pursuit_room(), room(), room()
+    parts = flow.parts(plan)
+    put(plan, state, kept)  # what following gave, before going ahead
     left = math.inf  # size of the last change then
     alike, former = 0, -1  # cycles with as many events as the one before
     filled = 0  # cycles behind the last fresh start
@@ -182,25 +174,27 @@ def pursue(
             most, was_most = 0.0, most if k else math.inf
         if k >= asked and not ahead:
             asked = math.inf
-            plain, beside, motion = runs_away(plan, motion, clock, period, weight, max_events)
+            plain, beside = runs_away(plan, state, s, c, period, units, max_events)
             k += beside
             if plain:
-                return False, True, k, motion
+                return False, True, k
             stepped, alike, filled, last = False, 0, 0, math.inf
-        section = motion
-        events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
+        put(plan, state, section)
+        events = flow.cycle(plan, state, s, c, period, max_events)
         k += 1
-        if events > max_events or not finite(motion):
-            return False, False, k, kept if ahead else section
+        if events > max_events or not finite(plan, state):
+            put(plan, kept if ahead else section, state)
+            return False, False, k
         alike = alike + 1 if events == former else 0
         former = events
-        scale = max(0.5 * scale, weight * abs(motion.u), abs(motion.v))
-        hold_on(room, section, motion)
+        scale = max(0.5 * scale, flow.size(plan, state))
+        hold_on(held, section, state, parts)
         filled += 1
-        change = size_of(room, PARTS, weight)
+        change = change_of(held, units, parts)
         most = max(most, change)
         if ahead and (alike == 0 or change > 0.5 * left):
-            motion, ahead, stepped, alike, filled, last = kept, False, False, 0, 0, math.inf
+            put(plan, kept, state)
+            ahead, stepped, alike, filled, last = False, False, 0, 0, math.inf
             waits = k + _WAITS
             continue
         if stepped and change > 0.5 * before:  # there is more to it than the secants tell
@@ -211,9 +205,10 @@ def pursue(
             continue
         way = 0.0
         if not ahead:
-            kept, left = motion, change
+            put(plan, state, kept)
+            left = change
         if change > tolerance * scale:
-            way, moved, contracts = guess(room, weight)
+            way, moved, contracts = guess(held, units, parts)
             if stepped:
                 stepped = way <= 0.5 * last
             elif ahead:
@@ -223,10 +218,14 @@ def pursue(
             if not stepped:
                 continue
             ahead, last = True, way
-            motion = guessed(plan, room, motion)
+            for i in range(parts):
+                state[FIRST + i] = held[_HELD * 2 * parts + i]
+            flow.place(plan, state)
         if way <= _CLOSE * scale:
-            used, found, motion = close_in(
-                plan, motion, clock, period, weight, tolerance, scale, max_events
-            )
-            return found, False, k + used, motion if found else kept
-    return False, False, k, kept if ahead else motion
+            used, found = close_in(plan, state, s, c, period, units, tolerance, scale, max_events)
+            if not found:
+                put(plan, kept, state)
+            return found, False, k + used
+    if ahead:
+        put(plan, kept, state)
+    return False, False, k

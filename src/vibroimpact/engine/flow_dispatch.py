@@ -1,12 +1,11 @@
 """Which flow carries a rig: found by its laws in Python, by the type of its plan in kernels.
 
-A flow is one kernel
+A flow of one mass is a kernel
 
     advance(plan, motion, limit) -> event, t, arrival, motion
 
-that goes on to the next event, and a rule which rigs it can carry. Everything above it — the event
-loop, settling, orbits — is compiled for one flow at a time, when a rig first asks for it: a rig
-pays nothing for laws that it does not have.
+that goes on to the next event, and a rule which rigs it can carry. Its functions for the rest of
+the engine are those of `one_mass`.
 """
 
 from __future__ import annotations
@@ -30,6 +29,7 @@ from vibroimpact.engine.linear import growth as linear_growth
 from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
+from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.motion import Motion
 from vibroimpact.engine.series import kernels
 from vibroimpact.engine.taylor import advance as taylor_advance
@@ -159,9 +159,12 @@ def _flow(rig: Vector) -> type:
 
 
 def _room(size: int) -> Vector:
-    """Memory that begins a cache line: vectors of eight numbers within it then cross none."""
-    memory = np.empty(size + 8)
-    start = -(memory.ctypes.data // 8) % 8
+    """Memory that begins a cache line: vectors of eight numbers within it then cross none.
+
+    The word before it is for the address of the flow's functions.
+    """
+    memory = np.empty(size + 16)
+    start = -(memory.ctypes.data // 8) % 8 + 8
     return memory[start : start + size]
 
 
@@ -220,7 +223,7 @@ def _plan(typing: Any, given: Any) -> Any:
 
 def planned(given: Any, rig: Vector) -> Vector:
     """The plan in this memory, with the numbers of a rig; its tables are still to be built."""
-    plan = given.memory
+    plan = given if isinstance(given, np.ndarray) else given.memory
     for i in range(par.SIZE):
         plan[i] = rig[i]
     return plan  # type: ignore[no-any-return]
@@ -228,8 +231,10 @@ def planned(given: Any, rig: Vector) -> Vector:
 
 @overload(planned, jit_options=CHOSEN)  # type: ignore[arg-type]
 def _planned(given: Any, rig: Any) -> Any:
+    of: Any = pointer if isinstance(given, types.Array) else _plan
+
     def implementation(given: Any, rig: Any) -> Any:
-        plan: Any = _plan(given)  # type: ignore[call-arg]
+        plan: Any = of(given)
         for i in range(par.SIZE):
             plan[i] = rig[i]
         return plan

@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from vibroimpact.engine.dispatch import (
     accelerated,
     begin,
-    build,
     displacement,
     expanded,
     following,
     more,
     smooth,
 )
-from vibroimpact.engine.entry import entry
-from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, RATE, H
-from vibroimpact.engine.measure import ABSCISSAE, P_C, P_LENGTH, P_S, WEIGHTS
+from vibroimpact.engine.measure import ABSCISSAE, WEIGHTS
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import LEFT, Motion, unpacked
+from vibroimpact.engine.motion import LEFT, Motion
 
 _TURN = 8.0
 """What a line may turn (rad) over the points of one quadrature, for 12 points to be exact to
@@ -35,12 +31,18 @@ QUANTITIES = 6
 
 @kernel
 def _stretch(
-    plan: Vector, before: Motion, length: float, begun: float, lines: Vector, out: Vector
+    plan: Vector,
+    before: Motion,
+    length: float,
+    begun: float,
+    lines: Vector,
+    count: int,
+    out: Vector,
 ) -> None:
     """Add a stretch that begins `begun` seconds behind the motion's beginning."""
     series, forces = workspace(), workspace()
     sign = -1.0 if before.mode == LEFT else 1.0
-    fastest = lines[len(lines) - 1]
+    fastest = lines[count - 1]
     cursor = begin(plan, before, length)
     while more(plan, cursor):
         h = plan[cursor.table + H]
@@ -60,55 +62,31 @@ def _stretch(
                 a *= sign * unit
                 share = WEIGHTS[n] * width * h
                 t = begun + cursor.t + (cursor.i + 0.5 + y) * h
-                for k in range(len(lines)):
+                for k in range(count):
                     angle = lines[k] * t
                     cosine, sine = share * math.cos(angle), share * math.sin(angle)
-                    out[0, k] += u * cosine
-                    out[1, k] -= u * sine
-                    out[2, k] += v * cosine
-                    out[3, k] -= v * sine
-                    out[4, k] += a * cosine
-                    out[5, k] -= a * sine
+                    out[k] += u * cosine
+                    out[count + k] -= u * sine
+                    out[2 * count + k] += v * cosine
+                    out[3 * count + k] -= v * sine
+                    out[4 * count + k] += a * cosine
+                    out[5 * count + k] -= a * sine
         cursor = following(plan, cursor)
 
 
-@entry("void(f8[::1], f8, f8, f8[:, ::1], f8[::1], f8[::1], f8[:, ::1])")
-def integrate(
-    given: Any,
-    rig: Vector,
-    amplitude: float,
-    frequency: float,
-    phases: Vector,
-    begins: Vector,
-    lines: Vector,
-    out: Vector,
+@kernel
+def integrate_phase(
+    plan: Vector, here: Motion, length: float, begins: float, lines: Vector, count: int, out: Vector
 ) -> None:
-    """Integrate a motion times exp(−iνt).
+    """Add the integrals of a phase that begins so long behind the motion's beginning (s).
 
-    Parameters
-    ----------
-    rig, amplitude, frequency
-        As in `batch.trajectory`.
-    phases : ndarray, shape (phase, measure.PHASE)
-        The phases.
-    begins : ndarray, shape (phase,)
-        When each begins (s).
-    lines : ndarray, shape (line,)
-        ν in rad/s, rising.
-    out : ndarray, shape (QUANTITIES, line)
-        Added to.
+    `out` has QUANTITIES rows of `count` numbers.
     """
-    plan = planned(given, rig)
-    build(plan, amplitude, 2.0 * math.pi * frequency)
-    for i in range(len(phases)):
-        phase = phases[i]
-        here = unpacked(phase, (phase[P_S], phase[P_C]))
-        length = phase[P_LENGTH]
-        t = 0.0
-        while t < length:
-            step, behind = smooth(plan, here, length - t)
-            _stretch(plan, here, step, begins[i] + t, lines, out)
-            if step >= length - t:
-                break  # what comes behind may be in another mode (as in `measure`)
-            here = behind
-            t += step
+    t = 0.0
+    while t < length:
+        step, behind = smooth(plan, here, length - t)
+        _stretch(plan, here, step, begins + t, lines, count, out)
+        if step >= length - t:
+            break  # what comes behind may be in another mode (as in `measure`)
+        here = behind
+        t += step

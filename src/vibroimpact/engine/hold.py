@@ -16,18 +16,26 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.engine import flow
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.chaos_indicator import runs_away
-from vibroimpact.engine.dispatch import build, stiff_rate, too_much_work, undisturbed
-from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.extrapolation import pursue
 from vibroimpact.engine.fixed_point import DYING
-from vibroimpact.engine.forcing.dispatch import begin
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.memory import stack
-from vibroimpact.engine.motion import Clock, Motion, aged, finite
-from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.extremes import NOTHING, Extremes
+from vibroimpact.engine.memory import beyond, stack
+from vibroimpact.engine.observers.extremes import notes_room, nothing
+from vibroimpact.engine.state import (
+    FIRST,
+    LARGEST,
+    begin_again,
+    copy,
+    distance,
+    finite,
+    parts_room,
+    put,
+    room,
+    wind,
+)
 from vibroimpact.engine.status import (
     DONE,
     NOT_FINITE,
@@ -62,103 +70,114 @@ U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT, PERIOD, CYCLES, OUTCOME
 FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT, T_LEAST, T_MOST = range(9, 15)
 RESULTS = 15
 
-past_memory = stack(LONGEST * 4)
+past_memory = stack(LONGEST * (FIRST + LARGEST))
 distances = stack(LONGEST + 1)
 
 
 @kernel
 def follow(
     plan: Vector,
-    motion: Motion,
-    clock: Clock,
+    state: Vector,
+    s: float,
+    c: float,
     period: float,
     cycles: int,
     max_events: int,
     progress: Any,
-) -> tuple[int, int, Extremes, Motion]:
-    """Follow `cycles` forcing cycles: the outcome, how many were followed, and their extremes."""
-    notes = NOTHING
+    notes: Vector,
+) -> tuple[int, int]:
+    """Follow `cycles` forcing cycles and note their extremes: the outcome, how many were followed.
+
+    It stops when [1] of `progress` becomes nonzero; None if it cannot take long.
+    """
+    section = room()
     outcome = DONE
     done = 0
     while done < cycles and outcome == DONE:
-        section = motion
-        events, motion, notes = cycle(plan, section, clock, period, max_events, notes)
+        put(plan, state, section)
+        events = flow.extremes(plan, state, s, c, period, max_events, notes)
         if events > max_events:  # a cycle that is given up leaves the state of its section
             outcome = TOO_MANY_EVENTS
-            motion = section
-        elif not finite(motion):
+            put(plan, section, state)
+        elif not finite(plan, state):
             outcome = NOT_FINITE
         done += 1
         if progress is not None:  # noqa: SIM102 - the compiler leaves out what None makes needless
             if progress[1] != 0:
                 outcome = STOPPED
-    return outcome, done, notes, motion
+    return outcome, done
 
 
 @kernel
 def measure(
     plan: Vector,
-    start: Motion,
-    clock: Clock,
+    state: Vector,
+    s: float,
+    c: float,
     period: float,
     cycles: int,
     max_events: int,
     result: Vector,
     progress: Any,
-) -> tuple[int, Motion]:
+) -> int:
     """Follow `cycles` forcing cycles and write their exact extremes and contact counts.
 
-    Forces and impulses are those per unit mass. It stops when [1] of `progress` becomes nonzero;
-    None if it cannot take long.
+    Forces and impulses are those per unit mass. `progress` as in `follow`.
     """
-    outcome, done, notes, motion = follow(plan, start, clock, period, cycles, max_events, progress)
-    a_least, a_most = notes.a_least, notes.a_most
+    start, notes, carried = room(), notes_room(), notes_room()
+    nothing(notes)
+    put(plan, state, start)
+    outcome, done = follow(plan, state, s, c, period, cycles, max_events, progress, notes)
+    copy(notes, carried, 4)
     if plan[par.BASE] == 0.0:
         # The force on the base is that of ü + A_t, A_t what stands for the force on the mass: the
         # absolute acceleration of the same motion if the base moved.
         plan[par.BASE] = 1.0
-        outcome, _, carried, _ = follow(plan, start, clock, period, done, max_events, progress)
+        nothing(carried)
+        outcome, _ = follow(plan, start, s, c, period, done, max_events, progress, carried)
         plan[par.BASE] = 0.0
-        a_least, a_most = carried.a_least, carried.a_most
-    result[T_LEAST], result[T_MOST] = plan[par.LOAD] - a_most, plan[par.LOAD] - a_least
-    result[U_LEAST], result[U_MOST] = notes.u_least, notes.u_most
-    result[A_LEAST], result[A_MOST] = notes.a_least, notes.a_most
-    result[HITS_RIGHT], result[HITS_LEFT] = notes.hits_right / done, notes.hits_left / done
-    result[FORCE_RIGHT], result[FORCE_LEFT] = notes.force_right, notes.force_left
-    result[IMPULSE_RIGHT], result[IMPULSE_LEFT] = notes.impulse_right, notes.impulse_left
-    return outcome, motion
+    result[T_LEAST], result[T_MOST] = plan[par.LOAD] - carried[3], plan[par.LOAD] - carried[2]
+    result[U_LEAST], result[U_MOST] = notes[0], notes[1]
+    result[A_LEAST], result[A_MOST] = notes[2], notes[3]
+    result[HITS_RIGHT], result[HITS_LEFT] = notes[4] / done, notes[5] / done
+    result[FORCE_RIGHT], result[FORCE_LEFT] = notes[6], notes[7]
+    result[IMPULSE_RIGHT], result[IMPULSE_LEFT] = notes[8], notes[9]
+    return outcome
 
 
 @kernel
 def settle(
     plan: Vector,
-    motion: Motion,
-    clock: Clock,
+    state: Vector,
+    s: float,
+    c: float,
     period: float,
     tolerance: float,
     max_cycles: int,
     max_events: int,
     transient: float,
     progress: NDArray[np.int64],
-) -> tuple[int, int, int, Motion]:
+) -> tuple[int, int, int]:
     """Follow the motion until it repeats itself, or is plainly chaotic behind its transient (s).
 
     It stops when [1] of `progress` becomes nonzero; [2], if there is one, counts the cycles.
 
     Returns
     -------
-    outcome, n, cycles, motion
+    outcome, n, cycles
         `n` is the period in forcing cycles, 0 if the motion did not settle.
     """
-    weight = stiff_rate(plan)
+    units, section = parts_room(), room()
+    flow.units(plan, units)
+    wide = FIRST + flow.parts(plan)
     asked = max(transient / period, _SOON)
-    found, plain, gone, motion = pursue(
-        plan, motion, clock, period, weight, tolerance, max_cycles, max_events, asked
+    found, plain, gone = pursue(
+        plan, state, s, c, period, units, tolerance, max_cycles, max_events, asked
     )
     if found:
-        return DONE, 1, gone, motion
+        return DONE, 1, gone
     if plain:
-        return NOT_SETTLED, 0, gone, motion
+        return NOT_SETTLED, 0, gone
     past = past_memory()
     block, former = distances(), distances()
     recent, earlier = distances(), distances()  # ratios of successive blocks
@@ -186,39 +205,27 @@ def settle(
             progress[2] = gone + k
         if k % _BLOCK == 0 and gone + k >= asked:
             asked = PATIENT
-            plain, beside, motion = runs_away(plan, motion, clock, period, weight, max_events)
+            plain, beside = runs_away(plan, state, s, c, period, units, max_events)
             gone += beside
             if plain:
                 break
-        at = k % LONGEST
-        past[at * 4], past[at * 4 + 1] = motion.u, motion.v
-        past[at * 4 + 2], past[at * 4 + 3] = motion.right, motion.left
-        section = motion
-        events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
-        u, v, right, left = motion.u, motion.v, motion.right, motion.left
+        copy(state, beyond(past, wide * (k % LONGEST)), wide)
+        put(plan, state, section)
+        events = flow.cycle(plan, state, s, c, period, max_events)
         k += 1
         if events > max_events:
             outcome = TOO_MANY_EVENTS
-            motion = section
+            put(plan, section, state)
             break
-        if not finite(motion):
+        if not finite(plan, state):
             outcome = NOT_FINITE
             break
-        size = max(size, weight * abs(u), abs(v))
+        size = max(size, flow.size(plan, state))
         scale = max(size, former_size)
         # Longer periods are looked for only where the simplest has not come soon.
         longest = 1 if k <= 4 * _BLOCK else LONGEST
         for i in range(1, longest + 1):
-            q = (k - i) % LONGEST
-            d = max(
-                weight
-                * max(
-                    abs(u - past[q * 4]),
-                    abs(right - past[q * 4 + 2]),
-                    abs(left - past[q * 4 + 3]),
-                ),
-                abs(v - past[q * 4 + 1]),
-            )
+            d = distance(plan, state, beyond(past, wide * ((k - i) % LONGEST)), units)
             block[i] = max(block[i], d)
         if k % _BLOCK:
             continue
@@ -238,8 +245,7 @@ def settle(
         if n:
             # A slowly alternating approach closes on 2 before 1: take the least that fits now.
             for i in range(1, n):
-                q = (k - i) % LONGEST
-                d = max(weight * abs(u - past[q * 4]), abs(v - past[q * 4 + 1]))
+                d = distance(plan, state, beyond(past, wide * ((k - i) % LONGEST)), units)
                 if n % i == 0 and d <= _SAME * scale:
                     n = i
                     break
@@ -274,32 +280,33 @@ def settle(
             recent[i] = block[i] / former[i] if former[i] < math.inf else math.inf
             former[i] = block[i] if i <= longest else math.inf
             block[i] = 0.0
-    return outcome, n, gone + k, motion
+    return outcome, n, gone + k
 
 
 @kernel
 def hold(
     plan: Vector,
-    motion: Motion,
+    state: Vector,
     amplitude: float,
     frequency: float,
-    clock: Clock,
+    s: float,
+    c: float,
     options: tuple[float, int, int, int, float],
     result: Vector,
     progress: NDArray[np.int64],
-) -> Motion:
-    """Hold one frequency: settle, then measure; return the motion at the end.
+) -> None:
+    """Hold one frequency: settle, then measure; the state is carried to the end.
 
     Parameters
     ----------
     plan : ndarray
         The rig's plan, whose tables are rebuilt here.
-    motion : Motion
+    state : ndarray
         What is carried on.
     amplitude, frequency : float
         m/s² and Hz.
-    clock : Clock
-        The forcing at the stroboscopic section.
+    s, c : float
+        The forcing's clock at the stroboscopic section.
     options : tuple
         tolerance, max_cycles, window, max_events, transient.
     result : ndarray, shape (RESULTS,)
@@ -311,31 +318,29 @@ def hold(
     period = 1.0 / frequency
     for i in range(RESULTS):
         result[i] = math.nan
-    begin(plan, amplitude, 2.0 * math.pi * frequency)
-    alone, swing, felt, carried, motion = undisturbed(plan, motion, clock, DYING)
-    if alone:
+    flow.begin(plan, amplitude, 2.0 * math.pi * frequency)
+    wind(plan, state, s, c)
+    free = parts_room()
+    if flow.undisturbed(plan, state, DYING, free) != 0:
         rest = plan[par.LOAD] / plan[par.STIFFNESS]
-        result[U_LEAST], result[U_MOST] = rest - swing, rest + swing
-        result[A_LEAST], result[A_MOST] = -felt, felt
-        result[T_LEAST] = plan[par.LOAD] - carried
-        result[T_MOST] = plan[par.LOAD] + carried
+        result[U_LEAST], result[U_MOST] = rest - free[0], rest + free[0]
+        result[A_LEAST], result[A_MOST] = -free[1], free[1]
+        result[T_LEAST], result[T_MOST] = plan[par.LOAD] - free[2], plan[par.LOAD] + free[2]
         for i in (HITS_RIGHT, HITS_LEFT, FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT):
             result[i] = 0.0
         result[PERIOD], result[CYCLES], result[OUTCOME] = 1, 0, DONE
-        return motion
-    build(plan, amplitude, 2.0 * math.pi * frequency)
+        return
+    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     result[PERIOD], result[CYCLES] = 0, 0
-    if too_much_work(plan, period):
+    if flow.too_much_work(plan, period) != 0:
         result[OUTCOME] = TOO_MUCH_WORK
-        return motion
-    motion = aged(motion, 0.0)  # the forcing has changed: what had died out is a transient again
-    outcome, n, k, motion = settle(
-        plan, motion, clock, period, tolerance, max_cycles, max_events, transient, progress
+        return
+    begin_again(plan, state)
+    outcome, n, k = settle(
+        plan, state, s, c, period, tolerance, max_cycles, max_events, transient, progress
     )
     if outcome in (DONE, NOT_SETTLED):
-        over, motion = measure(
-            plan, motion, clock, period, n if n else window, max_events, result, progress
-        )
+        over = measure(plan, state, s, c, period, n if n else window, max_events, result, progress)
         k += n if n else window
         if over != DONE:
             outcome = over
@@ -343,4 +348,3 @@ def hold(
             for i in range(RESULTS):
                 result[i] = math.nan
     result[PERIOD], result[CYCLES], result[OUTCOME] = n, k, outcome
-    return motion

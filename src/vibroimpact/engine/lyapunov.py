@@ -5,16 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from vibroimpact.engine.dispatch import build, start_growth, stiff_rate, too_much_work
+from vibroimpact.engine import flow
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.memory import TERMS, pointer, workspace
-from vibroimpact.engine.motion import finite, pack, unpacked
-from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.growth import Growth
-from vibroimpact.engine.observers.tangent import Tangent, unit_disturbances
+from vibroimpact.engine.memory import TERMS, beyond, pointer, workspace
+from vibroimpact.engine.state import copy, finite, parts_room, put, room, width, wind
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
@@ -24,7 +20,8 @@ GROWTH = SECTION + 5
 
 
 @entry(
-    "UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[::1], f8[:, ::1], boolean, i8, i8, i8, i8, f8[:, ::1])"
+    "UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[::1], f8[:, ::1], boolean, i8, i8, i8, i8, f8[:, ::1])",
+    "disturbed",
 )
 def growth(
     given: Any,
@@ -69,53 +66,50 @@ def growth(
     """
     plan = planned(given, rig)
     period = 1.0 / frequency
-    build(plan, amplitude, 2.0 * math.pi * frequency)
-    if too_much_work(plan, period):
+    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
+    if flow.too_much_work(plan, period) != 0:
         return TOO_MUCH_WORK, first
-    clock = (math.sin(phase), math.cos(phase))
-    motion = unpacked(state, clock)
-    weight = stiff_rate(plan)
+    s, c = math.sin(phase), math.cos(phase)
+    here, section, notes = room(), room(), parts_room()
+    copy(pointer(state), here, width(plan))
+    wind(plan, here, s, c)
     q = workspace()
     w = workspace()
     for i in range(TERMS):
         q[i], w[i] = disturbances[0, i], disturbances[1, i]
     if anew:
-        start_growth(plan, q, w, weight, motion.mode)
+        flow.start_growth(plan, here, q, w)
     outcome = DONE
     number = first
     while outcome == DONE and number < last:
         # A cycle that is given up leaves the state of its section.
-        section = motion
+        put(plan, here, section)
         if number < -discard:
-            events, motion, _ = cycle(plan, section, clock, period, max_events, UNOBSERVED)
+            events = flow.cycle(plan, here, s, c, period, max_events)
         else:
-            notes = Growth(q, w, weight, period, 0.0, 0.0, 0.0, 0.0)
-            events, motion, notes = cycle(plan, section, clock, period, max_events, notes)
+            events = flow.growth(plan, here, s, c, period, max_events, q, w, notes)
             if number >= 0 and events <= max_events:
                 row = out[number - max(first, 0)]
-                row[FIRST] = notes.first
+                row[FIRST] = notes[0]
                 # A rest on a wall leaves nothing of either: the difference would be no number.
-                lost = notes.both == -math.inf
-                row[SECOND] = -math.inf if lost else notes.both - notes.first
-                row[DISSIPATION] = notes.dissipation
-                row[SECTION], row[SECTION + 1] = motion.u, motion.v
-                row[SECTION + 2], row[SECTION + 3] = motion.right, -motion.left
-                row[SECTION + 4] = motion.z
+                row[SECOND] = -math.inf if notes[1] == -math.inf else notes[1] - notes[0]
+                row[DISSIPATION] = notes[2]
+                flow.point(plan, here, beyond(pointer(row), SECTION))
         if events > max_events:
             outcome = TOO_MANY_EVENTS
-        elif not finite(motion):
+        elif not finite(plan, here):
             outcome = NOT_FINITE
         if outcome != DONE:
-            motion = section
+            put(plan, section, here)
             break
         number += 1
-    pack(motion, state)
+    copy(here, pointer(state), width(plan))
     for i in range(TERMS):
         disturbances[0, i], disturbances[1, i] = q[i], w[i]
     return outcome, number
 
 
-@entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, i8, f8[:, ::1], f8[::1])")
+@entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, i8, f8[:, ::1], f8[::1])", "disturbed")
 def monodromy(
     given: Any,
     rig: Vector,
@@ -148,24 +142,26 @@ def monodromy(
     """
     plan = planned(given, rig)
     period = 1.0 / frequency
-    build(plan, amplitude, 2.0 * math.pi * frequency)
+    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     outcome = DONE
-    if too_much_work(plan, period):
+    if flow.too_much_work(plan, period) != 0:
         outcome = TOO_MUCH_WORK
-    clock = (math.sin(phase), math.cos(phase))
-    motion = unpacked(state, clock)
+    s, c = math.sin(phase), math.cos(phase)
+    here, notes = room(), parts_room()
+    copy(pointer(state), here, width(plan))
+    wind(plan, here, s, c)
     q = pointer(columns)
-    unit_disturbances(plan, motion.mode, q)
+    flow.unit_disturbances(plan, here, q)
     damping[0] = 0.0
     done = 0
     while outcome == DONE and done < cycles:
-        notes = Tangent(q, 0.0, 0, 0)
-        events, motion, notes = cycle(plan, motion, clock, period, max_events, notes)
-        damping[0] += notes.damping
+        notes[0], notes[1], notes[2] = 0.0, 0.0, 0.0
+        events = flow.tangent(plan, here, s, c, period, max_events, q, notes)
+        damping[0] += notes[0]
         done += 1
         if events > max_events:
             outcome = TOO_MANY_EVENTS
-        elif not finite(motion):
+        elif not finite(plan, here):
             outcome = NOT_FINITE
-    pack(motion, state)
+    copy(here, pointer(state), width(plan))
     return outcome

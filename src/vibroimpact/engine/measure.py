@@ -7,7 +7,6 @@ product of two such series without error, and a law's force of one to rounding.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -16,7 +15,6 @@ from vibroimpact.engine.dispatch import (
     accelerated,
     acceleration,
     begin,
-    build,
     coordinate,
     expanded,
     expanded_force,
@@ -30,8 +28,6 @@ from vibroimpact.engine.dispatch import (
     stop_push,
     unkept,
 )
-from vibroimpact.engine.entry import entry
-from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.forcing.dispatch import change_rate, pull_series
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
@@ -39,7 +35,7 @@ from vibroimpact.engine.linear.layout import RATE, H
 from vibroimpact.engine.linear.stops import rigid
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, STATE, Motion, unpacked
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, STATE, Motion
 from vibroimpact.engine.observers.extremes import series_extremes
 
 _X, _W = np.polynomial.legendre.leggauss(12)
@@ -165,26 +161,3 @@ def measure_phase(plan: Vector, before: Motion, length: float, side: int, out: V
         apart = plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP]
         x_least, x_most = out[X_LEAST], out[X_MOST]
         out[X_LEAST], out[X_MOST] = -x_most - apart, -x_least - apart
-
-
-@entry("void(f8[::1], f8, f8, f8[:, ::1], f8[:, ::1])")
-def measure_phases(
-    given: Any, rig: Vector, amplitude: float, frequency: float, phases: Vector, out: Vector
-) -> None:
-    """Measure phases of a motion.
-
-    Parameters
-    ----------
-    rig, amplitude, frequency
-        As in `batch.trajectory`.
-    phases : ndarray, shape (phase, PHASE)
-        The phases.
-    out : ndarray, shape (phase, MEASURES)
-        Written.
-    """
-    plan = planned(given, rig)
-    build(plan, amplitude, 2.0 * math.pi * frequency)
-    for i in range(len(phases)):
-        phase = phases[i]
-        before = unpacked(phase, (phase[P_S], phase[P_C]))
-        measure_phase(plan, before, phase[P_LENGTH], int(phase[P_SIDE]), out[i])

@@ -85,6 +85,27 @@ def _store(typing: Any, memory: Any, index: Any, value: Any) -> Any:
     return types.void(memory, index, types.float64), build
 
 
+@intrinsic
+def _beyond(typing: Any, memory: Any, at: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        return builder.gep(args[0], [args[1]], inbounds=True, source_etype=ir.DoubleType())
+
+    return _DOUBLES(memory, types.int64), build
+
+
+def beyond(memory: Vector, at: int) -> Vector:
+    """The memory from a place on."""
+    return memory[at:]
+
+
+@overload(beyond)
+def _from(memory: Any, at: Any) -> Any:
+    def implementation(memory: Any, at: Any) -> Any:
+        return _beyond(memory, at)  # type: ignore[call-arg]
+
+    return implementation
+
+
 @overload(pointer)
 def _pointer(array: Any) -> Any:
     def implementation(array: Any) -> Any:

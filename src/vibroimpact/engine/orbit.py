@@ -5,15 +5,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from vibroimpact.engine.dispatch import build, too_much_work
+from vibroimpact.engine import flow
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.hold import measure
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.matrix import solve
 from vibroimpact.engine.memory import pointer, stack, workspace
-from vibroimpact.engine.observers.margin import Margin
 from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.section_map import (
     AMPLITUDE,
@@ -27,10 +25,11 @@ from vibroimpact.engine.section_map import (
     RESIDUAL,
     STEPS,
     SYSTEM,
-    placed,
+    begin_at,
     section_map,
     system_plan,
 )
+from vibroimpact.engine.state import copy, parts_room, room
 from vibroimpact.engine.status import DONE, NOT_FINITE, NOT_SETTLED
 
 _NEWTON_STEPS = 16
@@ -41,13 +40,6 @@ _FARTHEST = 0.5  # scaled length of a Newton step
 
 system_memory = stack(SYSTEM)
 matrix_memory = stack(POINT * POINT)
-
-
-@kernel
-def copy(source: Vector, target: Vector, n: int) -> None:
-    """Copy n numbers."""
-    for i in range(n):
-        target[i] = source[i]
 
 
 Line = tuple[Vector, Vector, float, int, bool, int, Vector]
@@ -184,7 +176,8 @@ def _slope(
 
 @entry(
     "i8(f8[::1], f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[::1],"
-    " f8[:, ::1], f8[::1])"
+    " f8[:, ::1], f8[::1])",
+    "disturbed",
 )
 def correct(
     given: Any,
@@ -250,7 +243,8 @@ def correct(
 
 @entry(
     "i8(f8[::1], f8[::1], f8[::1], f8, i8, boolean, i8, f8[::1], f8[::1], f8[::1], f8[:, ::1],"
-    " f8[::1], f8[::1])"
+    " f8[::1], f8[::1])",
+    "disturbed",
 )
 def evaluate(
     given: Any,
@@ -298,17 +292,15 @@ def measure_orbit(
 ) -> int:
     """Exact extremes and contact counts of an orbit, as `hold.measure` writes them."""
     plan = planned(given, system)
-    build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
-    clock = (math.sin(phase), math.cos(phase))
-    motion = placed(
-        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], point[4], clock
-    )
+    flow.build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
+    state = room()
+    begin_at(plan, state, facts[MODE], phase, pointer(point))
+    s, c = math.sin(phase), math.cos(phase)
     period = 1.0 / system[FREQUENCY]
-    outcome, _ = measure(plan, motion, clock, period, cycles, max_events, pointer(result), None)
-    return outcome
+    return measure(plan, state, s, c, period, cycles, max_events, pointer(result), None)
 
 
-@entry("f8(f8[::1], f8, i8, i8, f8[::1], f8[::1])")
+@entry("f8(f8[::1], f8, i8, i8, f8[::1], f8[::1])", "disturbed")
 def grazing_margin(
     given: Any,
     system: Vector,
@@ -341,17 +333,15 @@ def grazing_margin(
         size; NaN if given up.
     """
     plan = planned(given, system)
-    build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
+    flow.build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
     period = 1.0 / system[FREQUENCY]
-    if too_much_work(plan, period):
+    if flow.too_much_work(plan, period) != 0:
         return math.nan
-    clock = (math.sin(phase), math.cos(phase))
-    motion = placed(
-        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], point[4], clock
-    )
-    notes = Margin(math.inf)
+    state, notes = room(), parts_room()
+    begin_at(plan, state, facts[MODE], phase, pointer(point))
+    s, c = math.sin(phase), math.cos(phase)
+    notes[0] = math.inf
     for _ in range(cycles):
-        events, motion, notes = cycle(plan, motion, clock, period, max_events, notes)
-        if events > max_events:
+        if flow.margin(plan, state, s, c, period, max_events, notes) > max_events:
             return math.nan
-    return notes.least
+    return notes[0]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from vibroimpact.engine.entry import Entry
+from vibroimpact.engine.compilation import Compiled
 
 
 class Alone(NamedTuple):
@@ -14,18 +14,16 @@ class Alone(NamedTuple):
     nothing: float = 0.0
 
 
-class Single(Entry):
+class Single(Compiled):
     """A compiled function of numbers and arrays; it gets an `Alone` as its first argument."""
 
     def __call__(self, *args: Any) -> Any:
         """Run, compiling or loading first if this is the first call of the process."""
-        if Alone not in self._compiled:
-            self.prepare()
-        return self._compiled[Alone](Alone(), *args)
+        return self.of(Alone())(Alone(), *args)
 
     def prepare(self, *rigs: Any) -> None:
         """Compile, or load from the cache."""
-        self._prepare(Alone())
+        self.of(Alone())
 
 
 def single(signature: str) -> Callable[[Callable[..., Any]], Single]:

@@ -8,14 +8,13 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from vibroimpact.engine.dispatch import build, too_much_work
+from vibroimpact.engine import flow
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.motion import aged, at_section, finite, pack, unpacked
-from vibroimpact.engine.observe import UNOBSERVED
-from vibroimpact.engine.observers.record import Record, write
+from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.observers.record import WRITTEN, note_room, start_notes
+from vibroimpact.engine.state import begin_again, copy, finite, put, room, width, wind
 from vibroimpact.engine.status import NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # Columns of a line: A_t at its beginning (m/s²), its slope (m/s³) and how long it lasts (s).
@@ -24,7 +23,8 @@ LINE = 3
 
 
 @entry(
-    "UniTuple(i8, 3)(f8[::1], f8, f8, f8[:, ::1], f8[::1], i8, i8, f8, i8, f8[:, ::1], f8[:, ::1])"
+    "UniTuple(i8, 3)(f8[::1], f8, f8, f8[:, ::1], f8[::1], i8, i8, f8, i8, f8[:, ::1], f8[:, ::1])",
+    "recorded",
 )
 def follow(
     given: Any,
@@ -69,10 +69,13 @@ def follow(
         The line to go on with, the number of events written, a `Status`.
     """
     plan = planned(given, rig)
-    build(plan, most, steepest / most if most > 0.0 else 0.0)
-    if too_much_work(plan, interval):
+    flow.build(plan, most, steepest / most if most > 0.0 else 0.0)
+    if flow.too_much_work(plan, interval) != 0:
         return first, 0, TOO_MUCH_WORK
-    motion = unpacked(state, (lines[first, BEGINS], lines[first, SLOPE]))
+    here, before, notes = room(), room(), note_room()
+    copy(pointer(state), here, width(plan))
+    wind(plan, here, lines[first, BEGINS], lines[first, SLOPE])
+    columns = out.shape[1]
     step = interval / samples if samples else 0.0
     listed = samples or len(events) > max_events + 1
     number = first
@@ -80,27 +83,31 @@ def follow(
     outcome = 0
     while number < len(lines) and outcome == 0 and count + max_events < len(events):
         line = lines[number]
-        clock, length = (line[BEGINS], line[SLOPE]), line[LASTS]
+        s, c, length = line[BEGINS], line[SLOPE], line[LASTS]
         # The slope changes here: what had died out is a transient again.
-        before = at_section(aged(motion, 0.0), clock)
+        begin_again(plan, here)
+        wind(plan, here, s, c)
+        put(plan, here, before)
         if samples:
-            write(plan, before, out, number * samples)
+            flow.write(plan, before, pointer(out), columns, number * samples)
         n = int(math.ceil(length / step - 1e-9)) if samples else 0  # noqa: RUF046
-        here = 0
+        happened = 0
         if n <= 1:  # nothing to be seen on the line unless something happens there
-            here, motion, _ = cycle(plan, before, clock, length, max_events, UNOBSERVED)
-        if n > 1 or (here and listed):
-            last = count + max_events
-            notes = Record(out, number * samples, step, n, 1, events, count, last, number)
-            here, motion, notes = cycle(plan, before, clock, length, max_events, notes)
-            count = notes.written
-        if here > max_events:
+            happened = flow.cycle(plan, here, s, c, length, max_events)
+        if n > 1 or (happened and listed):
+            put(plan, before, here)
+            start_notes(notes, columns, number * samples, step, n, 1, count, max_events, number)
+            happened = flow.record(
+                plan, here, s, c, length, max_events, notes, pointer(out), pointer(events)
+            )
+            count = int(notes[WRITTEN])
+        if happened > max_events:
             outcome = TOO_MANY_EVENTS
-            motion = before
-        elif not finite(motion):
+            put(plan, before, here)
+        elif not finite(plan, here):
             outcome = NOT_FINITE
         number += 1
     if number == len(lines) and samples and outcome == 0:
-        write(plan, motion, out, out.shape[1] - 1)
-    pack(motion, state)
+        flow.write(plan, here, pointer(out), columns, columns - 1)
+    copy(here, pointer(state), width(plan))
     return number, count, outcome

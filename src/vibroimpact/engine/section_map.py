@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine import flow
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.dispatch import build, too_much_work
-from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import FLIGHT, RIGHT, Clock, Motion, finite, mirrored
-from vibroimpact.engine.observers.tangent import DISTURBANCE, Tangent, unit_disturbances
+from vibroimpact.engine.motion import FLIGHT
+from vibroimpact.engine.observers.tangent import DISTURBANCE
+from vibroimpact.engine.state import MODE as STATE_MODE
+from vibroimpact.engine.state import finite, parts_room, room, wind
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # The system vector: the rig (`parameters`), then the forcing.
@@ -49,60 +50,15 @@ def system_plan(base: Vector, direction: Vector, p: float, plan: Vector, system:
         system[at + par.RESTITUTION] = max(system[at + par.RESTITUTION], 0.0)
     for i in range(par.SIZE):
         plan[i] = system[i]
-    build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
+    flow.build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
 
 
 @kernel
-def placed(
-    plan: Vector,
-    mode: int,
-    u: float,
-    v: float,
-    right: float,
-    left: float,
-    z: float,
-    clock: Clock,
-) -> Motion:
-    """The nearest state that can be: no mass inside a bumper, no bumper that pulls.
-
-    Deformations are measured away from the mass.
-    """
-    right, left = max(right, 0.0), max(left, 0.0)
-    found = FLIGHT
-    for side in range(1, 3):
-        at = par.BUMPER + par.WIDTH * (side - 1)
-        kind = plan[at + par.KIND]
-        if kind == par.ABSENT:
-            continue
-        sign = 1.0 if side == RIGHT else -1.0
-        deformation = right if side == RIGHT else left
-        reach = sign * u - plan[at + par.GAP]
-        if kind == par.RIGID:
-            deformation = 0.0
-            if reach > 0.0:
-                u = sign * plan[at + par.GAP]
-            if mode & side and reach >= 0.0 and v == 0.0:
-                found |= side
-        elif kind != par.KELVIN_VOIGT:
-            if reach > 0.0 or (reach == 0.0 and mode & side):
-                found |= side
-            else:
-                deformation = 0.0
-        else:
-            if mode & side or reach > deformation:
-                force = plan[at + par.BUMPER_STIFFNESS] * reach
-                force += plan[at + par.BUMPER_DAMPING] * sign * v
-                deformation = max(reach, 0.0)
-                if reach >= 0.0 and force >= 0.0:
-                    found |= side
-            if plan[at + par.BUMPER_DAMPING] == 0.0 and not found & side:
-                deformation = 0.0
-        if side == RIGHT:
-            right = deformation
-        else:
-            left = deformation
-    z = min(max(z, -plan[par.YIELD]), plan[par.YIELD])
-    return Motion(found, found, u, v, right, left, z, 0.0, clock)
+def begin_at(plan: Vector, state: Vector, mode: float, phase: float, point: Vector) -> None:
+    """Put a state at a point of the section, or where it can be."""
+    state[STATE_MODE] = mode
+    wind(plan, state, math.sin(phase), math.cos(phase))
+    flow.at_point(plan, state, point)
 
 
 @kernel
@@ -125,36 +81,31 @@ def section_map(
     for i in range(DISTURBANCE):
         if not abs(point[i]) < 1e200:
             return NOT_FINITE
-    clock = (math.sin(phase), math.cos(phase))
-    motion = placed(
-        plan, int(facts[MODE]), point[0], point[1], point[2], -point[3], point[4], clock
-    )
-    point[2], point[3], point[4] = motion.right, -motion.left, motion.z
-    facts[MODE] = motion.mode
+    s, c = math.sin(phase), math.cos(phase)
+    state, notes = room(), parts_room()
+    begin_at(plan, state, facts[MODE], phase, point)
+    # The deformations and what the isolator remembers, where they can be.
+    flow.point(plan, state, notes)
+    for i in range(2, DISTURBANCE):
+        point[i] = notes[i]
+    facts[MODE] = state[STATE_MODE]
     period = (0.5 if mirror else 1.0) / system[FREQUENCY]
-    if too_much_work(plan, period):
+    if flow.too_much_work(plan, period) != 0:
         return TOO_MUCH_WORK
-    unit_disturbances(plan, motion.mode, q)
+    flow.unit_disturbances(plan, state, q)
     facts[CONTACTS_RIGHT], facts[CONTACTS_LEFT], facts[DAMPING] = 0.0, 0.0, 0.0
     for _ in range(count):
-        notes = Tangent(q, 0.0, 0, 0)
-        events, motion, notes = cycle(plan, motion, clock, period, max_events, notes)
-        if events > max_events:
+        notes[0], notes[1], notes[2] = 0.0, 0.0, 0.0
+        if flow.tangent(plan, state, s, c, period, max_events, q, notes) > max_events:
             return TOO_MANY_EVENTS
-        facts[DAMPING] += notes.damping
-        facts[CONTACTS_RIGHT] += notes.hits_right
-        facts[CONTACTS_LEFT] += notes.hits_left
+        facts[DAMPING] += notes[0]
+        facts[CONTACTS_RIGHT] += notes[1]
+        facts[CONTACTS_LEFT] += notes[2]
         if mirror:
-            motion = mirrored(motion)
-            for i in range(DISTURBANCE):
-                at = i * DISTURBANCE
-                q[at], q[at + 1] = -q[at], -q[at + 1]
-                q[at + 2], q[at + 3] = -q[at + 3], -q[at + 2]
-                q[at + 4] = -q[at + 4]
-    if not finite(motion):
+            flow.mirror(plan, state, q)
+    if not finite(plan, state):
         return NOT_FINITE
-    image[0], image[1], image[2], image[3] = motion.u, motion.v, motion.right, -motion.left
-    image[4] = motion.z
-    if motion.mode != FLIGHT:
-        facts[MODE] = motion.mode
+    flow.point(plan, state, image)
+    if state[STATE_MODE] != FLIGHT:
+        facts[MODE] = state[STATE_MODE]
     return DONE

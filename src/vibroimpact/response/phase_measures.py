@@ -12,6 +12,7 @@ from vibroimpact.engine import measure
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.motion import LEFT, RIGHT
+from vibroimpact.engine.phases import measure_phases
 from vibroimpact.model import Bumper, Record
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig
@@ -60,7 +61,7 @@ def _measured(
     frequency: float,
 ) -> _Array:
     found = np.zeros((len(side), measure.MEASURES))
-    measure.measure_phases(rig, size, frequency, table(origin, parts, side), found)
+    measure_phases(rig, size, frequency, table(origin, parts, side), found)
     return found
 
 

@@ -10,6 +10,7 @@ from scipy.interpolate import CubicSpline
 from vibroimpact.arguments import check_variables
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine import fourier
+from vibroimpact.engine.phases import integrate
 from vibroimpact.errors import InputError
 from vibroimpact.model import Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
@@ -88,7 +89,7 @@ def _exact(origin: Recorded[Repeated], parts: Phases, order: NDArray[np.float64]
     rig, size, frequency = asked(origin)
     rows = table(origin, parts, np.zeros(len(parts.contact), dtype=np.int64))
     lines = order * origin.excitation.angular_frequency
-    fourier.integrate(rig, size, frequency, rows, parts.begin, lines, found)
+    integrate(rig, size, frequency, rows, parts.begin, lines, found)
     scale = np.where(order == 0.0, 1.0, 2.0) / (origin.cycles * origin.excitation.period)
     return [(real + 1j * imaginary) * scale for real, imaginary in found.reshape(3, 2, -1)]
 

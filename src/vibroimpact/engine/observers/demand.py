@@ -60,27 +60,18 @@ class Demand(NamedTuple):
     everything: int
 
 
-def nothing(everything: int) -> Demand:
+note_room = stack(len(Demand._fields))
+"""Room for them, between calls."""
+
+
+@kernel
+def start_notes(notes: Vector, everything: int) -> None:
     """Before anything has been seen."""
-    return Demand(
-        math.inf,
-        -math.inf,
-        math.inf,
-        -math.inf,
-        0.0,
-        0.0,
-        0.0,
-        0.0,
-        0,
-        0,
-        0.0,
-        0.0,
-        0.0,
-        everything,
-    )
-
-
-unseen = kernel(nothing)
+    for i in range(4, 13):
+        notes[i] = 0.0
+    notes[0], notes[2] = math.inf, math.inf
+    notes[1], notes[3] = -math.inf, -math.inf
+    notes[13] = everything
 
 
 @kernel

@@ -30,7 +30,7 @@ from vibroimpact.engine.linear.chord_bounds import Enclosed, chords
 from vibroimpact.engine.linear.layout import ORDER, RATE
 from vibroimpact.engine.linear.roots import jet
 from vibroimpact.engine.linear.stops import rigid
-from vibroimpact.engine.memory import workspace
+from vibroimpact.engine.memory import stack, workspace
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
@@ -162,8 +162,17 @@ class Extremes(NamedTuple):
     impulse_left: float
 
 
-NOTHING = Extremes(math.inf, -math.inf, math.inf, -math.inf, 0, 0, 0.0, 0.0, 0.0, 0.0)
-"""Before anything is seen."""
+notes_room = stack(len(Extremes._fields))
+"""Room for them, between calls."""
+
+
+@kernel
+def nothing(notes: Vector) -> None:
+    """Before anything is seen."""
+    for i in range(4, 10):
+        notes[i] = 0.0
+    notes[0], notes[2] = math.inf, math.inf
+    notes[1], notes[3] = -math.inf, -math.inf
 
 
 @observer(Extremes)

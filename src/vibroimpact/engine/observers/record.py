@@ -15,7 +15,7 @@ from vibroimpact.engine.dispatch import (
 )
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.evaluate import relaxed
-from vibroimpact.engine.memory import pointer, stack, workspace
+from vibroimpact.engine.memory import beyond, stack, workspace
 from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, TURNED, Motion, Stretch
 from vibroimpact.engine.observe import observer
 
@@ -43,15 +43,40 @@ E_MEMORY = 10
 EVENT = 11
 
 
+# What is kept of a record between calls.
+COLUMNS, BEGIN, STEP, COUNT, NEXT, WRITTEN, LAST, NUMBER = range(8)
+note_room = stack(8)
+"""Room for it."""
+
+
+@kernel
+def start_notes(
+    notes: Vector,
+    columns: int,
+    begin: int,
+    step: float,
+    count: int,
+    i: int,
+    written: int,
+    max_events: int,
+    number: int,
+) -> None:
+    """Begin a cycle; see `Record`."""
+    notes[COLUMNS], notes[BEGIN], notes[STEP], notes[COUNT] = columns, begin, step, count
+    notes[NEXT], notes[WRITTEN], notes[LAST] = i, written, written + max_events
+    notes[NUMBER] = number
+
+
 class Record(NamedTuple):
     """Where to write.
 
-    Column `begin` + i of `samples` is the next, of n in this cycle, `step` seconds apart; row
-    `written` of `events` is the next, in cycle `number`, and `last` the first that must not be
-    written.
+    Column `begin` + i of the `columns` of `samples` is the next, of n in this cycle, `step` seconds
+    apart; row `written` of `events` is the next, in cycle `number`, and `last` the first that must
+    not be written.
     """
 
     samples: Vector
+    columns: int
     begin: int
     step: float
     n: int
@@ -72,18 +97,18 @@ def seen(plan: Vector, side: int, mode: int, face: float, distance: float) -> fl
 
 
 @kernel
-def write(plan: Vector, motion: Motion, out: Vector, k: int) -> None:
-    """Write the motion at this instant as sample k."""
+def write(plan: Vector, motion: Motion, out: Vector, columns: int, k: int) -> None:
+    """Write the motion at this instant as sample k of so many columns."""
     mode, u = motion.mode, motion.u
     right, left = face(plan, motion, RIGHT), face(plan, motion, LEFT)
     # Adding zero leaves no negative one.
-    out[DISPLACEMENT, k], out[VELOCITY, k] = u + 0.0, motion.v + 0.0
-    out[ACCELERATION, k] = acceleration(plan, motion) + 0.0
-    out[RIGHT_FACE, k], out[LEFT_FACE, k] = right + 0.0, 0.0 - left
-    out[RIGHT_CLEARANCE, k] = seen(plan, RIGHT, mode, right, u) + 0.0
-    out[LEFT_CLEARANCE, k] = seen(plan, LEFT, mode, left, -u) + 0.0
-    out[CONTACT, k] = TOUCHING[mode]
-    out[MEMORY, k] = motion.z + 0.0
+    out[DISPLACEMENT * columns + k], out[VELOCITY * columns + k] = u + 0.0, motion.v + 0.0
+    out[ACCELERATION * columns + k] = acceleration(plan, motion) + 0.0
+    out[RIGHT_FACE * columns + k], out[LEFT_FACE * columns + k] = right + 0.0, 0.0 - left
+    out[RIGHT_CLEARANCE * columns + k] = seen(plan, RIGHT, mode, right, u) + 0.0
+    out[LEFT_CLEARANCE * columns + k] = seen(plan, LEFT, mode, left, -u) + 0.0
+    out[CONTACT * columns + k] = TOUCHING[mode]
+    out[MEMORY * columns + k] = motion.z + 0.0
 
 
 @kernel
@@ -152,7 +177,7 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
     mode = before.mode
     sign = -1.0 if mode == LEFT else 1.0
     contact = TOUCHING[mode]
-    flat, count = pointer(notes.samples), notes.samples.shape[1]
+    flat, count = notes.samples, notes.columns
     remembers = plan[par.HYSTERETIC] != 0.0  # else nobody looks at that row
     cursor = begin(plan, before, reach)
     while i < end:
@@ -180,11 +205,11 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
 def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
     """Write down one stretch and the event that ends it."""
     before, t, event, step, arrival, after = stretch
-    samples, first, spacing, n, i, events, written, last, number = notes
+    samples, columns, first, spacing, n, i, events, written, last, number = notes
     if n:
         i = sample(plan, notes, before, t, math.inf if event == LIMIT else step)
     if event not in (LIMIT, TURNED) and written < last:
-        row = events[written]
+        row = beyond(events, EVENT * written)
         row[E_CYCLE], row[E_TIME] = number, t + step
         side = after.fresh & BOTH
         row[E_KIND] = DETACHMENT
@@ -199,4 +224,4 @@ def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
         row[E_BEHIND] = acceleration(plan, after)
         row[E_MEMORY] = after.z
         written += 1
-    return Record(samples, first, spacing, n, i, events, written, last, number)
+    return Record(samples, columns, first, spacing, n, i, events, written, last, number)

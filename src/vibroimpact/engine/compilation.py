@@ -1,0 +1,113 @@
+"""The functions that Python calls: compiled for the types that they are called with, and cached."""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numba
+from filelock import FileLock
+from numba.core import config
+from numba.core.sigutils import normalize_signature
+
+from vibroimpact.engine import cache, emission, jit
+
+
+@contextmanager
+def _uncollected() -> Iterator[None]:
+    """Without the collector of garbage: the compiler makes little, and it is a seventh of its time."""
+    running = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if running:
+            gc.enable()
+
+
+class Compiled:
+    """A function that is compiled for one signature and for each type of its first argument."""
+
+    def __init__(self, function: Callable[..., Any], signature: str) -> None:
+        self.function = function
+        self.signature = signature
+        self.__doc__ = function.__doc__
+        self.__name__ = function.__name__
+        self._compiled: dict[type, Callable[..., Any]] = {}
+
+    def of(self, given: Any) -> Callable[..., Any]:
+        """Compile or load for the type of a first argument, if need be."""
+        compiled = self._compiled.get(type(given))
+        if compiled is None:
+            self._prepare(given)
+            compiled = self._compiled[type(given)]
+        return compiled
+
+    def _prepare(self, given: Any) -> None:
+        """Compile or load, one process at a time.
+
+        Two processes that write numba's cache at once can leave a pair of files that do not
+        belong together, which crashes whoever loads them; hence the lock between processes.
+        """
+        flow = type(given)
+        with jit.compiling:
+            if flow in self._compiled:
+                return
+            if config.DISABLE_JIT:  # type: ignore[attr-defined]
+                self._compiled[flow] = self.function
+                return
+            arguments, result = normalize_signature(self.signature)  # type: ignore[no-untyped-call]
+            signature = result(numba.typeof(given), *arguments)  # type: ignore[no-untyped-call]
+            version = jit.cache_directory()
+            directory = version / flow.__name__
+            try:
+                cache.make_folder(directory, version.parent)
+                others = cache.writable_by_others((version.parent, version, directory))
+                lock = FileLock(directory / "lock", mode=0o644)
+                if others is None:
+                    lock.acquire()
+            except OSError:  # nowhere to write
+                self._compiled[flow] = self._for_this_process(signature)
+                return
+            if others is not None:
+                jit.say_unsafe(others)
+                self._compiled[flow] = self._for_this_process(signature)
+                return
+            try:
+                self._compiled[flow] = self._from_cache(directory, signature)
+            except Exception:  # a damaged file, a full disk: numba raises whatever it meets
+                cache.remove(directory.rglob("*.nb[ic]"))
+                self._compiled[flow] = self._for_this_process(signature)
+            finally:
+                lock.release()
+
+    def _from_cache(self, directory: Path, signature: Any) -> Callable[..., Any]:
+        if unsafe := cache.remove_damaged(directory, self.__name__):
+            jit.say_refused(unsafe)
+        if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
+            jit.say()
+        before = config.CACHE_DIR  # type: ignore[attr-defined]
+        # Read when the decorator runs.
+        config.CACHE_DIR = str(directory)  # type: ignore[attr-defined]
+        try:
+            dispatcher = numba.njit(cache=True, **jit.OPTIONS)(self.function)
+        finally:
+            config.CACHE_DIR = before  # type: ignore[attr-defined]
+        compiled = self._compiled_for(signature, dispatcher)
+        if dispatcher.stats.cache_misses:
+            cache.seal(directory, self.__name__)
+        return compiled
+
+    def _for_this_process(self, signature: Any) -> Callable[..., Any]:
+        jit.say()
+        return self._compiled_for(signature, numba.njit(**jit.OPTIONS)(self.function))
+
+    def _compiled_for(self, signature: Any, dispatcher: Any) -> Callable[..., Any]:
+        """Compile for this signature and refuse others, which would take half a minute unseen."""
+        with emission.only(self.function.__qualname__), _uncollected():
+            dispatcher.compile(signature)
+        dispatcher.disable_compile()
+        return dispatcher  # type: ignore[no-any-return]

@@ -1,0 +1,323 @@
+"""A flow: how the motions of one class of rigs are computed, as a table of functions.
+
+Whatever asks for a motion (sweeps, orbits, exponents, basins, records) is compiled once and calls
+these functions by their addresses, which stand in a table; the word before a plan is the address of
+the table. A flow is compiled when a rig first asks for it: a rig pays nothing for laws that it does
+not have.
+
+A state is a vector: the mode, what has just happened, the *parts* that make a disturbance (such as
+displacement and velocity), the age of the mode (s), and the clock of the forcing, two numbers. It is
+carried on in place.
+
+To add a flow, write these functions for it, with the arguments that are declared here.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from llvmlite import ir
+from numba.core import cgutils, types
+from numba.core.callconv import excinfo_t
+from numba.extending import intrinsic, overload
+
+from vibroimpact.engine.jit import CHOSEN, Vector
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+P = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
+_WORD = ir.IntType(64)
+
+SIGNATURES: dict[str, Any] = {}
+"""Of each function, by name, in the order of the table."""
+
+implementation: Callable[[Any, str], Callable[..., Any]]
+"""Where the function of a plan is found without the compiler; set by `flow_dispatch`."""
+
+
+def _function(returns: Any, *arguments: Any) -> Callable[[F], F]:
+    """Declare a function of the table; a kernel that calls it calls that of the plan's flow."""
+
+    def declare(described: F) -> F:
+        name = described.__name__
+        index = len(SIGNATURES)
+        SIGNATURES[name] = declared = returns(P, *arguments)
+        names = ", ".join(inspect.signature(described).parameters)
+
+        def plain(plan: Any, *args: Any) -> Any:
+            return implementation(plan, name)(plan, *args)
+
+        call = _indirect(names, declared, index)
+        scope: dict[str, Any] = {"call": call}
+        exec(f"def chosen({names}): return call({names})", scope)
+        chosen = scope["chosen"]
+        plain.__doc__, plain.__name__ = described.__doc__, name
+
+        @overload(plain, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
+        def _called(plan: Any, *args: Any) -> Any:
+            return chosen
+
+        return plain  # type: ignore[return-value]
+
+    return declare
+
+
+def _indirect(names: str, declared: Any, index: int) -> Any:
+    """An intrinsic that calls the function at a place of the table of its first argument."""
+
+    def typed(*given: Any) -> tuple[Any, Callable[..., Any]]:
+        # Arrays stand for their memory.
+        taken = [
+            one if isinstance(one, types.Array) else kind
+            for one, kind in zip(given, declared.args, strict=True)
+        ]
+
+        def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            passed = [
+                context.make_array(kind)(context, builder, value).data
+                if isinstance(kind, types.Array)
+                else value
+                for kind, value in zip(signature.args, args, strict=True)
+            ]
+            conv = context.call_conv
+            kind = conv.get_function_type(declared.return_type, declared.args)
+            words = builder.bitcast(passed[0], _WORD.as_pointer())
+            before = builder.gep(words, [ir.Constant(_WORD, -1)], source_etype=_WORD)
+            table = builder.inttoptr(builder.load(before, typ=_WORD), _WORD.as_pointer())
+            place = builder.gep(table, [ir.Constant(_WORD, index)], source_etype=_WORD)
+            function = builder.inttoptr(builder.load(place, typ=_WORD), kind.as_pointer())
+            # As numba calls its own: behind room for the result and for an exception, which no
+            # kernel raises.
+            result = conv.get_return_type(declared.return_type).pointee
+            found = cgutils.alloca_once(builder, result)  # type: ignore[no-untyped-call]
+            raised = cgutils.alloca_once(  # type: ignore[no-untyped-call]
+                builder, ir.PointerType(excinfo_t)
+            )
+            builder.call(function, [found, raised, *passed])
+            if declared.return_type == types.void:
+                return context.get_dummy_value()
+            return builder.load(found, typ=result)
+
+        return declared.return_type(*taken), build
+
+    scope: dict[str, Any] = {"typed": typed}
+    exec(f"def call(typing, {names}): return typed({names})", scope)
+    return intrinsic(scope["call"])
+
+
+def filling(plan_type: Callable[[Any], Any], kernels: tuple[Any, ...]) -> Any:
+    """Make an intrinsic that writes the addresses of a flow's functions into its table.
+
+    It is called with a flow, whose type is that of the kernels' plans, and the table.
+    """
+
+    @intrinsic
+    def fill(typing: Any, given: Any, table: Any) -> Any:
+        found = {}
+        for kernel in kernels:
+            name = kernel.__name__
+            declared = SIGNATURES[name]
+            arguments = (plan_type(given), *declared.args[1:])
+            types.Dispatcher(kernel).get_call_type(typing, arguments, {})  # compiles it
+            found[name] = kernel.overloads[arguments]
+            returned = types.unliteral(found[name].signature.return_type)
+            if returned != declared.return_type:
+                raise TypeError(f"{name} returns {returned} instead of {declared.return_type}")
+
+        def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            array = context.make_array(signature.args[1])(context, builder, args[1])
+            for name, one in found.items():
+                context.active_code_library.add_linking_library(one[one._fields.index("library")])
+                function = context.declare_function(builder.module, one.fndesc)
+                index = ir.Constant(_WORD, list(SIGNATURES).index(name))
+                place = builder.gep(array.data, [index], source_etype=_WORD)
+                builder.store(builder.ptrtoint(function, _WORD), place)
+            return context.get_dummy_value()
+
+        return types.void(given, table), build
+
+    return fill
+
+
+# The functions. P stands for the memory of numbers, n for an integer, x for a number.
+
+_N, _X = types.int64, types.float64
+
+
+@_function(types.void, _X, _X)
+def begin(plan: Vector, amplitude: float, omega: float) -> None:
+    """Take a forcing: its size (m/s², m or N) and ω (rad/s)."""
+
+
+@_function(types.void, _X, _X)
+def build(plan: Vector, amplitude: float, omega: float) -> None:
+    """Take a forcing and make the tables for it."""
+
+
+@_function(_N, _X)
+def too_much_work(plan: Vector, period: float) -> int:
+    """Whether one cycle may take too long."""
+
+
+@_function(_X)
+def stiff_rate(plan: Vector) -> float:
+    """What makes a velocity of a displacement (1/s)."""
+
+
+@_function(_N)
+def parts(plan: Vector) -> int:
+    """How many parts a state has."""
+
+
+@_function(types.void, P)
+def units(plan: Vector, units: Vector) -> None:
+    """Write what makes a velocity of each part: 1 for a velocity itself."""
+
+
+@_function(_X, P)
+def size(plan: Vector, state: Vector) -> float:
+    """The size of a motion, as a velocity (m/s)."""
+
+
+@_function(_X, P, _N, _X, _X)
+def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) -> float:
+    """Change a part by so much, or by as little less if only that can be; return by how much.
+
+    0 where the part does not outlive a period by itself.
+    """
+
+
+@_function(types.void, P)
+def place(plan: Vector, state: Vector) -> None:
+    """Make of a state the nearest that can be, and its mode of its parts."""
+
+
+@_function(types.void, P, P)
+def point(plan: Vector, state: Vector, point: Vector) -> None:
+    """Write a state's parts as a point of the section, signed as in the paper."""
+
+
+@_function(types.void, P, P)
+def at_point(plan: Vector, state: Vector, point: Vector) -> None:
+    """Place a state at a point of the section."""
+
+
+@_function(_N, P, _X, P)
+def undisturbed(plan: Vector, state: Vector, dying: float, found: Vector) -> int:
+    """Whether a state flies freely and touches nothing any more; then go on to what is left of it.
+
+    `found`: half the widths of the displacement, of the acceleration and of that with the force.
+    """
+
+
+@_function(_N, P, _X, _X, _X, _N)
+def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
+    """Follow a motion from a section, where the clock is s, c, over a length (s).
+
+    Returns the number of events; more than `max_events`, or it is not finite, if given up.
+    """
+
+
+@_function(_N, P, _X, _X, _X, _N, P)
+def extremes(
+    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Vector
+) -> int:
+    """As `cycle`, with `observers.extremes` looking on."""
+
+
+@_function(_N, P, _X, _X, _X, _N, P)
+def demand(
+    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Vector
+) -> int:
+    """As `cycle`, with `observers.demand` looking on."""
+
+
+@_function(_N, P, _X, _X, _X, _N, P)
+def margin(
+    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Vector
+) -> int:
+    """As `cycle`, with `observers.margin` looking on."""
+
+
+@_function(_N, P, _X, _X, _X, _N, P, P, P)
+def record(
+    plan: Vector,
+    state: Vector,
+    s: float,
+    c: float,
+    length: float,
+    max_events: int,
+    notes: Vector,
+    samples: Vector,
+    events: Vector,
+) -> int:
+    """As `cycle`, with `observers.record` looking on."""
+
+
+@_function(types.void, P, P, _N, _N)
+def write(plan: Vector, state: Vector, samples: Vector, columns: int, at: int) -> None:
+    """Write a state as one of the samples of `observers.record`."""
+
+
+@_function(types.void, P, P)
+def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
+    """Write a unit disturbance of each part into the rows of q."""
+
+
+@_function(_N, P, _X, _X, _X, _N, P, P)
+def tangent(
+    plan: Vector,
+    state: Vector,
+    s: float,
+    c: float,
+    length: float,
+    max_events: int,
+    q: Vector,
+    notes: Vector,
+) -> int:
+    """As `cycle`, carrying disturbances along, with `observers.tangent`."""
+
+
+@_function(types.void, P, P)
+def mirror(plan: Vector, state: Vector, q: Vector) -> None:
+    """Turn a state and its disturbances, a row each, into their mirror image."""
+
+
+@_function(types.void, P, P, P)
+def start_growth(plan: Vector, state: Vector, q: Vector, w: Vector) -> None:
+    """Begin two disturbances, of unit size."""
+
+
+@_function(_N, P, _X, _X, _X, _N, P, P, P)
+def growth(
+    plan: Vector,
+    state: Vector,
+    s: float,
+    c: float,
+    length: float,
+    max_events: int,
+    q: Vector,
+    w: Vector,
+    notes: Vector,
+) -> int:
+    """As `cycle`, with `observers.growth` looking on."""
+
+
+@_function(types.void, P, _X, _N, P)
+def measure_phase(plan: Vector, state: Vector, length: float, side: int, out: Vector) -> None:
+    """Measure the phase that begins with a state, see `measure`."""
+
+
+@_function(types.void, P, _X, _X, P, _N, P)
+def integrate_phase(
+    plan: Vector,
+    state: Vector,
+    length: float,
+    begins: float,
+    lines: Vector,
+    count: int,
+    out: Vector,
+) -> None:
+    """Add the Fourier integrals of a phase, see `fourier`."""

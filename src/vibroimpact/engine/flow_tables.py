@@ -1,0 +1,64 @@
+"""The tables of the flows' functions, filled by compiling a group of them when it is first needed."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import flow, one_mass
+from vibroimpact.engine.compilation import Compiled
+from vibroimpact.engine.flow_dispatch import PlanType, flow_of
+from vibroimpact.engine.jit import Vector
+
+
+def _plan_type(given: Any) -> PlanType:
+    return PlanType(given.instance_class)
+
+
+_fill_motion = flow.filling(_plan_type, one_mass.MOTION)
+_fill_recorded = flow.filling(_plan_type, one_mass.RECORDED)
+_fill_disturbed = flow.filling(_plan_type, one_mass.DISTURBED)
+_fill_measured = flow.filling(_plan_type, one_mass.MEASURED)
+
+
+def _motion(given: Any, table: Any) -> None:
+    _fill_motion(given, table)
+
+
+def _recorded(given: Any, table: Any) -> None:
+    _fill_recorded(given, table)
+
+
+def _disturbed(given: Any, table: Any) -> None:
+    _fill_disturbed(given, table)
+
+
+def _measured(given: Any, table: Any) -> None:
+    _fill_measured(given, table)
+
+
+GROUPS = {
+    function.__name__[1:]: Compiled(function, "void(i8[::1])")
+    for function in (_motion, _recorded, _disturbed, _measured)
+}
+"""What fills a part of a table with the addresses of compiled functions."""
+
+_tables: dict[type, NDArray[np.int64]] = {}
+_filled: set[tuple[type, str]] = set()
+
+
+def plan_of(rig: Vector, groups: tuple[str, ...]) -> Vector:
+    """Memory for the plan of a rig, whose flow has these groups of functions."""
+    given = flow_of(rig)
+    kind = type(given)
+    table = _tables.setdefault(kind, np.zeros(len(flow.SIGNATURES), np.int64))
+    for group in groups:
+        if (kind, group) not in _filled:
+            GROUPS[group].of(given)(given, table)
+            _filled.add((kind, group))
+    memory: Vector = given.memory
+    ctypes.c_int64.from_address(memory.ctypes.data - 8).value = table.ctypes.data
+    return memory

@@ -1,0 +1,70 @@
+"""A state between calls: a vector in memory, of a width that its flow tells (see `flow`)."""
+
+from __future__ import annotations
+
+from vibroimpact.engine import flow
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.memory import stack
+
+MODE, FRESH, FIRST = range(3)
+"""Where the mode stands, what has just happened, and the first of the parts."""
+BEHIND = 3
+"""Numbers behind the parts: the age of the mode, and the clock."""
+
+LARGEST = 64
+"""Largest number of parts."""
+
+room = stack(FIRST + LARGEST + BEHIND)
+"""Room for a state."""
+parts_room = stack(LARGEST)
+"""Room for a number for each part."""
+
+
+@kernel
+def width(plan: Vector) -> int:
+    """Of a state, its clock left out."""
+    return FIRST + flow.parts(plan) + 1
+
+
+@kernel
+def copy(source: Vector, target: Vector, n: int) -> None:
+    """Copy n numbers."""
+    for i in range(n):
+        target[i] = source[i]
+
+
+@kernel
+def put(plan: Vector, source: Vector, target: Vector) -> None:
+    """Copy a state with its clock."""
+    copy(source, target, width(plan) + 2)
+
+
+@kernel
+def wind(plan: Vector, state: Vector, s: float, c: float) -> None:
+    """Set the clock of a state."""
+    at = width(plan)
+    state[at], state[at + 1] = s, c
+
+
+@kernel
+def begin_again(plan: Vector, state: Vector) -> None:
+    """Say that the mode begins now: the forcing has changed, what had died out is a transient."""
+    state[width(plan) - 1] = 0.0
+
+
+@kernel
+def finite(plan: Vector, state: Vector) -> bool:
+    """Whether all parts are within the range of numbers."""
+    for i in range(FIRST, FIRST + flow.parts(plan)):
+        if not abs(state[i]) < 1e200:  # and no NaN
+            return False
+    return True
+
+
+@kernel
+def distance(plan: Vector, one: Vector, other: Vector, units: Vector) -> float:
+    """How far the parts of two states are apart, as a velocity."""
+    most = 0.0
+    for i in range(flow.parts(plan)):
+        most = max(most, units[i] * abs(one[FIRST + i] - other[FIRST + i]))
+    return most
