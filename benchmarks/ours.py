@@ -8,16 +8,15 @@ import numpy as np
 
 import vibroimpact as vi
 from benchmarks.peers.problem import P, Problem
-from vibroimpact.engine import batch
+from vibroimpact.engine import batch, flow
 from vibroimpact.engine import motion as layout
-from vibroimpact.engine.dispatch import build
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.observe import UNOBSERVED
+from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Law, Stop, rig_vector
+from vibroimpact.engine.state import copy, room, width
 from vibroimpact.engine.status import Status
 
 # a cos(Ωt) on the right-hand side is a base acceleration A sin(ωt + φ) with A = a, φ = −π/2.
@@ -117,13 +116,14 @@ def _counted(
     state: Vector,
 ) -> int:
     plan = planned(given, rig)
-    build(plan, amplitude, math.tau * frequency)
-    clock = (math.sin(phase), math.cos(phase))
-    motion = layout.unpacked(state, clock)
+    flow.build(plan, amplitude, math.tau * frequency)
+    here = room()
+    copy(pointer(state), here, width(plan))
     total = 0
     for _ in range(periods):
-        count, motion, _ = cycle(plan, motion, clock, 1.0 / frequency, _MAX_EVENTS, UNOBSERVED)
-        total += count
+        total += flow.cycle(
+            plan, here, math.sin(phase), math.cos(phase), 1.0 / frequency, _MAX_EVENTS
+        )
     return total
 
 

@@ -1,7 +1,7 @@
-"""Each entry of the engine, compiled for each flow; as a script, before the tests start.
+"""The engine compiled: its entries, and the functions of each flow; as a script, before the tests.
 
-Otherwise each worker would compile the kernels again for the entry that it needs first, while the
-others wait for it. Flows share nothing, so they are compiled side by side.
+Otherwise each worker would compile what it needs first, while the others wait for it. Flows share
+nothing, so they are compiled side by side.
 """
 
 from __future__ import annotations
@@ -13,13 +13,10 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 
 from vibroimpact import engine
-from vibroimpact.engine import jit
-from vibroimpact.engine.batch import trajectory
-from vibroimpact.engine.earthquakes import respond
+from vibroimpact.engine import flow_tables, jit
 from vibroimpact.engine.entry import Entry
-from vibroimpact.engine.measure import measure_phases
+from vibroimpact.engine.flow_tables import plan_of
 from vibroimpact.engine.parameters import Drive, Law, free_rig, rig_vector
-from vibroimpact.engine.record_forcing import follow
 from vibroimpact.tasks.threads import available
 
 _YIELDS = Law(friction=1.0)
@@ -38,34 +35,39 @@ RIGS = {
 }
 """A rig for each flow; what takes longest begins first."""
 
-ONLY_RECORDS = (follow, respond)
-"""Entries that only records go into."""
+GROUPS = {
+    "Recorded": ("motion", "recorded", "measured"),
+    "YieldingSeveral": ("motion", "recorded", "measured"),
+    "YieldingRecorded": ("motion", "recorded", "measured"),
+}
+"""Of the functions of a flow those that the tests ask for, if not all; others by their tests."""
 
 
-def entries(flow: str = "Apart") -> list[Entry]:
-    """The engine's entries that the tests ask for of a flow; those without a rig by their tests."""
+def entries() -> list[Entry]:
+    """The engine's entries, which are compiled once for all flows."""
     names = [found.name for found in pkgutil.walk_packages(engine.__path__, f"{engine.__name__}.")]
-    every = [
+    return [
         value
         for name in names
         for value in vars(importlib.import_module(name)).values()
         if type(value) is Entry and value.function.__module__ == name
     ]
-    if flow.endswith("Recorded"):
-        return [*ONLY_RECORDS, measure_phases]
-    if flow == "YieldingSeveral":
-        return [trajectory, measure_phases]
-    return [one for one in every if flow == "Curved" or one not in ONLY_RECORDS]
 
 
 def compile_for(flow: str) -> None:
-    for entry in entries(flow):
-        entry.prepare(RIGS[flow])
+    """Compile the functions of a flow, or the entries."""
+    if flow == ENTRIES:
+        for entry in entries():
+            entry.of(plan_of(RIGS["Apart"], ()))
+    else:
+        plan_of(RIGS[flow], GROUPS.get(flow, tuple(flow_tables.GROUPS)))
 
 
 def compiled(flow: str) -> int:
     return subprocess.call([sys.executable, __file__, flow])
 
+
+ENTRIES = "entries"
 
 if __name__ == "__main__":
     if sys.argv[1:]:
@@ -74,4 +76,4 @@ if __name__ == "__main__":
         compile_for(sys.argv[1])
     else:
         with ThreadPoolExecutor(available()) as pool:
-            sys.exit(any(pool.map(compiled, RIGS)))
+            sys.exit(any(pool.map(compiled, [*RIGS, ENTRIES])))

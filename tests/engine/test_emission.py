@@ -21,9 +21,8 @@ add = JITCPUCodegen._add_module
 JITCPUCodegen._add_module = lambda self, module: (made.append(module.name), add(self, module))[1]
 
 from vibroimpact.engine import emission
-from vibroimpact.engine.entry import Entry
+from vibroimpact.engine.plain_entries import Single
 from vibroimpact.engine.jit import kernel
-from vibroimpact.engine.parameters import free_rig
 
 emission.KNOWN = sys.argv[1]
 
@@ -31,11 +30,11 @@ emission.KNOWN = sys.argv[1]
 def cubed(x):
     return x * x * x + 1.0 / (x + 3.0)
 
-def first(given, rig, x):
+def first(given, x):
     return cubed(x) + cubed(x + 1.0)
 
 made.clear()
-print(Entry(first, "f8(f8[::1], f8)")(free_rig(), 0.3).hex())
+print(Single(first, "f8(f8)")(0.3).hex())
 print(sum("cubed" in one for one in made), sum("first" in one for one in made))
 own = numba.njit(lambda x: x + 1.0)  # of a user of the package
 print(own(2.0))

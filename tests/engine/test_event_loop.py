@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from engine.for_flow import for_flow
 from samples import sample
 from vibroimpact.engine import batch
-from vibroimpact.engine.entry import entry
 from vibroimpact.engine.event_loop import cycle
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.linear.tables import build
@@ -45,7 +45,7 @@ def seen(plan, notes, stretch):
     return Seen(contacts, detachments, time + step, gaps, after.u, after.v)
 
 
-@entry("i8(f8[::1], f8[::1], f8, f8, f8, i8, i8, f8[::1])")
+@for_flow("i8(f8[::1], f8[::1], f8, f8, f8, i8, i8, f8[::1])")
 def look(given, rig, state, amplitude, frequency, phase, cycles, max_events, out):
     plan = planned(given, rig)
     build(plan, amplitude, 2.0 * math.pi * frequency)

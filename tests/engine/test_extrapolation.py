@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.engine import extrapolation, fixed_point
+from vibroimpact.engine import extrapolation
 
 
 def held(rig: vi.Oscillator, frequencies, **options):
@@ -97,24 +97,19 @@ def test_two_secants_tell_an_affine_map() -> None:
     matrix = np.array([[0.3, -0.7], [0.6, 0.5]])
     goal = rng.normal(size=2)
     room = np.zeros(extrapolation.ROOM)
+    units = np.ones(2)
     state = rng.normal(size=2)
     for _ in range(4):
         image = goal + matrix @ (state - goal)
-        before, after = (_motion(*one) for one in (state, image))
-        extrapolation.hold_on(room, before, after)
+        before, after = (np.array([0.0, 0.0, *one]) for one in (state, image))
+        extrapolation.hold_on(room, before, after, 2)
         state = image
         if _ >= 2:
-            way, moved, contracts = extrapolation.guess(room, 1.0)
+            way, moved, contracts = extrapolation.guess(room, units, 2)
     assert contracts
     assert moved < 1e-13
     assert way == pytest.approx(abs(goal - state).max(), rel=1e-10)
-    np.testing.assert_allclose(room[-fixed_point.PARTS :][:2], goal, rtol=1e-12)
-
-
-def _motion(u: float, v: float):
-    from vibroimpact.engine.motion import Motion
-
-    return Motion(0, 0, u, v, 0.0, 0.0, 0.0, 0.0, (0.0, 1.0))
+    np.testing.assert_allclose(room[12:14], goal, rtol=1e-12)
 
 
 def test_a_slow_approach_is_shortened_too() -> None:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from vibroimpact.engine.entry import Entry
+from engine.for_flow import ForFlow
 from vibroimpact.engine.flow_dispatch import (
     AnyStops,
     Apart,
@@ -100,7 +100,7 @@ def _gap(given, vector):
 
 
 def test_a_rig_pays_for_its_own_flow_only() -> None:
-    entry = Entry(_gap, "f8(f8[::1])")
+    entry = ForFlow(_gap, "f8(f8[::1])")
     assert entry(free_rig()) == math.inf
     assert set(entry._compiled) == {Apart}
     assert entry(rig(WALL, None)) == WALL[1]

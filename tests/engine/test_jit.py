@@ -10,15 +10,15 @@ from pathlib import Path
 
 import pytest
 
-from engine.compiled import RIGS, compile_for, entries
+from engine.compiled import ENTRIES, RIGS, compile_for, entries
 from vibroimpact.engine import jit
 from vibroimpact.engine.flow_dispatch import _ADVANCE
 
 ENTRY = """\
-from vibroimpact.engine.entry import entry
+from vibroimpact.engine.plain_entries import single
 
 
-@entry("f8(f8[::1])")
+@single("f8(f8[::1])")
 def first(given, rig):
     return rig[0]
 """
@@ -27,21 +27,22 @@ def first(given, rig):
 LOAD = f"""\
 import sys
 sys.path.insert(0, {str(Path(__file__).parents[1])!r})
-from engine.compiled import RIGS, compile_for, entries
-for flow in RIGS:
-    compile_for(flow)
-    for entry in entries(flow):
-        (compiled,) = (one for kind, one in entry._compiled.items() if kind.__name__ == flow)
-        stats = compiled.stats
-        assert stats.cache_hits and not stats.cache_misses, (flow, entry.__name__)
+from engine.compiled import ENTRIES, RIGS, compile_for, entries
+from vibroimpact.engine.flow_tables import GROUPS
+for part in (*RIGS, ENTRIES):
+    compile_for(part)
+for function in (*GROUPS.values(), *entries()):
+    assert function._compiled
+    for compiled in function._compiled.values():
+        assert compiled.stats.cache_hits and not compiled.stats.cache_misses, function.__name__
 """
 NOTICE = "compiling the engine"
 
 SMALL = """\
-from vibroimpact.engine.entry import Entry
+from vibroimpact.engine.plain_entries import Single
 from vibroimpact.engine.parameters import free_rig
 first = eval("lambda given, rig: rig[0]")
-assert Entry(first, "f8(f8[::1])")(free_rig()) == 1.0
+assert Single(first, "f8(f8[::1])")(free_rig()) == 1.0
 """
 """A small entry, where what is tested is the place where its code goes."""
 
@@ -70,7 +71,7 @@ def test_an_entry_is_compiled_for_one_signature(tmp_path: Path) -> None:
     refused = """
 kept = free_rig()
 kept.flags.writeable = False
-made = Entry(first, "f8(f8[::1])")
+made = Single(first, "f8(f8[::1])")
 made(free_rig())
 try:
     made(kept)
@@ -153,13 +154,13 @@ def test_code_that_others_may_write_to_is_not_run(cached: tuple[str, Path]) -> N
     assert not [path for path in made if path.exists() and path.stat().st_mode & 0o022]
 
 
-def test_each_entry_is_loaded_for_each_flow() -> None:
+def test_entries_and_functions_of_flows_are_loaded() -> None:
     """A process that finds the engine compiled compiles nothing."""
     assert len(_ADVANCE) == 8
     assert {flow.__name__ for flow in _ADVANCE} == set(RIGS)
     assert len(entries()) >= 9
-    for flow in RIGS:
-        compile_for(flow)  # at once where it has been
+    for part in (*RIGS, ENTRIES):
+        compile_for(part)  # at once where it has been
     assert NOTICE not in run(LOAD, jit.cache_directory().parent)
 
 

@@ -2,20 +2,27 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion, unpacked
+from vibroimpact.engine.one_mass import place
 from vibroimpact.engine.parameters import Law, PowerLaw, Stop, rig_vector
-from vibroimpact.engine.section_map import placed
 
-CLOCK = (0.0, 1.0)
 DAMPED, PLAIN, WALL = (20.0, 0.4, 1.0), (20.0, 0.0, 1.0), (0.5, 1.0)
+
+
+def placed(rig: np.ndarray, mode: int, *parts: float) -> Motion:
+    state = np.array([mode, 0.0, *parts, 0.0, 0.0, 1.0])
+    place(rig, state)
+    found: Motion = unpacked(state, (0.0, 1.0))
+    return found
 
 
 def put(
     right: Stop | None, left: Stop | None, mode: int, u: float, v: float, r: float, lft: float
 ) -> Motion:
-    return placed(rig_vector(1.0, 1.0, 0.1, right, left), mode, u, v, r, lft, 0.0, CLOCK)
+    return placed(rig_vector(1.0, 1.0, 0.1, right, left), mode, u, v, r, lft, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -51,12 +58,12 @@ def test_the_nearest_state_that_can_be(right, left, given, mode, u, deformations
 def test_a_spring_that_yields_is_not_stretched_further() -> None:
     rig = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(hysteretic=2.0, limit=0.2))
     for given, z in ((0.1, 0.1), (0.3, 0.2), (-7.0, -0.2)):
-        assert placed(rig, FLIGHT, 0.5, 0.0, 0.0, 0.0, given, CLOCK).z == z
+        assert placed(rig, FLIGHT, 0.5, 0.0, 0.0, 0.0, given).z == z
 
 
 def test_a_stop_without_memory_keeps_its_closing_speed_only_where_it_is_pressed() -> None:
     rig = rig_vector(1.0, 1.0, 0.1, PowerLaw(20.0, 1.5, -0.5, 0.0, 1.0), None)
-    pressed = placed(rig, FLIGHT, 1.25, 0.0, 0.7, 0.0, 0.0, CLOCK)
+    pressed = placed(rig, FLIGHT, 1.25, 0.0, 0.7, 0.0, 0.0)
     assert (pressed.mode, pressed.right) == (RIGHT, 0.7)
-    free = placed(rig, RIGHT, 0.75, 0.0, 0.7, 0.0, 0.0, CLOCK)
+    free = placed(rig, RIGHT, 0.75, 0.0, 0.7, 0.0, 0.0)
     assert (free.mode, free.right) == (FLIGHT, 0.0)

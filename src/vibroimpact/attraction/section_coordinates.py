@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.fixed_point import PARTS
+from vibroimpact.engine.one_mass import PARTS
 from vibroimpact.response.engine_input import engine_rig
 
 FORGOTTEN = 20.0

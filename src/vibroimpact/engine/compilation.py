@@ -18,7 +18,7 @@ from vibroimpact.engine import cache, emission, jit
 
 @contextmanager
 def _uncollected() -> Iterator[None]:
-    """Without the collector of garbage: the compiler makes little, and it is a seventh of its time."""
+    """Without the collector of garbage, which takes a seventh of the compiler's time."""
     running = gc.isenabled()
     gc.disable()
     try:

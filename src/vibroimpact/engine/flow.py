@@ -1,3 +1,4 @@
+# mypy: disable-error-code="empty-body"
 """A flow: how the motions of one class of rigs are computed, as a table of functions.
 
 Whatever asks for a motion (sweeps, orbits, exponents, basins, records) is compiled once and calls
@@ -6,8 +7,8 @@ the table. A flow is compiled when a rig first asks for it: a rig pays nothing f
 not have.
 
 A state is a vector: the mode, what has just happened, the *parts* that make a disturbance (such as
-displacement and velocity), the age of the mode (s), and the clock of the forcing, two numbers. It is
-carried on in place.
+displacement and velocity), the age of the mode (s), and the clock of the forcing, two numbers. It
+is carried on in place.
 
 To add a flow, write these functions for it, with the arguments that are declared here.
 """
@@ -33,8 +34,8 @@ _WORD = ir.IntType(64)
 SIGNATURES: dict[str, Any] = {}
 """Of each function, by name, in the order of the table."""
 
-implementation: Callable[[Any, str], Callable[..., Any]]
-"""Where the function of a plan is found without the compiler; set by `flow_dispatch`."""
+_KERNELS: dict[str, Any] = {}
+"""The kernels by name, for Python without the compiler, where a plan itself tells its flow."""
 
 
 def _function(returns: Any, *arguments: Any) -> Callable[[F], F]:
@@ -47,7 +48,7 @@ def _function(returns: Any, *arguments: Any) -> Callable[[F], F]:
         names = ", ".join(inspect.signature(described).parameters)
 
         def plain(plan: Any, *args: Any) -> Any:
-            return implementation(plan, name)(plan, *args)
+            return _KERNELS[name](plan, *args)
 
         call = _indirect(names, declared, index)
         scope: dict[str, Any] = {"call": call}
@@ -112,6 +113,7 @@ def filling(plan_type: Callable[[Any], Any], kernels: tuple[Any, ...]) -> Any:
 
     It is called with a flow, whose type is that of the kernels' plans, and the table.
     """
+    _KERNELS.update({kernel.__name__: kernel for kernel in kernels})
 
     @intrinsic
     def fill(typing: Any, given: Any, table: Any) -> Any:
@@ -122,7 +124,7 @@ def filling(plan_type: Callable[[Any], Any], kernels: tuple[Any, ...]) -> Any:
             arguments = (plan_type(given), *declared.args[1:])
             types.Dispatcher(kernel).get_call_type(typing, arguments, {})  # compiles it
             found[name] = kernel.overloads[arguments]
-            returned = types.unliteral(found[name].signature.return_type)
+            returned = types.unliteral(found[name].signature.return_type)  # type: ignore[no-untyped-call]
             if returned != declared.return_type:
                 raise TypeError(f"{name} returns {returned} instead of {declared.return_type}")
 

@@ -226,7 +226,7 @@ def planned(given: Any, rig: Vector) -> Vector:
     plan = given if isinstance(given, np.ndarray) else given.memory
     for i in range(par.SIZE):
         plan[i] = rig[i]
-    return plan  # type: ignore[no-any-return]
+    return plan
 
 
 @overload(planned, jit_options=CHOSEN)  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""The tables of the flows' functions, filled by compiling a group of them when it is first needed."""
+"""The tables of the flows' functions: a group of them is compiled when it is first needed."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import ctypes
 from typing import Any
 
 import numpy as np
+from numba.core import config
 from numpy.typing import NDArray
 
 from vibroimpact.engine import flow, one_mass
@@ -53,12 +54,14 @@ _filled: set[tuple[type, str]] = set()
 def plan_of(rig: Vector, groups: tuple[str, ...]) -> Vector:
     """Memory for the plan of a rig, whose flow has these groups of functions."""
     given = flow_of(rig)
+    memory: Vector = given.memory
+    if config.DISABLE_JIT:  # type: ignore[attr-defined]
+        return memory
     kind = type(given)
     table = _tables.setdefault(kind, np.zeros(len(flow.SIGNATURES), np.int64))
     for group in groups:
         if (kind, group) not in _filled:
             GROUPS[group].of(given)(given, table)
             _filled.add((kind, group))
-    memory: Vector = given.memory
     ctypes.c_int64.from_address(memory.ctypes.data - 8).value = table.ctypes.data
     return memory

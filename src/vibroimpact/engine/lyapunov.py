@@ -20,7 +20,8 @@ GROWTH = SECTION + 5
 
 
 @entry(
-    "UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[::1], f8[:, ::1], boolean, i8, i8, i8, i8, f8[:, ::1])",
+    "UniTuple(i8, 2)"
+    "(f8[::1], f8, f8, f8, f8[::1], f8[:, ::1], boolean, i8, i8, i8, i8, f8[:, ::1])",
     "disturbed",
 )
 def growth(

@@ -92,7 +92,8 @@ def units(plan: Vector, units: Vector) -> None:
 @kernel
 def size(plan: Vector, state: Vector) -> float:
     rate: float = dispatch.stiff_rate(plan)
-    return max(rate * abs(state[DISPLACEMENT]), abs(state[VELOCITY]))
+    size: float = max(rate * abs(state[DISPLACEMENT]), abs(state[VELOCITY]))
+    return size
 
 
 @kernel
@@ -117,7 +118,8 @@ def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) ->
     # What yields can be stretched no farther.
     state[at] += -by if at == MEMORY and before > 0.0 else by
     place(plan, state)
-    return state[at] - before
+    by = state[at] - before
+    return by
 
 
 @kernel

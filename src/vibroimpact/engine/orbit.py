@@ -344,4 +344,5 @@ def grazing_margin(
     for _ in range(cycles):
         if flow.margin(plan, state, s, c, period, max_events, notes) > max_events:
             return math.nan
-    return notes[0]
+    least: float = notes[0]
+    return least

@@ -55,10 +55,10 @@ def begin_again(plan: Vector, state: Vector) -> None:
 @kernel
 def finite(plan: Vector, state: Vector) -> bool:
     """Whether all parts are within the range of numbers."""
+    found = True
     for i in range(FIRST, FIRST + flow.parts(plan)):
-        if not abs(state[i]) < 1e200:  # and no NaN
-            return False
-    return True
+        found = found and abs(state[i]) < 1e200  # and no NaN
+    return found
 
 
 @kernel
