@@ -15,7 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events
 from vibroimpact.model.quantities import TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.plausibility import doubt_gaps
 from vibroimpact.response.record_dataset import record_parameters
@@ -33,6 +33,7 @@ SUMS = {
 """Variables that are the sum of both sides."""
 
 
+@in_units_of_rig
 def seismic_response(
     rig: AnyRig,
     *,

@@ -26,7 +26,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
@@ -43,6 +43,7 @@ from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
 
 
+@in_units_of_rig
 def simulate(
     rig: AnyRig,
     cycles: float | None = None,
