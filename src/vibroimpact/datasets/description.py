@@ -55,12 +55,10 @@ def describe(
         if variable.comment:
             attributes["comment"] = variable.comment
         dataset.variables[name].attrs.update(attributes)  # as of dataset[name], sooner
-    if parameters and "of" in parameters:
-        size = parameter("amplitude", of=parameters["of"])
-        for name, which in (("amplitude", ""), ("candidate_amplitude", " of the next test")):
-            if name in dataset.variables:
-                attributes = {"units": size.units, "long_name": f"{size.long_name}{which}"}
-                dataset[name].attrs.update(attributes)
+    for name, which in (("amplitude", ""), ("candidate_amplitude", " of the next test")):
+        if name in dataset.variables and parameters and "of" in parameters:
+            size = parameter("amplitude", of=parameters["of"])
+            dataset[name].attrs.update(units=size.units, long_name=f"{size.long_name}{which}")
     for name, variable in known.items():
         dataset[name].attrs.update(units=variable.units, long_name=variable.long_name)
     if "status" in dataset.variables:
