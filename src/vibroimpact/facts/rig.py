@@ -75,7 +75,9 @@ def text(rig: Rig, shaking: bool = True) -> RenderableType:
     for side in ("right", "left"):
         bumper: Stop | None = getattr(oscillator, side)
         if bumper is None:
-            table.add_row(f"{side} bumper", "none", "")
+            # Beside a rigid stop, no bumper is missing.
+            rigid = any(isinstance(stop, RigidStop) for stop in oscillator.stops)
+            table.add_row(f"{side} {'stop' if rigid else 'bumper'}", "none", "")
             continue
         group = getattr(scaled, side) if scaled else None
         if isinstance(bumper, RigidStop):
