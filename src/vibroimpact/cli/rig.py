@@ -33,7 +33,7 @@ from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
 from vibroimpact.model.rig import Rig, with_stated_units
 from vibroimpact.model.units import to_si
 from vibroimpact.model.written_units import write_for
-from vibroimpact.response.plausibility import doubt_gaps
+from vibroimpact.response.plausibility import doubt_stops
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
 """Options that set a field of both bumpers, by field."""
@@ -182,7 +182,7 @@ def subject(
         found.study,
         found.case and oscillator.angular_frequency == found.oscillator.angular_frequency,
     )
-    doubt_gaps(Rig(what.oscillator, what.shaking))
+    doubt_stops(Rig(what.oscillator, what.shaking))
     return what
 
 
