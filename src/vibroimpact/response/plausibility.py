@@ -117,8 +117,11 @@ def doubt_frequency(rig: Rig, field: str, stacklevel: int = 4) -> None:
     stacklevel
         That of the warning, as `warn_of_input` counts it.
     """
-    natural, forced = rig.oscillator.natural_frequency, rig.harmonic.frequency
-    if rig.oscillator.units == NONE or not 0.0 < _FAST * natural < forced:
+    oscillator = rig.oscillator
+    if oscillator.units == NONE or not oscillator.isolator.initial_stiffness > 0.0:
+        return
+    natural, forced = oscillator.natural_frequency, rig.periodic.frequency
+    if forced <= _FAST * natural:
         return
     told = (
         f"{pretty(forced, FREQUENCY)} is {forced / natural:.3g} times the natural frequency of "
