@@ -245,7 +245,7 @@ def _continuing(curves: list[list[tuple[str, Curve]]]) -> list[str]:
     every = [curve.ended for some in curves for _, curve in some]
     what = {
         LONGEST: "reach the maximum length; raise longest",
-        CYCLES: "used their share of curve_cycles; raise curve_cycles",
+        CYCLES: "used their share of the forcing cycles; raise curve_cycles",
         IMAGES: f"were ended after {_IMAGES} images of their first piece",
     }
     return [

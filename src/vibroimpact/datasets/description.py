@@ -89,6 +89,14 @@ def _stands(parameters: Mapping[str, Any]) -> bool:
     )
 
 
+def stop_word(data: xr.Dataset) -> str:
+    """Return "stop" if a stop of a dataset's rigs is rigid, and "bumper" if all deform."""
+    parameters = motion_parameters(data)
+    rigs = parameters.get("rigs", [parameters])
+    stops = [rig["oscillator"][side] or {} for rig in rigs for side in ("right", "left")]
+    return "stop" if any(stop.get("kind") == "rigid" for stop in stops) else "bumper"
+
+
 def remove_units(dataset: xr.Dataset) -> xr.Dataset:
     """Mark a dataset of rigs without units, whose numbers are dimensionless, and return it."""
     dataset.attrs[ATTRIBUTE] = NONE

@@ -36,7 +36,7 @@ from vibroimpact.response.history_variables import (
     sampled,
     transmitted,
 )
-from vibroimpact.response.plausibility import doubt_gaps, note_stiff_stops
+from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops
 from vibroimpact.response.record_history import through
 from vibroimpact.response.softening_limit import ended
 from vibroimpact.tasks.interruptible import Calls
@@ -111,7 +111,7 @@ def simulate(
         rig = (rig if rig.is_shaken else rig.vibrating_freely()).at(frequency)
     data = compute_history(rig, cycles, start, samples, tail, max_events, progress)
     # A short motion shows nothing: only the closed form of free flight counts.
-    notes = [*noted(data), *doubt_gaps(rig, stacklevel=4)]
+    notes = [*noted(data), *doubt_stops(rig, stacklevel=4)]
     return describe(data, "vibroimpact.simulate", notes=notes)
 
 
