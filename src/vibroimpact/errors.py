@@ -31,6 +31,10 @@ class InputError(ValueError):
         super().__init__(short_line(_LONG_WORD.sub(r"\1...", printable(str(message)))))
 
 
+class DependentError(InputError):
+    """Invalid input that another invalid value of the same input explains, such as the mass."""
+
+
 class InputWarning(UserWarning):
     """Warning that is issued if part of an input was assumed, or if a value is probably a mistake.
 

@@ -34,6 +34,24 @@ def test_over_the_gap(tmp_path, told):
         np.testing.assert_array_equal(data[name], same[name])
 
 
+def test_bifurcations_of_branches_are_printed(tmp_path, told):
+    few = ("B3-10mm-A3", "--from", "1.2Hz", "--to", "1.3Hz", "--steps", "2", "--branches")
+    code, out, _ = told(tmp_path, *few)
+    assert code == 0
+    table = out.partition("Bifurcations on the branches\n")[2].partition("\nFiles")[0]
+    rows = [line.split() for line in table.strip().splitlines()]
+    assert rows[0] == ["bifurcation", "frequency", "(Hz)", "η_d"]
+    # Three branches meet there.
+    (row,) = [row for row in rows[1:] if row[0] == "symmetry"]
+    case = vi.laboratory.case("B3-10mm-A3")
+    data = vi.resonance_diagram(case, (1.2, 1.3))
+    broken = data["bifurcation_kind"].values == "symmetry breaking"
+    assert float(row[2]) == pytest.approx(data["bifurcation_value"].values[broken][0], rel=1e-9)
+    listed = json.loads(told(tmp_path, *few, "--json")[1])["bifurcations"]
+    assert len(listed) == data.sizes["bifurcation"]
+    assert "bifurcations" not in json.loads(told(tmp_path, *few[:-1], "--json")[1])
+
+
 def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
     code, out, errors = told(
         tmp_path,

@@ -26,6 +26,20 @@ def test_text_and_files(run, tmp_path):
     assert {p.name for p in (tmp_path / "out").iterdir()} == {f"{NAME}.nc", f"{NAME}.png"}
 
 
+@pytest.mark.parametrize("option", ["--curve-cycles", "--longest"])
+def test_advice_names_the_option(run, tmp_path, option):
+    few = {"--curve-cycles": "2000", "--longest": "1"}[option]
+    code, out, _ = run(*WORDS, option, few)
+    assert code == 0
+    assert f"; raise {option}" in " ".join(out.split())
+    assert "curve_cycles" not in out
+    argument = option.removeprefix("--").replace("-", "_")
+    data = vi.load(tmp_path / "out" / f"{NAME}.nc")
+    assert f"raise {argument}" in data.attrs["notes"]
+    told = json.loads(run(*WORDS, option, few, "--json")[1])
+    assert f"raise {option}" in "".join(told["notes"])
+
+
 def test_a_saddle_that_is_given(run, tmp_path):
     begun = ("--saddle", "-5.3mm,-2mm/s", "--phase", "180deg")
     code, out, _ = run(*WORDS, *begun, "--longest", "0.2", "--json")

@@ -115,3 +115,18 @@ def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, w
     assert errors.count("\n") == 1
     assert named in errors
     assert list(tmp_path.iterdir()) == []
+
+
+def test_revolutions_per_minute_in_hertz_are_doubted(run):
+    code, out, errors = run("B2-G1-A3", "--frequency", "600", "--cycles", "2")
+    assert code == 0
+    assert errors == (
+        "vibroimpact: warning: --frequency: 600 Hz is 545 times the natural frequency of 1.1 Hz; "
+        "is 600 rpm, 10 Hz, meant?\n"
+    )
+    # The summary has the two frequencies in one column.
+    natural = next(line for line in out.splitlines() if "natural frequency 1.1 Hz" in line)
+    forced = next(line for line in out.splitlines() if line.startswith("base "))
+    assert forced.rstrip().endswith("at 600 Hz")
+    assert forced.index("at 600 Hz") == natural.index("natural frequency")
+    assert run("B2-G1-A3", "--frequency", "600 rpm", "--cycles", "2")[::2] == (0, "")

@@ -7,7 +7,9 @@ import re
 
 import pytest
 
+import vibroimpact as vi
 from vibroimpact.cli import main
+from vibroimpact.model.study import read_rig_study
 from vibroimpact.model.written_units import unitless
 
 ONE = """
@@ -119,3 +121,41 @@ def test_designs_and_records_without_units(tmp_path, capsys):
     summary = capsys.readouterr().out.partition("\nFiles\n")[0]
     assert "peak of the base" in summary
     assert not UNIT.findall(summary)
+
+
+@pytest.mark.parametrize("of", ["force", "displacement", "unbalance"])
+def test_a_study_states_the_quantity_of_a_plain_amplitude(tmp_path, of):
+    path = tmp_path / "one.toml"
+    path.write_text(f'{ONE}of = "{of}"\n')
+    rig = read_rig_study(path)
+    assert rig.oscillator.units == "none"
+    assert rig.periodic.of == of
+    assert rig.periodic.amplitude == 0.5
+    path.write_text(ONE.replace("amplitude = 0.5", f'amplitudes = [0.5, 0.1]\nof = "{of}"'))
+    assert read_rig_study(path).periodic.of == of
+
+
+def test_an_option_keeps_the_quantity_of_the_study(tmp_path, capsys):
+    path = tmp_path / "one.toml"
+    path.write_text(f'{ONE}of = "force"\n')
+    options = ("--amplitude", "0.7", "--frequency", "0.2", "--cycles", "2", "--json")
+    assert main(["simulate", str(path), *options, "-o", str(tmp_path)]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    data = vi.load(printed["files"]["data"])
+    told = json.loads(data.attrs["parameters"])
+    assert (told["of"], told["amplitude"]) == ("force", 0.7)
+
+
+@pytest.mark.parametrize(
+    ("excitation", "error"),
+    [
+        ('of = "forces"', "excitation.of: 'forces'"),
+        ('of = "force"\namplitude = "1 mm"', "excitation.amplitude: '1 mm' is a length"),
+        ('of = "force"', "of is given without amplitude; add amplitude, or remove of"),
+    ],
+)
+def test_wrong_quantities_of_an_amplitude(tmp_path, excitation, error):
+    path = tmp_path / "one.toml"
+    path.write_text(ONE.replace("amplitude = 0.5", excitation))
+    with pytest.raises(vi.InputError, match=re.escape(error)):
+        read_rig_study(path)

@@ -76,6 +76,28 @@ def test_options_are_named_as_they_are_written(refused, words, begins):
     assert refused(*words).startswith(begins)
 
 
+@pytest.mark.parametrize(
+    ("words", "advice"),
+    [
+        (("--unbalance", "0.4 kg m"), 'write it as --amplitude "0.4 kg m"'),
+        (("--unbalance=0.4 kg m",), 'write it as --amplitude "0.4 kg m"'),
+        (("--F0", "450N"), "write it as --amplitude 450N"),
+        (("--force", "450N"), "write it as --amplitude 450N"),
+        (("--acceleration", "0.1g"), "write it as --amplitude 0.05g"),
+        (("--displacement", "3mm"), "write it as --amplitude 5mm"),
+        (("--natural-frequency", "2Hz"), "write its reciprocal as --isolator-period 2.5s"),
+    ],
+)
+def test_quantities_that_another_option_states(refused, words, advice):
+    told = refused("sweep", CASE, *words)
+    name = words[0].partition("=")[0]
+    assert told == f"Unknown option: {name}; {advice}; --help lists what is accepted"
+
+
+def test_only_options_of_the_command_are_recommended(refused):
+    assert "--amplitude" not in refused("record", "quake.csv", "--force", "450N")
+
+
 def test_unused_words_are_told_plainly(refused):
     assert refused("sweep", CASE, "more") == (
         "'more' is one word too many; --help lists what is accepted"

@@ -47,9 +47,9 @@ def isolator(table):
         ),
         (
             OWN + '[excitation]\namplitude = 1\nfrequency = "2 Hz"\n',
-            "excitation.frequency: unknown key; amplitude, amplitudes, phases, phase, record, "
-            "component, step, unit and decimal are accepted; write the frequency in the table "
-            "[simulate] or as --frequency",
+            "excitation.frequency: unknown key; amplitude, amplitudes, phases, of, phase, "
+            "record, component, step, unit and decimal are accepted; write the frequency in the "
+            "table [simulate] or as --frequency",
         ),
         (
             OWN + "[excitation]\nrecord = 3\n",

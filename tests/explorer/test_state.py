@@ -234,10 +234,3 @@ def test_what_a_page_can_begin_with():
     assert state.span == (0.5, 5.0)
     with pytest.raises(vi.InputError):
         begin(vi.Rig(vi.Oscillator(1.0, vi.Isolator(0.0, 1.0), vi.RigidStop(0.5, 0.1)), 1.0))
-
-
-def test_a_rig_without_units_is_shown_in_si_units():
-    bare = vi.from_dimensionless(20.0, 0.5, 0.01, 0.15)
-    state = begin(bare)
-    assert (bare.oscillator.units, state.oscillator.units) == ("none", "SI")
-    assert state.oscillator.right == bare.oscillator.right

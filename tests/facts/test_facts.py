@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.facts import largest, scenario, sweeps
+from vibroimpact.facts import largest, motions, scenario, sweeps
 from vibroimpact.facts.tables import as_text, plain_table, titled_table
 from vibroimpact.response.resonance import features
 from vibroimpact.scenarios.scenario import Scenario
@@ -50,6 +50,28 @@ def test_a_sweep_is_told_in_plain_values_and_in_the_same_words(swept):
     (hysteresis,) = told["hysteresis"]
     assert f"{hysteresis['low']:g} to {hysteresis['high']:g} Hz: right" in text
     assert "Advice: look closer" in text
+
+
+def test_rigid_stops_are_called_stops():
+    """A bumper deforms; where one of the two stops is rigid, both are stops."""
+    bumper = vi.Bumper("100 kN/m", "1 kN s/m", "5 mm")
+    isolator = vi.Isolator("26 kN/m", "1 kN s/m")
+
+    def told(right, left):
+        rig = vi.Rig(vi.Oscillator("550 kg", isolator, right, left), "0.05 g")
+        data = vi.sweep(rig, [1.0, 1.1])
+        motion = vi.steady(rig, frequency=1.1)
+        both = sweeps.text(data, features(data), []), motions.text({1.1: {"motion": motion}})
+        return " ".join("".join(as_text(one) for one in both).split())
+
+    for stops in ((vi.RigidStop(0.6, "5 mm"), None), (bumper, vi.RigidStop(0.6, "5 mm"))):
+        text = told(*stops)
+        assert "Contact with a stop" in text
+        assert "of it lost in the stops" in text
+        assert "umper" not in text
+    text = told(bumper, bumper)
+    assert "Contact with a bumper" in text
+    assert "of it lost in the bumpers" in text
 
 
 def test_one_direction_has_no_hysteresis_to_seek():

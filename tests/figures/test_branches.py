@@ -191,6 +191,20 @@ def test_branches_are_named_by_their_impacts():
     assert {"1R 1L", "3R 2L, period 2"} <= several_texts
 
 
+@pytest.mark.parametrize("side", ["right", "left"])
+def test_names_leave_out_a_side_without_a_stop(side):
+    stops = {side: vi.RigidStop(0.6, "10 mm")}
+    rig = vi.Rig(vi.Oscillator("550 kg", CASE.oscillator.isolator, **stops), "0.03 g")
+    data = vi.branch(rig, span=(1.2, 1.8))
+    letter = side[0].upper()
+    assert "grazing" in data["bifurcation_kind"].values
+    grazing = data["bifurcation_contacts"].values[data["bifurcation_kind"].values == "grazing"]
+    assert set(grazing) == {f"0{letter} | 1{letter}"}
+    texts = {text.get_text() for text in branch_diagram(data).texts}
+    assert f"1{letter}" in texts
+    assert not any(f"0{other}" in text for text in texts for other in "RL")
+
+
 def test_branches_are_named_under_a_sweep_too():
     ax = branch_diagram(diagram(), sweep=swept())
     assert {"1R 1L", "free flight"} <= {text.get_text() for text in ax.texts}

@@ -147,7 +147,7 @@ def test_a_comma_that_may_mean_two_things(tmp_path):
     path = written(tmp_path, "1,000 1,500\n2,000 -2,500\n")
     with pytest.raises(vi.InputError, match=r"the comma in '1,000' may be .* pass decimal=','"):
         vi.Record.read(path)
-    assert vi.Record.read(path, decimal=",", unit="m/s^2").peak == 2.5
+    assert vi.Record.read(path, decimal=",", unit="m/s^2", step=1.0).peak == 2.5
     with pytest.raises(
         vi.InputError, match=r"^decimal: ';' is not a decimal mark; pass '\.' or ','"
     ):
@@ -222,3 +222,20 @@ def test_a_sentence_above_the_numbers_names_no_columns(tmp_path):
     path.write_text("\n".join(["Kobe station", *rows]), encoding="utf-8")
     with pytest.raises(vi.InputError, match=r"^unit: missing"):
         vi.Record.read(path)
+
+
+@pytest.mark.parametrize("head", ["", ",a\n", "time,a\n", "X,CH1\n"])
+@pytest.mark.parametrize("first", [0, 1])
+def test_times_that_only_count_rows_need_a_step(tmp_path, head, first):
+    """As an oscilloscope or a data frame without an index writes them."""
+    rows = "\n".join(f"{first + i},{0.1 * math.sin(i)!r}" for i in range(40))
+    path = written(tmp_path, head + rows)
+    with pytest.raises(vi.InputError, match=r"only count the rows .*; pass step= \(--step\)"):
+        vi.Record.read(path, unit="g")
+    assert vi.Record.read(path, unit="g", step="5 ms").step == 0.005
+
+
+@pytest.mark.parametrize("head", ["time (s),a\n", "# dt = 1 s\ntime,a\n"])
+def test_a_stated_step_of_a_second_is_used(tmp_path, head):
+    rows = "\n".join(f"{i},{0.1 * math.sin(i)!r}" for i in range(40))
+    assert vi.Record.read(written(tmp_path, head + rows), unit="g").step == 1.0

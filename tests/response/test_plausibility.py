@@ -48,6 +48,19 @@ def test_a_gap_of_metres_that_were_millimetres_is_doubted(of, rig, whose):
         assert "notes" not in of(rig.replace(right=WALL.replace(gap=gap))).attrs
 
 
+def test_a_stop_of_millinewtons_is_doubted():
+    rig = RIG.replace(right=vi.Bumper("3 mN/m", 0.0, "5 mm"))
+    spring = rig.isolator.stiffness
+    told = rf"^stiffness of a stop: 3 mN/m is {0.003 / spring:.3g} times .*; is 3 MN/m meant\?$"
+    with pytest.warns(vi.InputWarning, match=told) as warned:
+        data = vi.sweep(vi.Rig(rig, "0.05 g"), [1.0])
+    assert "3 MN/m" in data.attrs["notes"]
+    assert warned[0].filename == __file__
+    for stiffness in ("3 kN/m", "3 MN/m"):
+        soft = RIG.replace(right=vi.Bumper(stiffness, 0.0, "5 mm"))
+        assert "notes" not in vi.sweep(vi.Rig(soft, "0.05 g"), [1.0]).attrs
+
+
 def test_a_damping_ratio_of_percent_is_doubted():
     told = r"damping_ratio: 15 is 15 times the critical damping; did you mean 15 %\?"
     with pytest.warns(vi.InputWarning, match=f"^{told}$"):

@@ -13,7 +13,7 @@ _Array = NDArray[np.float64]
 _FINEST = 1e-11
 """Of the parameter: two points as close as this are neighbours however far they are apart."""
 LONGEST = "the curve reaches the maximum length"
-CYCLES = "the curve used its share of curve_cycles"
+CYCLES = "the curve used its share of the forcing cycles"
 IMAGES = "the curve grows too slowly to be continued further"
 LOST = "the computation of a state on the curve was given up"
 CONTINUES = (LONGEST, CYCLES, IMAGES)

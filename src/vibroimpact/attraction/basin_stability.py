@@ -25,7 +25,7 @@ from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.quantities import LENGTH, VELOCITY
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
@@ -49,6 +49,7 @@ class _Found(NamedTuple):
     given_up: int
 
 
+@in_units_of_rig
 def basin_stability(
     rig: AnyRig,
     displacement: Sequence[float | str] | None = None,

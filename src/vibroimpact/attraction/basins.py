@@ -25,7 +25,7 @@ from vibroimpact.grids.refinement import UNKNOWN, Nodes
 from vibroimpact.model import Oscillator, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
@@ -39,6 +39,7 @@ MOST_NODES = 100_000_000
 MOST_REFINED = 8
 
 
+@in_units_of_rig
 def basins(
     rig: AnyRig,
     displacement: Sequence[float | str] | None = None,

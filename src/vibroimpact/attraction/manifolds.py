@@ -36,7 +36,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.model.count_checks import MOST_CYCLES, check_max_events, share, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.units import to_si
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import placed
@@ -51,6 +51,7 @@ _PARTS = 100
 """Steps of progress of a curve."""
 
 
+@in_units_of_rig
 def manifolds(
     rig: AnyRig,
     saddles: xr.Dataset | State | Sequence[xr.Dataset | State] | None = None,
@@ -244,7 +245,7 @@ def _continuing(curves: list[list[tuple[str, Curve]]]) -> list[str]:
     every = [curve.ended for some in curves for _, curve in some]
     what = {
         LONGEST: "reach the maximum length; raise longest",
-        CYCLES: "used their share of curve_cycles; raise curve_cycles",
+        CYCLES: "used their share of the forcing cycles; raise curve_cycles",
         IMAGES: f"were ended after {_IMAGES} images of their first piece",
     }
     return [

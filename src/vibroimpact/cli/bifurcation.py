@@ -86,12 +86,13 @@ def bifurcation(
         Default: the phase in the study file, or 0.
     branches
         Also follow the branches of stable and unstable periodic orbits, as vibroimpact branch does,
-        and mark their bifurcations in the figure.
+        and print their bifurcations and mark them in the figure.
     """
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import bifurcation_diagram as facts
+    from vibroimpact.facts import branch
 
     what = subject(rig, changes, output.name)
     along = parameter.replace("-", "_")
@@ -126,4 +127,8 @@ def bifurcation(
             quantity=_SHOWN[quantity],
             branches=orbits,
         )
-    return written.tell(facts.facts(data), facts.text(data))
+    told, text = facts.facts(data), [facts.text(data)]
+    if orbits is not None:
+        told["bifurcations"] = branch.facts(orbits)["bifurcations"]
+        text.append(branch.bifurcations(orbits))
+    return written.tell(told, *text)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from cyclopts import CycloptsError
-from cyclopts.exceptions import UnknownCommandError, UnusedCliTokensError
+from cyclopts.exceptions import UnknownCommandError, UnknownOptionError, UnusedCliTokensError
 
 from vibroimpact.cli.function_options import RENAMED
 from vibroimpact.errors import short_line
@@ -15,6 +15,16 @@ _FIELD = re.compile(r"([a-z_.]+)(?=(\[\d+\])?: )")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _PAIR = re.compile(r"parameter (--[a-z-]+) requires 2 positional arguments")
 _UNIT = re.compile(r"[A-Za-zµ°]+(\^?-?[²³]|\^-?\d|[23])?([*/·][A-Za-z]+(\^?-?\d|[²³])?)*")
+_ELSEWHERE = {
+    "--F0": ("--amplitude", "write it as --amplitude 450N"),
+    "--force": ("--amplitude", "write it as --amplitude 450N"),
+    "--unbalance": ("--amplitude", 'write it as --amplitude "0.4 kg m"'),
+    "--acceleration": ("--amplitude", "write it as --amplitude 0.05g"),
+    "--displacement": ("--amplitude", "write it as --amplitude 5mm"),
+    "--period": ("--isolator-period", "write the period of the isolator as --isolator-period 2.5s"),
+    "--natural-frequency": ("--isolator-period", "write its reciprocal as --isolator-period 2.5s"),
+}
+"""Options that users expect, the option of the command that replaces each, and what to do."""
 
 
 def in_words(error: Exception, words: Sequence[str]) -> str:
@@ -28,6 +38,8 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
         first, _, _ = str(error).partition(" Available commands:")
         names = ", ".join(name for name in error.app if not name.startswith("-"))
         line = f"{first} {names} are accepted"
+    elif isinstance(error, UnknownOptionError) and (advice := _elsewhere(error)):
+        line = f"Unknown option: {advice}"
     elif pair := _PAIR.search(str(error)):
         line = _as_two_words(pair[1], words)
     else:
@@ -35,6 +47,14 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
     if isinstance(error, CycloptsError):
         line += "; --help lists what is accepted"
     return short_line(_as_option(line, words) + _quoting(words))
+
+
+def _elsewhere(error: UnknownOptionError) -> str:
+    """Return an unknown option and what to write instead, if another option replaces it."""
+    option = (error.token.keyword or error.token.value).partition("=")[0]
+    replacement, advice = _ELSEWHERE.get(option, ("", ""))
+    known = {name for argument in error.argument_collection for name in argument.names}
+    return f"{option}; {advice}" if replacement in known else ""
 
 
 def _as_two_words(option: str, words: Sequence[str]) -> str:

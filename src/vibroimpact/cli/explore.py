@@ -56,7 +56,6 @@ def explore(
     from vibroimpact.explorer.run import LOOPBACK, serve
     from vibroimpact.explorer.state import begin
     from vibroimpact.model.rig import Rig
-    from vibroimpact.model.written_units import written_for
 
     if not 0 <= port <= 65535:
         raise InputError(f"--port: {port}; pass a whole number from 0 to 65535")
@@ -81,7 +80,7 @@ def explore(
             webbrowser.open(address)
 
     try:
-        with search_as_usual(), written_for(first):
+        with search_as_usual():
             serve(first, announce, host, port)
     except KeyboardInterrupt:
         print("The explorer has stopped.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -104,4 +105,10 @@ def manifolds(
             drawn=below,
             manifolds=data,
         )
+    if "notes" in data.attrs:  # the file names arguments, and the summary options
+        data.attrs["notes"] = re.sub(r"(?<=; raise )\w+", _option, data.attrs["notes"])
     return written.tell({"frequency": hertz, **facts.facts(data)}, facts.text(data))
+
+
+def _option(argument: re.Match[str]) -> str:
+    return f"--{argument[0].replace('_', '-')}"

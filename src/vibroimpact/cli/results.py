@@ -99,7 +99,7 @@ class Results:
         own = rig.facts(self.what.rig)
         if not shaking:
             own.pop("record", None)
-        described = about or rig.text(self.what.rig, shaking=shaking)
+        described = about or rig.text(self.what.rig, shaking, facts.get("frequency"))
         summary = Group(described, *text)
         tell(summary, {**own, **facts}, self.folder, self.files, self.output.json)
         return 0

@@ -31,9 +31,10 @@ from vibroimpact.model.names import check_name, file_stem, literal
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
 from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
 from vibroimpact.model.rig import Rig, with_stated_units
+from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.units import to_si
-from vibroimpact.model.written_units import write_for
-from vibroimpact.response.plausibility import doubt_gaps
+from vibroimpact.model.written_units import NONE, write_for
+from vibroimpact.response.plausibility import doubt_stops
 
 _SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
 """Options that set a field of both bumpers, by field."""
@@ -157,7 +158,7 @@ def subject(
     def rig_of(given: RigOptions) -> tuple[Oscillator, Repeated | Record | None]:
         shaking = found.shaking
         if given.amplitude is not None:
-            shaking = _of_size(shaking, given.amplitude)
+            shaking = _of_size(shaking, given.amplitude, found.oscillator.units == NONE)
         stated = {_flag(one.name): getattr(given, one.name) for one in fields(given)}
         return with_stated_units(changed(found.oscillator, given), stated), shaking
 
@@ -182,14 +183,17 @@ def subject(
         found.study,
         found.case and oscillator.angular_frequency == found.oscillator.angular_frequency,
     )
-    doubt_gaps(Rig(what.oscillator, what.shaking))
+    doubt_stops(Rig(what.oscillator, what.shaking))
     return what
 
 
-def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated | None:
+def _of_size(
+    shaking: Repeated | Record | None, amplitude: str, without_units: bool
+) -> Repeated | None:
     """Return the shaking with the amplitude of the option. Several harmonics keep their shape.
 
-    With an amplitude of 0, nothing shakes the rig.
+    With an amplitude of 0, nothing shakes the rig. A plain number for a rig without units does not
+    change the quantity.
     """
     if isinstance(shaking, Record):
         raise InputError(
@@ -201,7 +205,9 @@ def _of_size(shaking: Repeated | Record | None, amplitude: str) -> Repeated | No
         return shaking.replace(amplitude=size) if size else None
     if is_nothing(amplitude):
         return None
-    found, _ = as_periodic(amplitude, "--amplitude")
+    is_plain = without_units and not has_unit(amplitude)
+    kept = shaking.of if shaking is not None and is_plain else None
+    found, _ = as_periodic(amplitude, "--amplitude", kept)
     return found if shaking is None else found.replace(phase=shaking.phase)
 
 

@@ -65,6 +65,7 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
     from vibroimpact.model import to_si
     from vibroimpact.model.quantities import ANGLE, FREQUENCY
     from vibroimpact.model.rig import Rig
+    from vibroimpact.response.plausibility import doubt_frequency
 
     studied = what.simulate_table.frequency
     if frequency is not None:
@@ -76,7 +77,10 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
     else:
         raise InputError("--frequency: missing; pass the forcing frequency, such as 2Hz")
     start = what.phase if phase is None else to_si(phase, ANGLE, "--phase")
-    return Rig(what.oscillator, what.at(hertz, start))
+    rig = Rig(what.oscillator, what.at(hertz, start))
+    if along != "frequency":
+        doubt_frequency(rig, "frequency" if frequency is None else "--frequency")
+    return rig
 
 
 def state(option: str, text: str, phase: float | None = None) -> State:

@@ -55,9 +55,10 @@ def describe(
         if variable.comment:
             attributes["comment"] = variable.comment
         dataset.variables[name].attrs.update(attributes)  # as of dataset[name], sooner
-    if "amplitude" in dataset.variables and parameters and "of" in parameters:
-        size = parameter("amplitude", of=parameters["of"])
-        dataset["amplitude"].attrs.update(units=size.units, long_name=size.long_name)
+    for name, which in (("amplitude", ""), ("candidate_amplitude", " of the next test")):
+        if name in dataset.variables and parameters and "of" in parameters:
+            size = parameter("amplitude", of=parameters["of"])
+            dataset[name].attrs.update(units=size.units, long_name=f"{size.long_name}{which}")
     for name, variable in known.items():
         dataset[name].attrs.update(units=variable.units, long_name=variable.long_name)
     if "status" in dataset.variables:
@@ -86,6 +87,14 @@ def _stands(parameters: Mapping[str, Any]) -> bool:
     return bool(rigs) and all(
         one.get("of") in ON_THE_MASS or one.get("amplitude") == 0.0 for one in rigs
     )
+
+
+def stop_word(data: xr.Dataset) -> str:
+    """Return "stop" if a stop of a dataset's rigs is rigid, and "bumper" if all deform."""
+    parameters = motion_parameters(data)
+    rigs = parameters.get("rigs", [parameters])
+    stops = [rig["oscillator"][side] or {} for rig in rigs for side in ("right", "left")]
+    return "stop" if any(stop.get("kind") == "rigid" for stop in stops) else "bumper"
 
 
 def remove_units(dataset: xr.Dataset) -> xr.Dataset:

@@ -38,7 +38,7 @@ from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import with_si_unit
 from vibroimpact.model.written_units import has_no_units
-from vibroimpact.response.plausibility import doubt_gaps
+from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
 from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read, write_block
@@ -195,7 +195,7 @@ def _doubted(rigs: Mapping[str, Oscillator], record: Record, data: xr.Dataset) -
     for name, oscillator in rigs.items():
         own = data.sel(rig=name) if "rig" in data.dims else data
         peaks = own["peak_displacement"].values
-        lines |= dict.fromkeys(doubt_gaps(Rig(oscillator, record), peaks[np.isfinite(peaks)]))
+        lines |= dict.fromkeys(doubt_stops(Rig(oscillator, record), peaks[np.isfinite(peaks)]))
     return list(lines)
 
 

@@ -15,9 +15,9 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events
 from vibroimpact.model.quantities import TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.plausibility import doubt_gaps
+from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.tasks.threads import Progress
 
@@ -33,6 +33,7 @@ SUMS = {
 """Variables that are the sum of both sides."""
 
 
+@in_units_of_rig
 def seismic_response(
     rig: AnyRig,
     *,
@@ -120,7 +121,7 @@ def seismic_response(
         "record": record_parameters(record),
         "tail": behind,
     }
-    notes = [*record.about.notes, *doubt_gaps(Rig(oscillator, record), data["peak_displacement"])]
+    notes = [*record.about.notes, *doubt_stops(Rig(oscillator, record), data["peak_displacement"])]
     return describe(data, "vibroimpact.seismic_response", parameters, notes)
 
 

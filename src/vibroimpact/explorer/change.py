@@ -10,13 +10,19 @@ from vibroimpact.explorer.laws import isolator_of, stop_of
 from vibroimpact.explorer.state import ON_DEMAND, State
 from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import sized
+from vibroimpact.model.frequency_text import forcing, forcings
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.model.quantities import FREQUENCY
+from vibroimpact.model.quantities import DIMENSIONLESS as NUMBER
+from vibroimpact.model.quantities import FORCE, FREQUENCY, MASS
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.stated_units import has_unit
+from vibroimpact.model.written_units import unitless
 
 SIDES = ("right", "left")
 DIMENSIONLESS = ("stiffness_ratio", "gap_ratio", "relaxation_time")
 """Dimensionless parameters of a stop."""
+_ROUNDED = 1e-6
+"""Relative error of a frequency that the page has rounded."""
 OF_RIG = ("isolator_period", "damping_ratio")
 
 
@@ -49,7 +55,8 @@ def moved(state: State, path: str, value: float | str) -> State:
         moved = PARAMETERS[path].vary(state.rig, number)
         return state._replace(oscillator=moved.oscillator)
     if path in ("mass", "force"):
-        return state._replace(oscillator=rig.replace(**{path: value}))
+        number = to_si(value, MASS if path == "mass" else FORCE, path)
+        return state._replace(oscillator=rig.replace(**{path: number}))
     if part == "isolator" and name in type(rig.isolator).model_fields:
         return state._replace(
             oscillator=rig.replace(isolator=rig.isolator.replace(**{name: value}))
@@ -142,7 +149,17 @@ def chosen(state: State, direction: str, frequency: float | str) -> State:
     if direction not in ("forward", "backward"):
         raise InputError(f"direction: {shown(direction)} is unknown; use 'forward' or 'backward'")
     low, high = state.span
-    hertz = to_si(frequency, FREQUENCY, "frequency", minimum=low, maximum=high)
+    if unitless() and not has_unit(frequency):
+        hertz = to_si(frequency, NUMBER, "frequency", above=0.0) / math.tau
+    else:
+        hertz = to_si(frequency, FREQUENCY, "frequency", above=0.0)
+    # The page has frequencies with some digits only, also those of both ends.
+    hertz = next((end for end in state.span if math.isclose(hertz, end, rel_tol=_ROUNDED)), hertz)
+    if not low <= hertz <= high:
+        raise InputError(
+            f"frequency: {forcing(hertz)} is outside the range of the sweeps; use a frequency from "
+            f"{forcings(low, high)}"
+        )
     return state._replace(
         direction=direction,  # type: ignore[arg-type]
         shaking=state.shaking.replace(frequency=hertz),

@@ -17,11 +17,11 @@ from vibroimpact.explorer import change, presets, share
 from vibroimpact.explorer.controls import controls
 from vibroimpact.explorer.files import made
 from vibroimpact.explorer.laws import isolator_laws, stop_laws
-from vibroimpact.explorer.pictures import basins, branch, curves, motion, plane, scenario
+from vibroimpact.explorer.pictures import basins, branch, curves, motion, numbers, plane, scenario
 from vibroimpact.explorer.state import ON_DEMAND, History, State
 from vibroimpact.figures.style import SCENARIOS
-from vibroimpact.model.quantities import FREQUENCY
-from vibroimpact.model.units import pretty
+from vibroimpact.model.frequency_text import forcing
+from vibroimpact.model.written_units import unitless, written_for
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.tasks.threads import Progress, Stopped
@@ -121,6 +121,10 @@ class Session:
 
     def _next(self, message: Message) -> History:
         """What the message makes of the history."""
+        with written_for(None if message["do"] in ("preset", "open") else self.state):
+            return self._done(message)
+
+    def _done(self, message: Message) -> History:
         history, now, do = self.history, self.history.now, message["do"]
         if do == "undo":
             return history.undo()
@@ -295,6 +299,11 @@ def shown_as(history: History) -> Message:
     InputError
         If several harmonics shake the rig, or if its isolator has no stiffness.
     """
+    with written_for(history.now):
+        return _shown_as(history)
+
+
+def _shown_as(history: History) -> Message:
     one_sine(history.now.rig, "amplitude")
     state, first = history.now, history.first
     rig = state.oscillator
@@ -310,9 +319,9 @@ def shown_as(history: History) -> Message:
             "together": state.together,
             "physical": state.physical,
             "direction": state.direction,
-            "frequency": state.shaking.frequency,
-            "frequency_text": pretty(state.shaking.frequency, FREQUENCY, 5),
-            "span": list(state.span),
+            "without_units": unitless(),
+            "frequency": numbers.forcing(state.shaking.frequency),
+            "frequency_text": forcing(state.shaking.frequency, 5).removeprefix("ω = "),
             "shown": sorted(state.shown),
             "undo": len(history.past),
             "redo": len(history.future),

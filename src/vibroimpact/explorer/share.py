@@ -14,9 +14,11 @@ from vibroimpact.explorer.pictures.curves import FINE
 from vibroimpact.explorer.state import Direction, State
 from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import QUANTITIES, sized
+from vibroimpact.model.frequency_text import forcings
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
+from vibroimpact.model.written_units import as_first_argument, unitless, written_for
 from vibroimpact.scenarios.axes import one_sine
 
 MOST = 8000
@@ -97,9 +99,11 @@ def _from_table(table: Any) -> State:
     low, high = (to_si(end, FREQUENCY, "span", above=0.0) for end in span)
     hertz = to_si(table["frequency"], FREQUENCY, "frequency", minimum=low, maximum=high)
     if not low < high:
-        raise InputError(
-            f"address: the range from {low:g} to {high:g} Hz is empty; use a lower first frequency"
-        )
+        with written_for(oscillator):
+            raise InputError(
+                f"address: the range from {forcings(low, high)} is empty; use a lower first "
+                "frequency"
+            )
     shaken = Harmonic(size, hertz, table["phase"], of)
     one_sine(Rig(oscillator, shaken), "amplitude")
     state = State(name, oscillator, shaken, (low, high), direction)
@@ -112,8 +116,15 @@ def _from_table(table: Any) -> State:
     return joined(state, False)
 
 
+@as_first_argument
 def study(state: State) -> str:
-    """Return the study file of a state, which all commands accept."""
+    """Return the study file of a state, which all commands accept.
+
+    Raises
+    ------
+    InputError
+        If the rig has no units and its amplitude is not an acceleration, which only a unit states.
+    """
     lines = [f"name = {_quoted(state.name)}", "", "[oscillator]"]
     for key, value in state.oscillator.model_dump(exclude_none=True).items():
         lines.append(f"{key} = {_toml(value)}")
@@ -141,6 +152,11 @@ def _amplitude(state: State) -> str:
     if state.shaking.of == "acceleration":
         return repr(state.shaking.amplitude)
     quantity = QUANTITIES[state.shaking.of]
+    if unitless():
+        raise InputError(
+            f"study: without a unit, a study file cannot state that the amplitude is "
+            f"{quantity.phrase}; save the Python program instead"
+        )
     return json.dumps(f"{state.shaking.amplitude!r} {quantity.symbol}")
 
 
@@ -159,6 +175,7 @@ def _quoted(text: str) -> str:
     return json.dumps(whole, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
+@as_first_argument
 def program(state: State) -> str:
     """Return a Python program that computes the curves and the motion of a state."""
     low, high = state.span

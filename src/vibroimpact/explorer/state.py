@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal, NamedTuple
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator
+from vibroimpact.model.frequency_text import forcings
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.written_units import SI
+from vibroimpact.model.written_units import has_no_units, written_for
 from vibroimpact.scenarios.axes import one_sine
 
 Direction = Literal["forward", "backward"]
@@ -39,7 +41,7 @@ class State(NamedTuple):
     together: bool = True
     """Whether one knob sets the values of both stops."""
     physical: bool = False
-    """Whether the curves are in mm and g instead of normalised (η)."""
+    """Whether the curves are in mm and g, or without units, instead of normalised (η)."""
     shown: frozenset[str] = frozenset()
     """Pictures of `ON_DEMAND` that are shown."""
 
@@ -50,7 +52,7 @@ class State(NamedTuple):
 
 
 def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) -> State:
-    """Return the initial state for a rig. The numbers of a rig without units become SI units.
+    """Return the initial state for a rig.
 
     Parameters
     ----------
@@ -69,16 +71,18 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
         If the rig is invalid or is not shaken by one sine, or if its isolator has no stiffness.
     """
     given = one_sine(as_rig(rig), "amplitude")
-    # The page has units at all its axes and fields.
-    oscillator, shaken = given.oscillator.replace(units=SI), given.sine
-    natural = oscillator.natural_frequency
-    low, high = span or (_short(LOWEST * natural), _short(HIGHEST * natural))
+    oscillator, shaken = given.oscillator, given.sine
+    # Round numbers of the frequency that the page shows.
+    turn = math.tau if has_no_units(oscillator) else 1.0
+    natural = turn * oscillator.natural_frequency
+    low, high = span or (_short(LOWEST * natural) / turn, _short(HIGHEST * natural) / turn)
     if not 0.0 < low < high:
-        raise InputError(
-            f"span: {low:g} to {high:g} Hz is not valid; pass a lowest frequency above 0, then a "
-            "higher one"
-        )
-    chosen = min(max(_short(_CHOSEN * natural), low), high)
+        with written_for(oscillator):
+            raise InputError(
+                f"span: {forcings(low, high)} is not valid; pass a lowest frequency above 0, then "
+                "a higher one"
+            )
+    chosen = min(max(_short(_CHOSEN * natural) / turn, low), high)
     return State(
         name or given.name or "rig",
         oscillator,

@@ -12,6 +12,9 @@ from rich.text import Text
 
 from vibroimpact.facts.number_format import heading, plain
 
+_DIGITS = 10
+"""Significant digits of the value of a bifurcation."""
+
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
     """Return the bifurcations and how each branch ended, in SI units."""
@@ -73,6 +76,28 @@ def text(data: xr.Dataset) -> RenderableType:
     return Group(*parts)
 
 
+def bifurcations(data: xr.Dataset) -> RenderableType:
+    """Return the bifurcations of all branches in one table, by rising parameter.
+
+    A bifurcation at which several branches meet is listed once.
+    """
+    told = facts(data)
+    name, found = told["parameter"], told["bifurcations"]
+    if not found:
+        return Text("\nNo bifurcation on the branches")
+    unit, words = heading(name, data[name].attrs["units"], [one["value"] for one in found])
+    table = Table("bifurcation", box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
+    for column in (words, "η_d"):
+        table.add_column(column, justify="right")
+    rows = [
+        (one["kind"], plain(one["value"] / unit.size, _DIGITS), plain(one["eta_d"], 4))
+        for one in sorted(found, key=lambda one: float(one["value"]))
+    ]
+    for row in dict.fromkeys(rows):
+        table.add_row(*row)
+    return Group(Text("\nBifurcations on the branches", style="bold"), table)
+
+
 def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
     table = Table("bifurcation", box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
     unit, words = heading(parameter, units, [one["value"] for one in found])
@@ -86,7 +111,7 @@ def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
             largest = f"{first[0]:.4f}, {second[0]:.4f}"
         table.add_row(
             one["kind"],
-            f"{plain(one['value'] / unit.size, 10)}",
+            f"{plain(one['value'] / unit.size, _DIGITS)}",
             f"{plain(one['eta_d'], 4)}",
             largest,
             _note(one),

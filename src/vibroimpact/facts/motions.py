@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.datasets.description import base_at_rest, noted
+from vibroimpact.datasets.description import base_at_rest, noted, stop_word
 from vibroimpact.facts.number_format import with_unit
 from vibroimpact.facts.status import status_facts
 from vibroimpact.model.frequency_text import forcing
@@ -168,7 +168,7 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         (
             "energy",
             f"{plain(supplied / joule, 4)}{_gap(joules)} per cycle, "
-            f"{plain(lost / joule, 4)}{_gap(joules)} of it lost in the bumpers",
+            f"{plain(lost / joule, 4)}{_gap(joules)} of it lost in the {stop_word(data)}s",
         ),
     ]
     if data.attrs.get("starts"):

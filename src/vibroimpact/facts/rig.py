@@ -51,8 +51,11 @@ def facts(rig: Rig) -> dict[str, Any]:
     }
 
 
-def text(rig: Rig, shaking: bool = True) -> RenderableType:
-    """Return the rig with every parameter that was used, and with its shaking if that is wanted."""
+def text(rig: Rig, shaking: bool = True, frequency: float | None = None) -> RenderableType:
+    """Return the rig with every parameter that was used, and with its shaking if that is wanted.
+
+    The forcing frequency (Hz), if one is passed, is below the natural frequency.
+    """
     oscillator = rig.oscillator
     isolator = oscillator.isolator
     scaled, sprung = _dimensionless(rig), isolator.initial_stiffness > 0.0
@@ -75,7 +78,9 @@ def text(rig: Rig, shaking: bool = True) -> RenderableType:
     for side in ("right", "left"):
         bumper: Stop | None = getattr(oscillator, side)
         if bumper is None:
-            table.add_row(f"{side} bumper", "none", "")
+            # Beside a rigid stop, no bumper is missing.
+            rigid = any(isinstance(stop, RigidStop) for stop in oscillator.stops)
+            table.add_row(f"{side} {'stop' if rigid else 'bumper'}", "none", "")
             continue
         group = getattr(scaled, side) if scaled else None
         if isinstance(bumper, RigidStop):
@@ -102,7 +107,8 @@ def text(rig: Rig, shaking: bool = True) -> RenderableType:
     if oscillator.force:
         table.add_row("constant force", pretty(oscillator.force, FORCE), "")
     if shaking and rig.shaking is not None:
-        table.add_row(*_shaking_words(rig.shaking), "")
+        at = "" if frequency is None or not rig.is_shaken else f"at {forcing(frequency)}"
+        table.add_row(*_shaking_words(rig.shaking), at)
     return Group(Text(rig.name or "", style="bold"), table)
 
 

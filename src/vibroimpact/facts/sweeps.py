@@ -8,7 +8,7 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from vibroimpact.datasets.description import noted
+from vibroimpact.datasets.description import noted, stop_word
 from vibroimpact.facts import largest
 from vibroimpact.facts.tables import titled_table
 from vibroimpact.model.frequency_text import forcing, forcing_heading, forcings
@@ -61,7 +61,7 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
         _jumps(found),
         Text(),
         _hysteresis(data, found),
-        _ranges("Contact with a bumper", found.contact),
+        _ranges(f"Contact with a {stop_word(data)}", found.contact),
         _ranges("Motion not settled", found.unsettled),
     ]
     notes = noted(data)

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import own_outputs
+from vibroimpact.datasets.description import motion_parameters, own_outputs
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.labels import Names
@@ -21,7 +21,7 @@ from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.style import SWEEPS
 from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
-from vibroimpact.stability.branch_styles import QUANTITIES
+from vibroimpact.stability.branch_styles import QUANTITIES, contact_counts
 
 _Array = NDArray[np.float64]
 
@@ -62,8 +62,8 @@ def branch_diagram(
     """Draw branches of periodic orbits over their parameter.
 
     Stable parts are solid, and unstable parts are dashed. Long parts have a label with the impacts
-    per period. For example, 2R 1L means two impacts on the right bumper and one impact on the left
-    bumper.
+    per period. For example, 2R 1L means two impacts on the right stop and one impact on the left
+    stop. A side without a stop is left out.
 
     Parameters
     ----------
@@ -170,12 +170,14 @@ def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
     hits = [
         np.rint(data[f"impacts_{side}"].values * period).astype(int) for side in ("right", "left")
     ]
+    oscillator = motion_parameters(data)["oscillator"]
+    stops = oscillator["right"], oscillator["left"]
     found = []
     changes = np.any([np.diff(part) != 0 for part in (branch, period, *hits)], axis=0)
     ends = [0, *(np.flatnonzero(changes) + 1), len(branch)]
     for first, last in itertools.pairwise(ends):
         right, left, cycles = (int(part[first]) for part in (*hits, period))
-        name = f"{right}R {left}L" if right or left else "free flight"
+        name = contact_counts(right, left, stops) if right or left else "free flight"
         found.append((slice(first, last), f"{name}, period {cycles}" if cycles > 1 else name))
     return found
 

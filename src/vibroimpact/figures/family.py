@@ -17,6 +17,7 @@ from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units, in_unit
+from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import FREE, SWEEPS, fit_x_axis
 from vibroimpact.model.names import literal
 from vibroimpact.response.resonance import features
@@ -75,7 +76,7 @@ def resonance_family(
     data: xr.Dataset,
     ax: Axes | None = None,
     *,
-    quantity: Quantity = "eta_d",
+    quantity: Quantity | None = None,
     labels: Mapping[str, str] | None = None,
     colours: Mapping[str, str] | None = None,
     markers: Mapping[str, int] | None = None,
@@ -96,7 +97,8 @@ def resonance_family(
         Axes to draw on. Default: a new figure.
     quantity
         Quantity on the vertical axis: ``"eta_a"``, ``"eta_d"``, ``"acceleration_excursion"`` or
-        ``"displacement_excursion"``.
+        ``"displacement_excursion"``. Default: ``"eta_d"`` for published cases, and
+        ``"displacement_excursion"`` for other rigs, as in `resonance_curves`.
     labels
         Text in the legend, by the name of the rig. Default: the name of the rig.
     colours
@@ -126,6 +128,8 @@ def resonance_family(
         raise InputError(
             "data: these are not sweeps of rigs; pass the result of vibroimpact.sweeps"
         )
+    if quantity is None:
+        quantity = "eta_d" if draws_eta(data) else "displacement_excursion"
     if quantity not in get_args(Quantity):
         accepted = ", ".join(get_args(Quantity))
         raise InputError(f"quantity: {quantity!r}; one of {accepted} is accepted")

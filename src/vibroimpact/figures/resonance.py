@@ -20,8 +20,7 @@ from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.resonance_panels import (
     Drawn,
-    divides,
-    is_published,
+    draws_eta,
     normalised,
     outputs,
     physical_curves,
@@ -108,7 +107,7 @@ def resonance_curves(
     if measured is not None:
         measured = as_measured(measured, "measured")
     if physical is None:
-        physical = not (is_published(data) and divides(data))
+        physical = not draws_eta(data)
     halves = halves_of(measured) if measured is not None else set()
     drawn = physical_curves(data, halves) if physical else normalised(data)
     names = [one.name for one in drawn]

@@ -105,17 +105,16 @@ def outputs(data: xr.Dataset) -> list[Drawn]:
     return found
 
 
-def is_published(data: xr.Dataset) -> bool:
-    """Return whether the rig of a sweep is that of a published case; see `Rig.published`."""
-    return bool(json.loads(data.attrs["parameters"])["rigs"][0].get("published"))
+def draws_eta(data: xr.Dataset) -> bool:
+    """Return whether figures of sweeps show η by default, instead of physical quantities.
 
-
-def divides(data: xr.Dataset) -> bool:
-    """Return whether η has a meaning: it has values, and the motion without stops is bounded.
-
-    If the curves are divided by the response of an undamped isolator near its resonance, they are
-    almost flat.
+    They do if all rigs are those of published cases (see `Rig.published`) and η has a meaning: it
+    has values, and the motion without stops is bounded. If the curves are divided by the response
+    of an undamped isolator near its resonance, they are almost flat.
     """
+    rigs = json.loads(data.attrs["parameters"])["rigs"]
+    if not all(rig.get("published") for rig in rigs):
+        return False
     return bool(data["eta_d"].notnull().any()) and not _spikes(data)
 
 

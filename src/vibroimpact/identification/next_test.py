@@ -17,12 +17,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list, check_name, check_variables
-from vibroimpact.datasets.description import describe
+from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.identification.branch_response import SteppedRig, sizes
 from vibroimpact.identification.free_parameters import NEAR_ZERO, SENSORS, size_of
 from vibroimpact.identification.results import rig_of
 from vibroimpact.model.count_checks import share as fraction
-from vibroimpact.model.excitation import sized
+from vibroimpact.model.excitation import Repeated, sized
 from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import DIMENSIONLESS
@@ -156,7 +156,11 @@ def next_test(
         },
     )
     data.attrs["findings"] = "\n".join(_told(data, result, shaken))
-    return describe(data, "vibroimpact.next_test", {"test": name, "noise": share})
+    return describe(
+        data,
+        "vibroimpact.next_test",
+        {**rig_parameters(rig, "frequency"), "test": name, "noise": share},
+    )
 
 
 def _axes(covariance: Array) -> Array:
@@ -241,7 +245,7 @@ def _first_least(values: Array) -> tuple[int, ...]:
     return tuple(int(i) for i in near[0])
 
 
-def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
+def _told(data: xr.Dataset, result: xr.Dataset, shaken: Repeated) -> list[str]:
     """Describe the best hold for each of the most uncertain parameters, and for all."""
     lines = []
     relative = result["standard_error"].values / np.maximum(
@@ -256,7 +260,7 @@ def _told(data: xr.Dataset, result: xr.Dataset, shaken: object) -> list[str]:
         if not np.isfinite(of.values).any():
             continue
         best = of.isel(dict(zip(of.dims, _first_least(of.values), strict=True)))
-        amplitude = pretty(float(best["candidate_amplitude"]), PARAMETERS["amplitude"].quantity, 3)
+        amplitude = pretty(float(best["candidate_amplitude"]), shaken.quantity, 3)
         at = forcing(float(best["frequency"]), 3)
         where = f"a measurement at {at} ({best['direction'].item()}), {amplitude}"
         if what and float(best) > _LITTLE:

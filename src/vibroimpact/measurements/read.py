@@ -18,6 +18,7 @@ from vibroimpact.measurements.beside import shaking
 from vibroimpact.measurements.column_meanings import converted, known_columns, missing_columns
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.curves import curves
+from vibroimpact.measurements.dropouts import doubt_marks
 from vibroimpact.measurements.histories import history
 from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, meaning
 from vibroimpact.measurements.sampling import timed
@@ -124,6 +125,10 @@ def read_measurement(
     table = _chosen(str(path), tables, group, set(columns.values()), notes)
     notes += table.notes
     meanings, left, repeated = known_columns(table, columns, units)
+    for i in meanings:
+        column = table.columns[i]
+        if column.values.dtype.kind in "fiu":
+            notes += doubt_marks(column.name, column.values.astype(float))
     variables = {found.variable for found in meanings.values()}
     if "frequency" in variables and variables & set(CURVES):
         known = converted(table, meanings, {"frequency", "direction", *CURVES}, units, notes)

@@ -31,11 +31,17 @@ def listed(keys: list[str]) -> str:
     return " and ".join(filter(None, (", ".join(keys[:-1]), keys[-1])))
 
 
+def similar_key(keys: list[str], name: str) -> str:
+    """Return the key that a misspelt key probably means, or an empty string."""
+    close = difflib.get_close_matches(name[:SHOWN], keys, n=1, cutoff=0.7)
+    return close[0] if close else ""
+
+
 def unknown_key(keys: list[str], name: str) -> str:
     """Describe the error of an unknown key, with the accepted keys and a suggestion."""
     for names, beside, advice in _ELSEWHERE:
         if name in names and beside in keys:
             return f"unknown key; {listed(keys)} are accepted; {advice}"
-    close = difflib.get_close_matches(name[:SHOWN], keys, n=1, cutoff=0.7)
-    hint = f"; did you mean {close[0]}?" if close else ""
+    close = similar_key(keys, name)
+    hint = f"; did you mean {close}?" if close else ""
     return f"unknown key; {listed(keys)} are accepted{hint}"

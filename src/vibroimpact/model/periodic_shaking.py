@@ -7,7 +7,7 @@ from typing import cast
 
 from vibroimpact.arguments import is_list
 from vibroimpact.errors import InputError
-from vibroimpact.model.excitation import Harmonic, Periodic, Repeated, sized
+from vibroimpact.model.excitation import Harmonic, Of, Periodic, Repeated, sized
 from vibroimpact.model.record import Record
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import unitless
@@ -27,8 +27,19 @@ def is_nothing(shaking: object) -> bool:
         return False
 
 
-def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] | None]:
+def as_periodic(
+    value: object, where: str, of: Of | None = None
+) -> tuple[Repeated, tuple[float, ...] | None]:
     """Read a periodic shaking: an amplitude, amplitudes, a `Harmonic` or a `Periodic`.
+
+    Parameters
+    ----------
+    value
+        The shaking.
+    where
+        Its name in errors.
+    of
+        Quantity of an amplitude. Default: that of its unit, or an acceleration.
 
     Returns
     -------
@@ -58,14 +69,14 @@ def as_periodic(value: object, where: str) -> tuple[Repeated, tuple[float, ...] 
             )
         return value, None
     if is_list(value):
-        sizes, of = [], None
+        sizes = []
         for i, one in enumerate(cast("Sequence[float | str]", value)):
             size, of = sized(one, of, f"{where}[{i}]", positive=True)
             sizes.append(size)
         if not sizes:
             raise InputError(f"{where}: the list is empty; pass one amplitude per frequency")
         return Harmonic(max(sizes), ANY_FREQUENCY, of=of), tuple(sizes)
-    size, of = sized(value, None, where, positive=True)
+    size, of = sized(value, of, where, positive=True)
     return Harmonic(size, ANY_FREQUENCY, of=of), None
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import wraps
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 from vibroimpact.arguments import check_list, is_list, is_pair
 from vibroimpact.errors import InputError, shown
@@ -17,6 +18,10 @@ from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.study import read_rig_study
+from vibroimpact.model.written_units import written_for
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
 
 AnyRig: TypeAlias = Rig | Case | str | Path
 """A `Rig`, a laboratory case, its code such as ``"B2-G1-A3"``, or the path of a study file."""
@@ -56,6 +61,21 @@ def as_rig(
     """
     rig = _read(value, where, oscillator_alone)
     return rig if frequency is None else rig.at(frequency)
+
+
+def in_units_of_rig(function: Callable[_P, _R]) -> Callable[_P, _R]:
+    """Read and write all values of a function in the units of its first argument, ``rig``.
+
+    If the rig has no units, the function refuses values with a unit.
+    """
+
+    @wraps(function)
+    def wrapped(*args: _P.args, **kwargs: _P.kwargs) -> _R:
+        rig = args[0] if args else kwargs.get("rig")
+        with written_for(as_rig(rig) if isinstance(rig, str | Path) else rig):
+            return function(*args, **kwargs)
+
+    return wrapped
 
 
 def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> dict[str, Rig]:

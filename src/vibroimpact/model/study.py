@@ -14,7 +14,7 @@ from pydantic import Field, model_validator
 
 from vibroimpact.errors import InputError, printable
 from vibroimpact.model import laboratory
-from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
+from vibroimpact.model.excitation import Harmonic, Of, Periodic, Repeated
 from vibroimpact.model.laboratory import Parameters
 from vibroimpact.model.names import check_name
 from vibroimpact.model.oscillator import Oscillator
@@ -36,7 +36,7 @@ class ExcitationTable(Model):
     """Table ``[excitation]``: the periodic shaking without its frequency, or the file of a record.
 
     The unit of an amplitude determines whether it is an acceleration, a displacement, a force or an
-    unbalance.
+    unbalance. Without a unit, `of` determines it.
     The path of a record is relative to the study file. `component` is required if its file has
     several components. `step` (s), `unit` and `decimal` are required if the file does not state
     them. The unit may be a unit of length.
@@ -55,6 +55,7 @@ class ExcitationTable(Model):
     phases: list[Annotated[float, Accepts(ANGLE)]] | None = Field(
         None, examples=['phases = ["0 deg", "90 deg"]']
     )
+    of: Of | None = Field(None, examples=['of = "force"'])
     phase: Annotated[float, Accepts(ANGLE)] = 0.0
     record: str | None = Field(None, examples=['record = "quake.csv"'])
     component: str | None = Field(None, examples=['component = "1"'])
@@ -72,6 +73,8 @@ class ExcitationTable(Model):
         for name, needs in (("phases", "amplitudes"), *beside.items()):
             if getattr(self, name) is not None and ways[needs] is None:
                 raise InputError(f"{name} is given without {needs}; add {needs}, or remove {name}")
+        if self.of is not None and self.amplitude is None and self.amplitudes is None:
+            raise InputError("of is given without amplitude; add amplitude, or remove of")
         return self
 
     def shaking(self, folder: Path) -> Repeated | Record | None:
@@ -91,10 +94,10 @@ class ExcitationTable(Model):
                 decimal=self.decimal,
             )
         if self.amplitudes is not None:
-            return Periodic(1.0, self.amplitudes, self.phases, self.phase)
+            return Periodic(1.0, self.amplitudes, self.phases, self.phase, of=self.of)
         if self.amplitude is None or is_nothing(self.amplitude):
             return None
-        shaken, _ = as_periodic(self.amplitude, "amplitude")
+        shaken, _ = as_periodic(self.amplitude, "amplitude", self.of)
         return shaken.replace(phase=self.phase)
 
 

@@ -141,6 +141,8 @@ def one_of(
             continue  # of another dimension, or no number at all
         return to_si(value, quantity, field, above=above, minimum=minimum), quantity
     first, *others = quantities
+    if unitless():  # only a unit states which of them
+        others = []
     try:
         return to_si(value, first, field, above=above, minimum=minimum), first
     except InputError as error:
@@ -195,10 +197,9 @@ def accepted(
     if minimum is not None and maximum is not None:
         bounds = [f"from {minimum:g} to {_bound(maximum, quantity)}"]
     sign = "-" if maximum is not None and maximum <= 0 else ""
+    has_unit = quantity.symbol and (not unitless() or quantity.name in _OF_ANY_RIG)
     number = f"{sign}{quantity.number}"
-    example = (
-        f'"{sign}{quantity.example}" or {number} ({quantity.symbol})' if quantity.symbol else number
-    )
+    example = f'"{sign}{quantity.example}" or {number} ({quantity.symbol})' if has_unit else number
     return " ".join((quantity.phrase, *bounds, "is accepted, such as", example))
 
 

@@ -22,9 +22,9 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import DependentError, InputError, shown
 from vibroimpact.model.html_table import table
-from vibroimpact.model.keys import MOST, SHOWN, listed, unknown_key
+from vibroimpact.model.keys import MOST, SHOWN, listed, similar_key, unknown_key
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.sizes import SMALLEST, check_size
 from vibroimpact.model.units import accepted, pretty, read
@@ -320,11 +320,25 @@ def _explain(error: ValidationError, model: type[BaseModel], where: str) -> str:
     mistakes = error.errors(include_url=False)
     # A misspelt key is also a missing one; the misspelling is what the user must see.
     unknown = [mistake for mistake in mistakes if mistake["type"] == "extra_forbidden"]
-    told = unknown[:MOST] or mistakes[:1]
-    rest = len(mistakes) - len(told)
+    own = [one for one in mistakes if not _depends(one)] or mistakes
+    told = unknown[:MOST] or own[:1]
+    meant = {_meant(one, model) for one in told if one in unknown}
+    rest = sum(one["type"] != "missing" or one["loc"] not in meant for one in own) - len(told)
     more = f" ({rest} more to correct)" if rest else ""
     lines = "; ".join(_mistake(mistake, model, where) for mistake in told)
     return " ".join(f"{lines}{more}".split())
+
+
+def _depends(mistake: ErrorDetails) -> bool:
+    """Return whether correcting another mistake corrects this one."""
+    return isinstance(mistake.get("ctx", {}).get("error"), DependentError)
+
+
+def _meant(mistake: ErrorDetails, model: type[BaseModel]) -> tuple[int | str, ...]:
+    """Return the location of the key that an unknown key probably means."""
+    *table, name = mistake["loc"]
+    keys = cast("type[Model]", _along(model, tuple(table))[1]).table_keys()
+    return (*table, similar_key(keys, str(name)))
 
 
 def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:

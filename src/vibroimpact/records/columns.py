@@ -29,6 +29,10 @@ def read(file: File) -> list[Channel]:
     problem = found.uneven
     if found.contradiction:
         problem = f"{found.contradiction}, or pass step= (--step)"
+    if _only_counts(table):
+        problem = (
+            "its times only count the rows (0, 1, 2, ...); pass step= (--step), such as '5 ms'"
+        )
     others = (time.other, time.of_name) if time else ()
     if time and any(one and one != time.unit for one in others):
         other = next(one for one in others if one and one != time.unit)
@@ -44,6 +48,15 @@ def read(file: File) -> list[Channel]:
         )
         for column in values
     ]
+
+
+def _only_counts(table: Table) -> bool:
+    """Return whether the times are numbers of rows, and nothing in the file states their unit."""
+    if table.time is None or not table.columns[table.time].is_row_number:
+        return False
+    units, stated = table.columns[table.time].units, table.statements
+    steps = units.unit or stated.time_unit or stated.step or stated.durations
+    return not steps
 
 
 def _components(table: Table) -> list[int]:

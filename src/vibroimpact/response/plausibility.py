@@ -9,11 +9,11 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.errors import InputError, warn_of_input
-from vibroimpact.model import Harmonic, RigidStop, equilibrium
+from vibroimpact.model import Bumper, Harmonic, RigidStop, equilibrium
 from vibroimpact.model.quantities import FREQUENCY, LENGTH
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound, undamped_frequency
-from vibroimpact.model.units import pretty
+from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import NONE, written_for
 from vibroimpact.response.analytic_free_response import reference_excursions
 from vibroimpact.response.engine_input import engine_rig
@@ -27,7 +27,11 @@ _FAR, _FARTHEST = 100.0, 10_000.0
 
 In millimetres they are then from a tenth to ten times as large as it.
 """
-
+_MILLI, _MEGA = 1e-3, 1e6
+_SOFTEST, _HARDEST = 0.01, 1000.0
+"""Stiffnesses of usual stops, as multiples of that of the isolator."""
+_FAST = 50.0
+"""Forcing frequencies above so many times the natural one are doubted."""
 
 _STIFF = 1000.0
 """Vibrations of a pressed stop in one forcing cycle from which a computation is slow."""
@@ -40,10 +44,11 @@ STIFF = "slow to compute"
 """How a note begins that names a stop that vibrates much faster than the rig is shaken."""
 
 
-def doubt_gaps(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int = 5) -> list[str]:
-    """Issue a warning if a gap is given in metres and has the motion's size in millimetres.
+def doubt_stops(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int = 5) -> list[str]:
+    """Issue a warning if a gap in metres was probably millimetres, or a stiffness in mN/m MN/m.
 
-    It is compared with the largest displacement of free flight if that is known in closed form.
+    A gap is compared with the largest displacement of free flight if that is known in closed form,
+    and a stiffness with that of the isolator.
 
     Parameters
     ----------
@@ -59,6 +64,27 @@ def doubt_gaps(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int 
     list of str
         What is doubted, for the notes of a dataset.
     """
+    if rig.oscillator.units == NONE:
+        return []  # a factor of 1000 is a mix-up of units
+    level = stacklevel + 1
+    return [*_doubt_stiffnesses(rig, level), *_doubt_gaps(rig, displacement, level)]
+
+
+def _doubt_stiffnesses(rig: Rig, stacklevel: int) -> list[str]:
+    """Doubt stops that the isolator outweighs by far, and that are usual in MN/m."""
+    spring = rig.oscillator.isolator.initial_stiffness
+    stops = [stop for stop in rig.oscillator.stops if isinstance(stop, Bumper)]
+    notes = [
+        f"{plain(stiffness / _MILLI, 4)} mN/m is {stiffness / spring:.3g} times the stiffness of "
+        f"the isolator; is {plain(stiffness / _MILLI, 4)} MN/m meant?"
+        for stiffness in sorted({stop.stiffness for stop in stops})
+        if _SOFTEST * spring <= _MEGA / _MILLI * stiffness <= _HARDEST * spring
+    ]
+    warn_of_input("stiffness of a stop", notes, stacklevel=stacklevel)
+    return notes
+
+
+def _doubt_gaps(rig: Rig, displacement: ArrayLike | None, stacklevel: int) -> list[str]:
     oscillator = rig.oscillator
     gaps = sorted({stop.gap for stop in oscillator.stops if stop.gap >= _LEAST})
     if not gaps:
@@ -69,8 +95,6 @@ def doubt_gaps(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int 
         known = known[np.isfinite(known)]
         if len(known):
             reach, whose = float(known.max()), "that was computed"
-    if oscillator.units == NONE:
-        return []  # a factor of 1000 is a mix-up of units
     notes = [
         f"{pretty(gap, LENGTH)} is {gap / reach:.3g} times the largest displacement {whose}, "
         f"{pretty(float(f'{reach:.4g}'), LENGTH)}; is {pretty(gap / _FACTOR, LENGTH)} meant?"
@@ -79,6 +103,32 @@ def doubt_gaps(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int 
     ]
     warn_of_input("gap", notes, stacklevel=stacklevel)
     return notes
+
+
+def doubt_frequency(rig: Rig, field: str, stacklevel: int = 4) -> None:
+    """Issue a warning if a forcing frequency in Hz was probably in revolutions per minute.
+
+    Parameters
+    ----------
+    rig
+        The rig, at this frequency.
+    field
+        Name of the frequency in the warning.
+    stacklevel
+        That of the warning, as `warn_of_input` counts it.
+    """
+    oscillator = rig.oscillator
+    if oscillator.units == NONE or not oscillator.isolator.initial_stiffness > 0.0:
+        return
+    natural, forced = oscillator.natural_frequency, rig.periodic.frequency
+    if forced <= _FAST * natural:
+        return
+    told = (
+        f"{pretty(forced, FREQUENCY)} is {forced / natural:.3g} times the natural frequency of "
+        f"{pretty(float(f'{natural:.4g}'), FREQUENCY)}; is {plain(forced, 6)} rpm, "
+        f"{pretty(float(f'{forced / 60.0:.6g}'), FREQUENCY)}, meant?"
+    )
+    warn_of_input(field, [told], stacklevel=stacklevel)
 
 
 def note_unbounded(rig: Rig) -> list[str]:

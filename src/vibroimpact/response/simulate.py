@@ -26,7 +26,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
@@ -36,13 +36,14 @@ from vibroimpact.response.history_variables import (
     sampled,
     transmitted,
 )
-from vibroimpact.response.plausibility import doubt_gaps, note_stiff_stops
+from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops
 from vibroimpact.response.record_history import through
 from vibroimpact.response.softening_limit import ended
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
 
 
+@in_units_of_rig
 def simulate(
     rig: AnyRig,
     cycles: float | None = None,
@@ -110,7 +111,7 @@ def simulate(
         rig = (rig if rig.is_shaken else rig.vibrating_freely()).at(frequency)
     data = compute_history(rig, cycles, start, samples, tail, max_events, progress)
     # A short motion shows nothing: only the closed form of free flight counts.
-    notes = [*noted(data), *doubt_gaps(rig, stacklevel=4)]
+    notes = [*noted(data), *doubt_stops(rig, stacklevel=4)]
     return describe(data, "vibroimpact.simulate", notes=notes)
 
 

@@ -40,7 +40,7 @@ from vibroimpact.response.outputs import (
     computed,
     read_outputs,
 )
-from vibroimpact.response.plausibility import doubt_gaps, note_stiff_stops, note_unbounded
+from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops, note_unbounded
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.response.sweep_dataset import sweep_dataset
@@ -243,7 +243,7 @@ def sweeps(
         swing = held.peak_displacement
         held.status[...] = judged(oscillator, held.status, swing)
         doubts += [
-            *doubt_gaps(hardest, swing),
+            *doubt_stops(hardest, swing),
             *note_unbounded(hardest),
             *note_stiff_stops(hardest, float(grid[0])),
         ]

@@ -17,7 +17,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.grids.refinement import UNKNOWN, Nodes, Scenarios
 from vibroimpact.model import from_dimensionless
 from vibroimpact.model.count_checks import share, whole
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.scenarios.axes import Axis, Base, axis, check_pair, one_sine
 from vibroimpact.scenarios.map_node import RIG, classified
 from vibroimpact.scenarios.map_store import MapStore, chunk_slices, map_store
@@ -44,6 +44,7 @@ MOST_NODES = 4_000_000
 """Nodes of the finest grid."""
 
 
+@in_units_of_rig
 def scenario_map(
     rig: AnyRig | None,
     x: tuple[Any, ...],

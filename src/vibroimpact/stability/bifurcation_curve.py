@@ -37,7 +37,7 @@ from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import parameter, read_span
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.stability.bifurcation_locus import Locus, Place
@@ -55,6 +55,7 @@ _NAMES = 'pass the names of two parameters, such as ("frequency", "gap")'
 _NOTHING = xr.DataArray([np.nan])
 
 
+@in_units_of_rig
 def bifurcation_curve(
     rig: AnyRig,
     start: xr.Dataset,

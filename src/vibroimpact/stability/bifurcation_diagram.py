@@ -33,7 +33,7 @@ from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, share,
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.parameters import read_span
 from vibroimpact.model.periodic_shaking import as_periodic
-from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
+from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest, in_units_of_rig
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
@@ -51,6 +51,7 @@ _BLOCK = 32
 """Number of values per task, if motions are not continued to the next value."""
 
 
+@in_units_of_rig
 def bifurcation_diagram(
     rig: AnyRig,
     parameter: str,

@@ -11,7 +11,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Rig, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
 from vibroimpact.model.parameters import read_span
-from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest
+from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest, in_units_of_rig
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
@@ -26,6 +26,7 @@ _GROWN = 3.0
 """Growth relative to the first orbit from which a motion is reported as still growing."""
 
 
+@in_units_of_rig
 def branch(
     rig: AnyRig,
     start: State | xr.DataArray | xr.Dataset | None = None,

@@ -27,7 +27,7 @@ from vibroimpact.response.outputs import NamedOutput, about, add_outputs, comput
 from vibroimpact.response.plausibility import note_unbounded
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.bifurcations import Bifurcation
-from vibroimpact.stability.branch_styles import QUANTITIES
+from vibroimpact.stability.branch_styles import QUANTITIES, contact_counts
 from vibroimpact.stability.fixed_points import MAX_EVENTS, Orbit, vector_of
 from vibroimpact.stability.orbit_curve import Station
 from vibroimpact.stability.parameter_family import Family
@@ -163,10 +163,12 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
 
 def _contacts(found: Bifurcation) -> str:
     """Contacts per period, right (R) and left (L); at a grazing on both sides of it."""
-    before = "{}R {}L".format(*found.orbit.contacts)
+    oscillator = found.orbit.rig.oscillator
+    stops = oscillator.right, oscillator.left
+    before = contact_counts(*found.orbit.contacts, stops)
     if found.contacts_behind == found.orbit.contacts:
         return before
-    return before + " | {}R {}L".format(*found.contacts_behind)
+    return f"{before} | {contact_counts(*found.contacts_behind, stops)}"
 
 
 def state_of(one: Orbit) -> list[float]:

@@ -19,3 +19,17 @@ Quantity = Literal[
 """A variable of each orbit that each bifurcation has as well, as ``bifurcation_`` and its name."""
 
 QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
+
+
+def contact_counts(right: int, left: int, stops: tuple[object, object]) -> str:
+    """Write contacts per period, such as ``"2R 1L"``. A side without a stop is left out.
+
+    Parameters
+    ----------
+    right, left
+        Contacts on the two sides.
+    stops
+        The right and the left stop. None: the rig has no stop there.
+    """
+    counts = ((right, "R", stops[0]), (left, "L", stops[1]))
+    return " ".join(f"{count}{side}" for count, side, stop in counts if stop is not None)

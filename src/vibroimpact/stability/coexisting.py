@@ -15,7 +15,7 @@ from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Repeated, RigidStop, State, Stop, equilibrium
 from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, whole
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.sweep_starts import arrivals
@@ -42,6 +42,7 @@ class _Kept(NamedTuple):
     mirrored_starts: list[str]
 
 
+@in_units_of_rig
 def coexisting_motions(
     rig: AnyRig,
     *,

@@ -16,7 +16,7 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.model.count_checks import MOST_CYCLES, MOST_STARTS, whole
 from vibroimpact.model.parameters import PARAMETERS, read_span
 from vibroimpact.model.parameters import parameter as registered
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
@@ -33,6 +33,7 @@ _SAME = 1e-6
 _CLOSE = 0.1
 
 
+@in_units_of_rig
 def resonance_diagram(
     rig: AnyRig,
     span: tuple[float | str, float | str],

@@ -23,7 +23,7 @@ from vibroimpact.response.contacts import contact_log
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.motion_phases import Recorded, cut
 from vibroimpact.response.phase_measures import measured
-from vibroimpact.response.plausibility import doubt_gaps
+from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.totals import energies, extremes
 from vibroimpact.stability.exponents import DISCARD
@@ -280,7 +280,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
     ends = [values["displacement_max"], values["displacement_min"]]
-    notes = [*doubt_gaps(found.rig, ends, stacklevel=6), *noted(data)]
+    notes = [*doubt_stops(found.rig, ends, stacklevel=6), *noted(data)]
     return describe(data, "vibroimpact.steady", notes=notes)
 
 

@@ -15,7 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.count_checks import MOST_DRAWS, whole
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.varied import vary_all
 from vibroimpact.uncertainty.distributions import (
@@ -114,6 +114,7 @@ class Uncertain(NamedTuple):
         }
 
 
+@in_units_of_rig
 def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     """Read a rig and the distributions of its parameters.
 

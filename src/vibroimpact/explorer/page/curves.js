@@ -18,7 +18,7 @@ export class Curves {
     const names = picture.panels.map((panel) => panel.name).join();
     if (names !== this.names) {
       this.box.replaceChildren();
-      this.charts = picture.panels.map((panel) => new Chart(this.box, { name: `${panel.label.join(" ")} over frequency`, x: "frequency (Hz)", y: panel.label }));
+      this.charts = picture.panels.map((panel) => new Chart(this.box, { name: `${panel.label.join(" ")} over frequency`, x: picture.axis, y: panel.label }));
       for (const chart of this.charts) chart.redraw = () => this.draw(true);
       this.names = names;
     }
@@ -36,7 +36,7 @@ export class Curves {
       const levels = panel.levels.map((level) => level.value);
       const lists = [...Object.values(panel.curves), panel.free, levels];
       const old = chart.drawn ? chart.y : null;
-      chart.axes([frequency[0], frequency.at(-1)], range(lists, { zero: true, old, shrink: resting }), panel.label);
+      chart.axes([frequency[0], frequency.at(-1)], range(lists, { zero: true, old, shrink: resting }), panel.label, picture.axis);
       chart.drawn = true;
       chart.bands(picture.hysteresis.map((item) => [item.low, item.high]));
       chart.drop("level");

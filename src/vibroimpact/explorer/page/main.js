@@ -86,6 +86,7 @@ function begin(message) {
 
 function show(next) {
   state = next;
+  if (status.classList.contains("lost")) say(""); // what was refused before
   id("frequency-why").textContent = "";
   id("frequency").setAttribute("aria-invalid", "false");
   knobs.show(state, choices);
@@ -94,6 +95,8 @@ function show(next) {
   id("undo").disabled = !state.undo;
   id("redo").disabled = !state.redo;
   id("physical").checked = state.physical;
+  id("physical-label").textContent = state.without_units ? "not normalised" : "in mm and g";
+  id("omega").hidden = !state.without_units;
   id("branch").checked = state.shown.includes("branch");
   if (!state.shown.includes("branch")) curves.orbits(null);
   if (document.activeElement !== id("frequency")) id("frequency").value = state.frequency_text;

@@ -6,6 +6,8 @@ import { Chart, element, range } from "./plot.js";
 // that a forcing cycle takes at least.
 const SLOW = 0.25;
 const CYCLE = 0.5;
+// The same where time has no unit: each cycle takes as long.
+const EACH = 2;
 // A page that was not looked at for longer (s) goes on where it was.
 const PAUSE = 0.25;
 // Of a knock: how loud the hardest is, and what is no longer heard.
@@ -15,10 +17,10 @@ const FAINT = 0.003;
 export class Motion {
   constructor() {
     const views = document.getElementById("views");
-    this.time = new Chart(views, { name: "Displacement over time, with the faces of the stops", x: "time (s)", y: "displacement (mm)", wide: true });
-    this.phase = new Chart(views, { name: "Phase portrait between the stops", x: "displacement (mm)", y: "velocity (mm/s)" });
-    this.force = new Chart(views, { name: "Force loop", x: "displacement (mm)", y: "force (kN)" });
-    this.lines = new Chart(views, { name: "Spectrum", x: "frequency (Hz)", y: "displacement (mm)", ylog: true, wide: true });
+    this.time = new Chart(views, { name: "Displacement over time, with the faces of the stops", wide: true });
+    this.phase = new Chart(views, { name: "Phase portrait between the stops" });
+    this.force = new Chart(views, { name: "Force loop" });
+    this.lines = new Chart(views, { name: "Spectrum", ylog: true, wide: true });
     for (const chart of [this.time, this.phase, this.force, this.lines]) chart.redraw = () => this.draw();
     this.verdict = document.getElementById("verdict");
     this.rig = element("svg", { role: "img", "aria-label": "The mass between its stops, in slow motion", viewBox: "0 0 400 84", preserveAspectRatio: "none" }, document.getElementById("stage"));
@@ -44,9 +46,9 @@ export class Motion {
   draw() {
     const { picture } = this;
     if (!picture || picture.none) return;
-    const { time, displacement: u, velocity, right, left, contact, gaps } = picture;
+    const { time, displacement: u, velocity, right, left, contact, gaps, force, axes } = picture;
     const faces = [right, left].filter(Boolean);
-    this.time.axes([time[0], time.at(-1)], range([u, ...faces]));
+    this.time.axes([time[0], time.at(-1)], range([u, ...faces]), axes.displacement, axes.time);
     for (const [name, face] of [["right", right], ["left", left]])
       if (face) this.time.line(name, "wall", time, face);
       else this.time.drop(name);
@@ -54,23 +56,22 @@ export class Motion {
     this.time.line("touch", "touch", time, u.map((value, i) => (contact[i] ? value : null)));
     const across = range([u, Object.values(gaps).filter((gap) => gap !== null)]);
     this.across = across;
-    this.phase.axes(across, range([velocity], { even: true }));
+    this.phase.axes(across, range([velocity], { even: true }), axes.velocity, axes.displacement);
     for (const side of ["right", "left"])
       if (gaps[side] === null) this.phase.drop(side);
       else this.phase.upright(side, "wall", gaps[side]);
     this.phase.line("orbit", "plain", u, velocity);
     this.phase.line("touch", "touch", u, velocity.map((value, i) => (contact[i] ? value : null)));
-    const force = picture.force.map((value) => (value === null ? null : value / picture.force_unit.size));
-    this.force.axes(across, range([force]), `force (${picture.force_unit.symbol})`);
+    this.force.axes(across, range([force]), axes.force, axes.displacement);
     this.force.line("loop", "plain", u, force);
-    if (picture.spectrum) this.spectrum(picture.spectrum);
+    if (picture.spectrum) this.spectrum(picture.spectrum, axes);
   }
 
-  spectrum({ frequency, displacement }) {
+  spectrum({ frequency, displacement }, axes) {
     const most = Math.max(...displacement.filter((value) => value !== null));
     if (!(most > 0)) return;
     const low = most * 1e-5;
-    this.lines.axes([0, frequency.at(-1) * 1.03], [low, most * 2]);
+    this.lines.axes([0, frequency.at(-1) * 1.03], [low, most * 2], axes.displacement, axes.spectrum);
     let d = "";
     frequency.forEach((f, i) => {
       if (displacement[i] > low) d += `M${this.lines.toX(f)} ${this.lines.toY(low)}V${this.lines.toY(displacement[i])}`;
@@ -88,7 +89,7 @@ export class Motion {
     const { time, displacement, right, left, contact } = picture;
     const length = time.at(-1) - time[0];
     if (!(length > 0)) return;
-    const pace = Math.min(SLOW, 1 / (CYCLE * picture.frequency));
+    const pace = picture.seconds ? Math.min(SLOW, picture.cycle / CYCLE) : picture.cycle / EACH;
     const begun = this.passed;
     if (this.play.checked) this.passed += pace * since;
     const share = (this.passed / length) % 1;

@@ -101,7 +101,7 @@ export class Plane {
 
 export class Basins {
   constructor(parent) {
-    this.chart = new Chart(parent, { name: "Basins of attraction", x: "initial displacement (mm)", y: "initial velocity (mm/s)" });
+    this.chart = new Chart(parent, { name: "Basins of attraction" });
     this.chart.redraw = () => this.draw();
     this.legend = parent.appendChild(document.createElement("ul"));
     this.legend.className = "basins";
@@ -109,7 +109,7 @@ export class Basins {
 
   show(picture) {
     this.picture = picture;
-    const about = picture.motions.map((words, k) => `${words}, excursion ${picture.excursions[k]} mm: ${(100 * picture.shares[k]).toPrecision(3)} % of the initial states`);
+    const about = picture.motions.map((words, k) => `${words}, excursion ${picture.excursions[k]}: ${(100 * picture.shares[k]).toPrecision(3)} % of the initial states`);
     this.legend.replaceChildren(
       ...about.map((words, k) => {
         const item = document.createElement("li");
@@ -125,7 +125,7 @@ export class Basins {
   draw() {
     const { chart, picture } = this;
     if (!picture || !chart.box.offsetParent) return;
-    chart.axes([picture.x[0], picture.x.at(-1)], [picture.y[0], picture.y.at(-1)]);
+    chart.axes([picture.x[0], picture.x.at(-1)], [picture.y[0], picture.y.at(-1)], picture.axes.y, picture.axes.x);
     const [height, width] = [picture.cells.length, picture.cells[0].length];
     const canvas = Object.assign(document.createElement("canvas"), { width, height });
     const pen = canvas.getContext("2d");

@@ -107,8 +107,8 @@ export class Chart {
   }
 
   // Axes for these ranges; what was drawn before is redrawn by whoever calls.
-  axes(x, y, ylabel = this.ylabel) {
-    Object.assign(this, { x, y, ylabel });
+  axes(x, y, ylabel = this.ylabel, xlabel = this.xlabel) {
+    Object.assign(this, { x, y, ylabel, xlabel });
     this.measure();
     const [width, height] = this.size;
     const group = this.layers.axes;

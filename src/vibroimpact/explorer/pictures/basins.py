@@ -5,8 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from vibroimpact.attraction.basins import basins
-from vibroimpact.explorer.pictures.numbers import one, short
+from vibroimpact.explorer.pictures.numbers import axis, forcing, short
 from vibroimpact.explorer.state import State
+from vibroimpact.figures.own_units import in_unit
+from vibroimpact.model.units import plain
+from vibroimpact.model.written_units import as_first_argument, unit
 from vibroimpact.tasks.threads import Progress
 
 COARSE, FINE = 32, 128
@@ -15,6 +18,7 @@ _PATIENCE = 500
 """Number of forcing cycles after which an unsettled motion is treated as not periodic."""
 
 
+@as_first_argument
 def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
     """Return the motions, and for each initial state the number of the motion that it leads to.
 
@@ -29,9 +33,13 @@ def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
     return {
         "picture": "basins",
         "fine": fine,
-        "frequency": one(state.shaking.frequency),
-        "x": short(1e3 * data["displacement"].values),
-        "y": short(1e3 * data["velocity"].values),
+        "frequency": forcing(state.shaking.frequency),
+        "axes": {
+            "x": axis("initial displacement (mm)"),
+            "y": axis("initial velocity (mm/s)"),
+        },
+        "x": short(in_unit(1e3) * data["displacement"].values),
+        "y": short(in_unit(1e3) * data["velocity"].values),
         "cells": [[int(cell) for cell in row] for row in data["basin"].values],
         "motions": [
             f"{kind}, period {period}" if period else str(kind)
@@ -40,5 +48,8 @@ def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
             )
         ],
         "shares": short(data["share"].values, 3),
-        "excursions": short(1e3 * data["displacement_excursion"].values, 3),
+        "excursions": [
+            f"{plain(in_unit(1e3) * size, 3)}{unit(' mm')}"
+            for size in data["displacement_excursion"].values
+        ],
     }

@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.explorer.pictures.motion import at
-from vibroimpact.explorer.pictures.numbers import short
+from vibroimpact.explorer.pictures.numbers import forcings, short
 from vibroimpact.explorer.state import State
+from vibroimpact.figures.own_units import in_unit
 from vibroimpact.figures.resonance_panels import peak_force_unit
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.stability.branch import branch
 from vibroimpact.tasks.threads import Progress
 
@@ -23,6 +25,7 @@ _MOST = 2000
 """Largest number of orbits in each direction along a branch."""
 
 
+@as_first_argument
 def branches(state: State, data: xr.Dataset, progress: Progress) -> dict[str, Any]:
     """Return the branch through the selected motion, split into stable and unstable parts.
 
@@ -62,7 +65,10 @@ def _heights(state: State, data: xr.Dataset, found: xr.Dataset) -> list[NDArray[
         np.fmax(np.abs(found[f"{kind}_max"].values), np.abs(found[f"{kind}_min"].values))
         for kind in ("acceleration", "displacement")
     )
-    sizes = [size * unit for size, unit in zip(peaks, (1.0 / GRAVITY, 1e3), strict=True)]
+    sizes = [
+        size * unit
+        for size, unit in zip(peaks, (in_unit(1.0 / GRAVITY), in_unit(1e3)), strict=True)
+    ]
     if still:
         unit = peak_force_unit(data)
         sizes.append(found["peak_transmitted_force"].values / unit.size)
@@ -77,7 +83,7 @@ def _pieces(found: xr.Dataset, values: NDArray[np.float64]) -> list[dict[str, An
     return [
         {
             "stable": bool(stable[first]),
-            "frequency": short(frequency[first : last + 1], 6),
+            "frequency": forcings(frequency[first : last + 1]),
             "value": short(values[first : last + 1]),
         }
         for first, last in pairwise(ends)

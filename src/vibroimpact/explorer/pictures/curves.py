@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.explorer.pictures.numbers import WIDTH, one, short
+from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings, one, short
 from vibroimpact.explorer.state import State
 from vibroimpact.facts import sweeps as told
 from vibroimpact.facts.tables import as_text
 from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
+from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.response import resonance
 from vibroimpact.response.analytic_free_response import beside_resonance
 from vibroimpact.response.sweep import advice, sweep
@@ -35,6 +36,7 @@ def swept(state: State, fine: bool, progress: Progress | None = None) -> xr.Data
     return data
 
 
+@as_first_argument
 def curves(state: State, data: xr.Dataset, fine: bool) -> dict[str, Any]:
     """Return the curves of a sweep as two or three panels."""
     found = resonance.features(data)
@@ -45,19 +47,20 @@ def curves(state: State, data: xr.Dataset, fine: bool) -> dict[str, Any]:
         "fine": fine,
         "words": words,
         "physical": state.physical,
-        "frequency": short(data["frequency"].values, 7),
+        "frequency": forcings(data["frequency"].values),
+        "axis": axis("frequency (Hz)"),
         "panels": [_panel(panel) for panel in panels],
         "jumps": [
             {
                 "direction": jump.direction,
-                "before": one(jump.before, 7),
-                "after": one(jump.after, 7),
+                "before": forcing(jump.before),
+                "after": forcing(jump.after),
                 "upward": bool(jump.upward),
             }
             for jump in found.jumps
         ],
         "hysteresis": [
-            {"low": one(item.low, 7), "high": one(item.high, 7), "side": item.side}
+            {"low": forcing(item.low), "high": forcing(item.high), "side": item.side}
             for item in found.hysteresis
         ],
     }
@@ -66,7 +69,7 @@ def curves(state: State, data: xr.Dataset, fine: bool) -> dict[str, Any]:
 def _panel(drawn: Drawn) -> dict[str, Any]:
     return {
         "name": drawn.name,
-        "label": drawn.label.replace("$", "").replace("\\eta", "η").split("\n"),
+        "label": axis(drawn.label).split("\n"),
         "curves": {direction: short(values) for direction, values in drawn.curves.items()},
         "free": None if drawn.free is None else short(drawn.free),
         "levels": [{"value": one(level.value), "label": level.label} for level in drawn.levels],

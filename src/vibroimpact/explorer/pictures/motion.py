@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.explorer.pictures.numbers import WIDTH, one, short
+from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings, one, short
 from vibroimpact.explorer.state import State
 from vibroimpact.facts import motions as told
 from vibroimpact.facts.tables import as_text
+from vibroimpact.figures.own_units import in_unit
 from vibroimpact.model import Harmonic
 from vibroimpact.model.quantities import FORCE
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.written_units import as_first_argument, unitless
 from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.spectrum import fourier_spectrum
 from vibroimpact.stability.steady import steady
@@ -40,6 +42,7 @@ def at(state: State, data: xr.Dataset) -> tuple[Harmonic, xr.DataArray, float]:
     return shaken, held["section"], float(held["period"])
 
 
+@as_first_argument
 def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
     """Return the motion from the end of the sweep's simulation, while a knob is turned."""
     shaken, section, period = at(state, data)
@@ -48,8 +51,9 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
     return {**_drawn(state, motion, shaken), "fine": False}
 
 
+@as_first_argument
 def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
-    """Return the classified motion, with its spectrum, and the impacts (mm/s) that are drawn."""
+    """Return the classified motion, with its spectrum, and the impacts that are drawn."""
     shaken, section, _ = at(state, data)
     motion = steady(
         Rig(state.oscillator, shaken), section, _SAMPLES, window=_WINDOW, exponent_cycles=_GROWTH
@@ -63,7 +67,7 @@ def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
         "table": as_text(told.text(found), WIDTH),
         "spectrum": _spectrum(motion),
         "hits": [
-            {"time": one(start), "side": int(side), "speed": one(1e3 * speed)}
+            {"time": one(start), "side": int(side), "speed": one(in_unit(1e3) * speed)}
             for start, side, speed in zip(
                 motion["contact_start"].values,
                 motion["contact_side"].values,
@@ -76,34 +80,42 @@ def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 
 def _spectrum(motion: xr.Dataset) -> dict[str, Any]:
-    """The lines of the displacement (mm), the mean left out."""
+    """The lines of the displacement, the mean left out."""
     lines = fourier_spectrum(motion, _HIGHEST).isel(order=slice(1, None))
     return {
-        "frequency": short(lines["line_frequency"].values),
-        "displacement": short(1e3 * lines["displacement_amplitude"].values),
+        "frequency": forcings(lines["line_frequency"].values, 5),
+        "displacement": short(in_unit(1e3) * lines["displacement_amplitude"].values),
     }
 
 
 def _drawn(state: State, motion: xr.Dataset, shaken: Harmonic) -> dict[str, Any]:
-    """The curves of a motion in mm, mm/s and N."""
+    """The curves of a motion in mm and mm/s, or without units, and their axes."""
     rig = state.oscillator
     time = motion["time"].values
     force = motion["transmitted_force"].values
     faces, gaps = {}, {}
     for side, stop, sign in (("right", rig.right, 1.0), ("left", rig.left, -1.0)):
-        gaps[side] = None if stop is None else one(1e3 * sign * stop.gap)
+        gaps[side] = None if stop is None else one(in_unit(1e3) * sign * stop.gap)
         deformed = motion[f"{side}_bumper"].values
-        faces[side] = None if stop is None else short(1e3 * (sign * stop.gap + deformed))
+        faces[side] = None if stop is None else short(in_unit(1e3) * (sign * stop.gap + deformed))
     unit = FORCE.unit(float(np.nanmax(np.abs(force), initial=0.0)))
     return {
         "picture": "motion",
         "direction": state.direction,
-        "frequency": one(shaken.frequency, 7),
+        "frequency": forcing(shaken.frequency),
+        "cycle": shaken.period,
+        "seconds": not unitless(),
+        "axes": {
+            "time": axis("time (s)"),
+            "displacement": axis("displacement (mm)"),
+            "velocity": axis("velocity (mm/s)"),
+            "force": axis(f"force ({unit.symbol})"),
+            "spectrum": axis("frequency (Hz)"),
+        },
         "time": short(time, 6),
-        "displacement": short(1e3 * motion["displacement"].values),
-        "velocity": short(1e3 * motion["velocity"].values),
-        "force": short(force),
-        "force_unit": {"size": unit.size, "symbol": unit.symbol},
+        "displacement": short(in_unit(1e3) * motion["displacement"].values),
+        "velocity": short(in_unit(1e3) * motion["velocity"].values),
+        "force": short(force / unit.size),
         **faces,
         "contact": [int(side) for side in motion["contact"].values],
         "gaps": gaps,

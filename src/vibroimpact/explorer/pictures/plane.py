@@ -11,6 +11,7 @@ from vibroimpact.explorer.pictures.numbers import short
 from vibroimpact.explorer.state import State
 from vibroimpact.model import from_dimensionless, to_dimensionless
 from vibroimpact.model.dimensionless import DimensionlessBumper
+from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.scenarios.map import scenario_map
 from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.tasks.threads import Progress
@@ -29,6 +30,7 @@ class Plane(NamedTuple):
     sides: tuple[bool, bool]
 
 
+@as_first_argument
 def plane(state: State) -> Plane:
     """Return the values on which the map of a rig depends.
 

@@ -10,6 +10,7 @@ from vibroimpact.explorer.pictures.numbers import one
 from vibroimpact.explorer.state import State
 from vibroimpact.facts import scenario as told
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.scenarios.classification import scenario
 from vibroimpact.scenarios.classify import classify
 from vibroimpact.scenarios.evidence import evidence
@@ -18,6 +19,7 @@ from vibroimpact.scenarios.thresholds import Thresholds
 from vibroimpact.tasks.threads import Progress
 
 
+@as_first_argument
 def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
     """Return the scenario of a coarse sweep, while a knob is turned."""
     used = Thresholds()
@@ -33,6 +35,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
     }
 
 
+@as_first_argument
 def careful(state: State, progress: Progress) -> dict[str, Any]:
     """Return the result of `vibroimpact.classify_scenario`, which selects its own frequencies."""
     found = told.facts(classify(state.rig, progress=progress))

@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import DependentError, InputError, shown
 from vibroimpact.model.keys import unknown_key
 from vibroimpact.model.quantities import (
     DIMENSIONLESS,
@@ -96,7 +96,7 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
     Raises
     ------
     InputError
-        If an argument is missing or invalid.
+        If an argument is missing or invalid. `DependentError` if only the mass is.
     """
     asked = [(name, _arguments(law, name)) for name in law.designs]
     asked.sort(key=lambda one: -sum(p.name in table for p in one[1]))
@@ -106,7 +106,7 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
         return table
     _check_keys(table, law)
     if mass is None:
-        raise InputError(
+        raise DependentError(
             f'{given[0]}: requires the mass of the oscillator; add the mass, such as "550 kg"'
         )
     for p in own:

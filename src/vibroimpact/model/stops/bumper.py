@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import DependentError, InputError
 from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS, TIME
 from vibroimpact.model.restitution import damping_ratio
@@ -129,14 +129,15 @@ def returning(table: Mapping[str, Any], mass: float | None) -> Mapping[str, Any]
     Raises
     ------
     InputError
-        If the table also has a damping, or the restitution is invalid.
+        If the table also has a damping, or the restitution is invalid. `DependentError` if only
+        the mass is.
     """
     if "restitution" not in table:
         return table
     if "damping" in table:
         raise InputError("restitution: this bumper also has a damping; remove one of the two")
     if mass is None:
-        raise InputError(
+        raise DependentError(
             "restitution: it requires a valid mass of the oscillator; set the mass, such as "
             '"550 kg"'
         )

@@ -1,0 +1,261 @@
+"""The page of a rig without units: no unit anywhere, ω instead of f, and plain numbers."""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import re
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from explorer.test_page import CLIPPED, curve, settle, until, until_bent
+from explorer.test_session import pictures
+from vibroimpact.explorer import share
+from vibroimpact.explorer.presets import preset
+from vibroimpact.explorer.session import Session
+from vibroimpact.explorer.state import begin
+from vibroimpact.model.study import read_rig_study
+from vibroimpact.model.written_units import unitless
+
+RIG = vi.Rig(vi.Oscillator(1, vi.Isolator(1, 0.1), vi.Bumper(20, 0.5, 2), vi.Bumper(20, 0.5, 2)), 1)
+STATED = vi.Rig(vi.Oscillator(3, vi.Isolator(2, 0.3), vi.Bumper(40, 1, 2), units="none"), 1)
+UNIT = re.compile(
+    r"(?:\d\s*|\()(?:mm|m|µm|kg|g|mg|t|[kM]?N|[kM]?N/m|k?N s/m|m/s|mm/s|m/s²|[mk]?Hz|m?s|[mk]?J|"
+    r"1/s|N s|rad/s)(?![\w/])"
+)
+"""A unit after a number, or in parentheses."""
+
+
+def texts(value):
+    """All strings in nested lists and dicts, but for names that only the program reads."""
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for key, one in value.items():
+            if key not in ("address", "path"):
+                yield from texts(one)
+    elif isinstance(value, list):
+        for one in value:
+            yield from texts(one)
+
+
+@pytest.fixture(scope="module", params=[RIG, STATED], ids=["ones", "stated"])
+def session(request):
+    return Session(begin(request.param, "bare"))
+
+
+def test_the_state_keeps_the_units_of_its_rig(session):
+    state = session.state
+    assert state.oscillator.units == "none"
+    natural = math.tau * state.oscillator.natural_frequency
+    low, high = (math.tau * end for end in state.span)
+    assert low == pytest.approx(0.45 * natural, rel=0.05)
+    assert float(f"{low:.2g}") == pytest.approx(low, rel=1e-12)  # rounded as ω, which is shown
+    assert high == pytest.approx(4.5 * natural, rel=0.05)
+    assert share.from_address(share.address(state)) == state
+
+
+def test_no_text_that_is_sent_has_a_unit(session):
+    session.take({"do": "look", "what": "branch", "on": True})
+    session.take({"do": "look", "what": "basins", "on": True})
+    for physical in (False, True):
+        told = session.take({"do": "look", "what": "physical", "on": physical})
+        sent = [told, *pictures(session)]
+        found = [text for text in texts(sent) if UNIT.search(text) or "Hz" in text or " µ" in text]
+        assert found == []
+        assert told["state"]["without_units"]
+    assert not unitless()  # any more
+
+
+def test_the_same_texts_of_a_rig_with_units_have_them():
+    session = Session(preset("B2-G1-A3"))
+    sent = [session.told(), *pictures(session)]
+    found = [text for text in texts(sent) if UNIT.search(text) or "Hz" in text]
+    assert len(found) > 20
+    assert not sent[0]["state"]["without_units"]
+
+
+def test_pictures_are_in_the_numbers_of_the_rig():
+    session = Session(begin(RIG))
+    session.take({"do": "look", "what": "physical", "on": True})
+    told = {(one["picture"], one["fine"]): one for one in pictures(session)}
+    coarse, motion = told["curves", False], told["motion", True]
+    swept = vi.sweep(RIG, np.array(coarse["frequency"]) / math.tau)
+    regular = (swept["period"] > 0).sel(direction="forward").values
+    assert regular.mean() > 0.5
+    for k, name in enumerate(("peak_acceleration", "peak_displacement")):
+        drawn = np.array(coarse["panels"][k]["curves"]["forward"], dtype=float)
+        expected = swept[name].sel(direction="forward").values
+        np.testing.assert_allclose(drawn[regular], expected[regular], rtol=1e-3)
+    assert motion["frequency"] == pytest.approx(
+        math.tau * session.state.shaking.frequency, rel=0.05
+    )
+    assert motion["gaps"] == {"right": 2.0, "left": -2.0}
+    f = motion["frequency"] / math.tau
+    begun = swept["section"].sel(direction="forward").sel(frequency=f, method="nearest")
+    held = vi.steady(RIG, begun, frequency=f)
+    for name in ("displacement", "velocity", "transmitted_force"):
+        reached = max(map(abs, motion[name.removeprefix("transmitted_")]))
+        assert reached == pytest.approx(float(abs(held[name]).max()), rel=0.01)
+    assert motion["axes"]["time"] == "time"
+    assert motion["axes"]["spectrum"] == "frequency ω"
+    assert motion["axes"]["force"] == "force"
+    assert motion["spectrum"]["frequency"][0] == pytest.approx(motion["frequency"], rel=1e-3)
+
+
+def test_numbers_of_the_frequency_are_omega():
+    session = Session(begin(RIG))
+    for given in (1.5, "1.5", "1.5 rad/s"):
+        told = session.take({"do": "choose", "direction": "forward", "frequency": given})
+        assert told["state"]["frequency_text"] == "1.5"
+        assert session.state.shaking.frequency == pytest.approx(1.5 / math.tau)
+    refused = session.take({"do": "choose", "direction": "forward", "frequency": 99})["refused"]
+    assert "ω = 99" in refused
+    assert "ω = 0.45 to 4.5" in refused
+    assert "Hz" not in refused
+
+
+@pytest.mark.parametrize("span", [None, (1 / 3, 10 / 3), (0.123456789, 1.23456789)])
+@pytest.mark.parametrize("rig", [RIG, vi.laboratory.case("B2-G1-A3")], ids=["none", "SI"])
+def test_both_ends_of_the_curves_can_be_chosen(rig, span):
+    session = Session(begin(rig, "x", span))
+    coarse = session.make(next(session.stages()), session.asked)
+    for end in (0, -1):
+        told = session.take(
+            {"do": "choose", "direction": "forward", "frequency": coarse["frequency"][end]}
+        )
+        assert "refused" not in told
+        assert session.state.shaking.frequency == session.state.span[end]
+
+
+@pytest.mark.parametrize("path", ["amplitude", "mass", "stops.gap", "isolator.damping"])
+def test_a_value_with_a_unit_is_refused(path):
+    session = Session(begin(RIG))
+    unit = {"amplitude": "0.05 g", "mass": "2 kg", "stops.gap": "5 mm"}.get(path, "1 N s/m")
+    told = session.take({"do": "change", "path": path, "value": unit})
+    assert told["refused"].count("\n") == 0
+    assert "has a unit, but the rig has none" in told["refused"]
+    told = session.take({"do": "change", "path": path, "value": "few"})
+    assert not UNIT.search(told["refused"])
+    told = session.take({"do": "change", "path": path, "value": "0.3"})
+    assert "refused" not in told
+    knob = next(one for one in told["state"]["controls"] if one["path"] == path)
+    assert (knob["value"], knob["text"]) == (0.3, "0.3")
+
+
+def test_another_rig_has_its_own_units():
+    session = Session(begin(RIG))
+    told = session.take({"do": "preset", "name": "building with moat"})
+    assert not told["state"]["without_units"]
+    mass = next(one for one in told["state"]["controls"] if one["path"] == "mass")
+    assert mass["text"] == "5000 t"
+    told = session.take({"do": "undo"})
+    assert told["state"]["without_units"]
+    opened = session.take({"do": "open", "address": share.address(preset("B2-G1-A3"))})
+    assert not opened["state"]["without_units"]
+
+
+def test_files_keep_the_rig_without_units(tmp_path):
+    state = begin(STATED, "bare")
+    path = tmp_path / "bare.toml"
+    path.write_text(share.study(state), encoding="utf-8")
+    read = read_rig_study(path)
+    assert read.oscillator == STATED.oscillator
+    assert read.amplitude == 1.0
+    names: dict[str, object] = {}
+    program = share.program(state)
+    exec(program.split("frequencies =")[0], names)
+    assert names["rig"].oscillator == STATED.oscillator
+    assert not UNIT.search(program)
+    session = Session(state)
+    kept = tmp_path / "bare.nc"
+    kept.write_bytes(base64.b64decode(session.file("netcdf")["bytes"]))
+    assert vi.load(kept).unit_system == "none"
+
+
+def test_a_study_file_cannot_state_a_force_without_a_unit():
+    pushed = vi.Rig(STATED.oscillator, vi.Harmonic(0.5, 0.2, of="force"))
+    session = Session(begin(pushed))
+    assert "force amplitude" in json.dumps(session.told())
+    with pytest.raises(vi.InputError, match="Python program"):
+        session.file("study")
+    assert "of='force'" in base64.b64decode(session.file("python")["bytes"]).decode()
+
+
+VISIBLE = """() => [document.body.innerText,
+    ...[...document.querySelectorAll("input[type=text], #frequency")].map((one) => one.value),
+    ...[...document.querySelectorAll("[aria-label], [aria-valuetext], [title]")].flatMap((one) =>
+        ["aria-label", "aria-valuetext", "title"].map((name) => one.getAttribute(name) ?? "")),
+    ...[...document.querySelectorAll("svg text, li")].map((one) => one.textContent),
+    document.getElementById("words").textContent]"""
+
+
+def seen(page):
+    """Every text of the page that has a unit; names of presets are those of other rigs."""
+    return [
+        line
+        for text in page.evaluate(VISIBLE)
+        for line in text.splitlines()
+        if (UNIT.search(line) or re.search(r"\b(?:Hz|mm|kN|N)\b", line)) and "CSV" not in line
+    ]
+
+
+def test_the_page_shows_no_unit(opened):
+    page = opened(f"#{share.address(begin(RIG, 'bare'))}")
+    settle(page)
+    page.evaluate("document.getElementById('presets').replaceChildren()")
+    assert page.input_value("#text-stops-gap") == "2"
+    assert page.input_value("#frequency") == "1.8"
+    assert "frequency ω" in page.locator("#panels").inner_text()
+    before = curve(page)
+    page.check("#physical")
+    until_bent(page, before)
+    settle(page)
+    assert page.inner_text("#physical-label") == "not normalised"
+    page.click("#tab-words")
+    until(page, "document.getElementById('words-curves').textContent.includes('Resonances')")
+    assert "ω" in page.inner_text("#words")
+    assert page.evaluate(CLIPPED) == []
+    page.click("#tab-basins")
+    page.wait_for_selector("#basins li")
+    settle(page)
+    assert seen(page) == []
+    # Another rig shows its units again, at the same charts.
+    page.goto(f"{page.url.partition('#')[0]}#{share.address(preset('B2-G1-A3'))}")
+    until(page, "document.getElementById('text-mass').value === '550 kg'")
+    settle(page)
+    page.click("#tab-motion")
+    assert "frequency (Hz)" in page.locator("#panels").inner_text()
+    assert "displacement (mm)" in page.locator("#views").inner_text()
+    assert page.inner_text("#physical-label") == "in mm and g"
+
+
+def test_a_click_chooses_omega(opened):
+    page = opened(f"#{share.address(begin(RIG, 'bare'))}")
+    settle(page)
+    box = page.locator("#panels .chart").first.bounding_box()
+    page.mouse.click(box["x"] + 62 + 1, box["y"] + box["height"] - 40)
+    until(page, "document.getElementById('frequency').value === '0.45'")
+    page.fill("#frequency", "2.5")
+    page.keyboard.press("Enter")
+    until(page, "location.hash.length > 1 && !document.getElementById('frequency-why').textContent")
+    settle(page)
+    state = share.from_address(page.evaluate("location.hash")[1:])
+    assert math.tau * state.shaking.frequency == pytest.approx(2.5)
+
+
+def test_a_cycle_takes_a_moment_whatever_the_unit_of_time(opened):
+    """ω = 1.8 in seconds would be a cycle in 14 s of the page."""
+    page = opened(f"#{share.address(begin(RIG, 'bare'))}")
+    settle(page)
+    page.check("#play")
+    places = []
+    for _ in range(30):
+        page.wait_for_timeout(100)
+        places.append(page.locator("#stage .mass").get_attribute("d"))
+    x = [float(re.match(r"M([-\d.]+)", place)[1]) for place in places]
+    turns = sum((b - a) * (c - b) < 0 for a, b, c in zip(x, x[1:], x[2:], strict=False))
+    assert turns >= 2
