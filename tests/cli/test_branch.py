@@ -91,7 +91,7 @@ def test_summary(whole):
 def test_the_file_holds_the_diagram(whole):
     data = vi.load(whole[0] / "out/B2-G1-A3-frequency-branches.nc")
     assert data.attrs.pop("title") == "B2-G1-A3"
-    made = vi.resonance_diagram(vi.Rig(CASE.oscillator, CASE.amplitude), (0.3, 5.0))
+    made = vi.resonance_diagram(CASE, (0.3, 5.0))
     assert {k: str(v) for k, v in data.attrs.items()} == {k: str(v) for k, v in made.attrs.items()}
     assert set(data.variables) == set(made.variables)
     for name in made.variables:

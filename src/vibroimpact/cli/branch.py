@@ -147,7 +147,7 @@ def branch(
         # A quantity that is named is drawn in its own units.
         units = physical if quantity is None else bool(physical)
         shown = quantity or "eta_d"
-        if draws_physical(data, shaken, what, units):
+        if draws_physical(data, units):
             shown = _PHYSICAL.get(shown, shown)
         ending = f"{along.replace('_', '-')}-branches"
         written.write(data, ending, figures.branch_diagram, quantity=shown, sweep=swept)

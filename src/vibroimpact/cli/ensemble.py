@@ -106,6 +106,7 @@ def ensemble(
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.study import EnsembleTable
     from vibroimpact.facts import ensemble as facts
+    from vibroimpact.figures.ensembles import PANELS
     from vibroimpact.uncertainty.sensitivity import peak_sensitivity
 
     what = subject(rig, changes, output.name)
@@ -119,7 +120,7 @@ def ensemble(
         )
     default = default_range(what, _COARSER)
     grid = list_frequencies(start, stop, step, frequencies, what.sweep_table, default)
-    shaken = vi.Rig(what.oscillator, what.repeated)
+    shaken = what.rig.with_parts(what.oscillator, what.repeated)
     response = partial(vi.sweeps, frequencies=grid, threads=threads, where=where)
     chosen = opt.stated(seed=table.seed if seed is None else seed)
     indices = {}
@@ -134,9 +135,7 @@ def ensemble(
             **chosen,
             progress=progress,
         )
-        shown = ("peak_acceleration", "peak_displacement")
-        if not draws_physical(data, shaken, what, physical):
-            shown = ("eta_a", "eta_d")
+        shown = PANELS[not draws_physical(data, physical)]
         nominal = vi.sweep(shaken, grid)
         bands = figures.resonance_bands
         written.write(data, "ensemble", bands, quantities=shown, nominal=nominal)

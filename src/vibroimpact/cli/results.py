@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from rich.console import RenderableType
 
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model.rig import Rig
 
 
 class Results:
@@ -105,17 +104,14 @@ class Results:
         return 0
 
 
-def draws_physical(data: xr.Dataset, rig: Rig, what: Subject, physical: bool | None) -> bool:
+def draws_physical(data: xr.Dataset, physical: bool | None) -> bool:
     """Return whether a figure has physical units instead of η_a and η_d.
 
-    By default, it has them unless the rig is published, as in `figures.resonance_curves`. η_a and
-    η_d require a bounded motion without stops.
+    The default is that of the figures. η_a and η_d require a bounded motion without stops.
     """
-    from vibroimpact.model.unbounded import has_no_bound
+    from vibroimpact.figures.resonance_panels import draws_eta, has_eta
 
-    if not data["eta_d"].notnull().any() or has_no_bound(rig):
-        return True
-    return not what.rig.published if physical is None else physical
+    return not draws_eta(data) if physical is None else physical or not has_eta(data)
 
 
 @contextmanager

@@ -64,7 +64,6 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
     """
     from vibroimpact.model import to_si
     from vibroimpact.model.quantities import ANGLE, FREQUENCY
-    from vibroimpact.model.rig import Rig
     from vibroimpact.response.plausibility import doubt_frequency
 
     studied = what.simulate_table.frequency
@@ -77,7 +76,7 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
     else:
         raise InputError("--frequency: missing; pass the forcing frequency, such as 2Hz")
     start = what.phase if phase is None else to_si(phase, ANGLE, "--phase")
-    rig = Rig(what.oscillator, what.at(hertz, start))
+    rig = what.rig.with_parts(what.oscillator, what.at(hertz, start), keep_open=False)
     if along != "frequency":
         doubt_frequency(rig, "frequency" if frequency is None else "--frequency")
     return rig

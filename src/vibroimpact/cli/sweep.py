@@ -122,7 +122,7 @@ def sweep(
         hints = [line.replace(MORE_CYCLES, "--max-cycles") for line in advice(data)]
         text = sweeps.text(data, found, hints)
         curves = figures.resonance_curves
-        units = draws_physical(data, what.rig, what, physical)
+        units = draws_physical(data, physical)
         written.write(data, "sweep", curves, found=found, physical=units)
         summary = as_plain_text(Group(rig_facts.text(what.rig), text))
         written.files["summary"] = write_whole(written.path("sweep", "txt"), summary)

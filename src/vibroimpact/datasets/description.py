@@ -91,8 +91,7 @@ def _stands(parameters: Mapping[str, Any]) -> bool:
 
 def stop_word(data: xr.Dataset) -> str:
     """Return "stop" if a stop of a dataset's rigs is rigid, and "bumper" if all deform."""
-    parameters = motion_parameters(data)
-    rigs = parameters.get("rigs", [parameters])
+    rigs = parameters_of_rigs(data)
     stops = [rig["oscillator"][side] or {} for rig in rigs for side in ("right", "left")]
     return "stop" if any(stop.get("kind") == "rigid" for stop in stops) else "bumper"
 
@@ -136,6 +135,13 @@ def motion_parameters(motion: xr.Dataset) -> dict[str, Any]:
     return parameters
 
 
+def parameters_of_rigs(data: xr.Dataset) -> list[dict[str, Any]]:
+    """Return the parameters of each rig in the attributes of a dataset of one or several rigs."""
+    parameters = motion_parameters(data)
+    rigs: list[dict[str, Any]] = parameters.get("rigs", [parameters])
+    return rigs
+
+
 def excitation_parameters(shaken: Repeated, *left_out: str) -> dict[str, Any]:
     """Return the shaking as plain numbers (SI units), for the attributes of a dataset.
 
@@ -150,11 +156,14 @@ def excitation_parameters(shaken: Repeated, *left_out: str) -> dict[str, Any]:
 def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
     """Return a rig as plain numbers (SI units), for the attributes of a dataset.
 
-    The amplitude of a rig with one amplitude per frequency of a sweep is a list.
+    The amplitude of a rig with one amplitude per frequency of a sweep is a list. The entry
+    ``published`` is True for a published rig, and otherwise left out.
     """
     numbers = excitation_parameters(rig.hardest.periodic, *left_out)
     if rig.amplitudes is not None:
         numbers["amplitude"] = list(rig.amplitudes)
+    if rig.published and "published" not in left_out:
+        numbers["published"] = True
     return {"oscillator": oscillator_parameters(rig.oscillator), **numbers}
 
 

@@ -18,6 +18,7 @@ from vibroimpact.figures.labels import Names
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units
+from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import SWEEPS
 from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
@@ -55,7 +56,7 @@ def branch_diagram(
     data: xr.Dataset,
     ax: Axes | None = None,
     *,
-    quantity: str = "eta_d",
+    quantity: str | None = None,
     sweep: xr.Dataset | None = None,
     title: str | None = None,
 ) -> Axes:
@@ -75,7 +76,9 @@ def branch_diagram(
         Quantity on the vertical axis: ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"``,
         ``"eccentricity"``, ``"peak_displacement"``, ``"peak_acceleration"``,
         ``"peak_transmitted_force"``, ``"transmissibility"``, ``"peak_force_right"`` or
-        ``"peak_force_left"``; or the name of an own output.
+        ``"peak_force_left"``; or the name of an own output. Default: ``"eta_d"`` for a published
+        case, and ``"peak_displacement"`` for study files and other rigs; also if the motion without
+        stops is unbounded, so that η has no meaning.
     sweep
         Dataset of `sweep` over the same frequencies, which is drawn as marks. Default: no sweep.
     title
@@ -92,6 +95,8 @@ def branch_diagram(
         if "start" in data.dims:
             wrong = "a bifurcation diagram; draw it with figures.section_diagram, or"
         raise InputError(f"data: this is {wrong} pass the result of branch or resonance_diagram")
+    if quantity is None:
+        quantity = "eta_d" if draws_eta(data) else "peak_displacement"
     known = (*QUANTITIES, *own_outputs(data))
     if quantity not in known:
         raise InputError(f"quantity: {quantity!r}; pass one of {', '.join(known)}")

@@ -18,6 +18,7 @@ from vibroimpact.figures.legends import add_legend, break_lines, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units
+from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import MOTIONS, SWEEPS, fit_x_axis, panels
 from vibroimpact.model import Oscillator
 from vibroimpact.model.parameters import PARAMETERS
@@ -26,6 +27,8 @@ _HATCHES = {"forward": "", "backward": "////"}
 _FULL = 0.9
 """Share of the distance between bars that the name of a parameter may cover."""
 _LIGHT = {"forward": 0.25, "backward": 0.0}
+PANELS = {True: ("eta_a", "eta_d"), False: ("peak_acceleration", "peak_displacement")}
+"""Quantities of the bands, by whether η is drawn."""
 
 
 @in_own_units
@@ -33,7 +36,7 @@ def resonance_bands(
     data: xr.Dataset,
     axes: Any = None,
     *,
-    quantities: Sequence[str] = ("eta_a", "eta_d"),
+    quantities: Sequence[str] | None = None,
     shares: tuple[float, float] = (0.05, 0.95),
     nominal: xr.Dataset | None = None,
     title: str | None = None,
@@ -47,7 +50,9 @@ def resonance_bands(
     axes
         Axes to draw on, one per quantity. Default: a new figure.
     quantities
-        Variables of the sweeps. Each has its own panel.
+        Variables of the sweeps. Each has its own panel. Default: ``("eta_a", "eta_d")`` for a
+        published case, and ``("peak_acceleration", "peak_displacement")`` for study files and other
+        rigs; also if the motion without stops is unbounded, so that η has no meaning.
     shares
         Shares of the rigs that lie below the lower end and below the upper end of the band.
     nominal
@@ -67,6 +72,8 @@ def resonance_bands(
             f"data: a dataset with the dimensions {dict(data.sizes)} is not an ensemble of sweeps; "
             "pass the result of ensemble with sweeps as its response"
         )
+    if quantities is None:
+        quantities = PANELS[draws_eta(data)]
     low, high = shares
     if not 0.0 <= low < 0.5 < high <= 1.0:
         raise InputError(f"shares: {shares}; pass one share below and one above 0.5")

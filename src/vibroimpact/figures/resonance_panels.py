@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Collection
 from typing import Any, NamedTuple
 
@@ -11,7 +10,12 @@ import xarray as xr
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import base_at_rest, excitation_from, own_outputs
+from vibroimpact.datasets.description import (
+    base_at_rest,
+    excitation_from,
+    own_outputs,
+    parameters_of_rigs,
+)
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.base_motion import base_label
@@ -106,27 +110,32 @@ def outputs(data: xr.Dataset) -> list[Drawn]:
 
 
 def draws_eta(data: xr.Dataset) -> bool:
-    """Return whether figures of sweeps show η by default, instead of physical quantities.
+    """Return whether figures show η by default, instead of physical quantities.
 
-    They do if all rigs are those of published cases (see `Rig.published`) and η has a meaning: it
-    has values, and the motion without stops is bounded. If the curves are divided by the response
-    of an undamped isolator near its resonance, they are almost flat.
+    They do if all rigs are those of published cases (see `Rig.published`) and η has a meaning; see
+    `has_eta`.
     """
-    rigs = json.loads(data.attrs["parameters"])["rigs"]
-    if not all(rig.get("published") for rig in rigs):
-        return False
-    return bool(data["eta_d"].notnull().any()) and not _spikes(data)
+    return all(rig.get("published") for rig in parameters_of_rigs(data)) and has_eta(data)
+
+
+def has_eta(data: xr.Dataset) -> bool:
+    """Return whether η has a meaning: it has values, and the motion without stops is bounded.
+
+    If the curves are divided by the response of an undamped isolator near its resonance, they are
+    almost flat.
+    """
+    return "eta_d" in data and bool(data["eta_d"].notnull().any()) and not _spikes(data)
 
 
 def _spikes(data: xr.Dataset) -> bool:
-    """Return whether the motion without stops is unbounded."""
-    about = json.loads(data.attrs["parameters"])["rigs"]
+    """Return whether the motion without stops is unbounded, if the dataset is of only one rig."""
     rig = _rig(data)
     if rig is None:
         return False
-    sizes = about[0].get("amplitude")
+    (about,) = parameters_of_rigs(data)
+    sizes = about.get("amplitude")
     most = {"amplitude": max(sizes)} if isinstance(sizes, list) else {}
-    return has_no_bound(Rig(rig, excitation_from(about[0], frequency=1.0, **most)))
+    return has_no_bound(Rig(rig, excitation_from(about, frequency=1.0, **most)))
 
 
 def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Drawn]:
@@ -216,7 +225,7 @@ def _curves(data: xr.Dataset, name: str, factor: float) -> dict[str, _Array]:
 
 def _rig(data: xr.Dataset) -> Oscillator | None:
     """Return the rig that was swept, if the dataset holds only one rig."""
-    rigs = json.loads(data.attrs["parameters"])["rigs"]
+    rigs = parameters_of_rigs(data)
     return Oscillator.model_validate(rigs[0]["oscillator"]) if len(rigs) == 1 else None
 
 

@@ -278,11 +278,7 @@ def sweeps(
         data,
         "vibroimpact.sweeps",
         {
-            "rigs": [
-                rig_parameters(rig, "frequency", "phase")
-                | ({"published": True} if rig.published else {})
-                for rig in pairs
-            ],
+            "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
             "phase": angle,
             "tolerance": tolerance,
             "max_cycles": max_cycles,

@@ -144,9 +144,8 @@ def scenario_map(
     settings = {
         "x": {"name": first.name, "values": first.values.tolist(), "log": first.logarithmic},
         "y": {"name": second.name, "values": second.values.tolist(), "log": second.logarithmic},
-        "base": {
-            **rig_parameters(start.base, "frequency", "phase"),
-        },
+        # A store is resumed for the same numbers, whether or not the rig is a published one.
+        "base": rig_parameters(start.base, "frequency", "phase", "published"),
         "step": (fine_step := share(step, "step")),
         "refine": (refine := _refinement(refine)),
         "thresholds": {name: getattr(used, name) for name in Thresholds.names()},

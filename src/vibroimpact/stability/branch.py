@@ -149,7 +149,7 @@ def _first_orbit(
     period: int | None,
 ) -> tuple[Family, tuple[float, float], Orbit]:
     """Return the varied parameter, its range, and the first orbit."""
-    fam = family(Rig(rig.oscillator, rig.harmonic), parameter)
+    fam = family(rig.with_parts(rig.oscillator, rig.harmonic), parameter)
     ends = read_span(fam.parameter, span)
     if not ends[0] <= fam.value <= ends[1]:
         low, high, own = (fam.written(value) for value in (*ends, fam.value))

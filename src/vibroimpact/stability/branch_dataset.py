@@ -9,12 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import (
-    COMPONENTS,
-    describe,
-    excitation_parameters,
-    oscillator_parameters,
-)
+from vibroimpact.datasets.description import COMPONENTS, describe, rig_parameters
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
@@ -107,8 +102,7 @@ def as_dataset(
         data,
         f"vibroimpact.{created}",
         {
-            "oscillator": oscillator_parameters(fam.oscillator),
-            **excitation_parameters(fam.excitation),
+            **rig_parameters(fam.rig),
             "parameter": name,
             "low": span[0],
             "high": span[1],

@@ -17,7 +17,6 @@ from vibroimpact.model.count_checks import MOST_CYCLES, MOST_STARTS, whole
 from vibroimpact.model.parameters import PARAMETERS, read_span
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
-from vibroimpact.model.rig import Rig
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
 from vibroimpact.stability.branch import follow_both_ways
@@ -116,7 +115,8 @@ def resonance_diagram(
                 "frequency, or vary another parameter"
             )
         rig = rig.at(read_span(PARAMETERS["frequency"], span)[1])
-    fam = family(Rig(rig.oscillator, rig.harmonic.replace(phase=phase)), parameter)
+    shaken = rig.with_parts(rig.oscillator, rig.harmonic.replace(phase=phase))
+    fam = family(shaken, parameter)
     ends = read_span(fam.parameter, span)
     longest = whole(longest, "longest", most=MOST_CYCLES)
     starts = whole(starts, "starts", most=MOST_STARTS)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from vibroimpact.arguments import check_name
-from vibroimpact.datasets.description import excitation_parameters, oscillator_parameters
+from vibroimpact.datasets.description import oscillator_parameters, rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.count_checks import MOST_DRAWS, whole
@@ -106,12 +106,11 @@ class Uncertain(NamedTuple):
 
     def about(self) -> dict[str, Any]:
         """Return the attributes for a dataset."""
-        shaking = {} if self.shaken is None else excitation_parameters(self.shaken)
-        return {
-            "oscillator": oscillator_parameters(self.oscillator),
-            **shaking,
-            "distributions": self.texts,
-        }
+        if self.shaken is None:
+            rig = {"oscillator": oscillator_parameters(self.oscillator)}
+        else:
+            rig = rig_parameters(self.base)
+        return {**rig, "distributions": self.texts}
 
 
 @in_units_of_rig
