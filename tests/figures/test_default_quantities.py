@@ -107,6 +107,11 @@ def test_in_python(draw, eta, physical, rig, published):
     )
 
 
+def test_a_family_with_an_own_rig_is_drawn_in_its_units():
+    family = vi.sweeps([RIGS["code"][0], RIGS["own rig"][0]], GRID)
+    assert "(mm)" in labels(figures.resonance_family(family))[0]
+
+
 @pytest.mark.parametrize(
     ("rig", "published"), [RIGS["code"], RIGS["study of a case"], RIGS["own study"]]
 )

@@ -9,7 +9,6 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
-from vibroimpact.cli import main, results
 from vibroimpact.figures import branch_diagram, resonance_curves
 from vibroimpact.model import GRAVITY
 
@@ -119,7 +118,7 @@ def test_a_branch_in_engineers_units() -> None:
     ids=["code", "case", "rig of a case", "own rig", "study of a case", "own study"],
 )
 def test_only_published_cases_are_normalised_by_default(rig, eta, tmp_path, monkeypatch) -> None:
-    """In Python and on the command line alike: a study file is not a case, even if it names one."""
+    """A study file is not a case, even if it names one."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "case.toml").write_text('case = "B2-G1-A3"\n', encoding="utf-8")
     (tmp_path / "own.toml").write_text(
@@ -139,14 +138,3 @@ def test_only_published_cases_are_normalised_by_default(rig, eta, tmp_path, monk
     assert resonance_curves(one)[0].get_ylabel() == label
     assert "eta_a" in resonance_curves(data, physical=False)[0].get_ylabel()
     assert "(g)" in resonance_curves(data, physical=True)[0].get_ylabel()
-    if isinstance(rig, str):
-        decided = []
-        decide = results.draws_physical
-
-        def noted(*arguments):
-            decided.append(decide(*arguments))
-            return decided[-1]
-
-        monkeypatch.setattr(results, "draws_physical", noted)
-        assert main(["sweep", rig, "--frequencies", "1Hz,1.1Hz,1.2Hz"]) == 0
-        assert decided == [not eta]

@@ -15,7 +15,6 @@ import vibroimpact as vi
 from vibroimpact.figures import (
     family_legend,
     frequency_marks,
-    resonance_curves,
     resonance_family,
 )
 from vibroimpact.figures.style import SWEEPS
@@ -150,15 +149,3 @@ class TestMarks:
         ):
             frequency_marks(ax, {"I": value})
         assert not ax.lines
-
-
-def test_the_default_quantity_is_that_of_resonance_curves():
-    published = vi.sweeps(["B2-G1-A3", "B2-G2-A3"], [1.0, 1.2])
-    assert "eta_d" in resonance_family(published).get_ylabel()
-    cases = [vi.laboratory.case(code) for code in ("B2-G1-A3", "B2-G2-A3")]
-    own = vi.sweeps([vi.Rig(case.oscillator, case.amplitude) for case in cases], [1.0, 1.2])
-    ax = resonance_family(own)
-    assert "E_d$ (mm)" in ax.get_ylabel()
-    # As in the figure of one of these rigs, which is in mm, too.
-    assert "(mm)" in resonance_curves(own.isel(rig=0))[1].get_ylabel()
-    assert "eta_d" in resonance_curves(published.isel(rig=0))[1].get_ylabel()
