@@ -22,19 +22,18 @@ FREQUENCY = "excitation frequency (Hz)"
 
 @cache
 def diagram() -> xr.Dataset:
-    return vi.resonance_diagram(vi.Rig(CASE.oscillator, CASE.amplitude), (1.0, 4.0))
+    return vi.resonance_diagram(CASE, (1.0, 4.0))
 
 
 @cache
 def several() -> xr.Dataset:
     """Symmetry breaking, period doubling, and the branches that are born there."""
-    case = vi.laboratory.case("B3-10mm-A3")
-    return vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (0.9, 1.4), longest=2)
+    return vi.resonance_diagram("B3-10mm-A3", (0.9, 1.4), longest=2)
 
 
 @cache
 def gaps() -> xr.Dataset:
-    return vi.branch(vi.Rig(CASE.oscillator, SHAKEN), span=(1e-3, 20e-3), parameter="gap")
+    return vi.branch(CASE, frequency=2.0, span=(1e-3, 20e-3), parameter="gap")
 
 
 @cache
