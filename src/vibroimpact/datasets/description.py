@@ -162,7 +162,7 @@ def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
     numbers = excitation_parameters(rig.hardest.periodic, *left_out)
     if rig.amplitudes is not None:
         numbers["amplitude"] = list(rig.amplitudes)
-    if rig.published and "published" not in left_out:
+    if rig.published:
         numbers["published"] = True
     return {"oscillator": oscillator_parameters(rig.oscillator), **numbers}
 

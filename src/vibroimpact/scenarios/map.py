@@ -144,8 +144,9 @@ def scenario_map(
     settings = {
         "x": {"name": first.name, "values": first.values.tolist(), "log": first.logarithmic},
         "y": {"name": second.name, "values": second.values.tolist(), "log": second.logarithmic},
-        # A store is resumed for the same numbers, whether or not the rig is a published one.
-        "base": rig_parameters(start.base, "frequency", "phase", "published"),
+        "base": {
+            **rig_parameters(start.base, "frequency", "phase"),
+        },
         "step": (fine_step := share(step, "step")),
         "refine": (refine := _refinement(refine)),
         "thresholds": {name: getattr(used, name) for name in Thresholds.names()},
