@@ -105,7 +105,7 @@ def cycles_shown(motions: dict[str, xr.Dataset], cycles: float | None, least: in
 
 
 def cycles_label(motions: Mapping[str, xr.Dataset]) -> str:
-    """Return the label of a time axis in cycles, which are no forcing cycles if nothing shakes."""
+    """Return the label of a time axis in cycles, which are not forcing cycles if nothing shakes."""
     periods = set()
     for motion in motions.values():
         shaken = None if _seen(motion) else recorded(motion).excitation

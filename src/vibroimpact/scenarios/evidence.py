@@ -259,7 +259,7 @@ def _growth(
     """The kind of amplitude that makes the largest η_a of a direction one of growth, or None.
 
     η_d has its largest value at the resonance, whatever shakes the rig. A largest η_a above that
-    frequency is no resonance if the mass is in free flight there, or where the sweep ends.
+    frequency is not a resonance if the mass is in free flight there, or where the sweep ends.
     """
     of = rig.sine.of
     if of not in ("displacement", "unbalance"):
