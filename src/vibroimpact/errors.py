@@ -43,7 +43,7 @@ class InputWarning(UserWarning):
     """
 
 
-def warn_of_input(what: str, notes: Iterable[str], stacklevel: int | None = 3) -> None:
+def warn_of_input(what: str, notes: Iterable[str]) -> None:
     """Issue one `InputWarning` with all notes on one input.
 
     Parameters
@@ -52,20 +52,16 @@ def warn_of_input(what: str, notes: Iterable[str], stacklevel: int | None = 3) -
         The input, such as ``"record 'quake.csv'"``.
     notes
         Assumptions and doubts about the input. Without notes, no warning is issued.
-    stacklevel
-        As in `warnings.warn`. 3 selects the caller of the function that calls this function. None
-        selects the code that uses the package.
     """
     if told := "; ".join(notes):
-        level = _outside() if stacklevel is None else stacklevel
-        warnings.warn(f"{what}: {told}", InputWarning, stacklevel=level)
+        warnings.warn(f"{what}: {told}", InputWarning, stacklevel=outside())
 
 
-_INSIDE = ("vibroimpact", "pydantic")
+_INSIDE = ("vibroimpact", "pydantic", "contextlib")
 """Packages whose frames no warning points to."""
 
 
-def _outside() -> int:
+def outside() -> int:
     """Return the stacklevel, for the caller of this function, of the code that uses the package."""
     frame, level = sys._getframe(1), 1
     while frame.f_back is not None and frame.f_globals["__name__"].partition(".")[0] in _INSIDE:

@@ -228,7 +228,7 @@ def test_the_page_shows_no_unit(opened):
     until(page, "document.getElementById('text-mass').value === '550 kg'")
     settle(page)
     page.click("#tab-motion")
-    assert "frequency (Hz)" in page.locator("#panels").inner_text()
+    until(page, "document.getElementById('panels').innerText.includes('frequency (Hz)')")
     assert "displacement (mm)" in page.locator("#views").inner_text()
     assert page.inner_text("#physical-label") == "in mm and g"
 

@@ -19,7 +19,7 @@ from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, outside, shown
 from vibroimpact.model import Bumper, Oscillator
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.executors import THREADS, placed
@@ -197,5 +197,5 @@ def warn(status: NDArray[Any], who: str) -> None:
             f"{who}: {count} of {status.size} designs could not be computed: "
             f"{Status(int(code)).advice}",
             RuntimeWarning,
-            stacklevel=3,
+            stacklevel=outside(),
         )

@@ -30,7 +30,7 @@ from vibroimpact.earthquakes.run_plan import (
 )
 from vibroimpact.earthquakes.seismic_response import with_both_sides
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, outside
 from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, whole
 from vibroimpact.model.quantities import TIME
@@ -297,5 +297,5 @@ def _warn(status: NDArray[Any]) -> None:
             f"demands: {count} of {status.size} runs could not be computed: "
             f"{Status(int(code)).advice}",
             RuntimeWarning,
-            stacklevel=3,
+            stacklevel=outside(),
         )

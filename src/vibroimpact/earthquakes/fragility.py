@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.earthquakes.credible_curves import begin_to_exceed, credible_curves
 from vibroimpact.earthquakes.suites import described, exceedance, known, limit_of
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, outside
 from vibroimpact.model.count_checks import share
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS
@@ -126,11 +126,11 @@ def fragility(
         beginning = "demands:" if limit is None else f"limit: {limit!r};"
         raise InputError(f"{beginning} {undetermined}")
     if undetermined:
-        warnings.warn(f"fragility: {undetermined}", RuntimeWarning, stacklevel=2)
+        warnings.warn(f"fragility: {undetermined}", RuntimeWarning, stacklevel=outside())
     others = order[2:]
     unbounded = _unbounded(found["median_capacity_bound"], values, above)
     if unbounded:
-        warnings.warn(f"fragility: {unbounded}", RuntimeWarning, stacklevel=2)
+        warnings.warn(f"fragility: {unbounded}", RuntimeWarning, stacklevel=outside())
     dims = {
         "fitted_probability": ("scale", *others),
         "fitted_probability_bound": ("bound", "scale", *others),

@@ -12,6 +12,7 @@ from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
 from vibroimpact.engine.status import Status
+from vibroimpact.errors import outside
 from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events
 from vibroimpact.model.quantities import TIME
@@ -114,7 +115,7 @@ def seismic_response(
     data = with_both_sides(xr.Dataset({name: values[0, 0] for name, values in found.items()}))
     status = Status(int(data["status"]))
     if status is not Status.DONE:
-        warnings.warn(f"seismic_response: {status.advice}", RuntimeWarning, stacklevel=3)
+        warnings.warn(f"seismic_response: {status.advice}", RuntimeWarning, stacklevel=outside())
     data.attrs["message"] = status.advice
     parameters = {
         "oscillator": oscillator_parameters(oscillator),

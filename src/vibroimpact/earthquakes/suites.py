@@ -15,7 +15,7 @@ from vibroimpact.arguments import check_list, check_name
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, outside, shown
 from vibroimpact.model import to_si
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -107,7 +107,7 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
             f"fractiles: {unknown} of {values.size} values of {quantity} are missing (NaN) and "
             f"were left out{why}",
             RuntimeWarning,
-            stacklevel=3,
+            stacklevel=outside(),
         )
     return values
 

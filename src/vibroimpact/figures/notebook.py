@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputWarning
+from vibroimpact.errors import InputWarning, outside
 from vibroimpact.figures.sizes import is_print, size_of_new
 
 _MISSING = re.compile(r"Glyph (\d+) .* missing from font")
@@ -63,7 +63,7 @@ class Drawing(Figure):
                 f"figure: the font lacks the characters {signs}, so boxes are drawn instead; set "
                 "font.family in matplotlibrc to a font that has these characters",
                 InputWarning,
-                stacklevel=2,
+                stacklevel=outside(),
             )
 
     def _repr_png_(self) -> bytes:

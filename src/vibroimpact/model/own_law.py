@@ -147,7 +147,6 @@ class Law(Named):
                     f"relaxes in {pretty(time, TIME)}; for a force without memory, write "
                     f"max({read.text}, 0); if the memory is intended, use Bumper"
                 ],
-                stacklevel=None,
             )
         return {**kept, "formula": read.text, "numbers": numbers}
 

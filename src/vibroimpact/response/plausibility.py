@@ -44,7 +44,7 @@ STIFF = "slow to compute"
 """How a note begins that names a stop that vibrates much faster than the rig is shaken."""
 
 
-def doubt_stops(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int = 5) -> list[str]:
+def doubt_stops(rig: Rig, displacement: ArrayLike | None = None) -> list[str]:
     """Issue a warning if a gap in metres was probably millimetres, or a stiffness in mN/m MN/m.
 
     A gap is compared with the largest displacement of free flight if that is known in closed form,
@@ -56,8 +56,6 @@ def doubt_stops(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int
         The rig and its shaking.
     displacement
         Displacements of its motion (m), if they are known. Values that are not finite are ignored.
-    stacklevel
-        That of the warning, as `warn_of_input` counts it.
 
     Returns
     -------
@@ -66,11 +64,10 @@ def doubt_stops(rig: Rig, displacement: ArrayLike | None = None, stacklevel: int
     """
     if rig.oscillator.units == NONE:
         return []  # a factor of 1000 is a mix-up of units
-    level = stacklevel + 1
-    return [*_doubt_stiffnesses(rig, level), *_doubt_gaps(rig, displacement, level)]
+    return [*_doubt_stiffnesses(rig), *_doubt_gaps(rig, displacement)]
 
 
-def _doubt_stiffnesses(rig: Rig, stacklevel: int) -> list[str]:
+def _doubt_stiffnesses(rig: Rig) -> list[str]:
     """Doubt stops that the isolator outweighs by far, and that are usual in MN/m."""
     spring = rig.oscillator.isolator.initial_stiffness
     stops = [stop for stop in rig.oscillator.stops if isinstance(stop, Bumper)]
@@ -80,11 +77,11 @@ def _doubt_stiffnesses(rig: Rig, stacklevel: int) -> list[str]:
         for stiffness in sorted({stop.stiffness for stop in stops})
         if _SOFTEST * spring <= _MEGA / _MILLI * stiffness <= _HARDEST * spring
     ]
-    warn_of_input("stiffness of a stop", notes, stacklevel=stacklevel)
+    warn_of_input("stiffness of a stop", notes)
     return notes
 
 
-def _doubt_gaps(rig: Rig, displacement: ArrayLike | None, stacklevel: int) -> list[str]:
+def _doubt_gaps(rig: Rig, displacement: ArrayLike | None) -> list[str]:
     oscillator = rig.oscillator
     gaps = sorted({stop.gap for stop in oscillator.stops if stop.gap >= _LEAST})
     if not gaps:
@@ -101,11 +98,11 @@ def _doubt_gaps(rig: Rig, displacement: ArrayLike | None, stacklevel: int) -> li
         for gap in gaps
         if _FAR * reach < gap <= _FARTHEST * reach
     ]
-    warn_of_input("gap", notes, stacklevel=stacklevel)
+    warn_of_input("gap", notes)
     return notes
 
 
-def doubt_frequency(rig: Rig, field: str, stacklevel: int = 4) -> None:
+def doubt_frequency(rig: Rig, field: str) -> None:
     """Issue a warning if a forcing frequency in Hz was probably in revolutions per minute.
 
     Parameters
@@ -114,8 +111,6 @@ def doubt_frequency(rig: Rig, field: str, stacklevel: int = 4) -> None:
         The rig, at this frequency.
     field
         Name of the frequency in the warning.
-    stacklevel
-        That of the warning, as `warn_of_input` counts it.
     """
     oscillator = rig.oscillator
     if oscillator.units == NONE or not oscillator.isolator.initial_stiffness > 0.0:
@@ -128,7 +123,7 @@ def doubt_frequency(rig: Rig, field: str, stacklevel: int = 4) -> None:
         f"{pretty(float(f'{natural:.4g}'), FREQUENCY)}; is {plain(forced, 6)} rpm, "
         f"{pretty(float(f'{forced / 60.0:.6g}'), FREQUENCY)}, meant?"
     )
-    warn_of_input(field, [told], stacklevel=stacklevel)
+    warn_of_input(field, [told])
 
 
 def note_unbounded(rig: Rig) -> list[str]:

@@ -14,7 +14,7 @@ from vibroimpact.engine import record_forcing
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, outside
 from vibroimpact.model import Record, State, equilibrium
 from vibroimpact.model.count_checks import MOST_SAMPLES, check_samples
 from vibroimpact.model.rig import Rig
@@ -79,7 +79,7 @@ def through(
         # The step that was given up is left out; its events until then are kept.
         finished = max(at - 1, 0)
         stopped = f"simulate stopped {finished * record.step:g} s into the record: {told.advice}"
-        warnings.warn(stopped, RuntimeWarning, stacklevel=4)
+        warnings.warn(stopped, RuntimeWarning, stacklevel=outside())
         out, time = out[:, : finished * samples], time[: finished * samples]
     variables: dict[str, Any] = {"final_state": ("component", components(vector, 0.0))}
     coordinates: dict[str, Any] = {"component": COMPONENTS}
@@ -95,7 +95,7 @@ def through(
     variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
-        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=4)
+        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=outside())
     data.attrs["message"] = told.advice
     parameters = {
         "oscillator": oscillator_parameters(oscillator),

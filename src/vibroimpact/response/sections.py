@@ -11,6 +11,7 @@ import xarray as xr
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
+from vibroimpact.errors import outside
 from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import check_samples, whole
 from vibroimpact.model.quantities import ANGLE
@@ -76,7 +77,7 @@ def stroboscopic_section(
         warnings.warn(
             f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}",
             RuntimeWarning,
-            stacklevel=2,
+            stacklevel=outside(),
         )
     data = xr.Dataset(
         {f"section_{name}": ("section_point", points[:, i]) for i, name in enumerate(_NAMES)}

@@ -22,7 +22,7 @@ from vibroimpact.engine import batch
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, outside
 from vibroimpact.model import Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
@@ -111,7 +111,7 @@ def simulate(
         rig = (rig if rig.is_shaken else rig.vibrating_freely()).at(frequency)
     data = compute_history(rig, cycles, start, samples, tail, max_events, progress)
     # A short motion shows nothing: only the closed form of free flight counts.
-    notes = [*noted(data), *doubt_stops(rig, stacklevel=4)]
+    notes = [*noted(data), *doubt_stops(rig)]
     return describe(data, "vibroimpact.simulate", notes=notes)
 
 
@@ -188,7 +188,9 @@ def compute_history(
         # The cycle that was given up is left out; its events until then are kept.
         finished = max(at - 1, 0)
         warnings.warn(
-            f"simulate stopped in cycle {finished}: {told.advice}", RuntimeWarning, stacklevel=3
+            f"simulate stopped in cycle {finished}: {told.advice}",
+            RuntimeWarning,
+            stacklevel=outside(),
         )
         out = out[:, : finished * samples]
         length = float(finished)
@@ -214,7 +216,7 @@ def compute_history(
     variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
-        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=3)
+        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=outside())
     data.attrs["message"] = told.advice
     return describe(
         data,

@@ -13,6 +13,7 @@ from vibroimpact.datasets.description import COMPONENTS, describe, rig_parameter
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
+from vibroimpact.errors import outside
 from vibroimpact.model import Oscillator
 from vibroimpact.response import sweep_dataset
 from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
@@ -96,7 +97,7 @@ def as_dataset(
                 f"first between {name} = {low} and {high}; the list of bifurcations is incomplete "
                 "there; to search with smaller steps, narrow the span around these values",
                 RuntimeWarning,
-                stacklevel=4,
+                stacklevel=outside(),
             )
     return describe(
         data,
@@ -204,7 +205,7 @@ def _measured(one: Orbit) -> _Array:
         warnings.warn(
             f"the largest values of the orbit at {where} are unknown: {Status(outcome).advice}",
             RuntimeWarning,
-            stacklevel=6,
+            stacklevel=outside(),
         )
     return result
 

@@ -15,6 +15,7 @@ from vibroimpact.arguments import VALUES, check_mapping, check_progress
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
+from vibroimpact.errors import outside
 from vibroimpact.model import Rig, State, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import PARAMETERS
@@ -225,7 +226,7 @@ def lyapunov_exponents(
             f"{transient + DISCARD} cycles, so their exponents are not those of the periodic "
             f"motion; pass a transient larger than {transient}; `settling` marks these motions",
             RuntimeWarning,
-            stacklevel=2,
+            stacklevel=outside(),
         )
     return data
 

@@ -12,7 +12,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine import section_map
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, outside
 from vibroimpact.model import State, equilibrium
 from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.written_units import written_for
@@ -184,7 +184,7 @@ def _tell_another(rest: Settled, found: Orbit) -> None:
         f"the computed orbit has period {found.section.period} and is not the motion from rest, "
         f"which {it}; to compute another orbit, pass a start near that orbit",
         RuntimeWarning,
-        stacklevel=5,
+        stacklevel=outside(),
     )
 
 

@@ -14,7 +14,7 @@ from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, noted
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, outside
 from vibroimpact.model import State, equilibrium
 from vibroimpact.model.count_checks import check_max_events, check_samples, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig
@@ -188,7 +188,7 @@ def describe_motion(
         kind = kind._replace(evidence=f"{kind.evidence}; {_UNDECIDED}")
         if used:
             told = f"{_UNDECIDED}; to find out which, compare it with the motion from another start"
-            warnings.warn(f"steady: {told}", RuntimeWarning, stacklevel=4)
+            warnings.warn(f"steady: {told}", RuntimeWarning, stacklevel=outside())
     data = _record(found, found.state, samples, kind.period or window, max_events)
     if int(data["status"]) not in (Status.DONE, Status.REVERSED):
         return _given_up(found._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)
@@ -280,7 +280,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
     ends = [values["displacement_max"], values["displacement_min"]]
-    notes = [*doubt_stops(found.rig, ends, stacklevel=6), *noted(data)]
+    notes = [*doubt_stops(found.rig, ends), *noted(data)]
     return describe(data, "vibroimpact.steady", notes=notes)
 
 
@@ -297,7 +297,7 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
     warnings.warn(
         f"steady stopped in cycle {found.cycles}: {found.status.advice}",
         RuntimeWarning,
-        stacklevel=3,
+        stacklevel=outside(),
     )
     nothing = ("exponent", np.full(2, np.nan))
     scalars: dict[str, Any] = {

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from vibroimpact._version import __version__
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.errors import InputError, InputWarning
+from vibroimpact.errors import InputError, InputWarning, outside
 
 if TYPE_CHECKING:  # it takes long to load: only where a store is made or read
     import zarr
@@ -290,7 +290,7 @@ def _opened(there: Path, template: Template) -> zarr.Group:
             f"store: {str(there)!r} is damaged; {len(damaged)} of its {len(template.blocks)} "
             "parts are computed again",
             InputWarning,
-            stacklevel=5,
+            stacklevel=outside(),
         )
     return group
 
