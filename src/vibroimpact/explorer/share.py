@@ -118,13 +118,7 @@ def _from_table(table: Any) -> State:
 
 @as_first_argument
 def study(state: State) -> str:
-    """Return the study file of a state, which all commands accept.
-
-    Raises
-    ------
-    InputError
-        If the rig has no units and its amplitude is not an acceleration, which only a unit states.
-    """
+    """Return the study file of a state, which all commands accept."""
     lines = [f"name = {_quoted(state.name)}", "", "[oscillator]"]
     for key, value in state.oscillator.model_dump(exclude_none=True).items():
         lines.append(f"{key} = {_toml(value)}")
@@ -133,7 +127,7 @@ def study(state: State) -> str:
     lines += [
         "",
         "[excitation]",
-        f"amplitude = {_amplitude(state)}",
+        *_amplitude(state),
         *([f"phase = {state.shaking.phase!r}"] if state.shaking.phase else []),
         "",
         "[sweep]",
@@ -147,17 +141,14 @@ def study(state: State) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _amplitude(state: State) -> str:
-    """Of an acceleration the number in SI units; of others the text says what it is one of."""
-    if state.shaking.of == "acceleration":
-        return repr(state.shaking.amplitude)
-    quantity = QUANTITIES[state.shaking.of]
+def _amplitude(state: State) -> list[str]:
+    """The lines of the amplitude: a number in SI units, with what it is one of if no unit tells."""
+    size, of = state.shaking.amplitude, state.shaking.of
+    if of == "acceleration":
+        return [f"amplitude = {size!r}"]
     if unitless():
-        raise InputError(
-            f"study: without a unit, a study file cannot state that the amplitude is "
-            f"{quantity.phrase}; save the Python program instead"
-        )
-    return json.dumps(f"{state.shaking.amplitude!r} {quantity.symbol}")
+        return [f"amplitude = {size!r}", f"of = {_quoted(of)}"]
+    return [f"amplitude = {json.dumps(f'{size!r} {QUANTITIES[of].symbol}')}"]
 
 
 def _toml(value: Any) -> str:
