@@ -19,7 +19,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.motion import U, V
 from vibroimpact.engine.one_mass import PARTS
-from vibroimpact.engine.state import FIRST, copy, finite, put, room, width, wind
+from vibroimpact.engine.state import FIRST, copy, finite, load, put, room, width
 from vibroimpact.engine.status import (
     DONE,
     NOT_FINITE,
@@ -110,8 +110,7 @@ def caught(
     here, section = room(), room()
     slow = flow.too_much_work(plan, period) != 0
     for n in range(len(states)):
-        copy(pointer(states[n]), here, width(plan))
-        wind(plan, here, s, c)
+        load(plan, pointer(states[n]), here, s, c)
         if anew:
             for i in range(PARTS):
                 here[FIRST + i] = points[n, i]

@@ -19,7 +19,7 @@ from vibroimpact.engine.hold import OUTCOME, hold
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers.record import WRITTEN, note_room, start_notes
-from vibroimpact.engine.state import copy, finite, put, room, width, wind
+from vibroimpact.engine.state import copy, finite, load, put, room, width
 from vibroimpact.engine.status import NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 
@@ -125,8 +125,7 @@ def trajectory(
         return start, 0, TOO_MUCH_WORK
     s, c = math.sin(phase), math.cos(phase)
     here, section, notes = room(), room(), note_room()
-    copy(pointer(state), here, width(plan))
-    wind(plan, here, s, c)
+    load(plan, pointer(state), here, s, c)
     columns = out.shape[1]
     number = start
     count = 0

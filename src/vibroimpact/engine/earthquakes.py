@@ -18,7 +18,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers.demand import note_room, start_notes
-from vibroimpact.engine.state import begin_again, copy, finite, room, width, wind
+from vibroimpact.engine.state import begin_again, finite, load, room
 from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # What is found of a run, the observer's numbers first; then where the mass comes to rest, half the
@@ -199,8 +199,7 @@ def respond(
             found[OUTCOME] = TOO_MUCH_WORK
             counter[0] = before + (k + 1) * lines
             continue
-        copy(pointer(state), here, width(plan))
-        wind(plan, here, 0.0, 0.0)
+        load(plan, pointer(state), here, 0.0, 0.0)
         start_notes(notes, everything)
         outcome = _shaken(plan, here, record, step, scale, max_events, notes, counter)
         if outcome == DONE:

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from operator import attrgetter
 from typing import Any, TypeVar
 
 from llvmlite import ir
@@ -33,6 +34,9 @@ _WORD = ir.IntType(64)
 
 SIGNATURES: dict[str, Any] = {}
 """Of each function, by name, in the order of the table."""
+
+_compiled_code = attrgetter("library", "fndesc")
+"""Of a compiled kernel: its machine code, and what its function is called."""
 
 _KERNELS: dict[str, Any] = {}
 """The kernels by name, for Python without the compiler, where a plan itself tells its flow."""
@@ -131,8 +135,9 @@ def filling(plan_type: Callable[[Any], Any], kernels: tuple[Any, ...]) -> Any:
         def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             array = context.make_array(signature.args[1])(context, builder, args[1])
             for name, one in found.items():
-                context.active_code_library.add_linking_library(one[one._fields.index("library")])
-                function = context.declare_function(builder.module, one.fndesc)
+                code, described = _compiled_code(one)
+                context.active_code_library.add_linking_library(code)
+                function = context.declare_function(builder.module, described)
                 index = ir.Constant(_WORD, list(SIGNATURES).index(name))
                 place = builder.gep(array.data, [index], source_etype=_WORD)
                 builder.store(builder.ptrtoint(function, _WORD), place)

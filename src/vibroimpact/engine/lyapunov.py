@@ -10,7 +10,7 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import TERMS, beyond, pointer, workspace
-from vibroimpact.engine.state import copy, finite, parts_room, put, room, width, wind
+from vibroimpact.engine.state import copy, finite, load, parts_room, put, room, width
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
@@ -72,8 +72,7 @@ def growth(
         return TOO_MUCH_WORK, first
     s, c = math.sin(phase), math.cos(phase)
     here, section, notes = room(), room(), parts_room()
-    copy(pointer(state), here, width(plan))
-    wind(plan, here, s, c)
+    load(plan, pointer(state), here, s, c)
     q = workspace()
     w = workspace()
     for i in range(TERMS):
@@ -149,8 +148,7 @@ def monodromy(
         outcome = TOO_MUCH_WORK
     s, c = math.sin(phase), math.cos(phase)
     here, notes = room(), parts_room()
-    copy(pointer(state), here, width(plan))
-    wind(plan, here, s, c)
+    load(plan, pointer(state), here, s, c)
     q = pointer(columns)
     flow.unit_disturbances(plan, here, q)
     damping[0] = 0.0

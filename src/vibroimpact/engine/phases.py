@@ -11,7 +11,7 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.measure import P_C, P_LENGTH, P_S, P_SIDE
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.state import copy, room, width, wind
+from vibroimpact.engine.state import load, room
 
 
 @entry("void(f8[::1], f8, f8, f8[:, ::1], f8[:, ::1])", "measured")
@@ -34,8 +34,7 @@ def measure_phases(
     here = room()
     for i in range(len(phases)):
         phase = phases[i]
-        copy(pointer(phase), here, width(plan))
-        wind(plan, here, phase[P_S], phase[P_C])
+        load(plan, pointer(phase), here, phase[P_S], phase[P_C])
         flow.measure_phase(plan, here, phase[P_LENGTH], int(phase[P_SIDE]), pointer(out[i]))
 
 
@@ -70,8 +69,7 @@ def integrate(
     here = room()
     for i in range(len(phases)):
         phase = phases[i]
-        copy(pointer(phase), here, width(plan))
-        wind(plan, here, phase[P_S], phase[P_C])
+        load(plan, pointer(phase), here, phase[P_S], phase[P_C])
         flow.integrate_phase(
             plan, here, phase[P_LENGTH], begins[i], pointer(lines), len(lines), pointer(out)
         )

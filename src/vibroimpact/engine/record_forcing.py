@@ -14,7 +14,7 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers.record import WRITTEN, note_room, start_notes
-from vibroimpact.engine.state import begin_again, copy, finite, put, room, width, wind
+from vibroimpact.engine.state import begin_again, copy, finite, load, put, room, width, wind
 from vibroimpact.engine.status import NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # Columns of a line: A_t at its beginning (m/s²), its slope (m/s³) and how long it lasts (s).
@@ -73,8 +73,7 @@ def follow(
     if flow.too_much_work(plan, interval) != 0:
         return first, 0, TOO_MUCH_WORK
     here, before, notes = room(), room(), note_room()
-    copy(pointer(state), here, width(plan))
-    wind(plan, here, lines[first, BEGINS], lines[first, SLOPE])
+    load(plan, pointer(state), here, lines[first, BEGINS], lines[first, SLOPE])
     columns = out.shape[1]
     step = interval / samples if samples else 0.0
     listed = samples or len(events) > max_events + 1

@@ -47,6 +47,13 @@ def wind(plan: Vector, state: Vector, s: float, c: float) -> None:
 
 
 @kernel
+def load(plan: Vector, kept: Vector, state: Vector, s: float, c: float) -> None:
+    """Take a state from a vector without a clock, at a section."""
+    copy(kept, state, width(plan))
+    wind(plan, state, s, c)
+
+
+@kernel
 def begin_again(plan: Vector, state: Vector) -> None:
     """Say that the mode begins now: the forcing has changed, what had died out is a transient."""
     state[width(plan) - 1] = 0.0
