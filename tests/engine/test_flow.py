@@ -7,12 +7,13 @@ import math
 import numpy as np
 import pytest
 
-from vibroimpact.engine import flow, one_mass
+from vibroimpact.engine import event_loop, flow, one_mass
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.flow_tables import GROUPS
 from vibroimpact.engine.memory import beyond, pointer
 from vibroimpact.engine.motion import STATE
+from vibroimpact.engine.observers import growth
 from vibroimpact.engine.observers import record as written
 from vibroimpact.engine.observers.demand import note_room, start_notes
 from vibroimpact.engine.observers.extremes import notes_room, nothing
@@ -59,31 +60,34 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
             count = flow.cycle(plan, state, S, C, period, MOST)
         elif which == EXTREMES:
             nothing(notes)
-            count = flow.extremes(plan, state, S, C, period, MOST, notes)
+            count = event_loop.extremes(plan, state, S, C, period, MOST, notes)
             low_high[0], low_high[1] = notes[0], notes[1]
             low_high[2], low_high[3] = notes[2], notes[3]
         elif which == RECORDED:
             written.start_notes(kept, samples.shape[1], 0, period / SAMPLES, SAMPLES, 0, 0, MOST, 0)
-            count = flow.record(
+            count = event_loop.record(
                 plan, state, S, C, period, MOST, kept, pointer(samples), pointer(events)
             )
             flow.write(plan, state, pointer(samples), samples.shape[1], SAMPLES)
             low_high[8] = kept[written.WRITTEN]
         elif which == DEMAND:
             start_notes(found, 0)
-            count = flow.demand(plan, state, S, C, period, MOST, found)
+            count = event_loop.demand(plan, state, S, C, period, MOST, found)
             low_high[4], low_high[5] = found[0], found[1]
             low_high[6], low_high[7] = found[2], found[3]
         elif which == MARGIN:
             found[0] = math.inf
-            count = flow.margin(plan, state, S, C, period, MOST, found)
+            count = event_loop.margin(plan, state, S, C, period, MOST, found)
         elif which == TANGENT:
             found[0], found[1], found[2] = 0.0, 0.0, 0.0
             flow.unit_disturbances(plan, state, pointer(q))
-            count = flow.tangent(plan, state, S, C, period, MOST, pointer(q), found)
+            count = event_loop.tangent(plan, state, S, C, period, MOST, found, pointer(q))
         else:
             flow.start_growth(plan, state, pointer(q), pointer(w))
-            count = flow.growth(plan, state, S, C, period, MOST, pointer(q), pointer(w), found)
+            growth.start_notes(found, period)
+            count = event_loop.growth(
+                plan, state, S, C, period, MOST, found, pointer(q), pointer(w)
+            )
         rows[which, EVENTS] = count
         rows[which, U], rows[which, V] = state[FIRST], state[FIRST + 1]
 

@@ -15,7 +15,7 @@ DAMPED, PLAIN, WALL = (20.0, 0.4, 1.0), (20.0, 0.0, 1.0), (0.5, 1.0)
 def placed(rig: np.ndarray, mode: int, *parts: float) -> Motion:
     state = np.array([mode, 0.0, *parts, 0.0, 0.0, 1.0])
     place(rig, state)
-    found: Motion = unpacked(state, (0.0, 1.0))
+    found: Motion = unpacked(state)
     return found
 
 

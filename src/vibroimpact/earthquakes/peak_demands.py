@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_progress
 from vibroimpact.earthquakes.free_vibration import BLOCKS, SMALL, block, free_tail, settles
 from vibroimpact.engine import earthquakes as found
+from vibroimpact.engine.observers import demand, extremes
 from vibroimpact.model import Oscillator, Record, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
@@ -149,31 +150,31 @@ def _named(
 ) -> dict[str, NDArray[np.generic]]:
     """The engine's numbers in SI units, by name."""
     mass = np.array([one.oscillator.mass for one in shaken])[:, np.newaxis]
-    farthest = np.maximum(rows[..., found.U_MOST], -rows[..., found.U_LEAST])
+    farthest = np.maximum(rows[..., extremes.U_MOST], -rows[..., extremes.U_LEAST])
     status = [
         judged(one.oscillator, row[:, found.OUTCOME], far)
         for one, row, far in zip(shaken, rows, farthest, strict=True)
     ]
-    acceleration = np.maximum(rows[..., found.A_MOST], -rows[..., found.A_LEAST])
+    acceleration = np.maximum(rows[..., extremes.A_MOST], -rows[..., extremes.A_LEAST])
     columns: list[_Array] = [
-        rows[..., found.U_MOST],
-        0.0 - rows[..., found.U_LEAST],
+        rows[..., extremes.U_MOST],
+        0.0 - rows[..., extremes.U_LEAST],
         acceleration,
         *(
             mass * rows[..., at]
             for at in (
-                found.FORCE_RIGHT,
-                found.FORCE_LEFT,
-                found.IMPULSE_RIGHT,
-                found.IMPULSE_LEFT,
+                extremes.FORCE_RIGHT,
+                extremes.FORCE_LEFT,
+                extremes.IMPULSE_RIGHT,
+                extremes.IMPULSE_LEFT,
             )
         ),
-        rows[..., found.HITS_RIGHT],
-        rows[..., found.HITS_LEFT],
+        rows[..., extremes.HITS_RIGHT],
+        rows[..., extremes.HITS_LEFT],
     ]
     values: dict[str, NDArray[np.generic]] = dict(zip(PEAKS, columns, strict=True))
     if energies:
-        sums = (found.WORK, found.LOST, found.LOST_STOPS)
+        sums = (demand.WORK, demand.LOST, demand.LOST_STOPS)
         values |= {name: mass * rows[..., at] for name, at in zip(ENERGIES, sums, strict=True)}
     if residuals:
         rest, swing = rows[..., found.REST], rows[..., found.SWING]

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import flow
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.hold import OUTCOME, hold
@@ -142,7 +142,7 @@ def trajectory(
             n = int(math.ceil(share * samples - 1e-9))  # noqa: RUF046 (a float to numba)
             step = period / samples if samples else 0.0
             start_notes(notes, columns, number * samples, step, n, 0, count, max_events, number)
-            happened = flow.record(
+            happened = event_loop.record(
                 plan, here, s, c, length, max_events, notes, pointer(out), pointer(events)
             )
             count = int(notes[WRITTEN])

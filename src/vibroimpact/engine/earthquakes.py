@@ -11,22 +11,27 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from vibroimpact.engine import flow
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.motion import U
-from vibroimpact.engine.observers.demand import note_room, start_notes
+from vibroimpact.engine.observers.demand import (
+    EVERYTHING,
+    LOST_STOPS,
+    WORK,
+    note_room,
+    start_notes,
+)
+from vibroimpact.engine.observers.extremes import U_LEAST, U_MOST
 from vibroimpact.engine.state import begin_again, finite, load, room
 from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # What is found of a run, the observer's numbers first; then where the mass comes to rest, half the
 # width of its last swing about that place (m), and how the run ended, a `Status`.
-U_LEAST, U_MOST, A_LEAST, A_MOST, FORCE_RIGHT, FORCE_LEFT = range(6)
-IMPULSE_RIGHT, IMPULSE_LEFT, HITS_RIGHT, HITS_LEFT, WORK, LOST, LOST_STOPS = range(6, 13)
-REST, SWING, OUTCOME = range(13, 16)
-FOUND = 16
+REST, SWING, OUTCOME = range(EVERYTHING, EVERYTHING + 3)
+FOUND = EVERYTHING + 3
 
 _SHORT = 1e-9
 """Share of a step that is none."""
@@ -42,7 +47,7 @@ def _line(
 ) -> int:
     """Along one line, which begins a transient; a `Status`."""
     begin_again(plan, state)
-    if flow.demand(plan, state, s, c, lasts, max_events, notes) > max_events:
+    if event_loop.demand(plan, state, s, c, lasts, max_events, notes) > max_events:
         return TOO_MANY_EVENTS
     return DONE if finite(plan, state) else NOT_FINITE
 

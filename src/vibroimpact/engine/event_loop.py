@@ -1,61 +1,84 @@
-"""The one event loop: a forcing cycle, from event to event, under the eyes of an observer."""
+"""The one event loop: a forcing cycle, from event to event, under the eyes of an observer.
+
+It is compiled once for all flows: a flow goes on to the next event (`flow.advance`), and an
+observer, a function of the flow, too, adds what it sees of that stretch to its notes.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine.flow_dispatch import advance
+from vibroimpact.engine import flow
+from vibroimpact.engine import state as states
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import (
-    GIVEN_UP,
-    LIMIT,
-    SETTLING,
-    Clock,
-    Motion,
-    Stretch,
-    at_section,
-    finite,
-)
-from vibroimpact.engine.observe import observe
+from vibroimpact.engine.motion import GIVEN_UP, LIMIT, SETTLING
+from vibroimpact.engine.state import EVENT, FRESH, STEP, T, room, stretch_room
 
 
-@kernel
-def cycle(
-    plan: Vector, motion: Motion, clock: Clock, length: float, max_events: int, notes: Any
-) -> tuple[int, Motion, Any]:
-    """Follow a motion from a section over `length` seconds, one forcing cycle or part of it.
+def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
+    """Make the loop over a flow's function `advance`, with an observer or None.
 
-    The phase at the section is the clock exactly, each time: angles do not accumulate.
+    What follows `max_events` is passed on to the observer. `load` and `put` copy a state, `finite`
+    tells whether it is within the range of numbers, as those of `state` do for every flow.
+    """
 
-    Parameters
-    ----------
-    notes
-        What an observer has noted so far; its type says which observer (`observe`).
+    def cycle(
+        plan: Vector,
+        state: Vector,
+        s: float,
+        c: float,
+        length: float,
+        max_events: int,
+        *notes: Vector,
+    ) -> int:
+        here, there, ended = room(), room(), stretch_room()
+        load(plan, state, here, s, c)
+        t = 0.0
+        events = 0
+        while True:
+            event = advance(plan, here, max(length - t, 0.0), ended, there)
+            if event == GIVEN_UP:
+                if finite(plan, there):  # else it left the range of numbers: its caller sees it
+                    events = max_events + 1
+                break
+            if observe is not None:
+                ended[EVENT], ended[T] = event, t
+                observe(plan, here, ended, there, *notes)
+            if event == LIMIT:
+                break
+            t += ended[STEP]
+            events += 1
+            if events > max_events:
+                break
+            # The rest of a chatter is not cut off.
+            if t >= length and not int(there[FRESH]) & SETTLING:
+                break
+            put(plan, there, here)
+        put(plan, there, state)
+        return events
+
+    cycle.__doc__ = """Follow a motion from a section, where the clock is s, c, over a length (s).
+
+    The phase at the section is the clock exactly, each time: angles do not accumulate. The state is
+    carried on in place.
 
     Returns
     -------
-    events, motion, notes
-        `events` is the number of contacts and detachments, or more than `max_events` if the
-        cycle was not finished.
+    events
+        The number of contacts and detachments, or more than `max_events` if the cycle was not
+        finished.
     """
-    motion = at_section(motion, clock)
-    t = 0.0
-    events = 0
-    while True:
-        before = motion
-        event, step, arrival, motion = advance(plan, before, max(length - t, 0.0))
-        if event == GIVEN_UP:
-            if finite(motion):  # otherwise it left the range of numbers, which its caller sees
-                events = max_events + 1
-            break
-        stretch = Stretch(before, t, event, step, arrival, motion)
-        notes = observe(plan, notes, stretch)
-        if event == LIMIT:
-            break
-        t += step
-        events += 1
-        if events > max_events:
-            break
-        if t >= length and not motion.fresh & SETTLING:  # the rest of a chatter is not cut off
-            break
-    return events, motion, notes
+    return kernel(cycle)
+
+
+def observed(observe: Any) -> Any:
+    """Make the loop of an observer, a kernel (plan, before, ended, after, *notes), for all flows."""
+    return loop(flow.advance, states.load, states.put, states.finite, observe)
+
+
+extremes = observed(flow.extremes)
+demand = observed(flow.demand)
+margin = observed(flow.margin)
+record = observed(flow.record)
+tangent = observed(flow.tangent)
+growth = observed(flow.growth)

@@ -73,9 +73,9 @@ def _indirect(names: str, declared: Any, index: int) -> Any:
     """An intrinsic that calls the function at a place of the table of its first argument."""
 
     def typed(*given: Any) -> tuple[Any, Callable[..., Any]]:
-        # Arrays stand for their memory.
+        # Arrays stand for their memory, and a plan that tells its flow for a plan.
         taken = [
-            one if isinstance(one, types.Array) else kind
+            one if isinstance(one, types.Array | types.CPointer) else kind
             for one, kind in zip(given, declared.args, strict=True)
         ]
 
@@ -219,48 +219,49 @@ def undisturbed(plan: Vector, state: Vector, dying: float, found: Vector) -> int
     """
 
 
-@_function(_N, P, _X, _X, _X, _N)
-def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
-    """Follow a motion from a section, where the clock is s, c, over a length (s).
+@_function(_N, P, _X, P, P)
+def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
+    """Go on from a state to the next event, or for the time `limit` (s) if that comes first.
 
-    Returns the number of events; more than `max_events`, or it is not finite, if given up.
+    Returns the event (see `motion`) and writes the state just after it; of `ended` the length of
+    the stretch and the velocity just before the event (`state`).
     """
 
 
-@_function(_N, P, _X, _X, _X, _N, P)
-def extremes(
-    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Vector
-) -> int:
-    """As `cycle`, with `observers.extremes` looking on."""
+@_function(_N, P, _X, _X, _X, _N)
+def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
+    """Follow a motion unobserved, see `event_loop.loop`."""
 
 
-@_function(_N, P, _X, _X, _X, _N, P)
-def demand(
-    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Vector
-) -> int:
-    """As `cycle`, with `observers.demand` looking on."""
+# Observers: each adds what it sees of one stretch to its notes.
 
 
-@_function(_N, P, _X, _X, _X, _N, P)
-def margin(
-    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Vector
-) -> int:
-    """As `cycle`, with `observers.margin` looking on."""
+@_function(types.void, P, P, P, P)
+def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `observers.extremes`."""
 
 
-@_function(_N, P, _X, _X, _X, _N, P, P, P)
+@_function(types.void, P, P, P, P)
+def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `observers.demand`."""
+
+
+@_function(types.void, P, P, P, P)
+def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `observers.margin`."""
+
+
+@_function(types.void, P, P, P, P, P, P)
 def record(
     plan: Vector,
-    state: Vector,
-    s: float,
-    c: float,
-    length: float,
-    max_events: int,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
     notes: Vector,
     samples: Vector,
     events: Vector,
-) -> int:
-    """As `cycle`, with `observers.record` looking on."""
+) -> None:
+    """See `observers.record`."""
 
 
 @_function(types.void, P, P, _N, _N)
@@ -273,18 +274,11 @@ def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
     """Write a unit disturbance of each part into the rows of q."""
 
 
-@_function(_N, P, _X, _X, _X, _N, P, P)
+@_function(types.void, P, P, P, P, P)
 def tangent(
-    plan: Vector,
-    state: Vector,
-    s: float,
-    c: float,
-    length: float,
-    max_events: int,
-    q: Vector,
-    notes: Vector,
-) -> int:
-    """As `cycle`, carrying disturbances along, with `observers.tangent`."""
+    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
+) -> None:
+    """Carry disturbances, the rows of q, through a stretch; see `observers.tangent`."""
 
 
 @_function(types.void, P, P)
@@ -297,19 +291,11 @@ def start_growth(plan: Vector, state: Vector, q: Vector, w: Vector) -> None:
     """Begin two disturbances, of unit size."""
 
 
-@_function(_N, P, _X, _X, _X, _N, P, P, P)
+@_function(types.void, P, P, P, P, P, P)
 def growth(
-    plan: Vector,
-    state: Vector,
-    s: float,
-    c: float,
-    length: float,
-    max_events: int,
-    q: Vector,
-    w: Vector,
-    notes: Vector,
-) -> int:
-    """As `cycle`, with `observers.growth` looking on."""
+    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector, w: Vector
+) -> None:
+    """See `observers.growth`."""
 
 
 @_function(types.void, P, _X, _N, P)

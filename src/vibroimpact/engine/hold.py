@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import flow
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.chaos_indicator import runs_away
 from vibroimpact.engine.extrapolation import pursue
@@ -95,7 +95,7 @@ def follow(
     done = 0
     while done < cycles and outcome == DONE:
         put(plan, state, section)
-        events = flow.extremes(plan, state, s, c, period, max_events, notes)
+        events = event_loop.extremes(plan, state, s, c, period, max_events, notes)
         if events > max_events:  # a cycle that is given up leaves the state of its section
             outcome = TOO_MANY_EVENTS
             put(plan, section, state)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from vibroimpact.engine import flow
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import TERMS, beyond, pointer, workspace
+from vibroimpact.engine.observers.growth import start_notes
 from vibroimpact.engine.state import copy, finite, load, parts_room, put, room, width
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
@@ -87,7 +88,8 @@ def growth(
         if number < -discard:
             events = flow.cycle(plan, here, s, c, period, max_events)
         else:
-            events = flow.growth(plan, here, s, c, period, max_events, q, w, notes)
+            start_notes(notes, period)
+            events = event_loop.growth(plan, here, s, c, period, max_events, notes, q, w)
             if number >= 0 and events <= max_events:
                 row = out[number - max(first, 0)]
                 row[FIRST] = notes[0]
@@ -155,7 +157,7 @@ def monodromy(
     done = 0
     while outcome == DONE and done < cycles:
         notes[0], notes[1], notes[2] = 0.0, 0.0, 0.0
-        events = flow.tangent(plan, here, s, c, period, max_events, q, notes)
+        events = event_loop.tangent(plan, here, s, c, period, max_events, notes, q)
         damping[0] += notes[0]
         done += 1
         if events > max_events:

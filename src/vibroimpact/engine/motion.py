@@ -31,7 +31,7 @@ SLIPS_RIGHT, SLIPS_LEFT = 16, 32
 
 MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR, AGE = range(8)
 STATE = 8
-"""A motion as a vector, between calls; its clock is the section's."""
+"""A motion as a vector, between calls; behind it stands its clock."""
 
 Clock = tuple[float, float]
 """Sine and cosine of the forcing's phase."""
@@ -86,8 +86,8 @@ class Stretch(NamedTuple):
 
 
 @kernel
-def unpacked(state: Vector, clock: Clock) -> Motion:
-    """The motion of a state vector at a section."""
+def unpacked(state: Vector) -> Motion:
+    """The motion of a state vector, with its clock."""
     return Motion(
         int(state[MODE]),
         int(state[FRESH]),
@@ -97,31 +97,18 @@ def unpacked(state: Vector, clock: Clock) -> Motion:
         state[LEFT_BUMPER],
         state[ISOLATOR],
         state[AGE],
-        clock,
+        (state[STATE], state[STATE + 1]),
     )
 
 
 @kernel
 def pack(motion: Motion, state: Vector) -> None:
-    """Write a motion into a state vector."""
+    """Write a motion into a state vector, with its clock."""
     state[MODE], state[FRESH] = motion.mode, motion.fresh
     state[U], state[V] = motion.u, motion.v
     state[RIGHT_BUMPER], state[LEFT_BUMPER] = motion.right, motion.left
     state[ISOLATOR], state[AGE] = motion.z, motion.age
-
-
-@kernel
-def at_section(motion: Motion, clock: Clock) -> Motion:
-    """The same motion with the forcing's phase exactly that of the section."""
-    mode, fresh, u, v, right, left, z, age, _ = motion
-    return Motion(mode, fresh, u, v, right, left, z, age, clock)
-
-
-@kernel
-def aged(motion: Motion, age: float) -> Motion:
-    """The same motion, its mode said to have lasted so long."""
-    mode, fresh, u, v, right, left, z, _, clock = motion
-    return Motion(mode, fresh, u, v, right, left, z, age, clock)
+    state[STATE], state[STATE + 1] = motion.clock
 
 
 def swapped(sides: int) -> int:
@@ -149,12 +136,6 @@ def mirror_image(state: Vector) -> Vector:
         image[at] = -state[at]
     image[RIGHT_BUMPER], image[LEFT_BUMPER] = state[LEFT_BUMPER], state[RIGHT_BUMPER]
     return image
-
-
-@kernel
-def finite(motion: Motion) -> bool:
-    """Whether displacement and velocity are within the range of numbers."""
-    return abs(motion.u) < 1e200 and abs(motion.v) < 1e200  # and no NaN
 
 
 @kernel

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine import dispatch, event_loop, fourier, measure
+from numba.extending import overload
+
+from vibroimpact.engine import dispatch, event_loop, flow, flow_dispatch, fourier, measure
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing import dispatch as forcing
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import CHOSEN, Vector, kernel
 from vibroimpact.engine.motion import ISOLATOR as MEMORY
 from vibroimpact.engine.motion import (
     LEFT,
@@ -21,39 +23,26 @@ from vibroimpact.engine.motion import (
     RIGHT_BUMPER,
     STATE,
     Motion,
+    Stretch,
     mirrored,
     pack,
     unpacked,
 )
 from vibroimpact.engine.motion import U as DISPLACEMENT
 from vibroimpact.engine.motion import V as VELOCITY
-from vibroimpact.engine.observe import UNOBSERVED
 from vibroimpact.engine.observers import record as recording
 from vibroimpact.engine.observers import tangent as disturbances
-from vibroimpact.engine.observers.demand import Demand
-from vibroimpact.engine.observers.extremes import Extremes
-from vibroimpact.engine.observers.growth import Growth
-from vibroimpact.engine.observers.margin import Margin
-from vibroimpact.engine.observers.record import Record
-from vibroimpact.engine.observers.tangent import DISTURBANCE, Tangent
-from vibroimpact.engine.state import FIRST
+from vibroimpact.engine.observers.demand import add
+from vibroimpact.engine.observers.extremes import widen
+from vibroimpact.engine.observers.margin import least_margin
+from vibroimpact.engine.observers.tangent import DISTURBANCE
+from vibroimpact.engine.state import ARRIVAL, EVENT, FIRST, STEP, T, copy
 
 PARTS = DISTURBANCE
 """u, u̇, u_R, u_L, z."""
 
 _FORGOTTEN = 9.0
 """What relaxes by more powers of e in a cycle is another's memory no more."""
-
-
-@kernel
-def _motion(state: Vector) -> Motion:
-    return unpacked(state, (state[STATE], state[STATE + 1]))
-
-
-@kernel
-def _keep(motion: Motion, state: Vector) -> None:
-    pack(motion, state)
-    state[STATE], state[STATE + 1] = motion.clock
 
 
 @kernel
@@ -161,8 +150,7 @@ def place(plan: Vector, state: Vector) -> None:
         else:
             left = deformation
     z = min(max(state[MEMORY], -plan[par.YIELD]), plan[par.YIELD])
-    clock = state[STATE], state[STATE + 1]
-    _keep(Motion(found, found, u, v, right, left, z, 0.0, clock), state)
+    pack(Motion(found, found, u, v, right, left, z, 0.0, unpacked(state).clock), state)
 
 
 @kernel
@@ -182,126 +170,106 @@ def at_point(plan: Vector, state: Vector, point: Vector) -> None:
 
 @kernel
 def undisturbed(plan: Vector, state: Vector, dying: float, found: Vector) -> int:
-    motion = _motion(state)
+    motion = unpacked(state)
     free, swing, felt, carried, motion = dispatch.undisturbed(plan, motion, motion.clock, dying)
     if not free:
         return 0
     found[0], found[1], found[2] = swing, felt, carried
-    _keep(motion, state)
+    pack(motion, state)
     return 1
 
 
 @kernel
-def _followed(
-    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Any
-) -> tuple[int, Any]:
-    clock = (s, c)
-    motion = unpacked(state, clock)
-    events, motion, notes = event_loop.cycle(plan, motion, clock, length, max_events, notes)
-    _keep(motion, state)
-    return events, notes
+def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
+    event, step, arrival, motion = flow_dispatch.advance(plan, unpacked(before), limit)
+    ended[STEP], ended[ARRIVAL] = step, arrival
+    pack(motion, after)
+    return event
+
+
+@kernel
+def _load(plan: Vector, kept: Vector, state: Vector, s: float, c: float) -> None:
+    copy(kept, state, STATE)
+    state[STATE], state[STATE + 1] = s, c
+
+
+@kernel
+def _put(plan: Vector, source: Vector, target: Vector) -> None:
+    copy(source, target, STATE + 2)
+
+
+@kernel
+def _finite(plan: Vector, state: Vector) -> bool:
+    return bool(abs(state[DISPLACEMENT]) < 1e200 and abs(state[VELOCITY]) < 1e200)  # and no NaN
+
+
+def _advanced(plan: Any, before: Any, limit: Any, ended: Any, after: Any) -> Any:
+    return advance(plan, before, limit, ended, after)
+
+
+@overload(_advanced, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
+def _advanced_by_flow(plan: Any, before: Any, limit: Any, ended: Any, after: Any) -> Any:
+    # Merged into the loop, tables of closed-form motion are a fifth faster; a Taylor step does not
+    # notice, and would be compiled twice.
+    return _called if plan.laws == par.BENT else advance.py_func
+
+
+def _called(plan: Any, before: Any, limit: Any, ended: Any, after: Any) -> Any:
+    return flow.advance(plan, before, limit, ended, after)
+
+
+_cycle = event_loop.loop(_advanced, _load, _put, _finite, None)
 
 
 @kernel
 def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
-    events, _ = _followed(plan, state, s, c, length, max_events, UNOBSERVED)
+    events: int = _cycle(plan, state, s, c, length, max_events)
     return events
 
 
 @kernel
-def extremes(
-    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Vector
-) -> int:
-    seen = Extremes(
-        notes[0],
-        notes[1],
-        notes[2],
-        notes[3],
-        int(notes[4]),
-        int(notes[5]),
-        notes[6],
-        notes[7],
-        notes[8],
-        notes[9],
+def _stretch(before: Vector, ended: Vector, after: Vector) -> Stretch:
+    return Stretch(
+        unpacked(before),
+        ended[T],
+        int(ended[EVENT]),
+        ended[STEP],
+        ended[ARRIVAL],
+        unpacked(after),
     )
-    events, seen = _followed(plan, state, s, c, length, max_events, seen)
-    notes[0], notes[1], notes[2], notes[3] = seen.u_least, seen.u_most, seen.a_least, seen.a_most
-    notes[4], notes[5] = seen.hits_right, seen.hits_left
-    notes[6], notes[7] = seen.force_right, seen.force_left
-    notes[8], notes[9] = seen.impulse_right, seen.impulse_left
-    return events
 
 
 @kernel
-def demand(
-    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Vector
-) -> int:
-    seen = Demand(
-        notes[0],
-        notes[1],
-        notes[2],
-        notes[3],
-        notes[4],
-        notes[5],
-        notes[6],
-        notes[7],
-        int(notes[8]),
-        int(notes[9]),
-        notes[10],
-        notes[11],
-        notes[12],
-        int(notes[13]),
-    )
-    events, seen = _followed(plan, state, s, c, length, max_events, seen)
-    notes[0], notes[1], notes[2], notes[3] = seen.u_least, seen.u_most, seen.a_least, seen.a_most
-    notes[4], notes[5] = seen.force_right, seen.force_left
-    notes[6], notes[7] = seen.impulse_right, seen.impulse_left
-    notes[8], notes[9] = seen.hits_right, seen.hits_left
-    notes[10], notes[11], notes[12] = seen.work, seen.lost, seen.lost_stops
-    return events
+def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    widen(plan, notes, _stretch(before, ended, after))
 
 
 @kernel
-def margin(
-    plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int, notes: Vector
-) -> int:
-    events, seen = _followed(plan, state, s, c, length, max_events, Margin(notes[0]))
-    notes[0] = seen.least
-    return events
+def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    add(plan, notes, before, _stretch(before, ended, after))
+
+
+@kernel
+def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    notes[0] = least_margin(plan, notes[0], _stretch(before, ended, after))
 
 
 @kernel
 def record(
     plan: Vector,
-    state: Vector,
-    s: float,
-    c: float,
-    length: float,
-    max_events: int,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
     notes: Vector,
     samples: Vector,
     events: Vector,
-) -> int:
-    seen = Record(
-        samples,
-        int(notes[recording.COLUMNS]),
-        int(notes[recording.BEGIN]),
-        notes[recording.STEP],
-        int(notes[recording.COUNT]),
-        int(notes[recording.NEXT]),
-        events,
-        int(notes[recording.WRITTEN]),
-        int(notes[recording.LAST]),
-        int(notes[recording.NUMBER]),
-    )
-    here, seen = _followed(plan, state, s, c, length, max_events, seen)
-    notes[recording.WRITTEN] = seen.written
-    return here
+) -> None:
+    recording.write_down(plan, notes, samples, events, _stretch(before, ended, after))
 
 
 @kernel
 def write(plan: Vector, state: Vector, samples: Vector, columns: int, at: int) -> None:
-    recording.write(plan, _motion(state), samples, columns, at)
+    recording.write(plan, unpacked(state), samples, columns, at)
 
 
 @kernel
@@ -311,24 +279,14 @@ def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
 
 @kernel
 def tangent(
-    plan: Vector,
-    state: Vector,
-    s: float,
-    c: float,
-    length: float,
-    max_events: int,
-    q: Vector,
-    notes: Vector,
-) -> int:
-    seen = Tangent(q, notes[0], int(notes[1]), int(notes[2]))
-    events, seen = _followed(plan, state, s, c, length, max_events, seen)
-    notes[0], notes[1], notes[2] = seen.damping, seen.hits_right, seen.hits_left
-    return events
+    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
+) -> None:
+    disturbances.carry_all(plan, notes, q, _stretch(before, ended, after))
 
 
 @kernel
 def mirror(plan: Vector, state: Vector, q: Vector) -> None:
-    _keep(mirrored(_motion(state)), state)
+    pack(mirrored(unpacked(state)), state)
     for i in range(DISTURBANCE):
         at = i * DISTURBANCE
         q[at], q[at + 1] = -q[at], -q[at + 1]
@@ -343,25 +301,14 @@ def start_growth(plan: Vector, state: Vector, q: Vector, w: Vector) -> None:
 
 @kernel
 def growth(
-    plan: Vector,
-    state: Vector,
-    s: float,
-    c: float,
-    length: float,
-    max_events: int,
-    q: Vector,
-    w: Vector,
-    notes: Vector,
-) -> int:
-    seen = Growth(q, w, dispatch.stiff_rate(plan), length, 0.0, 0.0, 0.0, 0.0)
-    events, seen = _followed(plan, state, s, c, length, max_events, seen)
-    notes[0], notes[1], notes[2] = seen.first, seen.both, seen.dissipation
-    return events
+    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector, w: Vector
+) -> None:
+    dispatch.grow(plan, notes, q, w, _stretch(before, ended, after))
 
 
 @kernel
 def measure_phase(plan: Vector, state: Vector, length: float, side: int, out: Vector) -> None:
-    measure.measure_phase(plan, _motion(state), length, side, out)
+    measure.measure_phase(plan, unpacked(state), length, side, out)
 
 
 @kernel
@@ -374,7 +321,7 @@ def integrate_phase(
     count: int,
     out: Vector,
 ) -> None:
-    fourier.integrate_phase(plan, _motion(state), length, begins, lines, count, out)
+    fourier.integrate_phase(plan, unpacked(state), length, begins, lines, count, out)
 
 
 MOTION = (
@@ -390,6 +337,7 @@ MOTION = (
     point,
     at_point,
     undisturbed,
+    advance,
     cycle,
     extremes,
 )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from vibroimpact.engine import flow
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.hold import measure
@@ -342,7 +342,7 @@ def grazing_margin(
     s, c = math.sin(phase), math.cos(phase)
     notes[0] = math.inf
     for _ in range(cycles):
-        if flow.margin(plan, state, s, c, period, max_events, notes) > max_events:
+        if event_loop.margin(plan, state, s, c, period, max_events, notes) > max_events:
             return math.nan
     least: float = notes[0]
     return least

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from vibroimpact.engine import flow
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
@@ -96,7 +96,7 @@ def follow(
         if n > 1 or (happened and listed):
             put(plan, before, here)
             start_notes(notes, columns, number * samples, step, n, 1, count, max_events, number)
-            happened = flow.record(
+            happened = event_loop.record(
                 plan, here, s, c, length, max_events, notes, pointer(out), pointer(events)
             )
             count = int(notes[WRITTEN])

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine import flow
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import FLIGHT
@@ -96,7 +96,7 @@ def section_map(
     facts[CONTACTS_RIGHT], facts[CONTACTS_LEFT], facts[DAMPING] = 0.0, 0.0, 0.0
     for _ in range(count):
         notes[0], notes[1], notes[2] = 0.0, 0.0, 0.0
-        if flow.tangent(plan, state, s, c, period, max_events, q, notes) > max_events:
+        if event_loop.tangent(plan, state, s, c, period, max_events, notes, q) > max_events:
             return TOO_MANY_EVENTS
         facts[DAMPING] += notes[0]
         facts[CONTACTS_RIGHT] += notes[1]

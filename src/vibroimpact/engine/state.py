@@ -14,6 +14,12 @@ BEHIND = 3
 LARGEST = 64
 """Largest number of parts."""
 
+EVENT, T, STEP, ARRIVAL = range(4)
+"""Of a stretch between two states: what ended it, the time since the section at its start (s), its
+length (s), and the velocity just before the event that ends it, which an impact changes."""
+
+stretch_room = stack(4)
+"""Room for them."""
 room = stack(FIRST + LARGEST + BEHIND)
 """Room for a state."""
 parts_room = stack(LARGEST)

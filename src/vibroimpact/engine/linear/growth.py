@@ -6,8 +6,9 @@ import math
 
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.carry import damping, disturb, disturb_area, press_area
+from vibroimpact.engine.linear.tables import stiff_rate
 from vibroimpact.engine.motion import LEFT, LIMIT, RIGHT, Stretch
-from vibroimpact.engine.observers.growth import Growth
+from vibroimpact.engine.observers.growth import BOTH, DISSIPATION, FIRST, LENGTH, SHRUNK
 from vibroimpact.engine.observers.tangent import DISTURBANCE, contraction, tie
 
 AREA = 6
@@ -73,10 +74,11 @@ def normalise(plan: Vector, q: Vector, w: Vector, weight: float, mode: int) -> t
 
 
 @kernel
-def grow(plan: Vector, notes: Growth, stretch: Stretch) -> Growth:
+def grow(plan: Vector, notes: Vector, q: Vector, w: Vector, stretch: Stretch) -> None:
     """Carry both through one stretch."""
     before, t, event, step, arrival, after = stretch
-    q, w, weight, length, first, both, dissipation, shrunk = notes
+    weight = stiff_rate(plan)
+    first, both, shrunk, length = notes[FIRST], notes[BOTH], notes[SHRUNK], notes[LENGTH]
     here = damping(plan, before.mode)
     # In pieces over which nothing shrinks below the range of numbers.
     pieces = 1 + int(min((here + weight) * step / _RANGE, _MOST_PIECES))
@@ -103,5 +105,5 @@ def grow(plan: Vector, notes: Growth, stretch: Stretch) -> Growth:
                     both += alike * more_both
                     piece += alike * (piece - ago)
                 ago, direction, slope = piece, q[0], q[1]
-    dissipation += here * step + contraction(plan, event, after)
-    return Growth(q, w, weight, length, first, both, dissipation, shrunk)
+    notes[FIRST], notes[BOTH], notes[SHRUNK] = first, both, shrunk
+    notes[DISSIPATION] += here * step + contraction(plan, event, after)

@@ -7,71 +7,49 @@ terms' sizes, and few pieces of a long motion pass that.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
+from vibroimpact.engine import flow, measure
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import accelerated, begin, displacement, expanded, following, more
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.linear.stops import rigid
-from vibroimpact.engine.measure import (
-    A_LEAST,
-    A_MOST,
-    FORCE,
-    IMPULSE,
-    LOST,
-    LOST_LEFT,
-    LOST_RIGHT,
-    MEASURES,
-    WORK,
-    X_LEAST,
-    X_MOST,
-    measure_phase,
-)
 from vibroimpact.engine.memory import stack, workspace
 from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, Motion, Stretch
-from vibroimpact.engine.observe import observer
-from vibroimpact.engine.observers.extremes import series_extremes
+from vibroimpact.engine.observers.extremes import (
+    A_LEAST,
+    A_MOST,
+    FORCE_LEFT,
+    FORCE_RIGHT,
+    HITS_LEFT,
+    HITS_RIGHT,
+    IMPULSE_LEFT,
+    IMPULSE_RIGHT,
+    NOTES,
+    U_LEAST,
+    U_MOST,
+    nothing,
+    series_extremes,
+)
 
-_measures = stack(MEASURES)
-
-
-class Demand(NamedTuple):
-    """Extremes of displacement (m) and absolute acceleration (m/s²), and what the stops did.
-
-    Forces, impulses and energies are per unit mass. A force is infinite where a rigid stop was
-    struck. Energies are found only if `everything` is not 0.
-    """
-
-    u_least: float
-    u_most: float
-    a_least: float
-    a_most: float
-    force_right: float
-    force_left: float
-    impulse_right: float
-    impulse_left: float
-    hits_right: int
-    hits_left: int
-    work: float
-    lost: float
-    """In the isolator."""
-    lost_stops: float
-    everything: int
+_measures = stack(measure.MEASURES)
 
 
-note_room = stack(len(Demand._fields))
-"""Room for them, between calls."""
+# Of the notes: first those of `extremes`, impulses summed up; then, if `EVERYTHING` is not 0, the
+# work of the shaking and what is lost in the isolator and in the stops, per unit mass.
+WORK, LOST, LOST_STOPS, EVERYTHING = range(NOTES, NOTES + 4)
+
+note_room = stack(NOTES + 4)
+"""Room for them."""
 
 
 @kernel
 def start_notes(notes: Vector, everything: int) -> None:
     """Before anything has been seen."""
-    for i in range(4, 13):
+    nothing(notes)
+    for i in range(WORK, EVERYTHING):
         notes[i] = 0.0
-    notes[0], notes[2] = math.inf, math.inf
-    notes[1], notes[3] = -math.inf, -math.inf
-    notes[13] = everything
+    notes[EVERYTHING] = everything
 
 
 @kernel
@@ -101,7 +79,7 @@ def _relaxed(plan: Vector, side: int, before: float, after: float) -> float:
 @kernel
 def _losses(plan: Vector, before: Motion, after: Motion, rows: Vector) -> float:
     """What the stops lose in a stretch, pressed and relaxing."""
-    lost: float = rows[LOST_RIGHT] + rows[LOST_LEFT]
+    lost: float = rows[measure.LOST_RIGHT] + rows[measure.LOST_LEFT]
     if not before.mode & RIGHT:
         lost += _relaxed(plan, RIGHT, before.right, after.right)
     if not before.mode & LEFT:
@@ -110,28 +88,26 @@ def _losses(plan: Vector, before: Motion, after: Motion, rows: Vector) -> float:
 
 
 @kernel
-def _unknown(notes: Demand) -> Demand:
-    """What is noted of a motion that cannot be measured: the impacts alone."""
-    no = math.nan
-    right, left = notes.hits_right, notes.hits_left
-    return Demand(no, no, no, no, no, no, no, no, right, left, no, no, no, notes.everything)
+def _unknown(notes: Vector) -> None:
+    """Note that the motion cannot be measured: the impacts alone are known."""
+    for i in range(EVERYTHING):
+        if i not in (HITS_RIGHT, HITS_LEFT):
+            notes[i] = math.nan
 
 
-@observer(Demand)
-def demand(plan: Vector, notes: Demand, stretch: Stretch) -> Demand:
-    """Add one stretch. One-sided values at both its ends count.
+@kernel
+def add(plan: Vector, notes: Vector, state: Vector, stretch: Stretch) -> None:
+    """Add one stretch, which begins with this state. One-sided values at both its ends count.
 
     All is NaN from a stretch on that cannot be measured.
     """
-    if math.isnan(notes.u_least):
-        return notes
+    if math.isnan(notes[U_LEAST]):
+        return
     before, _, event, step, arrival, after = stretch
-    u_least, u_most, a_least, a_most = notes.u_least, notes.u_most, notes.a_least, notes.a_most
-    force_right, force_left = notes.force_right, notes.force_left
-    impulse_right, impulse_left = notes.impulse_right, notes.impulse_left
-    work, lost, lost_stops = notes.work, notes.lost, notes.lost_stops
+    u_least, u_most = notes[U_LEAST], notes[U_MOST]
+    a_least, a_most = notes[A_LEAST], notes[A_MOST]
     mode = before.mode
-    if mode == FLIGHT and notes.everything == 0:
+    if mode == FLIGHT and notes[EVERYTHING] == 0.0:
         series = workspace()
         cursor = begin(plan, before, step)
         while more(plan, cursor):
@@ -144,46 +120,35 @@ def demand(plan: Vector, notes: Demand, stretch: Stretch) -> Demand:
     else:
         rows = _measures()
         side = RIGHT if mode & RIGHT else mode & LEFT
-        measure_phase(plan, before, step, side, rows)
-        if math.isnan(rows[WORK]):
-            return _unknown(notes)
-        low, top = displacement(plan, mode, rows[X_LEAST]), displacement(plan, mode, rows[X_MOST])
+        flow.measure_phase(plan, state, step, side, rows)
+        if math.isnan(rows[measure.WORK]):
+            _unknown(notes)
+            return
+        low, top = (
+            displacement(plan, mode, rows[measure.X_LEAST]),
+            displacement(plan, mode, rows[measure.X_MOST]),
+        )
         u_least, u_most = min(u_least, low, top), max(u_most, low, top)
-        a_least, a_most = min(a_least, rows[A_LEAST]), max(a_most, rows[A_MOST])
-        if notes.everything:
-            work -= rows[WORK]
-            lost += rows[LOST]
-            lost_stops += _losses(plan, before, after, rows)
+        a_least, a_most = min(a_least, rows[measure.A_LEAST]), max(a_most, rows[measure.A_MOST])
+        if notes[EVERYTHING]:
+            notes[WORK] -= rows[measure.WORK]
+            notes[LOST] += rows[measure.LOST]
+            notes[LOST_STOPS] += _losses(plan, before, after, rows)
         if mode & RIGHT:
-            force_right = max(force_right, rows[FORCE])
-            impulse_right += rows[IMPULSE]
+            notes[FORCE_RIGHT] = max(notes[FORCE_RIGHT], rows[measure.FORCE])
+            notes[IMPULSE_RIGHT] += rows[measure.IMPULSE]
         if mode == BOTH:
-            measure_phase(plan, before, step, LEFT, rows)
+            flow.measure_phase(plan, state, step, LEFT, rows)
         if mode & LEFT:
-            force_left = max(force_left, rows[FORCE])
-            impulse_left += rows[IMPULSE]
-    if event in (RIGHT, LEFT) and rigid(plan, event) and arrival != after.v:
-        struck = abs(arrival - after.v)
-        lost_stops += 0.5 * (arrival * arrival - after.v * after.v)
-        if event == RIGHT:
-            force_right = math.inf
-            impulse_right += struck
-        else:
-            force_left = math.inf
-            impulse_left += struck
-    return Demand(
-        u_least,
-        u_most,
-        a_least,
-        a_most,
-        force_right,
-        force_left,
-        impulse_right,
-        impulse_left,
-        notes.hits_right + (event == RIGHT),
-        notes.hits_left + (event == LEFT),
-        work,
-        lost,
-        lost_stops,
-        notes.everything,
-    )
+            notes[FORCE_LEFT] = max(notes[FORCE_LEFT], rows[measure.FORCE])
+            notes[IMPULSE_LEFT] += rows[measure.IMPULSE]
+    notes[U_LEAST], notes[U_MOST] = u_least, u_most
+    notes[A_LEAST], notes[A_MOST] = a_least, a_most
+    if event not in (RIGHT, LEFT):
+        return
+    right = event == RIGHT
+    notes[HITS_RIGHT if right else HITS_LEFT] += 1.0
+    if rigid(plan, event) and arrival != after.v:
+        notes[LOST_STOPS] += 0.5 * (arrival * arrival - after.v * after.v)
+        notes[FORCE_RIGHT if right else FORCE_LEFT] = math.inf
+        notes[IMPULSE_RIGHT if right else IMPULSE_LEFT] += abs(arrival - after.v)

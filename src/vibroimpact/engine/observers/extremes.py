@@ -32,7 +32,6 @@ from vibroimpact.engine.linear.roots import jet
 from vibroimpact.engine.linear.stops import rigid
 from vibroimpact.engine.memory import stack, workspace
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion, Stretch
-from vibroimpact.engine.observe import observer
 
 _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
 
@@ -143,46 +142,34 @@ def struck(plan: Vector, stretch: Stretch, side: int) -> float:
     return abs(stretch.arrival - stretch.after.v)
 
 
-class Extremes(NamedTuple):
-    """Range of the displacement (m) and of the absolute acceleration (m/s²), contacts begun.
+U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT = range(6)
+"""Of the notes: range of the displacement (m) and of the absolute acceleration (m/s²), contacts
+begun."""
+FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT = range(6, 10)
+"""Then the largest force of a stop, infinite of a rigid one that is struck, and the largest
+impulse of an impact on a rigid one, per unit mass (m/s², m/s)."""
+NOTES = 10
 
-    Then the largest force of a stop, infinite of a rigid one that is struck, and the largest
-    impulse of an impact on a rigid one, per unit mass (m/s², m/s).
-    """
-
-    u_least: float
-    u_most: float
-    a_least: float
-    a_most: float
-    hits_right: int
-    hits_left: int
-    force_right: float
-    force_left: float
-    impulse_right: float
-    impulse_left: float
-
-
-notes_room = stack(len(Extremes._fields))
-"""Room for them, between calls."""
+notes_room = stack(NOTES)
+"""Room for them."""
 
 
 @kernel
 def nothing(notes: Vector) -> None:
     """Before anything is seen."""
-    for i in range(4, 10):
+    for i in range(HITS_RIGHT, NOTES):
         notes[i] = 0.0
-    notes[0], notes[2] = math.inf, math.inf
-    notes[1], notes[3] = -math.inf, -math.inf
+    notes[U_LEAST], notes[A_LEAST] = math.inf, math.inf
+    notes[U_MOST], notes[A_MOST] = -math.inf, -math.inf
 
 
-@observer(Extremes)
-def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
+@kernel
+def widen(plan: Vector, notes: Vector, stretch: Stretch) -> None:
     """Widen the ranges by one stretch. One-sided values at both its ends count."""
     before, event, step = stretch.before, stretch.event, stretch.step
-    u_least, u_most, a_least, a_most = notes.u_least, notes.u_most, notes.a_least, notes.a_most
-    hits_right, hits_left = notes.hits_right, notes.hits_left
-    force_right, force_left = notes.force_right, notes.force_left
-    impulse_right, impulse_left = notes.impulse_right, notes.impulse_left
+    u_least, u_most = notes[U_LEAST], notes[U_MOST]
+    a_least, a_most = notes[A_LEAST], notes[A_MOST]
+    force_right, force_left = notes[FORCE_RIGHT], notes[FORCE_LEFT]
     series, room = workspace(), chords()
     sign = -1.0 if before.mode == LEFT else 1.0
     x = coordinate(plan, before)
@@ -241,19 +228,14 @@ def extremes(plan: Vector, notes: Extremes, stretch: Stretch) -> Extremes:
         new_least, new_most = new_most, new_least
         x_least, x_most, least_a, most_a = x_most, x_least, -most_a, -least_a
     if new_least:
-        u_least = min(u_least, displacement(plan, before.mode, x_least))
+        notes[U_LEAST] = min(u_least, displacement(plan, before.mode, x_least))
     if new_most:
-        u_most = max(u_most, displacement(plan, before.mode, x_most))
+        notes[U_MOST] = max(u_most, displacement(plan, before.mode, x_most))
+    notes[A_LEAST], notes[A_MOST] = min(a_least, least_a), max(a_most, most_a)
     right, left = struck(plan, stretch, RIGHT), struck(plan, stretch, LEFT)
-    return Extremes(
-        u_least,
-        u_most,
-        min(a_least, least_a),
-        max(a_most, most_a),
-        hits_right + (event == RIGHT),
-        hits_left + (event == LEFT),
-        math.inf if right > 0.0 else force_right,
-        math.inf if left > 0.0 else force_left,
-        max(impulse_right, right),
-        max(impulse_left, left),
-    )
+    notes[FORCE_RIGHT] = math.inf if right > 0.0 else force_right
+    notes[FORCE_LEFT] = math.inf if left > 0.0 else force_left
+    notes[IMPULSE_RIGHT] = max(notes[IMPULSE_RIGHT], right)
+    notes[IMPULSE_LEFT] = max(notes[IMPULSE_LEFT], left)
+    if event in (RIGHT, LEFT):
+        notes[HITS_RIGHT if event == RIGHT else HITS_LEFT] += 1.0

@@ -7,7 +7,6 @@ were not there, to first order: it vanishes with the velocity, and beyond it a c
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import acceleration_of, begin, expanded, following, more
@@ -17,7 +16,6 @@ from vibroimpact.engine.linear.layout import ORDER, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, FLIGHT, LIMIT, RIGHT, Motion, Stretch
-from vibroimpact.engine.observe import observer
 
 
 @kernel
@@ -48,19 +46,15 @@ def impact_depth(plan: Vector, stretch: Stretch) -> float:
     return depth
 
 
-class Margin(NamedTuple):
-    """The least clearance left, or minus the least depth reached, where the mass turns (m)."""
+@kernel
+def least_margin(plan: Vector, best: float, stretch: Stretch) -> float:
+    """The least clearance left, or minus the least depth reached, where the mass turns (m).
 
-    least: float
-
-
-@observer(Margin)
-def margin(plan: Vector, notes: Margin, stretch: Stretch) -> Margin:
-    """Take the turning points of one stretch into account."""
+    `best` is that of the stretches before.
+    """
     before = stretch.before
     gap_r, rate_r = plan[par.BUMPER + par.GAP], plan[par.BUMPER + par.RATE]
     gap_l, rate_l = plan[par.BUMPER + par.WIDTH + par.GAP], plan[par.BUMPER + par.WIDTH + par.RATE]
-    best = notes.least
     series, slope = workspace(), workspace()
     cursor = begin(plan, before, stretch.step)
     while more(plan, cursor):
@@ -87,4 +81,4 @@ def margin(plan: Vector, notes: Margin, stretch: Stretch) -> Margin:
     depth = impact_depth(plan, stretch)
     if depth < abs(best):
         best = -depth
-    return Margin(best)
+    return best

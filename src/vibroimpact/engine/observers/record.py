@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import (
@@ -17,7 +16,6 @@ from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.memory import beyond, stack, workspace
 from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, TURNED, Motion, Stretch
-from vibroimpact.engine.observe import observer
 
 # Rows of the samples: a row a variable, so that each is one piece of memory.
 DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE = range(5)
@@ -61,30 +59,14 @@ def start_notes(
     max_events: int,
     number: int,
 ) -> None:
-    """Begin a cycle; see `Record`."""
+    """Begin a cycle, `number`.
+
+    Column `begin` + i of the `columns` of the samples is the next, of `count` in this cycle, `step`
+    seconds apart; row `written` of the events is the next.
+    """
     notes[COLUMNS], notes[BEGIN], notes[STEP], notes[COUNT] = columns, begin, step, count
     notes[NEXT], notes[WRITTEN], notes[LAST] = i, written, written + max_events
     notes[NUMBER] = number
-
-
-class Record(NamedTuple):
-    """Where to write.
-
-    Column `begin` + i of the `columns` of `samples` is the next, of n in this cycle, `step` seconds
-    apart; row `written` of `events` is the next, in cycle `number`, and `last` the first that must
-    not be written.
-    """
-
-    samples: Vector
-    columns: int
-    begin: int
-    step: float
-    n: int
-    i: int
-    events: Vector
-    written: int
-    last: int
-    number: int
 
 
 @kernel
@@ -164,20 +146,22 @@ def put(out: Vector, to: int, room: Vector, start: int, n: int, sign: float) -> 
 
 
 @kernel
-def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) -> int:
-    """Fill the samples that fall within one stretch; return the next one.
+def sample(
+    plan: Vector, notes: Vector, flat: Vector, before: Motion, t: float, reach: float
+) -> None:
+    """Fill the samples that fall within one stretch.
 
     The motion itself is not interrupted: what is sampled has no influence.
     """
-    i, step = notes.i, notes.step
-    end = before_end(i, notes.n, step, t + reach)
+    i, step = int(notes[NEXT]), notes[STEP]
+    end = before_end(i, int(notes[COUNT]), step, t + reach)
     if i >= end:
-        return i
+        return
     series, room = workspace(), samples()
     mode = before.mode
     sign = -1.0 if mode == LEFT else 1.0
     contact = TOUCHING[mode]
-    flat, count = notes.samples, notes.columns
+    count = int(notes[COLUMNS])
     remembers = plan[par.HYSTERETIC] != 0.0  # else nobody looks at that row
     cursor = begin(plan, before, reach)
     while i < end:
@@ -187,7 +171,7 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
             room[U * BLOCK + j] = displacement(plan, mode, room[j])
         faces(plan, before, RIGHT, t, step, i, n, room)
         faces(plan, before, LEFT, t, step, i, n, room)
-        k = notes.begin + i
+        k = int(notes[BEGIN]) + i
         put(flat, DISPLACEMENT * count + k, room, U * BLOCK, n, 1.0)
         put(flat, VELOCITY * count + k, room, VELOCITY * BLOCK, n, sign)
         put(flat, ACCELERATION * count + k, room, ACCELERATION * BLOCK, n, sign)
@@ -198,19 +182,20 @@ def sample(plan: Vector, notes: Record, before: Motion, t: float, reach: float) 
         if remembers:
             put(flat, MEMORY * count + k, room, MEMORY * BLOCK, n, 1.0)
         i += n
-    return i
+    notes[NEXT] = i
 
 
-@observer(Record)
-def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
+@kernel
+def write_down(
+    plan: Vector, notes: Vector, samples: Vector, events: Vector, stretch: Stretch
+) -> None:
     """Write down one stretch and the event that ends it."""
     before, t, event, step, arrival, after = stretch
-    samples, columns, first, spacing, n, i, events, written, last, number = notes
-    if n:
-        i = sample(plan, notes, before, t, math.inf if event == LIMIT else step)
-    if event not in (LIMIT, TURNED) and written < last:
-        row = beyond(events, EVENT * written)
-        row[E_CYCLE], row[E_TIME] = number, t + step
+    if notes[COUNT]:
+        sample(plan, notes, samples, before, t, math.inf if event == LIMIT else step)
+    if event not in (LIMIT, TURNED) and notes[WRITTEN] < notes[LAST]:
+        row = beyond(events, EVENT * int(notes[WRITTEN]))
+        row[E_CYCLE], row[E_TIME] = notes[NUMBER], t + step
         side = after.fresh & BOTH
         row[E_KIND] = DETACHMENT
         if event != DETACHED:
@@ -223,5 +208,4 @@ def record(plan: Vector, notes: Record, stretch: Stretch) -> Record:
         row[E_BEFORE] = acceleration(plan, arrived)
         row[E_BEHIND] = acceleration(plan, after)
         row[E_MEMORY] = after.z
-        written += 1
-    return Record(samples, columns, first, spacing, n, i, events, written, last, number)
+        notes[WRITTEN] += 1.0

@@ -15,13 +15,11 @@ happens. A free bumper's δu_j fades as the bumper relaxes, at once without a da
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import acceleration_of, carry
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Stretch
-from vibroimpact.engine.observe import observer
 
 DISTURBANCE = 5
 """Components: displacement, velocity, right and left bumper, signed as in the paper (eq. 3), and
@@ -90,19 +88,13 @@ def contraction(plan: Vector, event: int, after: Motion) -> float:
     return math.inf if after.mode & event or e == 0.0 else -2.0 * math.log(e)
 
 
-class Tangent(NamedTuple):
-    """Disturbances carried along, the integral of the damping, contacts begun on each side."""
-
-    disturbances: Vector
-    damping: float
-    hits_right: int
-    hits_left: int
+DAMPING, HITS_RIGHT, HITS_LEFT = range(3)
+"""Of the notes: the integral of the damping, contacts begun on each side."""
 
 
-@observer(Tangent)
-def tangent(plan: Vector, notes: Tangent, stretch: Stretch) -> Tangent:
-    """Carry the disturbances through one stretch."""
-    q, integral, hits_right, hits_left = notes
-    lost = carry(plan, stretch, q, DISTURBANCE)
-    event = stretch.event
-    return Tangent(q, integral + lost, hits_right + (event == RIGHT), hits_left + (event == LEFT))
+@kernel
+def carry_all(plan: Vector, notes: Vector, q: Vector, stretch: Stretch) -> None:
+    """Carry a disturbance of each component, the rows of q, through one stretch."""
+    notes[DAMPING] += carry(plan, stretch, q, DISTURBANCE)
+    if stretch.event in (RIGHT, LEFT):
+        notes[HITS_RIGHT if stretch.event == RIGHT else HITS_LEFT] += 1.0

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine import flow
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import change_rate, let_go, stepped, turned, value
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -25,10 +26,13 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     TURNED,
     Motion,
+    pack,
+    unpacked,
 )
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
 from vibroimpact.engine.series.march import headed
+from vibroimpact.engine.state import STEP, room, stretch_room
 from vibroimpact.engine.taylor.ahead import NOT_YET, ahead_of, branched, stepped_on, varies
 from vibroimpact.engine.taylor.frame import (
     creeps,
@@ -263,8 +267,14 @@ def stretch_end(
 
 @kernel
 def smooth(plan: Vector, motion: Motion, limit: float) -> tuple[float, Motion]:
-    """How long a motion follows one piece of its laws, without stops, and what comes after it."""
-    event, t, _, after = advance_taylor(plan, motion, limit)
+    """How long a motion follows one piece of its laws, without stops, and what comes after it.
+
+    The flow's own function is called: merged, it would be compiled once more for each measure.
+    """
+    before, ended, behind = room(), stretch_room(), room()
+    pack(motion, before)
+    event = flow.advance(plan, before, limit, ended, behind)
+    t, after = ended[STEP], unpacked(behind)
     if event == TURNED:
         return t, after
     if event != LIMIT and t < _AT_ONCE * limit:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import stiff_rate
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import LEFT, RIGHT, Stretch
-from vibroimpact.engine.observers.growth import Growth
+from vibroimpact.engine.observers.growth import BOTH, DISSIPATION, FIRST
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
 from vibroimpact.engine.taylor.carry import carry
 
@@ -66,9 +67,9 @@ def _unit(plan: Vector, a: Vector, weight: float, mode: int) -> float:
 
 
 @kernel
-def grow(plan: Vector, notes: Growth, stretch: Stretch) -> Growth:
+def grow(plan: Vector, notes: Vector, q: Vector, w: Vector, stretch: Stretch) -> None:
     """Carry both through one stretch."""
-    q, w, weight, length, first, both, dissipation, _ = notes
+    weight = stiff_rate(plan)
     mode = stretch.after.mode
     lost = carry(plan, stretch, q, 1)
     carry(plan, stretch, w, 1)
@@ -77,10 +78,10 @@ def grow(plan: Vector, notes: Growth, stretch: Stretch) -> Growth:
     for i in range(DISTURBANCE):
         w[i] -= common * q[i]
     two = _unit(plan, w, weight, mode)
-    first += one
-    both += one + two
+    notes[FIRST] += one
+    notes[BOTH] += one + two
+    notes[DISSIPATION] += lost
     if one == -math.inf:  # a rest leaves nothing of either
         start_growth(plan, q, w, weight, mode)
     elif two == -math.inf:  # of one at most, such as what the isolator remembers
         _start_second(w, weight)
-    return Growth(q, w, weight, length, first, both, dissipation + lost, 0.0)
