@@ -211,7 +211,7 @@ def _advanced(plan: Any, before: Any, limit: Any, ended: Any, after: Any) -> Any
 def _advanced_by_flow(plan: Any, before: Any, limit: Any, ended: Any, after: Any) -> Any:
     # Merged into the loop, tables of closed-form motion are a fifth faster; a Taylor step does not
     # notice, and would be compiled twice.
-    return _called if plan.laws == par.BENT else advance.py_func
+    return _called if plan.laws == par.BENT else advance.py_func  # type: ignore[attr-defined]
 
 
 def _called(plan: Any, before: Any, limit: Any, ended: Any, after: Any) -> Any:
