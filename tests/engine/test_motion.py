@@ -18,7 +18,6 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     STATE,
     Motion,
-    aged,
     at_section,
     coordinates,
     mirror_image,
@@ -77,4 +76,3 @@ def test_which_way_friction_lets_go_is_mirrored() -> None:
 def test_what_is_set_anew_is_set_alone() -> None:
     one = motion(RIGHT, RIGHT)
     assert at_section(one, (0.0, 1.0)) == one._replace(clock=(0.0, 1.0))
-    assert aged(one, 9.0) == one._replace(age=9.0)

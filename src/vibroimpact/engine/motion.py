@@ -117,13 +117,6 @@ def at_section(motion: Motion, clock: Clock) -> Motion:
     return Motion(mode, fresh, u, v, right, left, z, age, clock)
 
 
-@kernel
-def aged(motion: Motion, age: float) -> Motion:
-    """The same motion, its mode said to have lasted so long."""
-    mode, fresh, u, v, right, left, z, _, clock = motion
-    return Motion(mode, fresh, u, v, right, left, z, age, clock)
-
-
 def swapped(sides: int) -> int:
     """Right for left, other bits as they are."""
     pairs = RIGHT | SLIPS_RIGHT
