@@ -142,11 +142,12 @@ def follow(
     """
     section = room()
     number, outcome = first, DONE
+    i = first % schedule.size
     while number < last and outcome == DONE:
-        row = beyond(schedule.rows, ROW * (number % schedule.size))
+        row = beyond(schedule.rows, ROW * i)
         if schedule.changes:
             begin_again(plan, state)
-        wind(plan, state, row[S], row[C])
+            wind(plan, state, row[S], row[C])
         put(plan, state, section)
         length = min(1.0, last - number) * row[LASTS]
         leg = Leg(number, row[S], row[C], length, max_events)
@@ -155,6 +156,7 @@ def follow(
             break
         outcome = _ended(plan, state, section, events, max_events)
         number += 1
+        i = i + 1 if i + 1 < schedule.size else 0
         if progress is not None:  # noqa: SIM102 - the compiler leaves out what None makes needless
             if progress[1] != 0:
                 outcome = STOPPED
