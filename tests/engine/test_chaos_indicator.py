@@ -8,6 +8,7 @@ import pytest
 import vibroimpact as vi
 from samples import sample
 from vibroimpact.engine import hold
+from vibroimpact.engine.settling import PATIENT
 from vibroimpact.engine.status import Status
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
@@ -45,7 +46,7 @@ def test_chaos_is_told_within_a_few_cycles() -> None:
 @pytest.mark.parametrize("frequency", [0.7, 1.1035, 1.107, 1.2, 1.5, 3.0])
 def test_what_settles_is_as_without(frequency: float) -> None:
     """Among them motions of two and four cycles, which attract weakly."""
-    asked, patient = (held(frequency, transient, 3000) for transient in (SOON, hold.PATIENT))
+    asked, patient = (held(frequency, transient, 3000) for transient in (SOON, PATIENT))
     assert patient[hold.PERIOD] > 0
     assert asked[hold.PERIOD] == patient[hold.PERIOD]
     assert asked[hold.A_MOST] == pytest.approx(patient[hold.A_MOST], rel=1e-9)
@@ -53,7 +54,7 @@ def test_what_settles_is_as_without(frequency: float) -> None:
 
 def test_patience_is_the_default() -> None:
     """A sweep that is not told to ask waits, as it is documented to."""
-    assert held(1.06, hold.PATIENT, 400)[hold.CYCLES] >= 500
+    assert held(1.06, PATIENT, 400)[hold.CYCLES] >= 500
     assert vi.sweep(CASE, [1.06], max_cycles=400, window=100)["cycles"].min() >= 500
 
 

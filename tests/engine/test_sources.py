@@ -14,7 +14,7 @@ from numba.core.dispatcher import Dispatcher
 import vibroimpact.engine
 
 ENGINE = Path(vibroimpact.engine.__file__).parent
-COMPILED = {"kernel", "inlined", "observer", "entry"}
+COMPILED = {"kernel", "inlined", "observer", "watcher", "entry"}
 BUILT = (
     ast.List,
     ast.Dict,

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_progress
 from vibroimpact.earthquakes.free_vibration import BLOCKS, SMALL, block, free_tail, settles
 from vibroimpact.engine import earthquakes as found
+from vibroimpact.engine import sections
 from vibroimpact.engine.observers import demand, extremes
 from vibroimpact.model import Oscillator, Record, equilibrium
 from vibroimpact.model.rig import Rig
@@ -127,6 +128,7 @@ def peaks(
             BLOCKS if rests else 0,
             SMALL,
             tally,
+            np.empty((len(record.acceleration) - 1, sections.ROW)),
             mine,
         )
         return mine

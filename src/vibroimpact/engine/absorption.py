@@ -19,13 +19,12 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.motion import U, V
 from vibroimpact.engine.one_mass import PARTS
-from vibroimpact.engine.state import FIRST, copy, finite, load, put, room, width
+from vibroimpact.engine.sections import advance
+from vibroimpact.engine.state import FIRST, copy, load, room, width
 from vibroimpact.engine.status import (
     DONE,
-    NOT_FINITE,
     NOT_SETTLED,
     STOPPED,
-    TOO_MANY_EVENTS,
     TOO_MUCH_WORK,
 )
 
@@ -135,16 +134,11 @@ def caught(
                 break
             if k >= max_cycles:
                 break
-            put(plan, here, section)
-            events = flow.cycle(plan, here, s, c, period, max_events)
+            _, outcome = advance(plan, here, section, s, c, period, max_events)
             k += 1
-            if events > max_events:
-                outcome = TOO_MANY_EVENTS
-                put(plan, section, here)
+            if outcome != DONE:
                 break
-            if not finite(plan, here):
-                outcome = NOT_FINITE
-                break
+            outcome = NOT_SETTLED
         copy(here, pointer(states[n]), width(plan))
         results[n, CAUGHT], results[n, CYCLES], results[n, OUTCOME] = owner, k, outcome
         progress[0] += 1

@@ -12,14 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import event_loop, flow
+from vibroimpact.engine import flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.hold import OUTCOME, hold
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.observers.record import WRITTEN, note_room, start_notes
-from vibroimpact.engine.state import copy, finite, load, put, room, width
+from vibroimpact.engine.recording import write_down
+from vibroimpact.engine.sections import repeated, row_room
+from vibroimpact.engine.state import copy, load, room, width
 from vibroimpact.engine.status import NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 
@@ -54,7 +55,7 @@ def sweep(
     state : ndarray, shape (motion.STATE,)
         Where the sweep starts; carried on in place.
     tolerance, max_cycles, window, max_events, transient
-        See `hold.settle`.
+        See `settling.settle`.
     results, states : ndarray, shape (frequency, hold.RESULTS), (frequency, motion.STATE)
         Written: the measurements, and the state at the end of each hold.
     progress : ndarray, shape (2,) or (3,)
@@ -123,36 +124,23 @@ def trajectory(
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     if flow.too_much_work(plan, period) != 0:
         return start, 0, TOO_MUCH_WORK
+    here, row = room(), row_room()
     s, c = math.sin(phase), math.cos(phase)
-    here, section, notes = room(), room(), note_room()
     load(plan, pointer(state), here, s, c)
-    columns = out.shape[1]
-    number = start
-    count = 0
-    outcome = 0
-    while number < cycles and outcome == 0 and count + max_events < len(events):
-        # A cycle that is given up leaves the state of its section.
-        put(plan, here, section)
-        share = min(1.0, cycles - number)
-        length = share * period
-        if samples == 0 and share == 1.0 and len(events) == max_events + 1:
-            # Nothing is written down: the fast loop.
-            happened = flow.cycle(plan, here, s, c, length, max_events)
-        else:
-            n = int(math.ceil(share * samples - 1e-9))  # noqa: RUF046 (a float to numba)
-            step = period / samples if samples else 0.0
-            start_notes(notes, columns, number * samples, step, n, 0, count, max_events, number)
-            happened = event_loop.record(
-                plan, here, s, c, length, max_events, notes, pointer(out), pointer(events)
-            )
-            count = int(notes[WRITTEN])
-        if happened > max_events:
-            outcome = TOO_MANY_EVENTS
-            put(plan, section, here)
-        elif not finite(plan, here):
-            outcome = NOT_FINITE
-        number += 1
-    if number >= cycles and samples and outcome == 0:
-        flow.write(plan, here, pointer(out), columns, columns - 1)
+    found = write_down(
+        plan,
+        here,
+        repeated(row, s, c, period),
+        start,
+        cycles,
+        samples,
+        period,
+        max_events,
+        False,
+        pointer(out),
+        out.shape[1],
+        pointer(events),
+        len(events),
+    )
     copy(here, pointer(state), width(plan))
-    return number, count, outcome
+    return found

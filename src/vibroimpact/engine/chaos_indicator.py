@@ -11,7 +11,9 @@ import math
 
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.state import FIRST, distance, finite, put, room
+from vibroimpact.engine.sections import advance
+from vibroimpact.engine.state import FIRST, distance, put, room
+from vibroimpact.engine.status import DONE
 
 _APART = 1e-8
 """Distance of the two, as a share of the motion's size."""
@@ -51,9 +53,8 @@ def runs_away(
     growth = 0.0
     k = 0
     while k < _BESIDE:
-        put(plan, state, section)
-        events = flow.cycle(plan, state, s, c, period, max_events)
-        if events > max_events or not finite(plan, state):
+        _, outcome = advance(plan, state, section, s, c, period, max_events)
+        if outcome != DONE:
             put(plan, section, state)
             return False, k
         events = flow.cycle(plan, other, s, c, period, max_events)

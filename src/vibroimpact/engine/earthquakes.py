@@ -1,13 +1,13 @@
 """The demand of records on a rig: its peaks at many scales of one record, without its history.
 
-Each record is followed line by line, as `recorded.follow` does, and the base stands still after
-it. Nothing is allocated: a call is as good for one scale as for many.
+Each record is followed line by line (`sections.follow`), and the base stands still after it.
+Nothing is allocated: a call is as good for one scale as for many.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from numpy.typing import NDArray
 
@@ -25,8 +25,9 @@ from vibroimpact.engine.observers.demand import (
     start_notes,
 )
 from vibroimpact.engine.observers.extremes import U_LEAST, U_MOST
-from vibroimpact.engine.state import begin_again, finite, load, room
-from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
+from vibroimpact.engine.sections import LASTS, C, Leg, S, Schedule, follow, row_room, watcher
+from vibroimpact.engine.state import load, room
+from vibroimpact.engine.status import DONE, STOPPED, TOO_MUCH_WORK
 
 # What is found of a run, the observer's numbers first; then where the mass comes to rest, half the
 # width of its last swing about that place (m), and how the run ended, a `Status`.
@@ -35,47 +36,45 @@ FOUND = EVERYTHING + 3
 
 _SHORT = 1e-9
 """Share of a step that is none."""
-_TOLD = 64
-"""Lines of the record after which it is counted how many are done."""
+_REPORTED = 64
+"""Lines of the record after which it is reported how many are done."""
 _SAME = 1e-9
 """Relative change of the swing from block to block below which it does not die out."""
 
 
-@kernel
-def _line(
-    plan: Vector, state: Vector, s: float, c: float, lasts: float, max_events: int, notes: Vector
-) -> int:
-    """Along one line, which begins a transient; a `Status`."""
-    begin_again(plan, state)
-    if event_loop.demand(plan, state, s, c, lasts, max_events, notes) > max_events:
-        return TOO_MANY_EVENTS
-    return DONE if finite(plan, state) else NOT_FINITE
+class Demand(NamedTuple):
+    """What is noted of a motion, see `observers.demand`."""
+
+    notes: Vector
+
+
+@watcher(Demand)
+def _demand(plan: Vector, state: Vector, section: Vector, leg: Leg, seen: Demand) -> int:
+    _, s, c, length, max_events = leg
+    events: int = event_loop.demand(plan, state, s, c, length, max_events, seen.notes)
+    return events
 
 
 @kernel
 def _shaken(
     plan: Vector,
     state: Vector,
-    record: Vector,
-    step: float,
-    scale: float,
+    lines: Vector,
+    count: int,
     max_events: int,
     notes: Vector,
     counter: NDArray[Any],
 ) -> int:
-    """Along the record's lines."""
-    outcome = DONE
-    done = counter[0]
-    for i in range(len(record) - 1):
-        if counter[1] != 0:
-            return STOPPED
-        if i % _TOLD == 0:
-            counter[0] = done + i
-        begins = scale * record[i]
-        slope = (scale * record[i + 1] - begins) / step
-        outcome = _line(plan, state, begins, slope, step, max_events, notes)
-        if outcome != DONE:
-            break
+    """Along the record's lines; a `Status`."""
+    begun = counter[0]
+    record = Schedule(lines, count, True)
+    number, outcome = 0, DONE
+    while number < count and outcome == DONE:
+        counter[0] = begun + number
+        last = min(float(number + _REPORTED), float(count))
+        number, outcome = follow(
+            plan, state, record, number, last, max_events, Demand(notes), counter
+        )
     return outcome
 
 
@@ -90,17 +89,16 @@ def _freely(
     counter: NDArray[Any],
 ) -> int:
     """While the base stands still."""
-    outcome = DONE
+    row = row_room()
+    row[S], row[C], row[LASTS] = 0.0, 0.0, step
+    still = Schedule(row, 1, True)
     whole = int(length / step)
     rest = length - whole * step
-    count = whole + (1 if rest > _SHORT * step else 0)
-    for i in range(count):
-        if counter[1] != 0:
-            return STOPPED
-        lasts = step if i < whole else rest
-        outcome = _line(plan, state, 0.0, 0.0, lasts, max_events, notes)
-        if outcome != DONE:
-            break
+    last = float(whole)
+    _, outcome = follow(plan, state, still, 0, last, max_events, Demand(notes), counter)
+    if outcome == DONE and rest > _SHORT * step:
+        row[LASTS] = rest
+        _, outcome = follow(plan, state, still, 0, 1.0, max_events, Demand(notes), counter)
     return outcome
 
 
@@ -137,7 +135,8 @@ def _settled(
 
 
 @entry(
-    "void(f8[::1], f8[::1], f8, f8[::1], f8, f8[::1], i8, i8, f8, i8, f8, i8[::1], f8[:, ::1])",
+    "void(f8[::1], f8[::1], f8, f8[::1], f8, f8[::1], i8, i8, f8, i8, f8, i8[::1], f8[:, ::1],"
+    " f8[:, ::1])",
     "measured",
 )
 def respond(
@@ -154,6 +153,7 @@ def respond(
     blocks: int,
     small: float,
     counter: NDArray[Any],
+    lines: Vector,
     out: Vector,
 ) -> None:
     """Find what a record at several scales asks of a rig.
@@ -180,10 +180,12 @@ def respond(
         it rests.
     counter : ndarray
         [0] counts the lines of the record that are done, once for each scale; not 0 in [1] stops.
+    lines : ndarray, shape (len(record) - 1, sections.ROW)
+        Room for the record's lines at one scale.
     out : ndarray, shape (scale, FOUND)
         Written. What is known of a run that was given up is not kept.
     """
-    before, lines = counter[0], len(record) - 1
+    before, count = counter[0], len(lines)
     here, notes = room(), note_room()
     for k in range(len(scales)):
         found = out[k]
@@ -195,18 +197,19 @@ def respond(
         scale = scales[k]
         plan = planned(given, rig)
         most, steepest = abs(scale * record[0]), 0.0
-        for i in range(len(record) - 1):
-            ends = scale * record[i + 1]
+        for i in range(count):
+            begins, ends = scale * record[i], scale * record[i + 1]
+            lines[i, S], lines[i, C], lines[i, LASTS] = begins, (ends - begins) / step, step
             most = max(most, abs(ends))
-            steepest = max(steepest, abs((ends - scale * record[i]) / step))
+            steepest = max(steepest, abs(lines[i, C]))
         flow.build(plan, most, steepest / most if most > 0.0 else 0.0)
         if flow.too_much_work(plan, step) != 0:
             found[OUTCOME] = TOO_MUCH_WORK
-            counter[0] = before + (k + 1) * lines
+            counter[0] = before + (k + 1) * count
             continue
         load(plan, pointer(state), here, 0.0, 0.0)
         start_notes(notes, everything)
-        outcome = _shaken(plan, here, record, step, scale, max_events, notes, counter)
+        outcome = _shaken(plan, here, pointer(lines), count, max_events, notes, counter)
         if outcome == DONE:
             outcome = _freely(plan, here, step, tail, max_events, notes, counter)
         middle, swing = math.nan, math.nan
@@ -221,4 +224,4 @@ def respond(
                 found[i] = notes[i]
             found[REST], found[SWING] = middle, swing
         found[OUTCOME] = outcome
-        counter[0] = before + (k + 1) * lines
+        counter[0] = before + (k + 1) * count

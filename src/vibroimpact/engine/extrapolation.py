@@ -20,7 +20,9 @@ from vibroimpact.engine.chaos_indicator import runs_away
 from vibroimpact.engine.fixed_point import DYING, close_in
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import stack
-from vibroimpact.engine.state import FIRST, LARGEST, finite, put, room
+from vibroimpact.engine.sections import advance
+from vibroimpact.engine.state import FIRST, LARGEST, put, room
+from vibroimpact.engine.status import DONE
 
 _HELD = 3
 """States that are held, the newest first: x and f of each."""
@@ -179,10 +181,9 @@ def pursue(
             if plain:
                 return False, True, k
             stepped, alike, filled, last = False, 0, 0, math.inf
-        put(plan, state, section)
-        events = flow.cycle(plan, state, s, c, period, max_events)
+        events, outcome = advance(plan, state, section, s, c, period, max_events)
         k += 1
-        if events > max_events or not finite(plan, state):
+        if outcome != DONE:
             put(plan, kept if ahead else section, state)
             return False, False, k
         alike = alike + 1 if events == former else 0

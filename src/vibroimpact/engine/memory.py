@@ -103,7 +103,10 @@ def _from(memory: Any, at: Any) -> Any:
     def implementation(memory: Any, at: Any) -> Any:
         return _beyond(memory, at)  # type: ignore[call-arg]
 
-    return implementation
+    def of_array(memory: Any, at: Any) -> Any:
+        return _beyond(_address(memory), at)  # type: ignore[call-arg]
+
+    return of_array if isinstance(memory, types.Array) else implementation
 
 
 @overload(pointer)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
+from vibroimpact.engine.settling import PATIENT
 from vibroimpact.engine.status import Status
 from vibroimpact.tasks.threads import Tally
 
@@ -184,7 +185,7 @@ def sweep_holds(
     state: _Array,
     settling: Settling,
     tally: Tally | None = None,
-    transient: float = hold.PATIENT,
+    transient: float = PATIENT,
 ) -> tuple[HoldRows, _Array]:
     """Hold one frequency after the other, each from the state at which the last one ended.
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold
+from vibroimpact.engine.settling import PATIENT
 from vibroimpact.model import Rig, State, equilibrium
 from vibroimpact.response.analytic_free_response import (
     check_each_bounded,
@@ -82,7 +82,7 @@ def rows(
     phase: float,
     settling: Settling,
     tally: Tally,
-    transient: float = hold.PATIENT,
+    transient: float = PATIENT,
 ) -> tuple[_Array, _Array]:
     """Sweep a rig in one direction.
 

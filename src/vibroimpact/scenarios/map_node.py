@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine.hold import PATIENT
+from vibroimpact.engine.settling import PATIENT
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Direction
 from vibroimpact.response.peaks import Curve

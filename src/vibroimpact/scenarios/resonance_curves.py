@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS
 from vibroimpact.engine import hold
+from vibroimpact.engine.settling import PATIENT
 from vibroimpact.engine.status import NOT_SETTLED
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
@@ -113,7 +114,7 @@ def swept_alone(
     max_cycles: int,
     window: int,
     tally: Tally,
-    transient: float = hold.PATIENT,
+    transient: float = PATIENT,
 ) -> tuple[Curves, Holds]:
     """Sweep a rig on this thread, as `sweeps` does; of no use if the tally has stopped it.
 
