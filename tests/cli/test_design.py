@@ -60,7 +60,7 @@ def test_a_study_with_records(run, study):
         "building-pareto.png",
     }
     records = {name: vi.Record.read(study / name) for name in RECORDS}
-    vary = {"gap": np.linspace(0.02, 0.2, 3), "bumper_stiffness": np.geomspace(5e7, 1e9, 4)}
+    vary = {"gap": np.linspace(0.02, 0.2, 3), "stops.stiffness": np.geomspace(5e7, 1e9, 4)}
     direct = vi.design_chart(
         _rig(), vary, records=records, fractile=0.5, limits={"penetration": 0.04}
     )
@@ -183,8 +183,8 @@ def test_dampings_follow_at_a_restitution_and_are_told(run, study):
     assert (code, errors) == (0, "")
     data = vi.load(study / json.loads(told)["files"]["data"])
     made = [vi.Bumper.from_restitution("5000 t", k, 0.6, 0.0).damping for k in (5e7, 5e8)]
-    np.testing.assert_allclose(data["bumper_damping"], made, rtol=1e-12)
-    assert data["bumper_damping"].attrs["units"] == "N s m-1"
+    np.testing.assert_allclose(data["stops.damping"], made, rtol=1e-12)
+    assert data["stops.damping"].attrs["units"] == "N s m-1"
     code, told, _ = run("wall.toml", "a.csv", "--gap", "20mm", *vary)
     assert code == 0
     assert "bumper stiffness    bumper damping" in told
@@ -209,7 +209,7 @@ def test_sines_best_and_json(run, study):
     assert facts["best"]["penetration"] <= 0.06
     limits = {"penetration": 0.06}
     best = vi.least_acceleration(vi.Rig(rig, "0.1 g"), frequency_span=(0.3, 0.5), limits=limits)
-    assert facts["best"]["bumper_damping"] == pytest.approx(float(best["bumper_damping"]))
+    assert facts["best"]["stops.damping"] == pytest.approx(float(best["stops.damping"]))
     assert facts["best"]["notes"] == best.attrs.get("notes", "").splitlines()
     for path in facts["files"].values():
         assert (study / path).is_file()

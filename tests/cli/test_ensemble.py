@@ -51,7 +51,7 @@ def test_of_a_study_as_json(tmp_path, told):
     code, out, errors = told(tmp_path, "rig.toml", "--json")
     assert (code, errors) == (0, "")
     facts = json.loads(out)
-    spread = {"bumper_stiffness": "lognormal:0.2", "gap": "uniform:7 mm:8 mm"}
+    spread = {"stops.stiffness": "lognormal:0.2", "gap": "uniform:7 mm:8 mm"}
     assert facts["uncertain"] == spread
     response = partial(vi.sweeps, frequencies=[1.0, 2.4])
     same = vi.ensemble("B2-G1-A3", spread, response, 4, method="latin", seed=3)

@@ -70,7 +70,7 @@ def test_new_bumpers_need_all_three_values():
     free = CASE.without_bumpers()
     made = changed(free, RigOptions(gap="9mm", bumper_stiffness="1MN/m", bumper_damping="5"))
     assert made.right == made.left == vi.Bumper(1e6, 5.0, 9e-3)
-    values = {"left_gap": "9mm", "left_stiffness": "1MN/m", "left_damping": "5"}
+    values = {"stops.left.gap": "9mm", "stops.left.stiffness": "1MN/m", "stops.left.damping": "5"}
     made = changed(free, RigOptions(**values))
     assert (made.right, made.left) == (None, vi.Bumper(1e6, 5.0, 9e-3))
     with pytest.raises(vi.InputError, match="--right-stiffness: missing"):
@@ -94,10 +94,10 @@ def test_options_of_bumpers_pass_rigid_stops_by():
     ("options", "message"),
     [
         (
-            {"bumper_damping": "5"},
+            {"stops.damping": "5"},
             "--bumper-damping: no stop of this rig has a damping; remove this option",
         ),
-        ({"left_stiffness": "5"}, "--left-stiffness: the left stop is RigidStop"),
+        ({"stops.left.stiffness": "5"}, "--left-stiffness: the left stop is RigidStop"),
     ],
 )
 def test_rigid_stops_have_no_stiffness(options, message):
@@ -118,11 +118,11 @@ def test_gravity():
         ({"stiffness": "nan"}, "--stiffness: 'nan' is not finite"),
         ({"damping": "-1"}, "--damping: '-1' is less than 0"),
         ({"gap": "15 kg"}, "--gap: '15 kg' is a mass; a length is accepted"),
-        ({"right_damping": "-1"}, "--right-damping: '-1' is less than 0"),
-        ({"bumper_stiffness": "0"}, "--bumper-stiffness: '0' is not greater than 0"),
+        ({"stops.right.damping": "-1"}, "--right-damping: '-1' is less than 0"),
+        ({"stops.stiffness": "0"}, "--bumper-stiffness: '0' is not greater than 0"),
         ({"amplitude": "0g"}, "--amplitude: 0; set it in the study, or pass"),
         ({"amplitude": "5 kg"}, "--amplitude: '5 kg' is a mass"),
-        ({"left_gap": "1mm", "no_left": True}, "--left-gap: given together with --no-left"),
+        ({"stops.left.gap": "1mm", "no_left": True}, "--left-gap: given together with --no-left"),
         (
             {"gap": "1mm", "no_left": True, "no_right": True},
             "--gap: given together with --no-right and",

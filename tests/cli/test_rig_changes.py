@@ -28,14 +28,14 @@ FEW = ("--frequencies", "1Hz,2Hz")
     ("options", "name", "slug"),
     [
         ({"gap": "9mm"}, "B2-G1-A3, gap 9 mm", "B2-G1-A3-gap-9mm"),
-        ({"left_gap": "0.009"}, "B2-G1-A3, left gap 9 mm", "B2-G1-A3-left-gap-9mm"),
+        ({"stops.left.gap": "0.009"}, "B2-G1-A3, left gap 9 mm", "B2-G1-A3-left-gap-9mm"),
         (
             {"no_right": True, "mass": "600kg"},
             "B2-G1-A3, mass 600 kg, no right bumper",
             "B2-G1-A3-mass-600kg-no-right",
         ),
         (
-            {"amplitude": "0.04g", "bumper_damping": "1.2 kN s/m"},
+            {"amplitude": "0.04g", "stops.damping": "1.2 kN s/m"},
             "B2-G1-A3, amplitude 0.04 g, bumper damping 1.2 kN s/m",
             "B2-G1-A3-amplitude-0.04g-bumper-damping-1.2kNs_m",
         ),
@@ -46,7 +46,7 @@ FEW = ("--frequencies", "1Hz,2Hz")
         ),
         # What is as it was is no change.
         ({"gap": "7.5 mm", "amplitude": "0.05 g", "mass": "550"}, "B2-G1-A3", "B2-G1-A3"),
-        ({"gap": "9mm", "right_gap": "9mm"}, "B2-G1-A3, gap 9 mm", "B2-G1-A3-gap-9mm"),
+        ({"gap": "9mm", "stops.right.gap": "9mm"}, "B2-G1-A3, gap 9 mm", "B2-G1-A3-gap-9mm"),
     ],
 )
 def test_a_changed_case_says_so(options, name, slug):
@@ -72,7 +72,7 @@ def test_many_changes_make_a_file_name_that_any_disk_takes():
         if not name.startswith(("no_", "parameters", "weight", "isolator_period", "damping_ratio"))
     }
     what = subject("B2-G1-A3", RigOptions(**options))
-    other = subject("B2-G1-A3", RigOptions(**{**options, "left_gap": "5"}))
+    other = subject("B2-G1-A3", RigOptions(**{**options, "stops.left.gap": "5"}))
     assert len(what.slug) < 160
     assert what.slug != other.slug
 

@@ -105,7 +105,7 @@ def test_records_against_responses_one_by_one(name: str) -> None:
 def test_what_no_other_beats_on_the_whole_grid() -> None:
     data = vi.design_chart(
         BUILDING,
-        {"gap": np.linspace(0.01, 0.3, 8), "bumper_stiffness": np.geomspace(1e7, 1e9, 6)},
+        {"gap": np.linspace(0.01, 0.3, 8), "stops.stiffness": np.geomspace(1e7, 1e9, 6)},
         records=RECORDS,
     )
     u, a = (data[name].values.ravel() for name in PEAKS[:2])
@@ -119,7 +119,7 @@ def test_what_no_other_beats_on_the_whole_grid() -> None:
 
 
 def test_what_exceeds_a_limit_beats_nobody() -> None:
-    vary = {"gap": np.linspace(0.01, 0.3, 8), "bumper_stiffness": np.geomspace(1e7, 1e9, 6)}
+    vary = {"gap": np.linspace(0.01, 0.3, 8), "stops.stiffness": np.geomspace(1e7, 1e9, 6)}
     every = vi.design_chart(BUILDING, vary, records=RECORDS)
     limits = {"penetration": "10 mm", "peak-force": 2e7}
     data = vi.design_chart(BUILDING, vary, records=RECORDS, limits=limits)
@@ -144,14 +144,14 @@ def test_what_exceeds_a_limit_beats_nobody() -> None:
 
 def test_designs_that_hit_nothing_count_once() -> None:
     data = vi.design_chart(
-        BUILDING, {"gap": [2.0, 3.0], "bumper_stiffness": [1e7, 1e8]}, records=RECORDS
+        BUILDING, {"gap": [2.0, 3.0], "stops.stiffness": [1e7, 1e8]}, records=RECORDS
     )
     assert not data["hitting"].any()
     assert data["pareto"].values.tolist() == [[True, False], [False, False]]
 
 
 def test_threads_change_no_bit_and_it_is_saved(tmp_path) -> None:
-    vary = {"gap": ["100 mm", "200 mm"], "bumper_damping": [1e6, 1e7]}
+    vary = {"gap": ["100 mm", "200 mm"], "stops.damping": [1e6, 1e7]}
     one = vi.design_chart(
         vi.Rig(BUILDING, "0.05 g"), vary, frequency_span=("0.2 Hz", "0.8 Hz"), threads=1
     )

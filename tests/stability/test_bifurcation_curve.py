@@ -136,12 +136,14 @@ def test_no_symmetry_breaking_without_symmetry():
     case = vi.laboratory.case("B3-10mm-A3")
     found = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (0.9, 1.4))
     row = int(np.flatnonzero(found["bifurcation_kind"].values == "symmetry breaking")[0])
-    with pytest.raises(vi.InputError, match="parameters: 'right_gap' makes the rig asymmetric"):
+    with pytest.raises(
+        vi.InputError, match=r"parameters: 'stops\.right\.gap' makes the rig asymmetric"
+    ):
         vi.bifurcation_curve(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.2)),
             found.isel(bifurcation=row),
             spans=((0.5, 2.0), (1e-3, 2e-2)),
-            parameters=("frequency", "right_gap"),
+            parameters=("frequency", "stops.right.gap"),
         )
 
 

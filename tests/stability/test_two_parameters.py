@@ -22,8 +22,8 @@ CASE = vi.laboratory.case("B2-G1-A3")
         (("gap", "gap_ratio"), False),
         (("amplitude", "gap_ratio"), False),
         (("stiffness", "stiffness_ratio"), False),
-        (("bumper_damping", "stiffness_ratio"), False),
-        (("gap", "right_gap"), False),
+        (("stops.damping", "stiffness_ratio"), False),
+        (("gap", "stops.right.gap"), False),
     ],
 )
 def test_pairs_of_parameters(pair, independent):

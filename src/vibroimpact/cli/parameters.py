@@ -112,7 +112,7 @@ def option_range(
     from vibroimpact.model.parameters import parameter
     from vibroimpact.model.units import pretty
 
-    varied = parameter(name, field, what.repeated.of).of(what.oscillator)
+    varied = parameter(name, what.rig, field)
     defaults = default_span(what) if name == "frequency" else (None, None)
     ends: list[float] = []
     for option, text, default in zip(options, (low, high), defaults, strict=True):

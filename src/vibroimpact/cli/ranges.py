@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import to_si
-from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.parameters import Parameter, canonical, parameter, usual
 from vibroimpact.model.units import pretty
 
 if TYPE_CHECKING:
@@ -85,11 +85,11 @@ def map_axis(option: str, name: str, text: str, of: Of) -> tuple[str, list[float
     """
     from vibroimpact.scenarios.axes import NAMES
 
-    key = name.strip().replace("-", "_")
+    key = canonical(name, NAMES)
     if key not in NAMES:
         known = ", ".join(name.replace("_", "-") for name in NAMES)
         raise InputError(f"{option}: {name!r} is not an axis of a map; pass one of {known}")
-    return key, *spread(option, parameter(key, option, of), text, _NODES)
+    return key, *spread(option, usual(key, of), text, _NODES)
 
 
 def parameter_values(
@@ -104,6 +104,6 @@ def parameter_values(
     """
     found = {}
     for name, text in texts.items():
-        varied = parameter(name, option).of(what.oscillator)
+        varied = parameter(name, what.rig, option)
         found[varied.name], _ = spread(option, varied, text, _VALUES)
     return found

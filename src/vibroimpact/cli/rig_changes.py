@@ -12,7 +12,15 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.names import kept_letters
-from vibroimpact.model.quantities import FORCE, MASS
+from vibroimpact.model.quantities import (
+    DAMPING,
+    DIMENSIONLESS,
+    FORCE,
+    LENGTH,
+    MASS,
+    PERIOD,
+    STIFFNESS,
+)
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import unitless
 
@@ -21,7 +29,7 @@ _LONGEST = 120
 allow 255."""
 
 
-_OTHERS = {"mass": MASS, "weight": FORCE}
+_OTHERS = {"mass": MASS, "weight": FORCE, "isolator_period": PERIOD, "damping_ratio": DIMENSIONLESS}
 """Quantities of options that are not parameters of the registry."""
 
 
@@ -77,12 +85,10 @@ def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
         in_g = of == "acceleration" and not unitless()
         text = f"{size / GRAVITY:.6g} g" if in_g else pretty(size, QUANTITIES[of])
     else:
-        from vibroimpact.model.parameters import PARAMETERS
-
-        varied = PARAMETERS.get(option)
-        if varied is not None and rig is not None:
-            varied = varied.of(rig)
-        quantity = _OTHERS[option] if varied is None else varied.quantity
+        end = option.rpartition("_")[2]
+        quantity = (
+            _OTHERS.get(option) or {"stiffness": STIFFNESS, "damping": DAMPING, "gap": LENGTH}[end]
+        )
         text = pretty(to_si(value, quantity, option), quantity)
     return Change(
         f"{flag.replace('-', ' ')} {text}", f"{flag}-{kept_letters(text.replace(' ', ''))}"

@@ -27,4 +27,4 @@ def usual_ranges(oscillator: Oscillator, gap: float) -> dict[str, list[float]]:
     if len(bumpers) < len(stops):
         return {"gap": gaps}
     middle = max(bumper.stiffness for bumper in bumpers)
-    return {"gap": gaps, "bumper_stiffness": [middle * 10.0 ** (i / 6.0) for i in range(-6, 7)]}
+    return {"gap": gaps, "stops.stiffness": [middle * 10.0 ** (i / 6.0) for i in range(-6, 7)]}

@@ -84,12 +84,12 @@ def text(
             f"All values are {_percent(share)} fractiles over the records, for each quantity "
             "separately; limits apply to these fractiles."
         )
-    dampings = data["bumper_damping"].values if "bumper_damping" in data.data_vars else np.zeros(1)
-    beside = ["bumper_damping"] if np.ptp(dampings) > 0.0 else []
+    dampings = data["stops.damping"].values if "stops.damping" in data.data_vars else np.zeros(1)
+    beside = ["stops.damping"] if np.ptp(dampings) > 0.0 else []
     if not beside and dampings.any():
         yield Text(
             "All designs keep the bumpers' damping of "
-            f"{_value('bumper_damping', dampings.flat[0])}; --vary stiffness-at-restitution keeps "
+            f"{_value('stops.damping', dampings.flat[0])}; --vary stiffness-at-restitution keeps "
             "their restitution instead."
         )
     if len(rows) > _ROWS:

@@ -53,7 +53,7 @@ def varied(
     InputError
         If there is no such parameter, or if a value is invalid or occurs twice.
     """
-    known = parameter(name, "vary").of(rig)
+    known = parameter(name, rig, "vary")
     if known.name in but:
         raise InputError(f"vary: {name!r} {why}; remove it")
     values = check_list(values, field, what="a list of values")
