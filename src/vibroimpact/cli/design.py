@@ -137,7 +137,7 @@ def design(
         if data["pareto"].ndim <= 2 and min(data["pareto"].shape) > 1:
             written.draw("chart", "design", figures.design_chart(data, title=what.title))
         written.draw("front", "pareto", figures.pareto_front(data, title=what.title))
-    chosen = any((changes.gap, changes.right_gap, changes.left_gap))
+    chosen = changes.gap is not None or any("gap" in one for one in changes.values)
     text = facts.text(what.oscillator, gap, data, least, list(suite or ()), chosen=chosen)
     about = rig_facts.text(what.rig, shaking=not suite)
     return written.tell(facts.facts(gap, data, least), *text, about=about, shaking=False)
