@@ -12,7 +12,7 @@ import vibroimpact as vi
 
 COMMAND = "ensemble"
 FEW = ("--draws", "8", "--frequencies", "1Hz,2.4Hz")
-GAP = ("--uncertain", "gap", "normal:5%")
+GAP = ("--uncertain", "gap=normal:5%")
 STUDY = """
 case = "B2-G1-A3"
 
@@ -65,8 +65,8 @@ def test_of_a_study_as_json(tmp_path, told):
     [
         ((), "--uncertain: missing"),
         ((*GAP, *GAP), "--uncertain: 'gap' is given twice"),
-        (("--uncertain", "colour", "normal:5%"), "--uncertain: 'colour'"),
-        (("--uncertain", "gap", "gauss:5%"), "--uncertain['gap']: 'gauss:5%'"),
+        (("--uncertain", "colour=normal:5%"), "--uncertain: 'colour' is unknown"),
+        (("--uncertain", "gap=gauss:5%"), "--uncertain['gap']: 'gauss:5%'"),
         ((*GAP, "--draws", "100"), "--draws: 100"),
         ((*GAP, "--draws", "0"), "--draws: 0"),
         ((*GAP, "--seed", "-1"), "--seed: -1"),

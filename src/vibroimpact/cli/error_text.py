@@ -61,7 +61,7 @@ def _elsewhere(error: UnknownOptionError) -> str:
 
 
 def _as_two_words(option: str, words: Sequence[str]) -> str:
-    """Describe an option whose name and value are not two words, such as ``--vary gap=5mm``."""
+    """Describe an option whose name and value are not two words, such as ``--limit penetration=5mm``."""
     after = [words[i + 1] for i, word in enumerate(words[:-1]) if word == option]
     after += [word.partition("=")[2] for word in words if word.startswith(f"{option}=")]
     for written in after:
@@ -104,7 +104,7 @@ def _options(field: str) -> list[str]:
 def _quoting(words: Sequence[str]) -> str:
     """Return a hint about quotes if the shell has split a value and its unit into words."""
     for i, option in enumerate(words[:-2]):
-        if not (option.startswith("--") and _NUMBER.fullmatch(words[i + 1])):
+        if not (option.startswith("--") and _NUMBER.fullmatch(words[i + 1].rpartition("=")[2])):
             continue
         unit = []
         for word in words[i + 2 :]:

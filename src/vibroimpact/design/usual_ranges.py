@@ -20,7 +20,7 @@ def usual_ranges(oscillator: Oscillator, gap: float) -> dict[str, list[float]]:
     if not stops:
         raise InputError(
             "vary: missing; for a rig without stops there is no default; pass a parameter and its "
-            "range, such as --vary damping-ratio 0.05:0.3"
+            "range, such as --vary damping_ratio=0.05:0.3"
         )
     gaps = [gap * (i + 1) / 12.0 for i in range(14)]
     bumpers = [stop for stop in stops if isinstance(stop, Bumper)]

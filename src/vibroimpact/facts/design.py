@@ -89,7 +89,7 @@ def text(
     if not beside and dampings.any():
         yield Text(
             "All designs keep the bumpers' damping of "
-            f"{_value('stops.damping', dampings.flat[0])}; --vary stiffness-at-restitution keeps "
+            f"{_value('stops.damping', dampings.flat[0])}; --vary stiffness_at_restitution keeps "
             "their restitution instead."
         )
     if len(rows) > _ROWS:
