@@ -54,8 +54,7 @@ def inputs(folder: Path) -> None:
 
 def run(name: str, source: Path) -> fresh.Ended:
     """Run one command in a process of its own, with the `inputs` of a folder."""
-    words = [str(source / word) if word in (_VARY = ("--vary", "frequency=2Hz:2.1Hz")
-_RECORD, _TEST) else word for word in COMMANDS[name]]
+    words = [str(source / word) if word in (_RECORD, _TEST) else word for word in COMMANDS[name]]
     # A folder of its own: a map that is complete would only be read.
     with tempfile.TemporaryDirectory() as out:
         return fresh.vibroimpact(name, *words, *([] if name == "cache" else ["--output", out]))

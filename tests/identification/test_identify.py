@@ -86,7 +86,7 @@ def test_two_tests_share_a_bumper_and_have_their_own_isolator():
         "A3": curves(one.oscillator, one.amplitude, 0.01, seed=1),
         "A2": curves(other.oscillator, other.amplitude, 0.01, seed=2),
     }
-    free = {"stiffness": "29 kN/m", "stops.stiffness": "450 kN/m"}
+    free = {"isolator.stiffness": "29 kN/m", "stops.stiffness": "450 kN/m"}
     rigs = {"A3": one.oscillator, "A2": other.oscillator}
     found = vi.identify(
         rigs, tests, free, each=["isolator.stiffness"], tried=0, starts=1, profiles=False
@@ -193,8 +193,8 @@ def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
         ({"free": ""}, "free: ''"),
         ({"free": {"gap": (0.02, 0.01)}}, "low, 0.02 m, is not below high, 0.01 m"),
         ({"free": {"gap": "3 kg"}}, "is a mass"),
-        ({"each": ["isolator.damping"]}, "each: 'damping' is not free"),
-        ({"priors": {"damping": (1, 2)}}, "priors: 'damping' is not free"),
+        ({"each": ["isolator.damping"]}, "each: 'isolator.damping' is not free"),
+        ({"priors": {"isolator.damping": (1, 2)}}, "priors: 'isolator.damping' is not free"),
         ({"ties": {"stops.left.gap": "nothing"}}, "ties: 'nothing'"),
         ({"noise": -1}, "noise"),
         ({"data": {}}, "data: missing"),

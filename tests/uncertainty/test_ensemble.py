@@ -31,7 +31,7 @@ def test_free_flight_on_an_uncertain_spring(method):
     spring = stats.uniform(20e3, 10e3)
     data = vi.ensemble(
         vi.Rig(FREE, SHAKING),
-        {"stiffness": spring},
+        {"isolator.stiffness": spring},
         partial(vi.sweeps, frequencies=[2.0], directions=["forward"]),
         256,
         method=method,
@@ -130,7 +130,7 @@ def test_parameters_that_are_made_of_others_are_set_last():
 def test_progress():
     seen = []
     response = partial(vi.sweeps, frequencies=[2.0])
-    given = {"stiffness": "normal:1%"}
+    given = {"isolator.stiffness": "normal:1%"}
     vi.ensemble(
         vi.Rig(FREE, SHAKING), given, response, 8, block=3, progress=lambda *p: seen.append(p)
     )
@@ -157,7 +157,7 @@ def test_rigs_are_asked_for_that_take_a_while(monkeypatch, seconds, sizes):
     asked = []
     response, clock = _slowly(seconds, asked)
     monkeypatch.setattr("vibroimpact.uncertainty.ensemble.time", SimpleNamespace(monotonic=clock))
-    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"stiffness": "normal:1%"}, response, 1024)
+    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"isolator.stiffness": "normal:1%"}, response, 1024)
     assert asked == sizes
     assert data.sizes["sample"] == 1024
 
@@ -172,10 +172,10 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ({"distributions": {"colour": "normal:5%"}}, "distributions: 'colour'"),
         ({"distributions": {"gap": 3.0}}, r"distributions\['gap'\]: 3.0 is not a distribution"),
         ({"distributions": {"cubic": "normal:5%"}}, "parameter: "),
-        ({"distributions": {"damping": "normal:1kN*s/m:1kN*s/m"}}, "gives the value -"),
+        ({"distributions": {"isolator.damping": "normal:1kN*s/m:1kN*s/m"}}, "gives the value -"),
         (
             {"distributions": {"isolator_period": "normal:5%", "isolator.stiffness": "normal:5%"}},
-            "distributions: 'isolator_period' sets the same property of the rig as 'stiffness'",
+            "distributions: 'isolator_period' sets the same property of the rig as 'isolator.stiffness'",
         ),
         (
             {"distributions": {"frequency": "normal:5%"}},
@@ -208,7 +208,7 @@ def test_fractiles_over_the_rigs():
     """|u| rises with K: its fractiles are the swing at those of K; NaN is left out, and told."""
     spring = stats.norm(25e3, 1e3)
     response = partial(vi.sweeps, frequencies=[2.0, 2.2], directions=["forward"])
-    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"stiffness": spring}, response, 512)
+    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"isolator.stiffness": spring}, response, 512)
     found = vi.fractiles(data, "displacement_max", (0.16, 0.5, 0.84))
     assert found["displacement_max"].dims == ("fractile", "direction", "frequency")
     for k, frequency in enumerate((2.0, 2.2)):
@@ -239,5 +239,5 @@ def test_fractiles_over_the_rigs():
 
 def test_fractiles_of_a_response_with_a_name_of_its_own():
     response = vi.for_each_rig(lambda rig: xr.Dataset({"k": rig.oscillator.isolator.stiffness}))
-    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"stiffness": "uniform:1kN/m:2kN/m"}, response, 256)
+    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"isolator.stiffness": "uniform:1kN/m:2kN/m"}, response, 256)
     assert float(vi.fractiles(data, "k", [0.5])["k"][0]) == pytest.approx(1.5e3, rel=1e-3)

@@ -66,7 +66,7 @@ def test_near_the_static_limit():
         return np.log(data[["peak_displacement"]].isel(direction=0, frequency=0))
 
     spread = {
-        "stiffness": "lognormal:0.1",
+        "isolator.stiffness": "lognormal:0.1",
         "amplitude": "lognormal:0.2",
         "isolator.damping": "normal:5%",
     }

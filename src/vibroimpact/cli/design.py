@@ -80,8 +80,8 @@ def design(
         stiffness_at_restitution (stiffness of the bumpers at constant coefficient of restitution),
         stops.damping, isolator_period, damping_ratio, isolator.yield_force. Default:
         the parameters in the study file (table [design]). If the file states none, the gap is
-        varied. Its largest value is then slightly larger than the smallest gap at which the rig hits no stop. If all stops
-        are linear bumpers, their stiffness is varied, too.
+        varied. Its largest value is then slightly larger than the smallest gap at which the rig
+        hits no stop. If all stops are linear bumpers, their stiffness is varied, too.
     best
         Also search for the bumper that gives the smallest acceleration of the mass. The search does
         not change the gap of the rig.

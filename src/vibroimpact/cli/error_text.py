@@ -61,7 +61,7 @@ def _elsewhere(error: UnknownOptionError) -> str:
 
 
 def _as_two_words(option: str, words: Sequence[str]) -> str:
-    """Describe an option whose name and value are not two words, such as ``--limit penetration=5mm``."""
+    """Describe an option whose name and value are one word: ``--limit penetration=5mm``."""
     after = [words[i + 1] for i, word in enumerate(words[:-1]) if word == option]
     after += [word.partition("=")[2] for word in words if word.startswith(f"{option}=")]
     for written in after:
