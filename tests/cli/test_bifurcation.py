@@ -84,7 +84,10 @@ def test_a_study_says_its_frequency(tmp_path, told):
     [
         (GAPS, "--frequency: missing"),
         ((*GAPS, "--frequency", "0Hz"), "--frequency"),
-        (("B2-G1-A3", "--vary", "gap=1mm:2mm:1"), "the number of values, '1', is not a whole"),
+        (
+            ("B2-G1-A3", "--vary", "gap=1mm:2mm:1"),
+            "--vary: gap: the number of values, '1', is not a whole",
+        ),
         ((*GAPS, "--frequency", "1Hz", "--random", "-1"), "--random: -1"),
         (
             (*GAPS, "--frequency", "1Hz", "--direction", "none"),

@@ -145,7 +145,7 @@ def test_a_study_and_what_is_typed_over_it(run, tmp_path):
     code, out, _ = run("low.toml", *GAP, *words)
     assert code == 0
     assert "1 grazing curve" in out
-    path = tmp_path / "out/low-damping-1.2kNs_m-grazing-frequency-gap.nc"
+    path = tmp_path / "out/low-isolator-damping-1.2kNs_m-grazing-frequency-gap.nc"
     (group,) = groups(path)
     data = vi.load(path, group=group)
     assert data.attrs["title"] == "low, damping 1.2 kN s/m"

@@ -26,7 +26,7 @@ left = { stiffness = "500 MN/m", damping = "5 MN s/m", gap = "300 mm" }
 DESIGN = """
 [design]
 records = ["a.csv", "b.csv"]
-vary = { gap = "20 mm:200 mm:3", bumper_stiffness = "50 MN/m:1000 MN/m:log:4" }
+vary = { gap = "20 mm:200 mm:3", stops.stiffness = "50 MN/m:1000 MN/m:log:4" }
 limits = { penetration = "40 mm" }
 fractile = 0.5
 """
@@ -85,7 +85,7 @@ def test_a_study_with_records(run, study):
     within, front = (int(direct[name].sum()) for name in ("within_limits", "pareto"))
     assert 0 < front <= within < 12
     assert (
-        f"Designs: 3 × 4, over gap and bumper stiffness; {within} are within penetration 40 mm, "
+        f"Designs: 3 × 4, over gap and stops.stiffness; {within} are within penetration 40 mm, "
         f"and of these {front} are not dominated by another design in displacement and acceleration"
     ) in words
     rows = (out / "building-design.csv").read_text().splitlines()
@@ -187,7 +187,7 @@ def test_dampings_follow_at_a_restitution_and_are_told(run, study):
     assert data["stops.damping"].attrs["units"] == "N s m-1"
     code, told, _ = run("wall.toml", "a.csv", "--gap", "20mm", *vary)
     assert code == 0
-    assert "bumper stiffness    bumper damping" in told
+    assert "stops.stiffness    stops.damping" in told
     assert "designs keep" not in told
     code, told, _ = run("wall.toml", "a.csv", "--vary", "gap=20mm:60mm:2")
     assert "damping of" not in told
@@ -219,7 +219,7 @@ def test_the_usual_chart_of_records_on_the_command_line(run, study):
     (study / "rig.toml").write_text(STUDY)
     code, told, _ = run("rig.toml", "a.csv", "--scale", "0.5", "--figure", "svg")
     assert code == 0
-    assert "Designs: 14 × 13, over gap and bumper stiffness" in " ".join(told.split())
+    assert "Designs: 14 × 13, over gap and stops.stiffness" in " ".join(told.split())
     words = " ".join(told.split())
     front = int(re.search(r"(\d+) (?:is|are) not dominated by another", words)[1])
     rows = [line for line in told.splitlines() if re.search(r"mm .* g .* [kM]?N$", line.rstrip())]

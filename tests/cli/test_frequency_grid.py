@@ -77,7 +77,11 @@ def test_the_default_range_follows_from_the_rig(tmp_path):
     for code in ("B2-G1-A3", "B2-G1-A1", "B3-0mm-A2"):
         assert default_range(subject(code, RigOptions())) == (0.5, 5.0, 0.01)
     # A case that has become another rig has a range of its own.
-    assert default_range(subject("B2-G1-A3", RigOptions(mass="55 kg"))) == (1.6, 16.0, 0.05)
+    assert default_range(subject("B2-G1-A3", RigOptions(values=("mass=55 kg",)))) == (
+        1.6,
+        16.0,
+        0.05,
+    )
     path = tmp_path / "building.toml"
     path.write_text(
         '[oscillator]\nmass = "1000 t"\n'

@@ -200,7 +200,7 @@ def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_pa
             "pass the lowest and the highest value with a colon",
         ),
         (["--free", "nothing"], "free: 'nothing'"),
-        (["--free", "bumper-stifness,gap"], "did you mean bumper_stiffness?"),
+        (["--free", "stops.stifness,gap"], "did you mean stops.stiffness?"),
     ],
 )
 def test_wrong_words_are_told(file, tmp_path, capsys, words, told):

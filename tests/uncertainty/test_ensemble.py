@@ -239,5 +239,7 @@ def test_fractiles_over_the_rigs():
 
 def test_fractiles_of_a_response_with_a_name_of_its_own():
     response = vi.for_each_rig(lambda rig: xr.Dataset({"k": rig.oscillator.isolator.stiffness}))
-    data = vi.ensemble(vi.Rig(FREE, SHAKING), {"isolator.stiffness": "uniform:1kN/m:2kN/m"}, response, 256)
+    data = vi.ensemble(
+        vi.Rig(FREE, SHAKING), {"isolator.stiffness": "uniform:1kN/m:2kN/m"}, response, 256
+    )
     assert float(vi.fractiles(data, "k", [0.5])["k"][0]) == pytest.approx(1.5e3, rel=1e-3)

@@ -351,7 +351,7 @@ def _set(oscillator: Oscillator, values: dict[str, Any]) -> Oscillator:
     try:
         return set_values(oscillator, values)
     except InputError as error:
-        sides = "right.gap: ", "left.gap: "
-        if "gap" in values and str(error).startswith(sides):
-            raise InputError(f"gap: {str(error).partition(': ')[2]}") from None
+        path, _, rest = str(error).partition(": ")
+        if "gap" in values and path in ("right.gap", "left.gap") and f"stops.{path}" not in values:
+            raise InputError(f"gap: {rest}") from None
         raise InputError(f"--set: {error}") from None

@@ -123,13 +123,15 @@ def read_vary(what: Subject, texts: Sequence[str] | Mapping[str, str]) -> list[V
     from vibroimpact.model.parameters import parameter
 
     if isinstance(texts, Mapping):
-        ranges = dict(texts)
+        ranges = list(texts.items())
     else:
-        alone = [text for text in texts if text.strip() == "frequency"]
-        ranges = dict.fromkeys(alone, "")
-        ranges |= by_path("--vary", [text for text in texts if text not in alone])
+        written = [text for text in texts if text.strip() != "frequency"]
+        ranges = [(path, text) for path, text in by_path("--vary", written).items()]
+        ranges = [("frequency", "")] * (len(texts) - len(written)) + ranges
+        order = [text.partition("=")[0].strip() for text in texts]
+        ranges.sort(key=lambda one: order.index(one[0]))
     found = {}
-    for path, text in ranges.items():
+    for path, text in ranges:
         varied = parameter(path, what.rig, "--vary")
         if varied.name in found:
             raise InputError(f"--vary: {path!r} is given twice; remove one of the two")

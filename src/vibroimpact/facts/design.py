@@ -25,7 +25,7 @@ from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import unitless
 
-_HEADS = {"stiffness_at_restitution": "bumper stiffness"}
+_HEADS = {"stiffness_at_restitution": "stops.stiffness"}
 _SIDES = ("right", "left")
 _ROWS = 8
 """Largest number of designs of the front that are printed."""
