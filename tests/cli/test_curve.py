@@ -148,7 +148,7 @@ def test_a_study_and_what_is_typed_over_it(run, tmp_path):
     path = tmp_path / "out/low-isolator-damping-1.2kNs_m-grazing-frequency-gap.nc"
     (group,) = groups(path)
     data = vi.load(path, group=group)
-    assert data.attrs["title"] == "low, damping 1.2 kN s/m"
+    assert data.attrs["title"] == "low, isolator damping 1.2 kN s/m"
     rig = CASE.oscillator
     rig = rig.replace(isolator=rig.isolator.replace(damping=1200.0))
     exact = swing(rig, 0.8 * CASE.amplitude, data["frequency"].values)
