@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact import figures
 from vibroimpact.model.parameters import parameter
 
 ISOLATOR = vi.Law("k*u + q*u**7 + c*v", k="26 kN/m", q=1e9, c="1.1 kN s/m")
@@ -158,6 +159,7 @@ def test_designs_and_basins_vary_numbers_of_formulas() -> None:
     assert stability["isolator.a"].attrs["units"] == "m"
     chart = vi.design_chart(SOFT, {"isolator.a": ["4 cm", "6 cm"]}, frequency_span=(1.0, 1.4))
     assert chart["isolator.a"].attrs["units"] == "m"
+    figures.pareto_front(chart)
 
 
 def test_a_number_called_as_that_of_a_bumper_is_varied_alone() -> None:

@@ -20,7 +20,7 @@ from vibroimpact.design.limits import QUANTITIES
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.facts.number_format import plain
 from vibroimpact.model import GRAVITY, Oscillator
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import PARAMETERS, usual
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import unitless
@@ -100,7 +100,7 @@ def text(
         best = ", ".join(
             f"{_words(name)} {_value(name, float(least[name]))}"
             for name in map(str, least.data_vars)
-            if name in PARAMETERS
+            if name in PARAMETERS or "." in name
         )
         yield Text()
         of = "" if share is None else f", as {_percent(share)} fractiles"
@@ -268,7 +268,7 @@ def _words(name: str) -> str:
 
 
 def _value(name: str, value: float) -> str:
-    return pretty(float(f"{value:.4g}"), PARAMETERS[name].quantity)
+    return pretty(float(f"{value:.4g}"), usual(name).quantity)
 
 
 def _length(value: float) -> str:

@@ -173,8 +173,13 @@ def parameter(path: str, rig: Rig | Oscillator, field: str = "parameter") -> Par
 
 
 def usual(name: str, of: Of = "acceleration") -> Parameter:
-    """Return a parameter with its usual unit, and an amplitude with that of its quantity."""
-    return _of(name, amplitude_of(of)) if name == "amplitude" else PARAMETERS[name]
+    """Return a parameter with its usual unit, and an amplitude with that of its quantity.
+
+    A number of a formula has no usual unit.
+    """
+    if name == "amplitude":
+        return _of(name, amplitude_of(of))
+    return PARAMETERS.get(name) or _of(name, Accepts(DIMENSIONLESS))
 
 
 def parameters(rig: Rig) -> dict[str, Parameter]:
