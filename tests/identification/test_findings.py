@@ -203,7 +203,7 @@ def test_nonsense_is_refused_in_one_line(field, nonsense):
         ({"priors": {"gap": 3}}, "priors['gap']: 3; a pair (mean, standard deviation)"),
         ({"priors": {"gap": "10 mm"}}, "(mean, standard deviation)"),
         ({"priors": {"gap": ("10 mm", 0)}}, "is not greater than 0"),
-        ({"each": "isolator.damping"}, "each: 'damping' is not free"),
+        ({"each": "isolator.damping"}, "each: 'isolator.damping' is not free"),
         ({"each": ["nothing"]}, "each: 'nothing'"),
         ({"ties": {"stops.left.gap": 3}}, "ties: 3"),
         ({"window": 0}, "window: 0"),
@@ -227,7 +227,7 @@ def test_what_is_asked_of_another_model_keeps_its_bounds_where_it_means_the_same
     asked = {
         "free": {"gap": ("5 mm", "9 mm"), "stops.stiffness": (1e5, 1e6), "stops.damping": None},
         "each": ["stops.damping"],
-        "ties": {"left-damping": "stops.right.damping"},
+        "ties": {"left.damping": "stops.right.damping"},
         "priors": {"gap": (7e-3, 1e-3), "stops.damping": (1.0, 1.0)},
         "seed": 3,
     }

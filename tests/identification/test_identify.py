@@ -151,7 +151,7 @@ def test_priors_ties_and_bounds():
     low, high = held.interval.values[0]
     assert 0.0 <= low < high <= 800.0
     assert held.interval_open.values[0].any()
-    assert "bumper_damping (damping of both bumpers)" in held.attrs["findings"]
+    assert "stops.damping (damping of both bumpers)" in held.attrs["findings"]
 
 
 def test_maxima_minima_and_eta_with_a_sensor_that_is_off():

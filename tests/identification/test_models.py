@@ -40,7 +40,7 @@ def test_a_bumper_that_is_never_touched_is_not_determined():
     found = vi.identify(
         CASE.oscillator, data, "isolator.stiffness,stops.damping", tried=0, starts=1
     )
-    assert "bumper_damping (damping of both bumpers) is" in found.attrs["findings"]
+    assert "stops.damping (damping of both bumpers) is" in found.attrs["findings"]
     assert found.interval_open.sel(parameter="stops.damping").values.any()
     assert not found.interval_open.sel(parameter="isolator.stiffness").values.any()
 

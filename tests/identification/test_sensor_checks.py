@@ -51,7 +51,7 @@ def test_a_gap_that_no_displacement_comes_near_is_absurd_beside_a_reversed_senso
     assert absurd.tolist() == [True, False]
     (line,) = [line for line in lines if "is implausible" in line]
     assert line == lines[1]
-    assert line.startswith("right_gap 5 m is implausible: ")
+    assert line.startswith("stops.right.gap 5 m is implausible: ")
     assert float(line.split(": ")[1].split()[0]) == pytest.approx(5.0 / swing, rel=5e-3)
 
 

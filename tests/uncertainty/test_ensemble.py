@@ -171,7 +171,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ({"distributions": {}}, "distributions: "),
         ({"distributions": {"colour": "normal:5%"}}, "distributions: 'colour'"),
         ({"distributions": {"gap": 3.0}}, r"distributions\['gap'\]: 3.0 is not a distribution"),
-        ({"distributions": {"cubic": "normal:5%"}}, "parameter: "),
+        ({"distributions": {"cubic": "normal:5%"}}, "distributions: 'cubic' is not a parameter"),
         ({"distributions": {"isolator.damping": "normal:1kN*s/m:1kN*s/m"}}, "gives the value -"),
         (
             {"distributions": {"isolator_period": "normal:5%", "isolator.stiffness": "normal:5%"}},
