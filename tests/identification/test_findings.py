@@ -27,9 +27,9 @@ def test_right_and_left_exchanged_fit_excursions_as_well_and_are_reported():
     (other,) = found.alternative_value.values
     assert other == pytest.approx(found.fitted_value.values[::-1], rel=1e-9)
     assert float(found.alternative_rise[0]) < 0.01
-    told = "with right and left exchanged, the rig fits equally well: right_gap 9."
+    told = "with right and left exchanged, the rig fits equally well: stops.right.gap 9."
     assert told in found.findings
-    assert "left_gap 12." in found.findings or "left_gap 11.9" in found.findings
+    assert "stops.left.gap 12." in found.findings or "left_gap 11.9" in found.findings
 
 
 def test_maxima_and_minima_tell_the_sides():
