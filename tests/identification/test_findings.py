@@ -29,7 +29,7 @@ def test_right_and_left_exchanged_fit_excursions_as_well_and_are_reported():
     assert float(found.alternative_rise[0]) < 0.01
     told = "with right and left exchanged, the rig fits equally well: stops.right.gap 9."
     assert told in found.findings
-    assert "stops.left.gap 12." in found.findings or "left_gap 11.9" in found.findings
+    assert "stops.left.gap 12." in found.findings or "stops.left.gap 11.9" in found.findings
 
 
 def test_maxima_and_minima_tell_the_sides():
