@@ -7,8 +7,18 @@ import math
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.events import pack_fresh, speeds, switch, unpack_fresh
 from vibroimpact.engine.assembly.mode import enter
-from vibroimpact.engine.assembly.roots import NONE, first_root
+from vibroimpact.engine.assembly.roots import first_root
 from vibroimpact.engine.assembly.series import expand, travel, watched, watched_series
+from vibroimpact.engine.assembly.tables import (
+    LEVELS,
+    STEP_LENGTH,
+    WIDTH,
+    exact_rows,
+    gather,
+    table,
+    travel_by_tables,
+)
+from vibroimpact.engine.assembly.tables import is_clear as is_clear_on_leap
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -37,6 +47,7 @@ def begin(plan: Vector, amplitude: float, omega: float) -> None:
     for i in range(n * w):
         plan[push + i] = factor * plan[shape + i]
     plan[at.MODE] = -1.0
+    plan[at.USED] = 0.0
     for i in range(2 * int(max(plan[at.SLOTS], 1.0))):
         plan[int(plan[at.KEYS]) + i] = -1.0
 
@@ -158,6 +169,70 @@ def remember(plan: Vector, target: int, deformations: int) -> None:
 
 
 @kernel
+def advance_by_tables(plan: Vector, place: int, left: float) -> int:
+    """As `advance`, in a mode that has tables: a leap, a step, or the way to an event."""
+    n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
+    mode = int(plan[at.MODE])
+    zeros = beyond(plan, int(plan[at.ZEROS]))
+    base = 2 * n + w + 1
+    x = beyond(plan, int(plan[at.SCRATCH]))
+    width = int(plan[place + WIDTH])
+    room = beyond(x, (width + 7) // 8 * 8)
+    gather(plan, x)
+    h = plan[place + STEP_LENGTH]
+    level = int(plan[at.LEVEL])
+    while level > 0 and h * (1 << (level - 1)) >= left:
+        level -= 1
+    clear, all_clear = 0, False
+    while True:  # the longest leap on which nothing can happen
+        all_clear = True
+        for f in range(count):
+            if clear >> f & 1:
+                continue
+            if zeros[f] == 0.0 and is_clear_on_leap(plan, place, level, f, x, room):
+                clear |= 1 << f
+            else:
+                all_clear = False
+                if level > 0:
+                    break
+        if all_clear or level == 0:
+            break
+        level -= 1
+    hit, end = -1, 1.0
+    time = min(h * (1 << level), left)
+    if all_clear:
+        plan[at.LEVEL] = min(level + 1.0, LEVELS - 1.0)
+    else:
+        plan[at.LEVEL] = 1.0
+        b = beyond(plan, int(plan[at.BERNSTEIN]))
+        end = time / h
+        for f in range(count):
+            if clear >> f & 1:
+                continue
+            limit = end if hit < 0 else end - _SAME
+            if limit < 0.0:
+                break
+            exact_rows(plan, place, f, x, b)
+            tau = first_event(plan, f, mode, h, limit)
+            if tau <= limit:
+                hit, end = f, tau
+        if hit >= 0:
+            time = end * h
+    plan[at.PIECE_LENGTH] = h
+    plan[at.PIECES] = max(math.ceil(time / h - _SAME), 1.0)
+    if time > 0.0:
+        travel_by_tables(plan, place, time, x, room)
+        relax(plan, mode, beyond(plan, int(plan[at.DEFORMATION])), time)
+        y, deformation = int(plan[at.Y]), int(plan[at.DEFORMATION])
+        for i in range(base):
+            plan[y + i] = x[i]
+        for j in range(int(plan[at.PRESSED])):
+            f = int(plan[int(plan[at.PRESSED_LIST]) + j])
+            plan[deformation + f] = x[base + j]
+    return finish(plan, mode, hit, time, end > _SAME)
+
+
+@kernel
 def advance(plan: Vector, left: float) -> int:
     """Go on to the next event, at most for a step and for the time that is left.
 
@@ -177,9 +252,12 @@ def advance(plan: Vector, left: float) -> int:
     if not total < 1e200:
         plan[at.EVENT], plan[at.LENGTH] = float(at.GIVEN_UP), 0.0
         return at.GIVEN_UP
+    place = table(plan)
+    if place > 0:
+        return advance_by_tables(plan, place, left)
     h = at.STEP / max(plan[at.RATE], 1e-200)
     length = left if left <= h else min(h, 0.5 * left)
-    expand(plan, y, deformation, 1.0, length)
+    expand(plan, y, deformation, length)
     hit, end = -1, 1.0
     for f in range(count):
         if zeros[f] == 0.0 and is_clear(plan, f, mode):

@@ -76,10 +76,14 @@ from __future__ import annotations
     TABLE,
     TABLE_SIZE,
     KEYS,
-    SLOT,
-    TABLE_BOUND,
-) = range(61)
-HEADER = 64
+    SLOT_OF,
+    USED,
+    TABLE_NOW,
+    TABLE_ROOM,
+    RULES,
+    MOVED,
+) = range(65)
+HEADER = 72
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION, FIRST, BEHIND = range(
     10

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.tables import table_size
+from vibroimpact.engine.assembly.tables import rules, table_size
 from vibroimpact.engine.jit import Vector
 
 Matrix = NDArray[np.float64]
@@ -168,6 +168,9 @@ def make_plan(
         modes += comb(count, most)
     header[[at.SLOTS, at.MOST_PRESSED, at.TABLE_SIZE]] = modes, most, size
     block(at.KEYS, 2 * max(modes, 1))
+    block(at.SLOT_OF, 2 * max(modes, 1))
+    block(at.RULES, rules() if modes else 0)
+    block(at.TABLE_ROOM, (8 * 16 + 4) * (width + count + 8) if modes else 0)
     block(at.TABLE, modes * size)
 
     plan = np.zeros(end)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import hold
+from vibroimpact.engine.assembly.vectors import combine
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -73,12 +74,13 @@ def accelerate(
 
 
 @kernel
-def expand(plan: Vector, y: Vector, deformation: Vector, moved: float, length: float) -> None:
+def expand(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
     """Write the series of u, v, w and of the forces in t / length, of an order that suffices.
 
-    y is u, v, w; `moved` is 0 for a disturbance, which forcing and constant forces do not move.
+    y is u, v, w, 1; for a disturbance, its w and its last number are 0.
     """
     n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
+    plan[at.MOVED] = y[2 * n + w]
     row, v = 2 * (n + 1), n + 1
     order = terms(plan[at.RATE] * length)
     plan[at.ORDER], plan[at.PIECE_LENGTH] = float(order), length
@@ -90,7 +92,7 @@ def expand(plan: Vector, y: Vector, deformation: Vector, moved: float, length: f
         plan[series + i], plan[series + v + i] = y[i], y[n + i]
     plan[series + n], plan[series + v + n] = 0.0, 0.0
     for q in range(w):
-        plan[waves + q] = moved * y[2 * n + q]
+        plan[waves + q] = y[2 * n + q]
     record = plan[at.RECORD] != 0.0
     for j in range(order + 1):
         a = series + j * row
@@ -110,7 +112,7 @@ def expand(plan: Vector, y: Vector, deformation: Vector, moved: float, length: f
         else:
             after = a + row + v
         here = beyond(plan, a)
-        constant = moved if j == 0 else 0.0
+        constant = plan[at.MOVED] if j == 0 else 0.0
         accelerate(plan, here, beyond(plan, now), beyond(plan, force), constant, after)
         if j == order:
             break
@@ -180,17 +182,16 @@ def watched_series(plan: Vector, f: int, mode: int, j: int) -> float:
         return plan[int(plan[at.FORCE_SERIES]) + j * count + place]
     row = int(plan[at.SERIES]) + j * 2 * (n + 1)
     value = plan[row + int(plan[one + at.RIGHT])] - plan[row + int(plan[one + at.LEFT])]
-    return plan[one + at.GAP] + value if j == 0 else value
+    return plan[one + at.GAP] * plan[at.MOVED] + value if j == 0 else value
 
 
 @kernel
 def watched(plan: Vector, f: int, mode: int, b: Vector) -> None:
     """Write the Bernstein coefficients of what is watched at a stop."""
-    for i in range(at.DEGREE + 1):
-        b[i] = 0.0
+    order = int(plan[at.ORDER])
+    a = beyond(plan, int(plan[at.SCRATCH]))
+    for j in range(order + 1):
+        a[j] = watched_series(plan, f, mode, j)
     economy = int(plan[at.ECONOMY])
-    for j in range(int(plan[at.ORDER]) + 1):
-        a = watched_series(plan, f, mode, j)
-        row = beyond(plan, economy + 16 * j)
-        for i in range(at.DEGREE + 1):
-            b[i] += row[i] * a
+    combine(beyond(plan, economy), 16, a, order + 1, b)
+    combine(beyond(plan, economy + 8), 16, a, order + 1, beyond(b, 8))
