@@ -86,7 +86,11 @@ def row(restitution: float | None = None) -> System:
     """Three masses with stops between all and a wall, two harmonics, a constant force."""
     mass = np.diag([1.0, 1.3, 0.8])
     c, k = joined(3, [(i, GROUND, 140.0 + 40.0 * i, 0.8) for i in range(3)])
-    pair = {"stiffness": 2.0e4, "damping": 22.0} if restitution is None else {"restitution": restitution}
+    pair = (
+        {"stiffness": 2.0e4, "damping": 22.0}
+        if restitution is None
+        else {"restitution": restitution}
+    )
     stops = [Stop(0, 1, 0.01, **pair), Stop(1, 2, 0.012, **pair), Stop(2, GROUND, 0.02, **pair)]
     forcing = base_motion(mass, np.ones(3), [(1.0, 0.0), (0.4, 0.7)])
     return System(
@@ -114,6 +118,8 @@ def record(count: int, interval: float = 0.02) -> Vector:
     """Lines of a record: value, slope and length."""
     rng = np.random.default_rng(7)
     t = np.arange(count + 1) * interval
-    a = sum(rng.normal() * np.sin(2 * math.pi * f * t + rng.uniform(0, 6)) for f in (0.9, 1.6, 2.7, 4.1))
+    a = sum(
+        rng.normal() * np.sin(2 * math.pi * f * t + rng.uniform(0, 6)) for f in (0.9, 1.6, 2.7, 4.1)
+    )
     a = 2.5 * a
     return np.column_stack([a[:-1], np.diff(a) / interval, np.full(count, interval)])

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import mpmath as mp
 import numpy as np
 import pytest
 
 import samples
 from engine.assembly.exact import Exact
 from engine.assembly.systems import System, full_mass, neighbours, record, row, shaken, storeys
-from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.entries import follow, sections
+from vibroimpact.engine.assembly.entries import follow_sections, sections
 
 SYSTEMS = {
     "neighbours": neighbours(),
@@ -35,7 +33,9 @@ def test_states_and_times(name: str, tables: bool, exact_motion) -> None:
     exact = exact_motion(name)
     lines = lines_of(name, system, CYCLES)
     state, log = system.state(), np.zeros((4000, 4))
-    count = follow(system.plan(tables), system.amplitude, system.omega, state, lines, 1000, log)
+    count = follow_sections(
+        system.plan(tables), system.amplitude, system.omega, state, lines, log=log
+    )
     n = system.n
     assert count == len(exact.events)
     assert len({event[2] for event in exact.events}) == len(system.stops)

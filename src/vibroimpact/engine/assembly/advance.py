@@ -5,21 +5,26 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.events import pack_fresh, speeds, switch, unpack_fresh
-from vibroimpact.engine.assembly.mode import enter
-from vibroimpact.engine.assembly.roots import first_root
-from vibroimpact.engine.assembly.series import expand, travel, watched, watched_series
+from vibroimpact.engine.assembly.events import pack_fresh, speeds, switch_mode, unpack_fresh
+from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.assembly.roots import first_fall
+from vibroimpact.engine.assembly.series import (
+    expand_state,
+    travel_by_series,
+    watched,
+    watched_series,
+)
 from vibroimpact.engine.assembly.tables import (
     LEVELS,
     STEP_LENGTH,
     WIDTH,
     exact_rows,
     gather,
-    table,
+    table_of_mode,
     travel_by_tables,
 )
 from vibroimpact.engine.assembly.tables import is_clear as is_clear_on_leap
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
 _SAME = 1e-12
@@ -58,8 +63,8 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
     begin(plan, amplitude, omega)
 
 
-@kernel
-def load(plan: Vector, state: Vector, s: float, c: float) -> None:
+@apart
+def load_motion(plan: Vector, state: Vector, s: float, c: float) -> None:
     """Take up a motion at a section, where the clock is s, c."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
     y, deformation = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
@@ -78,11 +83,11 @@ def load(plan: Vector, state: Vector, s: float, c: float) -> None:
     unpack_fresh(plan, state[at.STATE_FRESH])
     plan[at.AGE] = state[at.PARTS + 2 * n + count]
     plan[at.LEVEL] = 0.0
-    enter(plan, int(state[at.STATE_MODE]))
+    enter_mode(plan, int(state[at.STATE_MODE]))
 
 
-@kernel
-def store(plan: Vector, state: Vector) -> None:
+@apart
+def store_motion(plan: Vector, state: Vector) -> None:
     """Write the motion as a state with its clock."""
     n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
     y, deformation = int(plan[at.Y]), int(plan[at.DEFORMATION])
@@ -145,7 +150,7 @@ def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> f
             most = max(most, abs(b[j]))
         if jumped(plan, f, mode, b[0] + d, most):
             return 0.0
-    return first_root(b, d, x, end, zeros, plan)
+    return first_fall(b, d, x, end, zeros, plan)
 
 
 @kernel
@@ -168,8 +173,8 @@ def remember(plan: Vector, target: int, deformations: int) -> None:
         plan[deformations + f] = plan[deformation + f]
 
 
-@kernel
-def advance_by_tables(plan: Vector, place: int, left: float) -> int:
+@apart
+def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
     """As `advance`, in a mode that has tables: a leap, a step, or the way to an event."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
     mode = int(plan[at.MODE])
@@ -232,8 +237,8 @@ def advance_by_tables(plan: Vector, place: int, left: float) -> int:
     return finish(plan, mode, hit, time, end > _SAME)
 
 
-@kernel
-def advance(plan: Vector, left: float) -> int:
+@apart
+def next_stretch(plan: Vector, left: float) -> int:
     """Go on to the next event, at most for a step and for the time that is left.
 
     Returns what ended the stretch; its length is `plan[LENGTH]`, its stop `plan[EVENT_STOP]`. The
@@ -252,12 +257,12 @@ def advance(plan: Vector, left: float) -> int:
     if not total < 1e200:
         plan[at.EVENT], plan[at.LENGTH] = float(at.GIVEN_UP), 0.0
         return at.GIVEN_UP
-    place = table(plan)
+    place = table_of_mode(plan)
     if place > 0:
-        return advance_by_tables(plan, place, left)
+        return stretch_by_tables(plan, place, left)
     h = at.STEP / max(plan[at.RATE], 1e-200)
     length = left if left <= h else min(h, 0.5 * left)
-    expand(plan, y, deformation, length)
+    expand_state(plan, y, deformation, length)
     hit, end = -1, 1.0
     for f in range(count):
         if zeros[f] == 0.0 and is_clear(plan, f, mode):
@@ -270,7 +275,7 @@ def advance(plan: Vector, left: float) -> int:
         if tau <= limit:
             hit, end = f, tau
     if hit < 0 or end > 0.0:
-        travel(plan, y, deformation, end)
+        travel_by_series(plan, y, deformation, end)
         relax(plan, mode, deformation, end * length)
     return finish(plan, mode, hit, end * length, end > _SAME)
 
@@ -287,8 +292,8 @@ def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int
     event = at.LIMIT
     if hit >= 0:
         remember(plan, int(plan[at.END]), int(plan[at.END_DEFORMATION]))
-        mode, event = switch(plan, mode, hit, y, deformation)
-        enter(plan, mode)
+        mode, event = switch_mode(plan, mode, hit, y, deformation)
+        enter_mode(plan, mode)
         plan[at.AGE] = 0.0
         plan[at.LEVEL] = 0.0
     plan[at.EVENT] = float(event)
@@ -298,11 +303,11 @@ def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int
 @kernel
 def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
     """Follow a motion from a section over a length (s), in place; see `flow.cycle`."""
-    load(plan, state, s, c)
+    load_motion(plan, state, s, c)
     t, events = 0.0, 0
     while t < length:
         left = length - t
-        event = advance(plan, left)
+        event = next_stretch(plan, left)
         if event == at.GIVEN_UP:
             events = max_events + 1
             break
@@ -311,5 +316,5 @@ def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_ev
             events += 1
             if events > max_events:
                 break
-    store(plan, state)
+    store_motion(plan, state)
     return events

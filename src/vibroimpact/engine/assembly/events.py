@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.mode import enter, hold
+from vibroimpact.engine.assembly.mode import enter_mode, hold
 from vibroimpact.engine.assembly.series import accelerate
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
 _CHATTERED = 1e-6
@@ -106,8 +106,10 @@ def push_and_jerk(plan: Vector, f: int, y: Vector, deformation: Vector) -> tuple
     return push, closing(plan, f, beyond(plan, place))
 
 
-@kernel
-def settles(plan: Vector, f: int, returned: float, e: float, y: Vector, deformation: Vector) -> bool:
+@apart
+def settles(
+    plan: Vector, f: int, returned: float, e: float, y: Vector, deformation: Vector
+) -> bool:
     """Whether the impacts after a return with this speed are completed at once, by rest."""
     if e >= 1.0:
         return False
@@ -157,7 +159,7 @@ def impact(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> i
         plan[at.ORDERED] += 1.0
     if settles(plan, f, max(e * speed, 0.0), e, y, deformation):
         mode |= 1 << f
-        enter(plan, mode)
+        enter_mode(plan, mode)
         halt(plan, y)
         return mode
     kick = (1.0 + e) * speed / coupling[f]
@@ -174,8 +176,8 @@ def impact(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> i
     return mode
 
 
-@kernel
-def switch(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> tuple[int, int]:
+@apart
+def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> tuple[int, int]:
     """Go through the event of a stop whose watched function is zero; the mode and what it was."""
     count = int(plan[at.STOPS])
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH

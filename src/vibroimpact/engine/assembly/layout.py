@@ -82,11 +82,15 @@ from __future__ import annotations
     TABLE_ROOM,
     RULES,
     MOVED,
-) = range(65)
+    ACTUAL_MODE,
+    PIECE_Y,
+    PIECE_DEFORMATION,
+    SHAKEN,
+) = range(69)
 HEADER = 72
 
-LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION, FIRST, BEHIND = range(
-    10
+LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION, FIRST, BEHIND = (
+    range(10)
 )
 """Of a stop: its bodies (n for the ground), gap (m), kind, N/m, N s/m, –, κ (1/s; inf without a
 dashpot), and the range of masses on which it acts at once."""

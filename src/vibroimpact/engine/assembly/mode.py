@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
 _DEPENDENT = 1e-12
 """A stop whose constraint is this close to those of others adds none (both walls touch a mass)."""
 
 
-@kernel
-def enter(plan: Vector, mode: int) -> None:
+@apart
+def enter_mode(plan: Vector, mode: int) -> None:
     """List the pressed and the resting stops of a mode, and bound its rate."""
     if int(plan[at.MODE]) == mode:
         return

@@ -58,11 +58,15 @@ class Forcing(NamedTuple):
         The amplitude is multiplied by ω to this power (2: the amplitude of a displacement).
     interval
         Of a record (s): the length of its lines; 0 for harmonics.
+    shaken
+        Whether these are the forces of a base that moves, so that absolute accelerations are those
+        of all other forces.
     """
 
     weights: Matrix
     power: int = 0
     interval: float = 0.0
+    shaken: bool = False
 
 
 def base_motion(
@@ -71,12 +75,12 @@ def base_motion(
     """A shaken base, A_t = amplitude · Σ ratio_k sin(k θ + phase_k), as forces −M ι A_t."""
     force = -mass @ influence
     columns = [ratio * part for ratio, turn in harmonics for part in (np.cos(turn), np.sin(turn))]
-    return Forcing(np.outer(force, columns))
+    return Forcing(np.outer(force, columns), shaken=True)
 
 
 def record_motion(mass: Matrix, influence: Vector, interval: float) -> Forcing:
     """A base that is shaken by a record, of straight lines."""
-    return Forcing(-mass @ influence, interval=interval)
+    return Forcing(-mass @ influence, interval=interval, shaken=True)
 
 
 def make_plan(
@@ -123,6 +127,7 @@ def make_plan(
 
     header[[at.MASSES, at.STOPS, at.WAVES, at.RECORD]] = n, count, waves, record
     header[[at.POWER, at.INTERVAL, at.MODE]] = forcing.power, forcing.interval, -1
+    header[at.SHAKEN] = forcing.shaken
     k, c = inverse @ stiffness, inverse @ damping
     shape = np.zeros((n, waves))
     shape[:, : 1 if record else waves] = inverse @ forcing.weights.reshape(n, -1)
@@ -141,15 +146,19 @@ def make_plan(
     response = closing @ inverse
     block(at.RESPONSE, response)
     block(at.COUPLING, response @ closing.T)
-    block(at.STOP, np.array([_stop(s, n, r) for s, r in zip(stops, _ranges(response != 0.0), strict=True)]))
+    block(
+        at.STOP,
+        np.array([_stop(s, n, r) for s, r in zip(stops, _ranges(response != 0.0), strict=True)]),
+    )
     block(at.ROW_SUMS, np.stack([abs(k).sum(1), abs(c).sum(1)]))
     block(at.ECONOMY, economy())
     block(at.PRESSED_LIST, count)
     block(at.RESTING_LIST, count)
     block(at.FACTOR, count * count)
-    for vector in (at.Y, at.START, at.END):
+    for vector in (at.Y, at.START, at.END, at.PIECE_Y):
         block(vector, width + count + 8)
-    for vector in (at.DEFORMATION, at.START_DEFORMATION, at.END_DEFORMATION, at.ZEROS):
+    deformations = (at.DEFORMATION, at.START_DEFORMATION, at.END_DEFORMATION)
+    for vector in (*deformations, at.PIECE_DEFORMATION, at.ZEROS):
         block(vector, count)
     block(at.SERIES, at.TERMS * row)
     block(at.WAVE_SERIES, at.TERMS * waves)

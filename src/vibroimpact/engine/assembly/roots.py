@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
 NONE = 9.0
@@ -22,10 +22,8 @@ _LONG = 4.0
 """Relaxation times on a piece from which its memory is left out of the lower bound."""
 
 
-@kernel
-def first_root(
-    b: Vector, d: float, x_rate: float, end: float, zeros: int, plan: Vector
-) -> float:
+@apart
+def first_fall(b: Vector, d: float, x_rate: float, end: float, zeros: int, plan: Vector) -> float:
     """The first x ≤ end at which f falls through zero, or NONE; b is overwritten.
 
     `zeros`: the order of the zero at 0 that is there by construction.
@@ -140,7 +138,7 @@ def only_root(b: Vector, e: float, x: float) -> float:
 
 @kernel
 def value(b: Vector, x: float) -> tuple[float, float]:
-    """Value and slope of a Bernstein polynomial: Horner's rule in x / (1 − x), from the nearer end."""
+    """Value and slope of a Bernstein polynomial, by Horner's rule in x / (1 − x)."""
     near = x <= 0.5
     small = x if near else 1.0 - x
     ratio = small / (1.0 - small)

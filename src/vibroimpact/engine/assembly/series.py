@@ -5,7 +5,7 @@ from __future__ import annotations
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import hold
 from vibroimpact.engine.assembly.vectors import combine
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
 _ROUNDING = 1e-18
@@ -13,7 +13,7 @@ _ROUNDING = 1e-18
 
 @kernel
 def terms(angle: float) -> int:
-    """The order at which the remainder of a step is lost in rounding; `angle` is ρ times its length."""
+    """The order whose remainder is lost in rounding, on a step of ρ times this angle."""
     term, order = 1.0, 0
     while order < at.TERMS - 1 and (term > _ROUNDING or order < 2):
         order += 1
@@ -30,7 +30,7 @@ def accelerate(
     `deformation`: of the pressed stops, in the order of their list, then written by the forces of
     all that touch: those pressed, then those resting.
     """
-    n, count, w = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.WAVES])
+    n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
     rows, stops = beyond(plan, int(plan[at.ROWS])), int(plan[at.STOP])
     stiffness, damping = int(plan[at.STIFFNESS]), int(plan[at.DAMPING])
     push, still = int(plan[at.PUSH]), int(plan[at.CONSTANT])
@@ -73,8 +73,8 @@ def accelerate(
             plan[row + i] -= plan[response + f * n + i] * held[j]
 
 
-@kernel
-def expand(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
+@apart
+def expand_state(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
     """Write the series of u, v, w and of the forces in t / length, of an order that suffices.
 
     y is u, v, w, 1; for a disturbance, its w and its last number are 0.
@@ -107,10 +107,7 @@ def expand(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
                 left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
                 plan[force + p] = plan[a + left] - plan[a + right]
         # Behind the order a row is used as room; it is never read.
-        if j == order:
-            after = int(plan[at.SCRATCH])
-        else:
-            after = a + row + v
+        after = int(plan[at.SCRATCH]) if j == order else a + row + v
         here = beyond(plan, a)
         constant = plan[at.MOVED] if j == 0 else 0.0
         accelerate(plan, here, beyond(plan, now), beyond(plan, force), constant, after)
@@ -140,8 +137,8 @@ def gain(plan: Vector, block: int, row: int, i: int, tau: float) -> float:
     return total
 
 
-@kernel
-def travel(plan: Vector, y: Vector, deformation: Vector, tau: float) -> None:
+@apart
+def travel_by_series(plan: Vector, y: Vector, deformation: Vector, tau: float) -> None:
     """Carry the state, of which the series was made, on in place; free deformations stay."""
     n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
     row = 2 * (n + 1)

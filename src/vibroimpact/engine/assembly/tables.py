@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.series import expand, gain, watched_series
+from vibroimpact.engine.assembly.series import expand_state, gain, watched_series
 from vibroimpact.engine.assembly.vectors import combine
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
 LEVELS = 4
@@ -73,8 +73,8 @@ def rules() -> Any:
     return np.concatenate([np.ravel(at_nodes), np.ravel(fit), np.ravel(lift), nodes])
 
 
-@kernel
-def table(plan: Vector) -> int:
+@apart
+def table_of_mode(plan: Vector) -> int:
     """Where the tables of the present mode begin, made if need be; 0 if it has none."""
     known = int(plan[at.TABLE_NOW])
     if known >= 0:
@@ -95,7 +95,7 @@ def table(plan: Vector) -> int:
             plan[keys + k], plan[slots + k] = float(mode), plan[at.USED]
             plan[at.USED] += 1.0
             place = int(plan[at.TABLE]) + int(plan[slots + k]) * int(plan[at.TABLE_SIZE])
-            make(plan, place)
+            make_tables(plan, place)
         place = int(plan[at.TABLE]) + int(plan[slots + k]) * int(plan[at.TABLE_SIZE])
     plan[at.TABLE_NOW] = float(place)
     return place
@@ -113,8 +113,8 @@ def gather(plan: Vector, x: Vector) -> None:
         x[base + j] = plan[deformation + int(plan[listed + j])]
 
 
-@kernel
-def make(plan: Vector, place: int) -> None:
+@apart
+def make_tables(plan: Vector, place: int) -> None:
     """Write the tables of the present mode."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
     mode, p = int(plan[at.MODE]), int(plan[at.PRESSED])
@@ -154,7 +154,7 @@ def make(plan: Vector, place: int) -> None:
         for j in range(p):
             f = int(plan[int(plan[at.PRESSED_LIST]) + j])
             plan[pressed + f] = plan[unit + base + j]
-        expand(plan, beyond(plan, unit), beyond(plan, pressed), h)
+        expand_state(plan, beyond(plan, unit), beyond(plan, pressed), h)
         for i in range(width):
             if i < 2 * n:
                 block, stride, of = series, row, i if i < n else i + 1
@@ -321,7 +321,7 @@ def exact_rows(plan: Vector, place: int, f: int, x: Vector, b: Vector) -> None:
 
 @kernel
 def propagate(plan: Vector, matrix: int, width: int, x: Vector, room: Vector) -> None:
-    """x += E x."""
+    """X += E x."""
     blocks = (width + 7) // 8
     for k in range(blocks):
         combine(beyond(plan, matrix + k * width * 8), 8, x, width, beyond(room, 8 * k))

@@ -16,7 +16,7 @@ _DOUBLES = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
 
 
 def combine(rows: Vector, stride: int, x: Vector, n: int, out: Vector) -> None:
-    """out = Σ x_i rows_i for eight numbers; row i begins at i · stride."""
+    """Out = Σ x_i rows_i for eight numbers; row i begins at i · stride."""
     for r in range(8):
         out[r] = sum(rows[i * stride + r] * x[i] for i in range(n))
 
