@@ -10,8 +10,8 @@ from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.assembly.roots import first_fall
 from vibroimpact.engine.assembly.series import (
     expand_state,
+    to_bernstein,
     travel_by_series,
-    watched,
     watched_series,
 )
 from vibroimpact.engine.assembly.tables import (
@@ -33,6 +33,10 @@ _SAME = 1e-12
 _WRONG = 1e-14
 """A watched function below zero by more than this share of what it is made of is so by a jump, not
 by rounding."""
+
+_ROUNDING = 2e-16
+"""A watched function that goes below zero by no more than this share is a touch."""
+_TINY = 1e-300
 
 
 @kernel
@@ -111,19 +115,20 @@ def relax(plan: Vector, mode: int, deformation: Vector, t: float) -> None:
 
 
 @kernel
-def jumped(plan: Vector, f: int, mode: int, level: float, most: float) -> bool:
-    """Whether a watched function is below zero by more than rounding."""
+def magnitude(plan: Vector, f: int, mode: int, b: Vector) -> float:
+    """The size of what a watched function is made of, by which its rounding is measured."""
     n = int(plan[at.MASSES])
     y, one = beyond(plan, int(plan[at.Y])), int(plan[at.STOP]) + f * at.STOP_WIDTH
     d = abs(plan[int(plan[at.DEFORMATION]) + f])
     if mode >> f & 1 == 0:
-        size = abs(plan[one + at.GAP]) + speeds(plan, f, y) + d
-    elif plan[one + at.KIND] == at.RIGID:
-        size = most
-    else:
+        return abs(plan[one + at.GAP]) + speeds(plan, f, y) + d
+    if plan[one + at.KIND] == at.KELVIN_VOIGT:
         size = plan[one + at.STOP_STIFFNESS] * d
-        size += plan[one + at.STOP_DAMPING] * speeds(plan, f, beyond(y, n))
-    return level < -_WRONG * size
+        return size + plan[one + at.STOP_DAMPING] * speeds(plan, f, beyond(y, n))
+    most = 0.0
+    for j in range(at.DEGREE + 1):
+        most = max(most, abs(b[j]))
+    return most
 
 
 @kernel
@@ -138,27 +143,24 @@ def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> f
             x = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RELAXATION] * length
         else:
             d = 0.0
+    size = magnitude(plan, f, mode, b)
     if zeros > 0:
         b[0] = -d
         if zeros > 1:
             b[1] = b[0] + x * d / at.DEGREE
         if zeros > 2:
             b[2] = 0.0
-    elif b[0] + d <= 0.0:
-        most = 0.0
-        for j in range(at.DEGREE + 1):
-            most = max(most, abs(b[j]))
-        if jumped(plan, f, mode, b[0] + d, most):
-            return 0.0
-    return first_fall(b, d, x, end, zeros, plan)
+    elif b[0] + d < -_WRONG * size:
+        return 0.0
+    return first_fall(b, d, x, end, zeros, _ROUNDING * size + _TINY, plan)
 
 
 @kernel
-def is_clear(plan: Vector, f: int, mode: int) -> bool:
-    """Whether the series alone shows that a watched function stays positive."""
-    least: float = watched_series(plan, f, mode, 0)
-    for j in range(1, int(plan[at.ORDER]) + 1):
-        least += min(watched_series(plan, f, mode, j), 0.0)
+def is_positive(a: Vector, order: int) -> bool:
+    """Whether the size of a power series' terms alone shows that it is positive on [0, 1]."""
+    least = a[0]
+    for j in range(1, order + 1):
+        least += min(a[j], 0.0)
     return least > 0.0
 
 
@@ -263,14 +265,16 @@ def next_stretch(plan: Vector, left: float) -> int:
     h = at.STEP / max(plan[at.RATE], 1e-200)
     length = left if left <= h else min(h, 0.5 * left)
     expand_state(plan, y, deformation, length)
+    a, b = beyond(plan, int(plan[at.COEFFICIENTS])), beyond(plan, int(plan[at.BERNSTEIN]))
     hit, end = -1, 1.0
     for f in range(count):
-        if zeros[f] == 0.0 and is_clear(plan, f, mode):
+        watched_series(plan, f, mode, a)
+        if zeros[f] == 0.0 and is_positive(a, int(plan[at.ORDER])):
             continue
         limit = end if hit < 0 else end - _SAME
         if limit < 0.0:
             break
-        watched(plan, f, mode, beyond(plan, int(plan[at.BERNSTEIN])))
+        to_bernstein(plan, a, b)
         tau = first_event(plan, f, mode, length, limit)
         if tau <= limit:
             hit, end = f, tau

@@ -90,7 +90,7 @@ def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
     mode, one = int(plan[at.MODE]), int(plan[at.STOP]) + index * at.STOP_WIDTH
     pressed = channel >= CLEARANCE and mode >> index & 1 == 1
     out[at.TERMS], out[at.TERMS + 1] = 0.0, 0.0
-    if channel == ACCELERATION or channel == ABSOLUTE_ACCELERATION:
+    if channel in (ACCELERATION, ABSOLUTE_ACCELERATION):
         order -= 1
         push = int(plan[at.PUSH]) + index * w
         for j in range(order + 1):
@@ -100,6 +100,8 @@ def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
                     a -= plan[push + q] * plan[waves + j * w + q]
             out[j] = a
         return order
+    if (channel == FORCE and pressed) or (channel == CLEARANCE and not pressed):
+        watched_series(plan, index, mode, out)
     for j in range(order + 1):
         here = states + j * row
         if channel == DISPLACEMENT:
@@ -107,18 +109,18 @@ def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
         elif channel == VELOCITY:
             out[j] = plan[here + n + 1 + index]
         elif channel == FORCE:
-            out[j] = watched_series(plan, index, mode, j) if pressed else 0.0
-        elif pressed and plan[one + at.KIND] == at.RIGID:
-            out[j] = 0.0
+            if not pressed:
+                out[j] = 0.0
         elif channel == CLEARANCE:
-            out[j] = 0.0 if pressed else watched_series(plan, index, mode, j)
-        elif not pressed:
+            if pressed:
+                out[j] = 0.0
+        elif plan[one + at.KIND] == at.RIGID or not pressed:
             out[j] = 0.0
         elif j == 0:
             out[j] = plan[int(plan[at.PIECE_DEFORMATION]) + index]
         else:
             out[j] = plan[here + int(plan[one + at.LEFT])] - plan[here + int(plan[one + at.RIGHT])]
-    if not pressed and (channel == CLEARANCE or channel == DEFORMATION):
+    if not pressed and channel in (CLEARANCE, DEFORMATION):
         d = plan[int(plan[at.PIECE_DEFORMATION]) + index]
         if d > 0.0:
             out[at.TERMS], out[at.TERMS + 1] = d, plan[one + at.RELAXATION] * length

@@ -6,7 +6,7 @@ import math
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import enter_mode, hold
-from vibroimpact.engine.assembly.series import accelerate
+from vibroimpact.engine.assembly.series import accelerate, places
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -68,7 +68,7 @@ def accelerations(
     forces = beyond(plan, place + n + 1)
     for p in range(int(plan[at.PRESSED])):
         forces[p] = deformation[int(plan[int(plan[at.PRESSED_LIST]) + p])]
-    accelerate(plan, here, w, forces, moved, place)
+    accelerate(plan, places(plan), here, w, forces, moved, place)
 
 
 @kernel

@@ -86,7 +86,9 @@ from __future__ import annotations
     PIECE_Y,
     PIECE_DEFORMATION,
     SHAKEN,
-) = range(69)
+    UNDECIDED,
+    COEFFICIENTS,
+) = range(71)
 HEADER = 72
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION, FIRST, BEHIND = (

@@ -164,6 +164,7 @@ def make_plan(
     block(at.WAVE_SERIES, at.TERMS * waves)
     block(at.FORCE_SERIES, at.TERMS * count)
     block(at.BERNSTEIN, 16)
+    block(at.COEFFICIENTS, at.TERMS)
     block(at.ROOM, 64 * 16)
     block(at.WIDTHS, 64)
     block(at.SCRATCH, 8 * (width + count + 8))

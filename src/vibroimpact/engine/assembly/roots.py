@@ -4,7 +4,8 @@ f(x) = Σ b_j B_j(x) + d exp(−X x) on [0, 1], d ≥ 0. On a piece, the exponen
 parabola that touches it at the left end and meets it at the right one, which has three terms in
 Bernstein form. If all coefficients of the lower bound are positive, f has no root; if the slope's
 upper bound is negative everywhere and f is not positive at the end, it has one. Otherwise the piece
-is halved. What is decided by less than 2⁻⁴⁶ of the step is a touch and is passed over.
+is halved. What goes below zero by no more than rounding, or for less than 2⁻⁴⁶ of the step, is a
+touch and is passed over.
 """
 
 from __future__ import annotations
@@ -17,37 +18,47 @@ from vibroimpact.engine.memory import beyond
 
 NONE = 9.0
 _D = at.DEGREE
+_BINOMIALS = tuple(float(math.comb(at.DEGREE, i)) for i in range(at.DEGREE + 1))
 _NARROW = 2.0**-46
+_MOST_SPLITS = 10_000
+"""No polynomial needs so many but by an error; `UNDECIDED` counts those that do."""
 _LONG = 4.0
 """Relaxation times on a piece from which its memory is left out of the lower bound."""
 
 
 @apart
-def first_fall(b: Vector, d: float, x_rate: float, end: float, zeros: int, plan: Vector) -> float:
+def first_fall(
+    b: Vector, d: float, x_rate: float, end: float, zeros: int, noise: float, plan: Vector
+) -> float:
     """The first x ≤ end at which f falls through zero, or NONE; b is overwritten.
 
-    `zeros`: the order of the zero at 0 that is there by construction.
+    `zeros`: the order of the zero at 0 that is there by construction; `noise`: by how much f may be
+    below zero by rounding.
     """
     if zeros == 0 and b[0] + d <= 0.0:  # rounding has put it below zero, or it is on its way there
-        if _D * (b[1] - b[0]) - x_rate * d < 0.0:
+        if _D * (b[1] - b[0]) - x_rate * d < -noise:
             return 0.0
         b[0] = -d
         zeros = 1
     room, widths = int(plan[at.ROOM]), int(plan[at.WIDTHS])
-    left, width, waiting = 0.0, 1.0, 0
+    left, width, waiting, splits = 0.0, 1.0, 0, 0
     while left < end:
         e = d * math.exp(-x_rate * left) if d > 0.0 else 0.0
         x = x_rate * width
         known = zeros if left == 0.0 else 0
         last = e * math.exp(-x) if e > 0.0 else 0.0
-        free = positive(b, e, x, last, known)
+        free = positive(b, e, x, last, known, noise)
         if not free and b[_D] + last <= 0.0 and falling(b, e, x, last, known):
             if known > 0:
                 return 0.0
             root = left + width * only_root(b, e, x)
             return root if root <= end else NONE
         if not free and width > _NARROW:
+            splits += 1
             plan[at.SPLITS] += 1.0
+            if splits > _MOST_SPLITS:
+                plan[at.UNDECIDED] += 1.0
+                return NONE
             # With a zero at the left, the exponential must be followed there to its curvature.
             cut = 3.0 / x if e > 0.0 and x > _LONG and known > 0 else 0.5
             split(b, cut, beyond(plan, room + 16 * waiting))
@@ -66,14 +77,14 @@ def first_fall(b: Vector, d: float, x_rate: float, end: float, zeros: int, plan:
 
 
 @kernel
-def positive(b: Vector, e: float, x: float, last: float, known: int) -> bool:
+def positive(b: Vector, e: float, x: float, last: float, known: int, noise: float) -> bool:
     """Whether f is proved positive on (0, 1], but for its known zeros at 0."""
     found = True
     if e == 0.0 or x > _LONG:
         if e > 0.0 and known > 0:
             return False
         for j in range(_D + 1):
-            found &= (b[j] > 0.0) | (j < known)
+            found &= (b[j] > -noise) | (j < known)
         return found
     if x > 0.1:
         bowl = last - e * (1.0 - x)
@@ -82,7 +93,7 @@ def positive(b: Vector, e: float, x: float, last: float, known: int) -> bool:
     for j in range(_D + 1):
         line = j * (1.0 / _D)
         square = line * ((j - 1) * (1.0 / (_D - 1)))
-        found &= (b[j] + e * (1.0 - x * line) + bowl * square > 0.0) | (j < known)
+        found &= (b[j] + e * (1.0 - x * line) + bowl * square > -noise) | (j < known)
     return found
 
 
@@ -144,12 +155,10 @@ def value(b: Vector, x: float) -> tuple[float, float]:
     ratio = small / (1.0 - small)
     rest = 1.0 - small
     total, slope, scale = 0.0, 0.0, 1.0
-    # Σ C(D, j) b_j r^j and its derivative; binomials are made on the way down.
-    binomial = 1.0
+    # Σ C(D, j) b_j r^j and its derivative.
     for i in range(_D, -1, -1):
         slope = slope * ratio + total
-        total = total * ratio + binomial * (b[i] if near else b[_D - i])
-        binomial *= i / (_D - i + 1.0)
+        total = total * ratio + _BINOMIALS[i] * (b[i] if near else b[_D - i])
     for _ in range(_D - 1):
         scale *= rest
     # p = rest^D S(r), dr/dx = 1 / rest²

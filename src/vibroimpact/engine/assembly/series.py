@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import hold
 from vibroimpact.engine.assembly.vectors import combine
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.memory import beyond
 
 _ROUNDING = 1e-18
@@ -21,31 +23,70 @@ def terms(angle: float) -> int:
     return order
 
 
-@kernel
+class Places(NamedTuple):
+    """Sizes and places of the plan, read once for many terms."""
+
+    masses: int
+    waves: int
+    pressed: int
+    resting: int
+    rows: int
+    stiffness: int
+    damping: int
+    push: int
+    constant: int
+    response: int
+    stops: int
+    pressed_list: int
+    resting_list: int
+
+
+@inlined
+def places(plan: Vector) -> Places:
+    """Read them."""
+    return Places(
+        int(plan[at.MASSES]),
+        int(plan[at.WAVES]),
+        int(plan[at.PRESSED]),
+        int(plan[at.RESTING]),
+        int(plan[at.ROWS]),
+        int(plan[at.STIFFNESS]),
+        int(plan[at.DAMPING]),
+        int(plan[at.PUSH]),
+        int(plan[at.CONSTANT]),
+        int(plan[at.RESPONSE]),
+        int(plan[at.STOP]),
+        int(plan[at.PRESSED_LIST]),
+        int(plan[at.RESTING_LIST]),
+    )
+
+
+@inlined
 def accelerate(
-    plan: Vector, y: Vector, waves: Vector, deformation: Vector, constant: float, row: int
+    plan: Vector,
+    of: Places,
+    y: Vector,
+    waves: Vector,
+    deformation: Vector,
+    constant: float,
+    row: int,
 ) -> None:
     """Write the accelerations of a row of the series; y is u, 0, v, 0 (the ground stands still).
 
     `deformation`: of the pressed stops, in the order of their list, then written by the forces of
     all that touch: those pressed, then those resting.
     """
-    n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
-    rows, stops = beyond(plan, int(plan[at.ROWS])), int(plan[at.STOP])
-    stiffness, damping = int(plan[at.STIFFNESS]), int(plan[at.DAMPING])
-    push, still = int(plan[at.PUSH]), int(plan[at.CONSTANT])
-    response = int(plan[at.RESPONSE])
+    n, w, response, stops = of.masses, of.waves, of.response, of.stops
     v = n + 1
     for i in range(n):
-        a = constant * plan[still + i]
+        a = constant * plan[of.constant + i]
         for q in range(w):
-            a += plan[push + i * w + q] * waves[q]
-        k, c = stiffness + i * n, damping + i * n
-        for q in range(int(rows[2 * i]), int(rows[2 * i + 1])):
+            a += plan[of.push + i * w + q] * waves[q]
+        k, c = of.stiffness + i * n, of.damping + i * n
+        for q in range(int(plan[of.rows + 2 * i]), int(plan[of.rows + 2 * i + 1])):
             a -= plan[k + q] * y[q] + plan[c + q] * y[v + q]
         plan[row + i] = a
-    p = int(plan[at.PRESSED])
-    listed = int(plan[at.PRESSED_LIST])
+    p, listed = of.pressed, of.pressed_list
     for j in range(p):
         f = int(plan[listed + j])
         one = stops + f * at.STOP_WIDTH
@@ -56,11 +97,10 @@ def accelerate(
         deformation[j] = force
         for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
             plan[row + i] -= plan[response + f * n + i] * force
-    r = int(plan[at.RESTING])
+    r, listed = of.resting, of.resting_list
     if r == 0:
         return
     plan[row + n] = 0.0
-    listed = int(plan[at.RESTING_LIST])
     held = beyond(deformation, p)
     for j in range(r):
         one = stops + int(plan[listed + j]) * at.STOP_WIDTH
@@ -79,7 +119,8 @@ def expand_state(plan: Vector, y: Vector, deformation: Vector, length: float) ->
 
     y is u, v, w, 1; for a disturbance, its w and its last number are 0.
     """
-    n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
+    of = places(plan)
+    n, w = of.masses, of.waves
     plan[at.MOVED] = y[2 * n + w]
     row, v = 2 * (n + 1), n + 1
     order = terms(plan[at.RATE] * length)
@@ -110,7 +151,7 @@ def expand_state(plan: Vector, y: Vector, deformation: Vector, length: float) ->
         after = int(plan[at.SCRATCH]) if j == order else a + row + v
         here = beyond(plan, a)
         constant = plan[at.MOVED] if j == 0 else 0.0
-        accelerate(plan, here, beyond(plan, now), beyond(plan, force), constant, after)
+        accelerate(plan, of, here, beyond(plan, now), beyond(plan, force), constant, after)
         if j == order:
             break
         factor = length / (j + 1)
@@ -164,9 +205,9 @@ def travel_by_series(plan: Vector, y: Vector, deformation: Vector, tau: float) -
 
 
 @kernel
-def watched_series(plan: Vector, f: int, mode: int, j: int) -> float:
-    """A coefficient of what is watched at a stop: clearance without memory, or force."""
-    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+def watched_series(plan: Vector, f: int, mode: int, a: Vector) -> None:
+    """Write the coefficients of what is watched at a stop: clearance without memory, or force."""
+    n, count, order = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.ORDER])
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH
     if mode >> f & 1:
         place = 0
@@ -176,19 +217,21 @@ def watched_series(plan: Vector, f: int, mode: int, j: int) -> float:
             place += 1
         if rigid:
             place += int(plan[at.PRESSED])
-        return plan[int(plan[at.FORCE_SERIES]) + j * count + place]
-    row = int(plan[at.SERIES]) + j * 2 * (n + 1)
-    value = plan[row + int(plan[one + at.RIGHT])] - plan[row + int(plan[one + at.LEFT])]
-    return plan[one + at.GAP] * plan[at.MOVED] + value if j == 0 else value
+        forces = beyond(plan, int(plan[at.FORCE_SERIES]) + place)
+        for j in range(order + 1):
+            a[j] = forces[j * count]
+        return
+    row = 2 * (n + 1)
+    right = beyond(plan, int(plan[at.SERIES]) + int(plan[one + at.RIGHT]))
+    left = beyond(plan, int(plan[at.SERIES]) + int(plan[one + at.LEFT]))
+    for j in range(order + 1):
+        a[j] = right[j * row] - left[j * row]
+    a[0] += plan[one + at.GAP] * plan[at.MOVED]
 
 
 @kernel
-def watched(plan: Vector, f: int, mode: int, b: Vector) -> None:
-    """Write the Bernstein coefficients of what is watched at a stop."""
-    order = int(plan[at.ORDER])
-    a = beyond(plan, int(plan[at.SCRATCH]))
-    for j in range(order + 1):
-        a[j] = watched_series(plan, f, mode, j)
-    economy = int(plan[at.ECONOMY])
-    combine(beyond(plan, economy), 16, a, order + 1, b)
-    combine(beyond(plan, economy + 8), 16, a, order + 1, beyond(b, 8))
+def to_bernstein(plan: Vector, a: Vector, b: Vector) -> None:
+    """Make Bernstein coefficients of those of a power series."""
+    economy, count = int(plan[at.ECONOMY]), int(plan[at.ORDER]) + 1
+    combine(beyond(plan, economy), 16, a, count, b)
+    combine(beyond(plan, economy + 8), 16, a, count, beyond(b, 8))

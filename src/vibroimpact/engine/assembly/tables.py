@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.series import expand_state, gain, watched_series
+from vibroimpact.engine.assembly.series import expand_state, gain, to_bernstein, watched_series
 from vibroimpact.engine.assembly.vectors import combine
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
@@ -147,7 +147,7 @@ def make_tables(plan: Vector, place: int) -> None:
     pressed = unit + width + 8
     row = 2 * (n + 1)
     series, waves = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES])
-    economy = int(plan[at.ECONOMY])
+    a, b = beyond(plan, int(plan[at.COEFFICIENTS])), beyond(plan, int(plan[at.BERNSTEIN]))
     for column in range(width):
         for i in range(width):
             plan[unit + i] = 1.0 if i == column else 0.0
@@ -180,11 +180,10 @@ def make_tables(plan: Vector, place: int) -> None:
                 value = plan[series + (j + 1) * row + n + 1 + i]
                 plan[jets + (r // 8 * width + column) * 8 + r % 8] = value
         for f in range(count):
-            for j in range(int(plan[at.ORDER]) + 1):
-                a = watched_series(plan, f, mode, j)
-                for r in range(16):
-                    cell = full + ((2 * f + r // 8) * width + column) * 8 + r % 8
-                    plan[cell] += plan[economy + 16 * j + r] * a
+            watched_series(plan, f, mode, a)
+            to_bernstein(plan, a, b)
+            for r in range(16):
+                plan[full + ((2 * f + r // 8) * width + column) * 8 + r % 8] = b[r]
     for level in range(1, LEVELS):
         _compose(plan, leaps + (level - 1) * square, leaps + level * square, width)
     _screen(plan, place)
