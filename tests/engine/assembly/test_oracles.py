@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-
 from engine.assembly.systems import System, joined, neighbours, record, row, shaken, storeys
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.entries import follow_sections, sections
@@ -70,12 +69,12 @@ def test_momentum_and_energy_over_many_impacts(tables: bool) -> None:
     c, k = joined(n, [(0, 1, 40.0, 0.0), (1, 2, 60.0, 0.0)])
     system = free_row(n, 1.0, 0.01, mass)._replace(damping=c, stiffness=k)
     u, v = np.array([0.004, 0.0, -0.003]), np.array([0.9, -0.4, 0.3])
+    v -= np.dot(mass, v) / sum(mass)  # what flies away loses the digits of its deformations
     state = system.state(u, v)
     count, _ = run(system, state, sections(0.0, 1.0, 2000), tables)
     assert count > 10_000
     u1, v1 = state[2:5], state[5:8]
-    momentum = np.dot(mass, v)
-    assert np.dot(mass, v1) == pytest.approx(momentum, rel=1e-12)
+    assert abs(np.dot(mass, v1)) <= 1e-12 * np.dot(mass, abs(v1))
     energy = [0.5 * np.dot(mass, b**2) + 0.5 * a @ k @ a for a, b in ((u, v), (u1, v1))]
     assert energy[1] == pytest.approx(energy[0], rel=1e-12)
 
@@ -149,7 +148,8 @@ def test_an_impact_damper() -> None:
     )
     # Just after an impact, of the stable orbit to which it has come.
     run(system, state, np.array([[math.sin(phase), math.cos(phase), 1e-9]]))
-    assert state[2:4] == pytest.approx(after[:2], abs=5e-8)
+    # Of the phase, 1e-8 are known: the ball goes 1.5e-7 in this time.
+    assert state[2:4] == pytest.approx(after[:2], abs=2e-7)
     assert state[4:6] == pytest.approx(after[2:], abs=5e-8)
 
 
@@ -307,21 +307,22 @@ def test_one_mass_as_by_its_own_flow(kind: str) -> None:
     if kind != "bumpers":
         e = 0.7 if kind == "rigid" else 0.3
         right, left = vi.RigidStop(e, 0.012), vi.RigidStop(e, 0.010)
-        stops = [
-            Stop(0, GROUND, 0.012, restitution=e), Stop(GROUND, 0, 0.010, restitution=e)
-        ]
+        stops = [Stop(0, GROUND, 0.012, restitution=e), Stop(GROUND, 0, 0.010, restitution=e)]
     if kind == "rest":
         frequency = 0.4
     isolator = vi.Isolator(k, c)
     amplitude = 1.1
-    rig = vi.Rig(
-        vi.Oscillator(mass, isolator, right, left), vi.Harmonic(amplitude, frequency)
-    )
+    rig = vi.Rig(vi.Oscillator(mass, isolator, right, left), vi.Harmonic(amplitude, frequency))
     end = vi.simulate(rig, cycles, samples=1)
     matrix = np.array([[mass]])
     system = System(
-        matrix, np.array([[c]]), np.array([[k]]), stops, base_motion(matrix, np.ones(1)),
-        amplitude, 2 * math.pi * frequency,
+        matrix,
+        np.array([[c]]),
+        np.array([[k]]),
+        stops,
+        base_motion(matrix, np.ones(1)),
+        amplitude,
+        2 * math.pi * frequency,
     )
     for tables in (True, False):
         log = np.zeros((5000, 4))
