@@ -121,14 +121,15 @@ def magnitude(plan: Vector, f: int, mode: int, b: Vector) -> float:
     y, one = beyond(plan, int(plan[at.Y])), int(plan[at.STOP]) + f * at.STOP_WIDTH
     d = abs(plan[int(plan[at.DEFORMATION]) + f])
     if mode >> f & 1 == 0:
-        return abs(plan[one + at.GAP]) + speeds(plan, f, y) + d
-    if plan[one + at.KIND] == at.KELVIN_VOIGT:
+        size: float = abs(plan[one + at.GAP]) + speeds(plan, f, y) + d
+    elif plan[one + at.KIND] == at.KELVIN_VOIGT:
         size = plan[one + at.STOP_STIFFNESS] * d
-        return size + plan[one + at.STOP_DAMPING] * speeds(plan, f, beyond(y, n))
-    most = 0.0
-    for j in range(at.DEGREE + 1):
-        most = max(most, abs(b[j]))
-    return most
+        size += plan[one + at.STOP_DAMPING] * speeds(plan, f, beyond(y, n))
+    else:
+        size = 0.0
+        for j in range(at.DEGREE + 1):
+            size = max(size, abs(b[j]))
+    return size
 
 
 @kernel
@@ -161,7 +162,8 @@ def is_positive(a: Vector, order: int) -> bool:
     least = a[0]
     for j in range(1, order + 1):
         least += min(a[j], 0.0)
-    return least > 0.0
+    found: bool = least > 0.0
+    return found
 
 
 @kernel

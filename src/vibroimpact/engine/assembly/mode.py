@@ -60,7 +60,8 @@ def _rate(plan: Vector) -> float:
         k *= rest
         c *= rest
         rate = max(rate, 0.5 * (c + math.sqrt(c * c + 4.0 * k)))
-    return max(rate, plan[at.HIGHEST])
+    found: float = max(rate, plan[at.HIGHEST])
+    return found
 
 
 @kernel

@@ -306,7 +306,8 @@ def is_clear(plan: Vector, place: int, level: int, f: int, x: Vector, room: Vect
     error = 0.0
     for i in range(width):
         error += bounds[i] * abs(x[i])
-    return least > error
+    found: bool = least > error
+    return found
 
 
 @kernel
