@@ -76,7 +76,7 @@ def neighbours() -> System:
 def storeys(n: int = 4, walls: int = 2) -> System:
     """A building on a base that hits its moat, one wall elastic without a dashpot."""
     mass = np.eye(n)
-    links = [(GROUND, 0, 400.0, 0.8), *((i, i + 1, 500.0, 0.8) for i in range(n - 1))]
+    links = [(GROUND, 0, 400.0, 5.0), *((i, i + 1, 500.0, 5.0) for i in range(n - 1))]
     c, k = joined(n, links)
     stops = [Stop(n - 1, GROUND, 0.02, 2.0e4, 20.0), Stop(GROUND, 0, 0.01, 3.0e4)][:walls]
     return System(mass, c, k, stops, base_motion(mass, np.ones(n)), 3.0, 2 * math.pi * 1.2)

@@ -333,3 +333,26 @@ def test_one_mass_as_by_its_own_flow(kind: str) -> None:
         scale = abs(end["velocity"].values).max()
         assert state[2] == pytest.approx(float(end["displacement"][-1]), abs=1e-13)
         assert state[3] == pytest.approx(float(end["velocity"][-1]), abs=1e-12 * scale)
+
+
+@pytest.mark.parametrize("consistent", [False, True])
+def test_a_bar_that_hits_a_wall(consistent: bool) -> None:
+    """Siconos's example: in contact until the wave is back, with the force S v √(E ρ)."""
+    modulus, area, density, n, speed = 210e9, 3.14e-4, 7800.0, 60, 0.1
+    part = 1.0 / n
+    k, mass = np.zeros((n + 1, n + 1)), np.zeros((n + 1, n + 1))
+    element = np.array([[2, 1], [1, 2]]) / 6 if consistent else np.eye(2) / 2
+    for i in range(n):
+        k[i : i + 2, i : i + 2] += modulus * area / part * np.array([[1, -1], [-1, 1]])
+        mass[i : i + 2, i : i + 2] += density * area * part * element
+    stop = [Stop(GROUND, 0, 5e-5, restitution=0.0)]
+    system = System(mass, np.zeros_like(k), k, stop, still(n + 1), 0.0)
+    state, log = system.state(v=np.full(n + 1, -speed)), np.zeros((1000, 4))
+    count, _ = run(system, state, np.array([[0.0, 1.0, 0.0015]]), log=log)
+    wave = math.sqrt(modulus / density)
+    first, last = log[0, 1], log[count - 1, 1]
+    assert first == pytest.approx(5e-5 / speed, rel=1e-10)
+    assert last - first == pytest.approx(2 / wave, rel=0.03)
+    impulse = float((mass @ (state[2 + n + 1 : 2 + 2 * (n + 1)] + speed)).sum())
+    force = impulse / (2 / wave)
+    assert force == pytest.approx(area * speed * math.sqrt(modulus * density), rel=0.02)

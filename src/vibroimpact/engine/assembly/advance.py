@@ -128,7 +128,7 @@ def magnitude(plan: Vector, f: int, mode: int, b: Vector) -> float:
     else:
         size = 0.0
         for j in range(at.DEGREE + 1):
-            size = max(size, abs(b[j]))
+            size = max(size, 100.0 * abs(b[j]))  # what holds the bodies is a difference of forces
     return size
 
 

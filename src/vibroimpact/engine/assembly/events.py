@@ -157,7 +157,9 @@ def impact(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> i
             zeros[g] = min(zeros[g], 1.0)
     if decided:
         plan[at.ORDERED] += 1.0
-    if settles(plan, f, max(e * speed, 0.0), e, y, deformation):
+    # Left without speed, and pressed before anything could part them: the force is only beginning.
+    pressed = zeros[f] >= 2.0
+    if pressed or settles(plan, f, max(e * speed, 0.0), e, y, deformation):
         mode |= 1 << f
         enter_mode(plan, mode)
         halt(plan, y)
