@@ -21,13 +21,24 @@ Step
     whose signs prove that there is no root, or one (`roots`).
 Tables
     Where modes are few and small, the watched functions and the state at any time are products of
-    tables with y (`tables`). Which modes have tables depends on the plan alone, and each step
-    begins from the state alone: a motion may be restarted anywhere, bit by bit the same.
+    tables with y (`tables`), and leaps of up to 8 steps are proved to be free. Which modes have
+    tables depends on the plan alone (those with few stops touched, as many as there is room for),
+    and each section begins from the state alone: a motion may be restarted at any section, bit by
+    bit the same.
 Events
     The earliest first; within 1e-12 of a step, the stop with the lower number (`events`).
     `ORDERED` counts impacts where this rule, and not the laws, decided: those at the same instant
     as another impact or rest that shares a mass.
+Rest
+    Newton's impacts; a chatter is completed at once where what is left of it is too short to matter
+    (1e-6 of the times in which the state and the pressing force change). Bodies at rest move
+    together, w·v′ = 0, until the force between them falls to zero; several rests are solved
+    together. An impact on a resting body lets it be hit in turn.
 
-Modules: `layout` (plan and state), `plan` (numpy description to plan), `mode`, `series`, `roots`,
-`tables`, `events`, `advance` (step, cycle), `channels` (what is observed), `tangent`.
+Limits: 52 stops, the bits of a mode in a float. Free masses that fly far away lose the digits of
+their links' deformations, which are differences of displacements.
+
+Modules: `layout` (plan and state), `plan` (numpy description to plan), `mode`, `series`, `vectors`,
+`roots`, `tables`, `events`, `advance` (stretch, cycle), `channels` (what is observed), `tangent`,
+`section` (states at a section), `entries` (for Python).
 """
