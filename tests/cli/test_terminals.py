@@ -55,7 +55,7 @@ def check_columns(told):
         assert row.index("ward") - len("for" if "forward" in row else "back") == head.index("sweep")
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "cp1252", "utf-8"])
+@pytest.mark.parametrize("encoding", sample(["ascii", "cp1252", "utf-8"], ["cp1252", "utf-8"]))
 def test_any_encoding(tmp_path, encoding):
     """A pipe gets what it can show, in straight columns and without blanks at the end."""
     for words in (FEW, ["--help"], ["sweep", "--help"]):
@@ -110,7 +110,7 @@ def test_a_closed_stdout(tmp_path):
     assert (tmp_path / "out/B2-G1-A3-sweep.nc").is_file()
 
 
-@pytest.mark.parametrize("stream", [*sample(["2>&-"], []), "2>&- >&-", "2>/dev/full"])
+@pytest.mark.parametrize("stream", sample(["2>&-", "2>&- >&-", "2>/dev/full"], ["2>&- >&-"]))
 def test_a_closed_stderr(tmp_path, stream):
     if "full" in stream and not os.path.exists("/dev/full"):
         pytest.skip("no full disk at hand")
