@@ -12,10 +12,10 @@ import pytest
 from mpmath import mp, mpf
 
 import vibroimpact as vi
-from samples import sample
 from reference import law_cases, law_states, shaken_cases, shaken_states
 from reference.law_cases import Case
 from reference.store_law_states import States, marks, span
+from samples import sample
 
 TOLERANCE = 1e-11
 

@@ -354,6 +354,7 @@ def test_what_remembers_has_no_curves_in_the_plane():
         vi.manifolds(vi.Rig(rig, EXCITATION))
 
 
+@pytest.mark.full
 def test_a_saddle_that_presses_a_stop_with_a_restitution_is_refused_at_that_phase():
     stop = vi.PowerBumper(stiffness=10e6, gap="5 mm", exponent=1.5, restitution=0.7)
     rig = CASE.oscillator.replace(right=stop, left=stop)

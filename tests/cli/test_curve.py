@@ -62,6 +62,7 @@ def ratios(tmp_path_factory, told):
     return json.loads(out), folder
 
 
+@pytest.mark.full
 def test_json_and_groups(ratios):
     facts, folder = ratios
     assert (facts["bifurcation"], facts["parameters"]) == ("fold", ["frequency", "stiffness_ratio"])
@@ -139,6 +140,7 @@ def test_identified_parameters_over_a_plane(run, tmp_path):
     assert (tmp_path / "out/B2-G1-A3-identified-fold-frequency-gap.nc").is_file()
 
 
+@pytest.mark.full
 def test_a_study_and_what_is_typed_over_it(run, tmp_path):
     (tmp_path / "low.toml").write_text('case = "B2-G1-A3"\n[excitation]\namplitude = "0.04 g"\n')
     words = ("--bifurcation", "grazing", "--damping", "1.2 kN s/m", "--figure", "svg")

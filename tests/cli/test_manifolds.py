@@ -26,6 +26,7 @@ def test_text_and_files(run, tmp_path):
     assert {p.name for p in (tmp_path / "out").iterdir()} == {f"{NAME}.nc", f"{NAME}.png"}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("option", ["--curve-cycles", "--longest"])
 def test_advice_names_the_option(run, tmp_path, option):
     few = {"--curve-cycles": "2000", "--longest": "1"}[option]

@@ -84,6 +84,7 @@ def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
     assert errors.count("\n") == 1
 
 
+@pytest.mark.full
 def test_a_command_that_was_killed_goes_on(tmp_path, told):
     program = "import sys; from vibroimpact.cli import main; sys.exit(main(sys.argv[1:]))"
     asked = (*WORDS, "--refine", sample("2", "1"), "--no-border")
@@ -107,6 +108,7 @@ def test_a_command_that_was_killed_goes_on(tmp_path, told):
     xr.testing.assert_identical(first, second)
 
 
+@pytest.mark.full
 def test_another_map_in_the_same_place_is_refused(run):
     assert run(*WORDS, "--refine", "0")[0] == 0
     code, out, errors = run(*WORDS, "--refine", "1")

@@ -130,6 +130,7 @@ def test_a_closed_stderr(tmp_path, stream):
     assert (wrong.returncode, wrong.stdout) == (2, "")
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("streams", [*sample([">&-", "2>&-"], []), "<&- >&- 2>&-"])
 def test_closed_streams_with_processes(tmp_path, streams):
     """The library that starts processes takes for granted that streams are open."""

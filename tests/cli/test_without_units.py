@@ -107,6 +107,7 @@ def test_stated_none_refuses_a_unit_of_an_option(tmp_path, capsys, words):
     assert len(told.strip().splitlines()) == 1
 
 
+@pytest.mark.full
 def test_designs_and_records_without_units(tmp_path, capsys):
     rig, record = str(_none(tmp_path)), tmp_path / "shake.txt"
     record.write_text("".join(f"{0.1 * n:.1f} {0.8 * (n % 7 - 3)}\n" for n in range(200)))

@@ -62,6 +62,7 @@ def look(given, rig, state, amplitude, frequency, phase, cycles, max_events, out
 
 
 # Each flow is compiled once more for it.
+@pytest.mark.full
 @pytest.mark.parametrize("stop", [*sample([vi.Bumper(20.0, 0.4, 1.0)], []), vi.RigidStop(0.6, 1.0)])
 def test_every_event_is_seen_once_and_has_no_influence(stop: vi.Bumper | vi.RigidStop) -> None:
     rig = engine_rig(

@@ -136,6 +136,7 @@ def test_on_the_command_line(command, rig, published, monkeypatch):
         assert (eta if shows_eta else physical) in drawn[-1]
 
 
+@pytest.mark.full
 def test_the_default_survives_a_file(tmp_path):
     """As the file states that the rig is published."""
     data = {

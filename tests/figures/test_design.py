@@ -191,6 +191,7 @@ def test_what_is_hatched_ends_where_the_interpolated_value_is_the_limit(data) ->
     assert looked_at >= 4
 
 
+@pytest.mark.full
 def test_what_is_hatched_ends_on_the_contour_line_of_the_limit(data) -> None:
     levels = next(iter(design_chart(data)[0].collections)).levels
     some = limited(data, peak_displacement=1e-3 * levels[len(levels) // 2])
@@ -204,6 +205,7 @@ def test_what_is_hatched_ends_on_the_contour_line_of_the_limit(data) -> None:
     assert apart.min(axis=0).max() < 1e-3
 
 
+@pytest.mark.full
 def test_what_exceeds_any_of_several_limits_is_hatched_up_to_its_own_edge(data) -> None:
     limits = {"penetration": 0.025, "peak_force": float(data["peak_force"].quantile(0.8))}
     both = hatched(design_chart(limited(data, **limits))[0])
@@ -238,6 +240,7 @@ def test_where_no_design_was_done_all_is_hatched(data) -> None:
         assert all(inside(g, k) for g in (0.02, 0.29) for k in (110.0, 1900.0))
 
 
+@pytest.mark.full
 def test_limits_that_all_or_none_exceed(data) -> None:
     all_of_them, none = limited(data, peak_displacement=1e-3), limited(data, peak_displacement=9.0)
     for panel in design_chart(all_of_them):

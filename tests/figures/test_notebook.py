@@ -68,6 +68,7 @@ def test_axes_that_are_given_are_drawn_on_and_left_to_pyplot_to_show(name):
     assert picture() is None  # or it would be shown twice
 
 
+@pytest.mark.full
 def test_a_page_is_drawn_on_given_axes_column_by_column():
     figure, made = plt.subplots(5, 2)
     plt.close(figure)
@@ -81,6 +82,7 @@ def test_a_page_is_drawn_on_given_axes_column_by_column():
         figures.motion_page(columns, made[:, 0])
 
 
+@pytest.mark.full
 def test_what_is_returned_is_saved_as_it_is(tmp_path):
     page, curves = DRAWN["motion_page"](), DRAWN["resonance_curves"]()
     one = DRAWN["phase_portrait"]()

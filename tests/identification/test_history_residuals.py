@@ -55,6 +55,7 @@ def test_without_noise():
     assert found.fitted_value.values == pytest.approx(TRUE, rel=2e-3)
 
 
+@pytest.mark.full
 def test_displacement_alone_without_the_base():
     data = record(motion(1.5, 16, skip=8), 0.005, ("displacement",))
     with pytest.raises(vi.InputError, match="rig: this is an Oscillator alone"):
@@ -69,6 +70,7 @@ def test_steady_motions_need_no_initial_states():
     assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.05
 
 
+@pytest.mark.full
 def test_a_base_that_is_no_sine_is_followed_as_it_was_measured():
     draw = np.random.default_rng(0)
     time = np.arange(0.0, 8.0, 0.01)

@@ -67,6 +67,7 @@ def test_what_a_test_records_of_each_hold_tells_a_bumper_to_a_hundredth(code):
     assert np.mean(kept) >= 0.95
 
 
+@pytest.mark.full
 def test_profiles_and_bootstrap_agree_with_the_covariance_where_it_is_normal(tmp_path):
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, seed=5)

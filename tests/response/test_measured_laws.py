@@ -9,8 +9,8 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
-from samples import sample
 from reference.stored_energy import stored
+from samples import sample
 
 ISOLATORS: dict[str, vi.Isolator] = {
     "linear": vi.Isolator(60.0, 0.8),

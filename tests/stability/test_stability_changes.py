@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from stability.followed import values
 from samples import sample
+from stability.followed import values
 from vibroimpact.stability.bifurcations import unexplained
 from vibroimpact.stability.branch import _both_ways, _first_orbit
 
