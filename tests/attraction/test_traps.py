@@ -63,6 +63,7 @@ def test_an_ellipse_is_no_smaller_than_it_need_be():
         assert one.traps[0, REACH] > 0.3 * border
 
 
+@pytest.mark.full
 def test_chaotic_motions_are_held_by_cells():
     search = searched(1.06)
     assert [one.found.period for one in search.known] == [0, 0]

@@ -223,6 +223,7 @@ def test_free_flight_is_found_in_a_narrow_range(run):
     assert {one["kind"] for one in json.loads(out)["bifurcations"]} == {"fold", "grazing"}
 
 
+@pytest.mark.full
 def test_study_with_unequal_sides(run, tmp_path):
     code, out, errors = run(str(STUDY), "--from", "1.4Hz", "--to", "2.4Hz", "--json")
     assert (code, errors) == (0, "")

@@ -221,6 +221,7 @@ def test_sines_best_and_json(run, study):
         assert (study / path).is_file()
 
 
+@pytest.mark.full
 def test_the_usual_chart_of_records_on_the_command_line(run, study):
     (study / "rig.toml").write_text(STUDY)
     code, told, _ = run("rig.toml", "a.csv", "--scale", "0.5", "--figure", "svg")

@@ -70,6 +70,7 @@ damping = %s
         assert ("not settled: the isolator has no damping" in " ".join(told.split())) == expected
 
 
+@pytest.mark.full
 def test_several_records_options_and_json(run, tmp_path, quake):
     (tmp_path / "weak.csv").write_text((tmp_path / quake).read_text())
     code, told, _ = run(

@@ -38,6 +38,7 @@ def test_text_and_files(run, tmp_path):
     np.testing.assert_allclose(data["gap_ratio"], np.linspace(0.2, 1, 5))
 
 
+@pytest.mark.full
 def test_json_and_again(run, tmp_path):
     first, again = (json.loads(run(*WORDS, "--refine", "0", "--json")[1]) for _ in range(2))
     assert (first.pop("replaced"), again.pop("replaced")) == ([], [first["files"]["figure"]])

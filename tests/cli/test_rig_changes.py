@@ -127,6 +127,7 @@ def test_a_replaced_file_is_told(run, tmp_path):
     assert (facts["name"], facts["replaced"]) == ("B2-G1-A3, gap 9 mm", [])
 
 
+@pytest.mark.full
 def test_a_gap_in_metres_that_was_meant_in_millimetres(run):
     code, _, errors = run("B2-G1-A3", *FEW, "--gap", "15")
     assert code == 0

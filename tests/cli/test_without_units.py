@@ -8,6 +8,7 @@ import re
 import pytest
 
 import vibroimpact as vi
+from samples import sample
 from vibroimpact.cli import main
 from vibroimpact.model.study import read_rig_study
 from vibroimpact.model.written_units import unitless
@@ -32,16 +33,27 @@ def study(tmp_path_factory):
     return path
 
 
+GAPS = ("--parameter", "gap", "--from", "1", "--to", "3")
+
+
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
         (("sweep", "--from", "0.1", "--to", "0.3", "--step", "0.02"), "frequencies from ω = 0.628"),
         (("simulate", "--frequency", "0.2", "--cycles", "5"), "State after 5 cycles (25)"),
-        (("motion", "--frequency", "1 rad/s", "--random", "2"), "ω = 1: "),
         (("branch", "--from", "0.1", "--to", "0.25"), "the range ends at ω = 1.57079633"),
-        (("branch", "--parameter", "gap", "--from", "1", "--to", "3", "--frequency", "0.2"), "gap"),
-        (("basins", "--frequency", "0.2", "--nodes", "12"), "excursion "),
-        (("bifurcation", "--from", "0.1", "--to", "0.2", "--steps", "4"), "largest exponent\n"),
+        *sample(
+            [
+                (("motion", "--frequency", "1 rad/s", "--random", "2"), "ω = 1: "),
+                (("branch", "--frequency", "0.2", *GAPS), "gap"),
+                (("basins", "--frequency", "0.2", "--nodes", "12"), "excursion "),
+                (
+                    ("bifurcation", "--from", "0.1", "--to", "0.2", "--steps", "4"),
+                    "largest exponent\n",
+                ),
+            ],
+            [],
+        ),
     ],
     ids=lambda words: " ".join(words[:2]) if isinstance(words, tuple) else "",
 )

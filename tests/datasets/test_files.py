@@ -240,6 +240,7 @@ def test_a_motion_from_a_group_goes_on(tmp_path: Path) -> None:
     np.testing.assert_array_equal(*ends)
 
 
+@pytest.mark.full
 def test_a_group_has_to_be_one_of_those_in_the_file(tmp_path: Path) -> None:
     path = vi.save(several(), tmp_path / "data.nc")
     for group in (None, "none", "forward branch", "forward", ""):

@@ -123,7 +123,7 @@ def cached(tmp_path: Path) -> tuple[str, Path]:
 
 def test_a_flipped_bit_in_compiled_code_is_noticed(cached: tuple[str, Path]) -> None:
     code, folder = cached
-    for suffix in ("nbi", "nbc"):
+    for suffix in sample(("nbi", "nbc"), ("nbc",)):
         (path,) = folder.rglob(f"*.{suffix}")
         content = bytearray(path.read_bytes())
         content[len(content) // 2] ^= 16

@@ -219,6 +219,7 @@ def test_what_exceeds_any_of_several_limits_is_hatched_up_to_its_own_edge(data) 
     assert {(True, False), (False, True), (False, False)} <= found
 
 
+@pytest.mark.full
 def test_designs_that_were_not_done_are_hatched_half_way_to_the_next(data) -> None:
     for value in (np.nan, np.inf):
         broken = data.copy(deep=True)
@@ -274,6 +275,7 @@ def test_without_its_limits_a_design_is_hatched_half_way_to_the_next(data) -> No
     assert changes
 
 
+@pytest.mark.full
 def test_a_front_within_limits_is_named_so(data) -> None:
     some = limited(data, penetration=0.025)
     for ax in (pareto_front(some), *design_chart(some), *design_chart(some.isel(gap=0))):
@@ -314,6 +316,7 @@ def test_refused(data) -> None:
         design_chart(data.isel(gap=[0]))
 
 
+@pytest.mark.full
 def test_the_present_design_is_marked() -> None:
     """The rig has gaps of 80 mm and bumpers of 400 N/m: a star in the plane, a line over one."""
     wall = vi.Bumper(400.0, 1.0, 0.08)

@@ -583,6 +583,7 @@ def test_page_shows_whole_periods_and_fits_the_paper():
         assert long <= 297 / 25.4
 
 
+@pytest.mark.full
 def test_page_says_of_what_kind_each_motion_is():
     titles = [ax.get_title() for ax in motion_page({"1.06 Hz": chaotic(), "cut": transient()})[0]]
     assert titles == ["1.06 Hz\nchaotic", "cut"]
@@ -590,6 +591,7 @@ def test_page_says_of_what_kind_each_motion_is():
     assert named[0, 0].get_title() == "2 Hz, forward branch\nperiod 1"
 
 
+@pytest.mark.full
 def test_page_of_motions_that_do_not_repeat():
     made = motion_page({"chaotic": chaotic(), "transient": transient()}, cycles=3.0, highest=5.0)
     assert made[2, 0].get_xlim() == (0.0, 3.0)

@@ -145,6 +145,7 @@ def test_a_branch_ends_at_the_bound_beyond_which_there_is_no_such_law() -> None:
         vi.branch(SOFT, parameter="isolator_a", span=(0.0, 0.1), frequency="1.2 Hz")
 
 
+@pytest.mark.full
 def test_designs_and_basins_vary_numbers_of_formulas() -> None:
     stability = vi.basin_stability(
         SOFT,

@@ -277,6 +277,7 @@ def test_workers_that_join_later_take_part():
     assert len(set(names)) == 3
 
 
+@pytest.mark.full
 def test_threads_and_a_cluster_exclude_one_another(cluster):
     told = (
         r"^threads: 2 has no effect with where=.*, because each worker of a cluster sets its own "

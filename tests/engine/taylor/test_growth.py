@@ -20,7 +20,7 @@ PLAIN = [name for name in ISOLATORS if name not in (*HYSTERETIC, "friction")]
 
 
 @pytest.mark.parametrize("stop", [None, "spring", "rigid", "hunt-crossley"])
-@pytest.mark.parametrize("isolator", PLAIN)
+@pytest.mark.parametrize("isolator", sample(PLAIN, PLAIN[::3]))
 def test_two_exponents_sum_up_to_the_divergence(isolator: str, stop: str | None) -> None:
     """Where only displacement and velocity are remembered."""
     found = vi.lyapunov_exponents(vi.Rig(between(isolator, stop), 0.6), [FREQUENCY], 200)
