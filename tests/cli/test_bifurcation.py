@@ -69,6 +69,7 @@ def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
     assert float(data["section"].sel(component="phase")[0, 0]) == pytest.approx(np.pi / 2.0)
 
 
+@pytest.mark.full
 def test_a_study_says_its_frequency(tmp_path, told):
     (tmp_path / "rig.toml").write_text(
         'case = "B2-Ginf-A3"\n[simulate]\nfrequency = "2 Hz"\n', encoding="utf-8"

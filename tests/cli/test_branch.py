@@ -211,11 +211,13 @@ def test_quantity_period_name_and_format(run, tmp_path):
     assert len(list((tmp_path / "out").iterdir())) == 2
 
 
+@pytest.mark.full
 def test_excursion_is_a_quantity(run):
     words = ("--from", "1.8Hz", "--to", "4Hz", "--quantity", "displacement_excursion")
     assert run("B2-G1-A3", *words)[0] == 0
 
 
+@pytest.mark.full
 def test_free_flight_is_found_in_a_narrow_range(run):
     """It is stable from 1.6652 Hz on, though both ends of a sweep to 2 Hz hit the bumpers."""
     code, out, _ = run("B2-G1-A3", "--from", "1.5Hz", "--to", "2Hz", "--json")

@@ -116,6 +116,7 @@ def test_grazing_in_closed_form(run, tmp_path):
     assert ends == {"the range of gap ends at 1 mm", "the range of gap ends at 20 mm"}
 
 
+@pytest.mark.full
 def test_two_parameters_neither_of_which_is_the_frequency(run, tmp_path):
     """Free flight at 2 Hz grazes a gap in proportion to the amplitude."""
     words = ("--over", "gap,amplitude", "--first", "2mm:20mm", "--second", "0.02g:0.1g")

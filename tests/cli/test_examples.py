@@ -38,6 +38,7 @@ def test_kinds_of_motion(tmp_path):
     assert (tmp_path / "kinds-of-motion.png").is_file()
 
 
+@pytest.mark.full
 def test_study(tmp_path, capsys):
     for command in ("sweep", "simulate"):
         assert main([command, str(EXAMPLES / "study.toml"), "-o", str(tmp_path)]) == 0

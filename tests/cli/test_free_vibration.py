@@ -123,6 +123,7 @@ def test_an_oscillator_without_isolator_is_held_by_stops():
         vi.Oscillator(2)
 
 
+@pytest.mark.full
 def test_only_stops_that_deform_are_listed_with_a_deformation(run):
     words = ("--displacement", "0.5 m", "--cycles", "1")
     assert "deformed" not in run("simulate", FALL, *words)[1]

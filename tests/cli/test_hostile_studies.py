@@ -90,6 +90,7 @@ def test_a_font_that_is_missing_is_reported_once(tmp_path, capsys):
     assert all(line.startswith("vibroimpact: warning: ") for line in lines)
 
 
+@pytest.mark.full
 def test_no_figure_needs_latex(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with mpl.rc_context({"text.usetex": True}):

@@ -28,6 +28,7 @@ WALL = BUILDING.replace(
 )
 
 
+@pytest.mark.full
 def test_a_building_in_millimetres_g_and_meganewtons(run, tmp_path):
     (tmp_path / "building.toml").write_text(BUILDING)
     code, told, errors = run("building.toml", "--physical")

@@ -58,6 +58,7 @@ def test_without_the_border(run):
     assert facts["border"] == []
 
 
+@pytest.mark.full
 def test_physical_axes_of_a_case(run, tmp_path):
     words = ("--x", "gap", "5mm:15mm:3", "--y", "proportional-stiffness", "100kN/m:1MN/m:log:3")
     code, out, _ = run("B2-G1-A3", *words, "--refine", "0", *STEP, "--json")

@@ -200,6 +200,7 @@ def test_one_branch(run, tmp_path):
     assert vi.load(path, group="backward_branch")["motion"].item() == "periodic"
 
 
+@pytest.mark.full
 def test_a_branch_that_was_asked_for_is_not_called_the_only_motion(run):
     words = ("B2-G1-A3", "--frequency", "2Hz", "--branch", "backward", "--samples", "32")
     code, out, _ = run(*words)

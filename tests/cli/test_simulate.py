@@ -45,6 +45,7 @@ def test_json_and_options(run, tmp_path):
         assert (tmp_path / path).is_file()
 
 
+@pytest.mark.full
 def test_the_start_chooses_the_motion(run):
     words = ("B2-G1-A3", "--frequency", "2Hz", "--json")
     contacts = []

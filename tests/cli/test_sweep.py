@@ -114,6 +114,7 @@ def test_study(run, tmp_path):
     assert parameters["max_cycles"] == 70
 
 
+@pytest.mark.full
 def test_figure_is_repeated_to_the_byte(run, tmp_path):
     figures = []
     for _ in range(2):
@@ -214,6 +215,7 @@ def test_interrupted(run, tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.full
 def test_interrupted_while_writing_leaves_the_old_file(run, tmp_path, monkeypatch):
     assert run("B2-G1-A3", *COARSE)[0] == 0
     before = (tmp_path / "out/B2-G1-A3-sweep.png").read_bytes()

@@ -103,6 +103,7 @@ def test_a_full_disk_behind_stdout(tmp_path, words):
     assert done.returncode == 1
 
 
+@pytest.mark.full
 def test_a_closed_stdout(tmp_path):
     line = f"{sys.executable} -m vibroimpact sweep B2-G1-A3 --frequencies 1Hz,2Hz >&-"
     done = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True)

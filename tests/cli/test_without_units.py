@@ -70,6 +70,7 @@ def test_no_unit_is_printed(study, tmp_path, capsys, words, expected):
     assert not unitless()  # any more
 
 
+@pytest.mark.full
 def test_the_same_rig_in_si_units(study, tmp_path, capsys):
     study = tmp_path / "si.toml"
     study.write_text(ONE.replace("[excitation]", 'units = "SI"\n[excitation]'))
@@ -148,6 +149,7 @@ def test_a_study_states_the_quantity_of_a_plain_amplitude(tmp_path, of):
     assert read_rig_study(path).periodic.of == of
 
 
+@pytest.mark.full
 def test_an_option_keeps_the_quantity_of_the_study(tmp_path, capsys):
     path = tmp_path / "one.toml"
     path.write_text(f'{ONE}of = "force"\n')

@@ -35,6 +35,7 @@ def test_contours_over_two_parameters(data) -> None:
     np.testing.assert_allclose(dots.get_ydata(), 1e-3 * STIFFNESSES[at[:, 0]])
 
 
+@pytest.mark.full
 def test_numbers_of_contours_stand_on_their_lines_apart_and_inside(data) -> None:
     panels = design_chart(data)
     panels[0].figure.draw_without_rendering()  # which moves them to where they stay
@@ -261,6 +262,7 @@ def test_limits_that_all_or_none_exceed(data) -> None:
         assert not inside(first + 1e-3, stiffness)
 
 
+@pytest.mark.full
 def test_without_its_limits_a_design_is_hatched_half_way_to_the_next(data) -> None:
     unknown = limited(data, penetration=0.025).assign_attrs(parameters="{}")
     inside = hatched(design_chart(unknown)[0])
@@ -284,6 +286,7 @@ def test_a_front_within_limits_is_named_so(data) -> None:
         assert "not dominated by another" not in words
 
 
+@pytest.mark.full
 def test_a_fractile_over_the_records_is_named() -> None:
     vary = {"gap": GAPS}
     records = [noise(8, count=120), noise(9, count=120)]
@@ -334,12 +337,14 @@ def test_the_present_design_is_marked() -> None:
     assert not [line for line in beyond.lines if line.get_marker() == "*"]
 
 
+@pytest.mark.full
 def test_gaps_that_differ_are_no_present_design(data) -> None:
     """The rig of `data` has no common gap, so nothing is marked."""
     for ax in design_chart(data):
         assert not [line for line in ax.lines if line.get_marker() == "*"]
 
 
+@pytest.mark.full
 def test_a_rig_with_one_stop_has_a_chart_of_this_stop() -> None:
     vary = {"gap": [0.02, 0.05], "bumper_stiffness": [300.0, 500.0]}
     found = vi.design_chart(RIGS["elastic"], vary, records=noise(8, count=60))

@@ -508,6 +508,7 @@ def page():
     return motion_page(columns, title="A3")
 
 
+@pytest.mark.full
 def test_page_has_a_column_a_frequency_and_a_row_a_figure():
     made = page()
     assert made.shape == (5, 2)
@@ -576,7 +577,7 @@ def test_page_shows_whole_periods_and_fits_the_paper():
     assert time_history(doubled())[0].get_xlim() == (0.0, 4.0)
     assert time_history(hitting())[0].get_xlim() == (0.0, 3.0)
     assert clearances(tripled())[0].get_xlim() == (0.0, 3.0)
-    for count in sample((1, 2, 3, 6), (1, 6)):
+    for count in sample((1, 2, 3, 6), (3,)):
         drawn = motion_page({str(i): hitting() for i in range(count)})
         short, long = sorted(drawn[0, 0].figure.get_size_inches())
         assert short <= 210 / 25.4

@@ -80,7 +80,7 @@ def test_on_the_screen(name) -> None:
 
 
 @pytest.mark.parametrize("size", sample([8.0, 10.0], [8.0]))
-@pytest.mark.parametrize("name", sample(OWN, OWN[::4]))
+@pytest.mark.parametrize("name", sample(OWN, OWN[::8]))
 def test_on_own_axes(name, size) -> None:
     with plt.rc_context({"font.size": size}):
         figure = on_own_axes(EVERY[name])
@@ -170,6 +170,7 @@ def test_sizes_that_are_chosen() -> None:
         pass
 
 
+@pytest.mark.full
 def test_pixels_are_as_fine_as_print_requires(tmp_path) -> None:
     """Areas and the many points of chaotic motions are pixels in a PDF file."""
     widths = {}

@@ -137,6 +137,7 @@ SOFTENING = vi.Law("k*u/(1 + abs(u)/a) + c*v", k="26 kN/m", a="5 cm", c="1.1 kN 
 SOFT = RIG.with_parts(RIG.oscillator.replace(isolator=SOFTENING))
 
 
+@pytest.mark.full
 def test_a_branch_ends_at_the_bound_beyond_which_there_is_no_such_law() -> None:
     least = sample(1e-4, 0.03)
     found = vi.branch(SOFT, parameter="isolator_a", span=(least, 0.1), frequency="1.2 Hz")
