@@ -1,17 +1,16 @@
 """The engine compiled: its entries, and the functions of each flow; as a script, before the tests.
 
-Otherwise each worker would compile what it needs first, while the others wait for it. As many
-processes as there are processors take one flow after the other: what flows have in common is
-compiled once in each.
+Otherwise each worker would compile what it needs first, while the others wait for it. Flows share
+nothing, so they are compiled side by side.
 """
 
 from __future__ import annotations
 
 import importlib
-import multiprocessing
 import pkgutil
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing.synchronize import Lock
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
 
 from vibroimpact import engine
 from vibroimpact.engine import flow_tables, jit
@@ -64,15 +63,17 @@ def compile_for(flow: str) -> None:
         plan_of(RIGS[flow], GROUPS.get(flow, tuple(flow_tables.GROUPS)))
 
 
+def compiled(flow: str) -> int:
+    return subprocess.call([sys.executable, __file__, flow])
+
+
 ENTRIES = "entries"
 
-
-def announce_once(first: Lock) -> None:
-    if not first.acquire(block=False):
-        jit.announce = lambda text: None
-
-
 if __name__ == "__main__":
-    spawn = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(available(), spawn, announce_once, (spawn.Lock(),)) as pool:
-        list(pool.map(compile_for, [*RIGS, ENTRIES]))
+    if sys.argv[1:]:
+        if sys.argv[1] != next(iter(RIGS)):
+            jit.announce = lambda text: None  # it is said once
+        compile_for(sys.argv[1])
+    else:
+        with ThreadPoolExecutor(available()) as pool:
+            sys.exit(any(pool.map(compiled, [*RIGS, ENTRIES])))
