@@ -39,6 +39,7 @@ def away(found):
     return (found.fitted_value.values - TRUE) / found.standard_error.values
 
 
+@pytest.mark.full
 def test_unequal_gaps_and_bumpers_from_a_motion_that_hits_both():
     data = record(motion(1.5, 24, skip=8), 0.01)
     found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)

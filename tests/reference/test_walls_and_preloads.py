@@ -216,6 +216,7 @@ def test_extrapolation_of_a_geometric_series() -> None:
         accumulation((mpf(n) for n in range(1000)), mpf("0.5"), mpf(10) ** -20)
 
 
+@pytest.mark.full
 def test_without_losses_energy_stays() -> None:
     setup = Rig(2.0, 3.0, 0.0, Wall(1.0, 0.25), Wall(1.0, -0.1))
     run = integrate(setup, 0.0, 0.2, 0.0, (0.2, 1.0, 0, 0), 10)

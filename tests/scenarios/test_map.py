@@ -28,6 +28,7 @@ from vibroimpact.tasks import executors
 FREE = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3))
 
 
+@pytest.mark.full
 def test_nodes_are_classified_as_one_by_one():
     data = small()
     step = OPTIONS["step"]

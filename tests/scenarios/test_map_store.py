@@ -249,6 +249,7 @@ def test_a_folder_whose_own_description_is_damaged_is_refused(whole, tmp_path, c
         vi.scenario_map(None, X, Y, **OPTIONS, store=store)
 
 
+@pytest.mark.full
 def test_every_flipped_bit_of_a_chunk_is_noticed(whole, tmp_path):
     shutil.copytree(whole[0], store := tmp_path / "map")
     rng = np.random.default_rng(1)
