@@ -22,6 +22,7 @@ from .identification.identify import fitted_rig as fitted_rig
 from .identification.identify import identify as identify
 from .identification.next_test import next_test as next_test
 from .measurements.read import read_measurement as read_measurement
+from .model import Assembly as Assembly
 from .model import BilinearIsolator as BilinearIsolator
 from .model import BoucWenIsolator as BoucWenIsolator
 from .model import Bumper as Bumper
@@ -32,14 +33,18 @@ from .model import Harmonic as Harmonic
 from .model import Isolator as Isolator
 from .model import JankowskiBumper as JankowskiBumper
 from .model import Law as Law
+from .model import Link as Link
+from .model import ModalDamping as ModalDamping
 from .model import Oscillator as Oscillator
 from .model import Periodic as Periodic
 from .model import PolynomialIsolator as PolynomialIsolator
 from .model import PowerBumper as PowerBumper
+from .model import RayleighDamping as RayleighDamping
 from .model import Record as Record
 from .model import Rig as Rig
 from .model import RigidStop as RigidStop
 from .model import State as State
+from .model import chain as chain
 from .model import from_dimensionless as from_dimensionless
 from .model import laboratory as laboratory
 from .model import to_dimensionless as to_dimensionless

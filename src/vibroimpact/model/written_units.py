@@ -70,7 +70,7 @@ def write_for(subject: object) -> None:
 
 
 def has_no_units(subject: Any) -> bool:
-    """Return whether a rig, an oscillator, or a dataset that was computed from them has no units.
+    """Return whether a rig, its system, or a dataset that was computed from them has no units.
 
     A mapping of such objects has no units if none of them has units.
     """
@@ -79,7 +79,15 @@ def has_no_units(subject: Any) -> bool:
         return attributes.get(ATTRIBUTE) == NONE
     if isinstance(subject, Mapping):
         return bool(subject) and all(has_no_units(one) for one in subject.values())
-    return getattr(getattr(subject, "oscillator", subject), "units", SI) == NONE
+    return getattr(system_of(subject), "units", SI) == NONE
+
+
+def system_of(subject: Any) -> Any:
+    """Return the oscillator or the assembly of a rig or a case, and anything else as it is."""
+    for name in ("system", "oscillator"):
+        if hasattr(subject, name):
+            return getattr(subject, name)
+    return subject
 
 
 def parameters_without_units(parameters: str | Mapping[str, Any]) -> bool:

@@ -486,11 +486,15 @@ class Assembly(Model):
             parts += [] if self.damping is None else [str(self.damping)]
         return f"Assembly({', '.join(parts)})"
 
-    def _repr_html_(self) -> str:
+    def picture(self) -> str:
+        """Return a picture of the masses, the links and the gaps to scale, as SVG."""
         from vibroimpact.model.assembly.drawing import as_svg, drawing
 
+        return as_svg(drawing(self))
+
+    def _repr_html_(self) -> str:
         with written_for(self):
-            return f"{as_svg(drawing(self))}{super()._repr_html_()}"
+            return f"{self.picture()}{super()._repr_html_()}"
 
 
 def _meeting(mass: NDArray[np.float64], w: NDArray[np.float64]) -> float:
