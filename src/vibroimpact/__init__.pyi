@@ -50,6 +50,7 @@ from .model import laboratory as laboratory
 from .model import to_dimensionless as to_dimensionless
 from .reports.identification import fit_report as fit_report
 from .response.contacts import contacts as contacts
+from .response.modes import modes as modes
 from .response.outputs import Output as Output
 from .response.response_spectrum import response_spectrum as response_spectrum
 from .response.sections import impact_section as impact_section

@@ -44,9 +44,7 @@ class FrozenMapping(Mapping[str, _V]):
         return repr(self._values)
 
     @classmethod
-    def __get_pydantic_core_schema__(
-        cls, source: Any, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Return a schema that accepts only these mappings, and writes them as plain tables."""
         return core_schema.is_instance_schema(
             cls,

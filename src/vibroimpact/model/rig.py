@@ -425,9 +425,7 @@ def _picture(system: System) -> str:
     return system.picture() if isinstance(system, Assembly) else ""
 
 
-def _on_a_mass(
-    system: System, shaking: Repeated | Record | None
-) -> Repeated | Record | None:
+def _on_a_mass(system: System, shaking: Repeated | Record | None) -> Repeated | Record | None:
     """Return the shaking with the mass on which a force acts, checked.
 
     Raises

@@ -13,7 +13,6 @@ from vibroimpact.model.assembly.state import AssemblyState
 from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
 from vibroimpact.model.validation import Accepts, Model, constructor
 
-
 _BOTH = ("displacement", "velocity")
 _BY_NAME = ("deformation", "memory", "touching")
 """Values that only the state of an assembly has."""

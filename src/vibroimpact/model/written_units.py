@@ -91,23 +91,21 @@ def system_of(subject: Any) -> Any:
 
 
 def parameters_without_units(parameters: str | Mapping[str, Any]) -> bool:
-    """Return whether all oscillators in the parameters of a dataset have no units."""
-    found = list(
-        _oscillators(json.loads(parameters) if isinstance(parameters, str) else parameters)
-    )
+    """Return whether all systems in the parameters of a dataset have no units."""
+    found = list(_systems(json.loads(parameters) if isinstance(parameters, str) else parameters))
     return bool(found) and all(one.get("units") == NONE for one in found)
 
 
-def _oscillators(value: object) -> Iterator[Mapping[str, Any]]:
-    """Yield the oscillators of nested parameters, such as those of several rigs."""
+def _systems(value: object) -> Iterator[Mapping[str, Any]]:
+    """Yield the oscillators and assemblies of nested parameters, such as those of several rigs."""
     if isinstance(value, Mapping):
         for name, one in value.items():
-            if name == "oscillator" and isinstance(one, Mapping):
+            if name in ("oscillator", "assembly") and isinstance(one, Mapping):
                 yield one
             elif name == "oscillators" and isinstance(one, Mapping):
                 yield from one.values()
             else:
-                yield from _oscillators(one)
+                yield from _systems(one)
     elif isinstance(value, list | tuple):
         for one in value:
-            yield from _oscillators(one)
+            yield from _systems(one)

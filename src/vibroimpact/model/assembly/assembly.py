@@ -251,7 +251,9 @@ class Assembly(Model):
         read["masses"] = FrozenMapping(masses)
         read["forces"] = FrozenMapping(
             {
-                check_known(name, list(names), "mass", "forces"): _quantity(value, _FORCE, f"forces.{name}")
+                check_known(name, list(names), "mass", "forces"): _quantity(
+                    value, _FORCE, f"forces.{name}"
+                )
                 for name, value in given["forces"].items()
             }
         )
@@ -288,7 +290,9 @@ class Assembly(Model):
     def _dumped(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
         table: dict[str, Any] = handler(self)
         return {
-            name: value for name, value in table.items() if not self._unsaid(name, getattr(self, name))
+            name: value
+            for name, value in table.items()
+            if not self._unsaid(name, getattr(self, name))
         }
 
     def _unsaid(self, name: str | None, value: Any) -> bool:
@@ -393,7 +397,9 @@ class Assembly(Model):
     def participation_factors(self) -> NDArray[np.float64]:
         """Modal participation factors, φᵀ M ι/φᵀ M φ, for the modes of `mode_shapes`."""
         shapes, m = self.mode_shapes, self.mass_matrix
-        return np.asarray((shapes @ m @ self.influence) / np.einsum("ij,jk,ik->i", shapes, m, shapes))
+        return np.asarray(
+            (shapes @ m @ self.influence) / np.einsum("ij,jk,ik->i", shapes, m, shapes)
+        )
 
     @property
     def effective_masses(self) -> NDArray[np.float64]:
@@ -452,9 +458,10 @@ class Assembly(Model):
         for link in links:
             w = self.closing(link)
             if what == "stiffness":
-                value = link.law.initial_stiffness
+                value = link.isolator.initial_stiffness
             else:
-                value = link.law.damping if link.law.damping_exponent == 1.0 else 0.0
+                law = link.isolator
+                value = law.damping if law.damping_exponent == 1.0 else 0.0
             found += value * np.outer(w, w)
         return found
 
@@ -537,7 +544,11 @@ def _matrices_of(table: Mapping[str, Any]) -> Matrices:
         raise InputError("matrices.mass: missing; add the mass matrix, or the path of its file")
     try:
         return Matrices.read(
-            *(table.get(key) for key in ("mass", "damping", "stiffness", "names", "influence")),
+            table["mass"],
+            table.get("damping"),
+            table.get("stiffness"),
+            table.get("names"),
+            table.get("influence"),
             Path(table.get("folder", ".")),
         )
     except InputError as error:

@@ -108,9 +108,7 @@ def chain(
     if damping == "rayleigh":
         if is_list(damping_ratio) or isinstance(modal.ratio, tuple):
             raise InputError("damping_ratio: a list; Rayleigh damping has one ratio; pass a number")
-        rule = RayleighDamping.from_ratio(
-            modal.ratio, *_frequencies(bare, rayleigh_modes)
-        )
+        rule = RayleighDamping.from_ratio(modal.ratio, *_frequencies(bare, rayleigh_modes))
     return bare.replace(damping=rule) if modal.ratio else bare
 
 

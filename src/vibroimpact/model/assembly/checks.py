@@ -33,7 +33,7 @@ def check(assembly: Assembly) -> None:
     _check_held(assembly)
     _check_frequencies(assembly)
     _check_room(assembly)
-    if assembly.forces or any(stop.law.gap < 0.0 for stop in assembly.stops.values()):
+    if assembly.forces or any(stop.stop.gap < 0.0 for stop in assembly.stops.values()):
         from vibroimpact.model.assembly.equilibrium import equilibrium
 
         equilibrium(assembly)
@@ -42,7 +42,7 @@ def check(assembly: Assembly) -> None:
 def _check_held(assembly: Assembly) -> None:
     held = {end for stop in assembly.stops.values() for end in (stop.left, stop.right)}
     for link in assembly.links.values():
-        if link.law.strongest > 0.0:
+        if link.isolator.strongest > 0.0:
             held |= {link.left, link.right}
     if assembly.matrices is not None:
         rows = np.abs(np.array(assembly.matrices.stiffness)).max(1)
@@ -70,10 +70,8 @@ def _check_frequencies(assembly: Assembly) -> None:
 
 def _check_room(assembly: Assembly) -> None:
     """Check that the masses can be placed so that all rigid stops are open."""
-    rigid = {
-        name: stop for name, stop in assembly.stops.items() if isinstance(stop.law, RigidStop)
-    }
-    gaps = np.array([stop.law.gap for stop in rigid.values()])
+    rigid = {name: stop for name, stop in assembly.stops.items() if isinstance(stop.law, RigidStop)}
+    gaps = np.array([stop.stop.gap for stop in rigid.values()])
     if not len(rigid) or gaps.min() > 0.0:
         return
     from scipy.optimize import linprog
@@ -92,8 +90,8 @@ def _check_room(assembly: Assembly) -> None:
         return
     marginals = np.zeros(len(rigid)) if found.status else found.ineqlin.marginals
     tight = [name for name, one in zip(rigid, marginals, strict=True) if one < 0.0] or list(rigid)
-    told = listed([f"stops.{name}.gap: {pretty(rigid[name].law.gap, LENGTH)}" for name in tight])
-    total = math.fsum(rigid[name].law.gap for name in tight)
+    told = listed([f"stops.{name}.gap: {pretty(rigid[name].stop.gap, LENGTH)}" for name in tight])
+    total = math.fsum(rigid[name].stop.gap for name in tight)
     raise InputError(
         f"{told} leave no room between rigid stops, so there is no equilibrium (their sum is "
         f"{pretty(total, LENGTH)}); use gaps with a sum greater than 0"

@@ -17,9 +17,7 @@ from vibroimpact.model.law_registry import Kinds, Named
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME, Quantity, Scale
 from vibroimpact.model.validation import Accepts, constructor
 
-_RATE = Quantity(
-    "rate", (("second", -1),), "1/s", "0.3 1/s", 0.3, (Scale(0.0, 1.0, "1/s"),)
-)
+_RATE = Quantity("rate", (("second", -1),), "1/s", "0.3 1/s", 0.3, (Scale(0.0, 1.0, "1/s"),))
 _RATIO = Accepts(DIMENSIONLESS, minimum=0.0)
 
 
@@ -84,7 +82,7 @@ class ModalDamping(Named):
         omega: NDArray[np.float64],
         shapes: NDArray[np.float64],
     ) -> NDArray[np.float64]:
-        """Return C (N s/m) for M, K, the angular frequencies and the modes (columns, Φᵀ M Φ = 1)."""
+        """Return C (N s/m) for M, K, angular frequencies, and modes (columns, Φᵀ M Φ = 1)."""
         weighted = mass @ shapes
         ratios = np.broadcast_to(np.asarray(self.ratio, dtype=float), omega.shape)
         return np.asarray((weighted * (2.0 * ratios * omega)) @ weighted.T)
@@ -115,9 +113,7 @@ class RayleighDamping(Named):
     stiffness_factor: Annotated[float, Accepts(TIME, minimum=0.0)] = 0.0
 
     @constructor
-    def __init__(
-        self, mass_factor: float | str = 0.0, stiffness_factor: float | str = 0.0
-    ) -> None:
+    def __init__(self, mass_factor: float | str = 0.0, stiffness_factor: float | str = 0.0) -> None:
         super().__init__(mass_factor=mass_factor, stiffness_factor=stiffness_factor)
 
     @classmethod

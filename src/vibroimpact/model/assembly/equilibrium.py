@@ -10,16 +10,17 @@ the static force of stop j. E is convex as long as each link is within its `reac
 softens. The minimum is sought in steps. A step minimises E with the curved laws replaced by their
 tangents, which is a linear complementarity problem in the forces of bumpers, rigid stops and
 friction: bumpers and rigid stops push only, friction is within ±F_c. The step is shortened until
-the residual decreases. For linear links, one step is enough, and the displacements are then computed
-again from the linear equations of the stops that are pressed.
+the residual decreases. The displacements of a step are computed from the linear equations of the
+stops that are pressed.
 
-A free motion (without a spring) stays at the place nearest to u = 0, by a term ½ ε |u − u_k|² about
-the last iterate u_k, which vanishes at the end.
+A free motion, which no spring opposes, stays near u = 0, by a term ½ ε |u − u_k|² about the last
+iterate u_k. This term vanishes where the iterates converge.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -46,13 +47,23 @@ _PROXIMAL = 1e-6
 """ε relative to the mean stiffness."""
 
 
+class _Curve(NamedTuple):
+    """A curved law: its force at s = row · u − offset acts along the row."""
+
+    name: str
+    row: Vector
+    offset: float
+    force: Callable[[float], float]
+    reach: float
+    strongest: float
+
+
 class _Problem(NamedTuple):
     """An assembly in numbers; W has the rows of the bumpers, the rigid stops and the friction."""
 
     stiffness: Vector
     force: Vector
-    curved: list[tuple[str, Link, Vector, int]]
-    """Name, law, row and sign of curved forces: −1 for a stop, whose row is that of its depth."""
+    curved: list[_Curve]
     rows: Vector
     gaps: Vector
     compliance: Vector
@@ -86,7 +97,7 @@ def equilibrium(assembly: Assembly) -> AssemblyState:
     u = _minimum(assembly)
     memory = {}
     for name, link in assembly.links.items():
-        held = link.law.remembered(float(-assembly.closing(link) @ u))
+        held = link.isolator.remembered(float(-assembly.closing(link) @ u))
         if held:
             memory[name] = held
     found = {name: float(one) for name, one in zip(assembly.names, u, strict=True) if one}
@@ -104,9 +115,10 @@ def _check_balanced(assembly: Assembly) -> None:
         return
     from scipy.optimize import linprog
 
-    bounded, springs = [], []
+    bounded: list[Link] = []
+    springs: list[Link] = []
     for link in assembly.links.values():
-        (springs if math.isinf(link.law.strongest) else bounded).append(link)
+        (springs if math.isinf(link.isolator.strongest) else bounded).append(link)
     own = assembly.matrix_of_links("stiffness", ())
     rows = [assembly.closing(link) for link in springs]
     scale = float(np.abs(own).max()) or 1.0
@@ -115,7 +127,7 @@ def _check_balanced(assembly: Assembly) -> None:
     count, extra = len(force), len(bounded)
     # Unknowns: d, and the |s_i| of bounded links as upper bounds.
     largest = float(np.abs(force).max())
-    cost = np.append(-force, [link.law.strongest for link in bounded]) / largest
+    cost = np.append(-force, [link.isolator.strongest for link in bounded]) / largest
     limits = [np.column_stack([stops, np.zeros((len(stops), extra))])] if len(stops) else []
     for i, link in enumerate(bounded):
         for sign in (1.0, -1.0):
@@ -132,9 +144,7 @@ def _check_balanced(assembly: Assembly) -> None:
     )
     if found.status == 0 and found.fun < -1e-9:
         moved = [
-            name
-            for name, one in zip(assembly.names, found.x, strict=False)
-            if abs(one) > 1e-6
+            name for name, one in zip(assembly.names, found.x, strict=False) if abs(one) > 1e-6
         ]
         pushed = [name for name in moved if name in assembly.forces]
         told = listed([f"forces.{one}: {pretty(assembly.forces[one], FORCE)}" for one in pushed])
@@ -158,7 +168,7 @@ def _problem(assembly: Assembly) -> _Problem:
         high.append(most)
 
     for name, link in assembly.links.items():
-        law, row = link.law, -assembly.closing(link)
+        law, row = link.isolator, -assembly.closing(link)
         parts = law.linear_and_bounded
         if isinstance(law, FrictionIsolator):
             linear.append(link)
@@ -166,15 +176,21 @@ def _problem(assembly: Assembly) -> _Problem:
         elif parts is not None and parts[1] == 0.0:
             linear.append(link)
         else:
-            curved.append((f"links.{name}", link, row, 1))
+            curved.append(
+                _Curve(f"links.{name}", row, 0.0, law.static_force, law.reach, law.strongest)
+            )
     for name, stop in assembly.stops.items():
-        law, row = stop.law, assembly.closing(stop)
-        if isinstance(law, Bumper):
-            contact(row, law.gap, 1.0 / law.stiffness, 0.0, math.inf)
-        elif isinstance(law, RigidStop):
-            contact(row, law.gap, 0.0, 0.0, math.inf)
+        stopping, row = stop.stop, assembly.closing(stop)
+        if isinstance(stopping, Bumper):
+            contact(row, stopping.gap, 1.0 / stopping.stiffness, 0.0, math.inf)
+        elif isinstance(stopping, RigidStop):
+            contact(row, stopping.gap, 0.0, 0.0, math.inf)
         else:
-            curved.append((f"stops.{name}", stop, row, -1))
+            curved.append(
+                _Curve(
+                    f"stops.{name}", row, stopping.gap, stopping.static_force, math.inf, math.inf
+                )
+            )
     return _Problem(
         assembly.matrix_of_links("stiffness", linear),
         assembly.constant_force,
@@ -207,9 +223,9 @@ def _minimum(assembly: Assembly) -> Vector:
         damping = damping * 10.0 if share < 0.1 else max(0.1 * damping, 1.0)
         u, reached = trial, left
         if reached <= _EXACT * _size(problem, u):
-            _check_reach(assembly, problem, u)
+            _check_reach(problem, u)
             return u
-    _check_reach(assembly, problem, u)
+    _check_reach(problem, u)
     raise InputError(
         f"forces: no equilibrium was found in {_MOST_STEPS} steps (residual {reached:.3g} N); "
         "change the constant forces or the preloads, or use links without softening"
@@ -219,13 +235,12 @@ def _minimum(assembly: Assembly) -> Vector:
 def _forces_of_curved(problem: _Problem, u: Vector) -> tuple[Vector, Vector]:
     """Return the force of the curved laws on the masses' coordinates, and its derivative."""
     force, tangent = np.zeros_like(u), np.zeros((len(u), len(u)))
-    for _, link, row, sign in problem.curved:
-        law = link.law
-        s = float(row @ u) - (law.gap if sign < 0 else 0.0)
+    for curve in problem.curved:
+        s = float(curve.row @ u) - curve.offset
         width = 1e-6 * max(abs(s), 1e-6)
-        force += row * law.static_force(s)
-        slope = (law.static_force(s + width) - law.static_force(s - width)) / (2.0 * width)
-        tangent += max(slope, 0.0) * np.outer(row, row)
+        force += curve.row * curve.force(s)
+        slope = (curve.force(s + width) - curve.force(s - width)) / (2.0 * width)
+        tangent += max(slope, 0.0) * np.outer(curve.row, curve.row)
     return force, tangent
 
 
@@ -237,7 +252,7 @@ def _step(problem: _Problem, u: Vector, damping: float) -> Vector:
     k = stiffness + damping * _PROXIMAL * size * np.eye(len(u))
     rhs = problem.force - curved + tangent @ u + damping * _PROXIMAL * size * u
     forces = _complementary(problem, k, rhs)
-    smooth = np.linalg.solve(k, rhs - problem.rows.T @ forces)
+    smooth = np.asarray(np.linalg.solve(k, rhs - problem.rows.T @ forces))
     return _polished(problem, stiffness, problem.force - curved + tangent @ u, forces, smooth)
 
 
@@ -347,12 +362,12 @@ def _size(problem: _Problem, u: Vector) -> float:
     return max(sizes)
 
 
-def _check_reach(assembly: Assembly, problem: _Problem, u: Vector) -> None:
+def _check_reach(problem: _Problem, u: Vector) -> None:
     """Raise an error if a link is deformed beyond the displacement where its force falls."""
-    for name, link, row, sign in problem.curved:
-        if sign > 0 and abs(float(row @ u)) > link.law.reach:
+    for curve in problem.curved:
+        if abs(float(curve.row @ u)) > curve.reach:
             raise InputError(
-                f"{name}: it softens, and its largest force, "
-                f"{pretty(link.law.strongest, FORCE)} at {pretty(link.law.reach, LENGTH)}, does "
-                "not balance the constant forces and the preloads; reduce these"
+                f"{curve.name}: it softens, and its largest force, "
+                f"{pretty(curve.strongest, FORCE)} at {pretty(curve.reach, LENGTH)}, does not "
+                "balance the constant forces and the preloads; reduce these"
             )

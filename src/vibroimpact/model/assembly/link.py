@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, TypeAlias, get_args
+from typing import Any, TypeAlias, cast, get_args
 
 from pydantic import ConfigDict, field_validator, model_serializer, model_validator
 
@@ -88,7 +88,19 @@ class Link(Model):
     @property
     def is_stop(self) -> bool:
         """Whether the law is that of a stop."""
-        return self.law.is_stop if isinstance(self.law, Law) else "gap" in type(self.law).model_fields
+        return (
+            self.law.is_stop if isinstance(self.law, Law) else "gap" in type(self.law).model_fields
+        )
+
+    @property
+    def isolator(self) -> AnyIsolator:
+        """The law of a link."""
+        return cast("AnyIsolator", self.law)
+
+    @property
+    def stop(self) -> Stop:
+        """The law of a stop."""
+        return cast("Stop", self.law)
 
     def rows(self) -> list[tuple[str, str]]:
         """Return the two bodies, and the rows of the law."""

@@ -27,8 +27,9 @@ Rows = tuple[tuple[float, ...], ...]
 class Matrices(Model):
     """The linear part of an `Assembly` in matrices, with one row per degree of freedom.
 
-    The equation of motion is M ü + C u̇ + K u = −M ι A(t) + forces, where u is relative to the base
-    and ι is the influence vector: the displacement of each degree of freedom if the base moves by 1.
+    The equation of motion is M ü + C u̇ + K u = −M ι A(t) + forces, where u is relative to the
+    base. The influence vector ι has the displacement of each degree of freedom if the base moves
+    by 1.
 
     Parameters
     ----------

@@ -77,23 +77,22 @@ def numbers(assembly: Assembly) -> AssemblyNumbers:
 
 def _part(assembly: Assembly, name: str, link: Link) -> PartNumbers:
     law = link.law
-    ends = (
-        GROUND_INDEX if end == GROUND else assembly.names.index(end)
-        for end in (link.left, link.right)
-    )
     values: dict[str, Any] = dict(law.numbers) if isinstance(law, Law) else dict(law)
     meeting = assembly.meeting_mass(link)
     if isinstance(law, JankowskiBumper) and law.mass is None:
         values["mass"] = meeting
-    gap = values.pop("gap", None)
-    if isinstance(law, Law):
-        gap = law.gap
+    values.pop("gap", None)
     return PartNumbers(
         name,
-        *ends,
+        _index(assembly, link.left),
+        _index(assembly, link.right),
         law.kind,
-        float("nan") if gap is None else gap,
+        link.stop.gap if link.is_stop else float("nan"),
         {key: one for key, one in values.items() if isinstance(one, float)},
         meeting,
         law,
     )
+
+
+def _index(assembly: Assembly, end: str) -> int:
+    return GROUND_INDEX if end == GROUND else assembly.names.index(end)

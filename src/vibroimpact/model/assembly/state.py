@@ -137,9 +137,9 @@ class AssemblyState(Model):
             check_known(name, tuple(assembly.stops), "stop", f"{where}.touching")
         u = np.array([self.displacement.get(name, 0.0) for name in assembly.names])
         for name, stop in assembly.stops.items():
-            depth = float(assembly.closing(stop) @ u) - stop.law.gap
+            depth = float(assembly.closing(stop) @ u) - stop.stop.gap
             if isinstance(stop.law, RigidStop) and depth > 1e-12 * (
-                float(np.abs(u).max()) + abs(stop.law.gap)
+                float(np.abs(u).max()) + abs(stop.stop.gap)
             ):
                 raise InputError(
                     f"{where}.displacement: {stop.left} and {stop.right} overlap by "
