@@ -1,4 +1,4 @@
-"""The rig of a study file in TOML: a laboratory case, an oscillator or an assembly, with its shaking.
+"""The rig of a study file in TOML: a laboratory case, an oscillator or an assembly.
 
 The tables of the commands, such as ``[sweep]``, are read by `vibroimpact.cli.study`.
 """
@@ -78,7 +78,9 @@ class ExcitationTable(Model):
             if getattr(self, name) is not None and ways[needs] is None:
                 raise InputError(f"{name} is given without {needs}; add {needs}, or remove {name}")
         for name in ("of", "on"):
-            if getattr(self, name) is not None and self.amplitude is self.amplitudes is None:
+            if getattr(self, name) is not None and (
+                self.amplitude is None and self.amplitudes is None
+            ):
                 raise InputError(
                     f"{name} is given without amplitude; add amplitude, or remove {name}"
                 )
@@ -170,9 +172,14 @@ class RigStudy(Model):
             }
             try:
                 system = with_stated_units(self._system(path.parent), stated)
-                return Rig.of_open_frequency(system, shaking, name)
             except InputError as error:
                 raise InputError(f"{where}: {error}") from None
+            try:
+                return Rig.of_open_frequency(system, shaking, name)
+            except InputError as error:  # the table of the shaking has another name
+                raise InputError(
+                    f"{where}: excitation{str(error).removeprefix('shaking')}"
+                ) from None
         try:
             case = laboratory.case(self.case, parameters or self.parameters or "table")
         except InputError as error:

@@ -8,7 +8,7 @@ from typing import Any
 
 
 def toml(value: Any) -> str:
-    """Return a value, a list or a table in TOML, in one line. Entries that are None are left out."""
+    """Return a value, a list or a table in TOML, in one line, without entries that are None."""
     if isinstance(value, Mapping):
         inside = ", ".join(
             f"{key} = {toml(item)}" for key, item in value.items() if item is not None

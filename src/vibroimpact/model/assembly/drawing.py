@@ -162,6 +162,10 @@ _PENS = {
 }
 
 
+_OUTLINE = ' stroke="white" stroke-width="3" paint-order="stroke"'
+"""Keeps a text readable on a line."""
+
+
 def as_svg(made: Drawing) -> str:
     """Return a drawing as SVG, for notebooks."""
     pieces = [

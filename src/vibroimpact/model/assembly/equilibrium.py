@@ -357,8 +357,7 @@ def _size(problem: _Problem, u: Vector) -> float:
     sizes.append(float((np.abs(problem.stiffness) @ np.abs(u)).max(initial=0.0)))
     least, _, _ = _stop_forces(problem, u)
     sizes.append(float(np.abs(least[np.isfinite(least)]).max(initial=0.0)))
-    curved, _ = _forces_of_curved(problem, u)
-    sizes.append(float(np.abs(curved).max(initial=0.0)))
+    sizes += [abs(curve.force(float(curve.row @ u) - curve.offset)) for curve in problem.curved]
     return max(sizes)
 
 
