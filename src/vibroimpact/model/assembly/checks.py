@@ -34,9 +34,12 @@ def check(assembly: Assembly) -> None:
     _check_frequencies(assembly)
     _check_room(assembly)
     if assembly.forces or any(stop.stop.gap < 0.0 for stop in assembly.stops.values()):
-        from vibroimpact.model.assembly.equilibrium import equilibrium
+        from vibroimpact.model.assembly.equilibrium import check_balance, equilibrium
 
-        equilibrium(assembly)
+        check_balance(assembly)
+        # Without softening, balance is enough, because the energy is convex.
+        if any(link.isolator.reach < math.inf for link in assembly.links.values()):
+            equilibrium(assembly)
 
 
 def _check_held(assembly: Assembly) -> None:

@@ -9,9 +9,9 @@ where F_i is the force of a first, slow loading of link i from s = 0, F_c its fr
 the static force of stop j. E is convex as long as each link is within its `reach`, and a stop never
 softens. The minimum is sought in steps. A step minimises E with the curved laws replaced by their
 tangents, which is a linear complementarity problem in the forces of bumpers, rigid stops and
-friction: bumpers and rigid stops push only, friction is within ±F_c. The step is shortened until
-the residual decreases. The displacements of a step are computed from the linear equations of the
-stops that are pressed.
+friction: bumpers and rigid stops push only, friction is within ±F_c. The step is shortened to where
+the energy is least along it, unless the residual decreases anyway. The displacements of a step are
+computed from the linear equations of the stops that are pressed.
 
 A free motion, which no spring opposes, stays near u = 0, by a term ½ ε |u − u_k|² about the last
 iterate u_k. This term vanishes where the iterates converge.
@@ -43,6 +43,8 @@ Vector = NDArray[np.float64]
 _MOST_STEPS = 300
 _EXACT = 1e-10
 """Largest residual of the forces, relative to the largest force."""
+_ROUNDING = 1e-13
+"""Relative error of displacements that rounding causes: a stiff bumper turns it into a force."""
 _PROXIMAL = 1e-6
 """ε relative to the mean stiffness."""
 
@@ -93,7 +95,7 @@ def equilibrium(assembly: Assembly) -> AssemblyState:
     InputError
         If nothing balances the constant forces and the preloads, or if a softening link does not.
     """
-    _check_balanced(assembly)
+    check_balance(assembly)
     u = _minimum(assembly)
     memory = {}
     for name, link in assembly.links.items():
@@ -104,11 +106,12 @@ def equilibrium(assembly: Assembly) -> AssemblyState:
     return AssemblyState(found, memory=memory)
 
 
-def _check_balanced(assembly: Assembly) -> None:
-    """Raise an error if the forces push masses in a direction that nothing opposes.
+def check_balance(assembly: Assembly) -> None:
+    """Raise an error if there is no equilibrium, without computing it where it must exist.
 
-    That is a direction d without an elastic force, K d = 0, and without a stop that it closes,
-    W d ≤ 0, in which the forces do more work than friction and bounded links can take up.
+    There is none if the forces push masses in a direction that nothing opposes. That is a direction
+    d without an elastic force, K d = 0, and without a stop that it closes, W d ≤ 0, in which the
+    forces do more work than friction and bounded links can take up.
     """
     force = assembly.constant_force
     if not force.any():
@@ -208,21 +211,18 @@ def _minimum(assembly: Assembly) -> Vector:
     problem = _problem(assembly)
     u = np.zeros(len(assembly.names))
     reached = _residual(problem, u)
-    if reached <= _EXACT * _size(problem, u):
+    # Where free masses only move apart, all forces vanish at the end: those at u = 0 are the scale.
+    first = _size(problem, u)
+    if reached <= _EXACT * first:
         return u
     damping = 1.0
     for _ in range(_MOST_STEPS):
         aim = _step(problem, u, damping)
-        share = 1.0
-        trial, left = aim, _residual(problem, aim)
-        while left > reached and share > 1e-4:
-            share *= 0.5
-            trial = u + share * (aim - u)
-            left = _residual(problem, trial)
-        # Where friction or a stop makes the residual rise first, a smaller step still descends.
-        damping = damping * 10.0 if share < 0.1 else max(0.1 * damping, 1.0)
-        u, reached = trial, left
-        if reached <= _EXACT * _size(problem, u):
+        share = 1.0 if _residual(problem, aim) < reached else _share(problem, u, aim - u)
+        damping = max(damping * (10.0 if share < 0.1 else 0.1), 1.0)
+        u = u + share * (aim - u)
+        reached = _residual(problem, u)
+        if reached <= _EXACT * max(first, _size(problem, u)) + _rounding(problem, u):
             _check_reach(problem, u)
             return u
     _check_reach(problem, u)
@@ -230,6 +230,33 @@ def _minimum(assembly: Assembly) -> Vector:
         f"forces: no equilibrium was found in {_MOST_STEPS} steps (residual {reached:.3g} N); "
         "change the constant forces or the preloads, or use links without softening"
     )
+
+
+def _share(problem: _Problem, u: Vector, way: Vector) -> float:
+    """Return the share of a step at which the energy is least, at most 1.
+
+    The energy is convex, so its derivative along the step changes its sign only once.
+    """
+
+    def rise(share: float) -> float:
+        at = u + share * way
+        curved, _ = _forces_of_curved(problem, at)
+        found = float((problem.stiffness @ at + curved - problem.force) @ way)
+        depth, speed = problem.rows @ at - problem.gaps, problem.rows @ way
+        bumper = problem.compliance > 0.0
+        held = np.isfinite(problem.high) & ~bumper
+        found += float(
+            (np.maximum(depth, 0.0) * speed)[bumper] @ (1.0 / problem.compliance[bumper])
+        )
+        return found + float((np.sign(depth) * speed)[held] @ problem.high[held])
+
+    low, high = 0.0, 1.0
+    if rise(high) <= 0.0:
+        return high
+    for _ in range(40):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if rise(middle) < 0.0 else (low, middle)
+    return high
 
 
 def _forces_of_curved(problem: _Problem, u: Vector) -> tuple[Vector, Vector]:
@@ -359,6 +386,18 @@ def _size(problem: _Problem, u: Vector) -> float:
     sizes.append(float(np.abs(least[np.isfinite(least)]).max(initial=0.0)))
     sizes += [abs(curve.force(float(curve.row @ u) - curve.offset)) for curve in problem.curved]
     return max(sizes)
+
+
+def _rounding(problem: _Problem, u: Vector) -> float:
+    """Return the force that the rounding of displacements causes (N)."""
+    _, tangent = _forces_of_curved(problem, u)
+    soft = problem.compliance[problem.compliance > 0.0]
+    stiffest = max(
+        float(np.abs(problem.stiffness).max()),
+        float(np.abs(tangent).max()),
+        float((1.0 / soft).max(initial=0.0)),
+    )
+    return _ROUNDING * stiffest * float(np.abs(u).max(initial=0.0))
 
 
 def _check_reach(problem: _Problem, u: Vector) -> None:
