@@ -64,6 +64,20 @@ def as_rig(
     return rig if frequency is None else rig.at(frequency)
 
 
+def as_assembly(value: Any, where: str = "rig") -> Assembly:
+    """Return the assembly that an argument describes: an `Assembly`, or a rig with one.
+
+    Raises
+    ------
+    InputError
+        If the value is not a rig, if the study file is invalid, or if the rig has an oscillator.
+    """
+    system = _read(value, where, oscillator_alone=True).system
+    if not isinstance(system, Assembly):
+        raise InputError(f"{where}: an Oscillator has one mass; an Assembly is accepted")
+    return system
+
+
 def in_units_of_rig(function: Callable[_P, _R]) -> Callable[_P, _R]:
     """Read and write all values of a function in the units of its first argument, ``rig``.
 

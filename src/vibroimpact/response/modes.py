@@ -5,8 +5,8 @@ from __future__ import annotations
 import xarray as xr
 
 from vibroimpact.datasets.description import describe
-from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, Rig
+from vibroimpact.model import Assembly
+from vibroimpact.model.read_rig import AnyRig, as_assembly
 from vibroimpact.model.written_units import written_for
 
 _COUPLED = (
@@ -16,13 +16,13 @@ _COUPLED = (
 _CURVED = "links: curved links have their initial stiffness; the modes are those of small motions"
 
 
-def modes(rig: Assembly | Rig) -> xr.Dataset:
+def modes(rig: Assembly | AnyRig) -> xr.Dataset:
     """Compute the natural frequencies, modes and damping ratios of an assembly without stops.
 
     Parameters
     ----------
     rig
-        An `Assembly`, or a `Rig` with one. Its stops are ignored. Curved links have their initial
+        An `Assembly`, a `Rig` with one, or the path of a study file. Its stops are ignored. Curved links have their initial
         stiffness, and friction does not act.
 
     Returns
@@ -36,7 +36,7 @@ def modes(rig: Assembly | Rig) -> xr.Dataset:
     Raises
     ------
     InputError
-        If the value is not an assembly.
+        If the value is not an assembly or a rig with one.
 
     Examples
     --------
@@ -46,12 +46,7 @@ def modes(rig: Assembly | Rig) -> xr.Dataset:
     >>> print(found["mode_shape"].sel(mass="floor_1").values.round(3))
     [0.618 1.   ]
     """
-    system = rig.system if isinstance(rig, Rig) else rig
-    if not isinstance(system, Assembly):
-        raise InputError(
-            f"rig: {shown(system)} is not an Assembly; the natural frequency of an Oscillator "
-            "is its attribute natural_frequency"
-        )
+    system = as_assembly(rig)
     by_mode = {
         "natural_frequency": system.natural_frequencies,
         "modal_damping_ratio": system.damping_ratios,
