@@ -22,8 +22,8 @@ def modes(rig: Assembly | AnyRig) -> xr.Dataset:
     Parameters
     ----------
     rig
-        An `Assembly`, a `Rig` with one, or the path of a study file. Its stops are ignored. Curved links have their initial
-        stiffness, and friction does not act.
+        An `Assembly`, a `Rig` with one, or the path of a study file. Its stops are ignored. Curved
+        links have their initial stiffness, and friction does not act.
 
     Returns
     -------
@@ -64,4 +64,4 @@ def modes(rig: Assembly | AnyRig) -> xr.Dataset:
     if not all(link.isolator.linear for link in system.links.values()):
         notes.append(_CURVED)
     with written_for(system):
-        return describe(data, "modes", {"assembly": system.model_dump()}, notes)
+        return describe(data, "vibroimpact.modes", {"assembly": system.model_dump()}, notes)

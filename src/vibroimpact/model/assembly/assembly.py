@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import ConfigDict, SerializerFunctionWrapHandler, model_serializer, model_validator
 
+from vibroimpact.arguments import check_path
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.damping import DAMPINGS, AnyDamping
 from vibroimpact.model.assembly.link import Link, read_link
@@ -135,10 +136,10 @@ class Assembly(Model):
         matrices: Matrices | None = None,
     ) -> None:
         super().__init__(
-            masses=masses or {},
-            links=links or {},
-            stops=stops or {},
-            forces=forces or {},
+            masses=masses,
+            links=links,
+            stops=stops,
+            forces=forces,
             damping=damping,
             units=units,
             matrices=matrices,
@@ -205,7 +206,7 @@ class Assembly(Model):
             stiffness,
             names,
             influence,
-            Path(folder),
+            check_path(folder, "folder"),
         )
         return cls(
             links=links, stops=stops, forces=forces, damping=rule, units=units, matrices=read
@@ -549,7 +550,7 @@ def _matrices_of(table: Mapping[str, Any]) -> Matrices:
             table.get("stiffness"),
             table.get("names"),
             table.get("influence"),
-            Path(table.get("folder", ".")),
+            check_path(table.get("folder", "."), "folder"),
         )
     except InputError as error:
         raise InputError(f"matrices.{error}") from None

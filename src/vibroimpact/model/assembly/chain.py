@@ -80,7 +80,7 @@ def chain(
             f"stiffnesses: {len(springs)} for {len(named)} masses; pass one stiffness per mass, "
             "that of the link below it"
         )
-    if damping not in ("modal", "rayleigh"):
+    if not isinstance(damping, str) or damping not in ("modal", "rayleigh"):
         raise InputError(f"damping: {shown(damping)}; 'modal' or 'rayleigh' is accepted")
     if damping == "modal" and rayleigh_modes is not None:
         raise InputError(

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sized
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list
+from vibroimpact.arguments import check_list, check_path, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.names import check_part_name
 from vibroimpact.model.validation import Model, constructor
@@ -20,6 +20,9 @@ seven or eight digits does not have."""
 _DEFINITE = 1e-9
 """Largest negative eigenvalue of a matrix that counts as positive semi-definite, relative to its
 largest one after scaling to a unit diagonal."""
+
+_MOST = 10_000
+"""Largest number of degrees of freedom."""
 
 Rows = tuple[tuple[float, ...], ...]
 
@@ -102,7 +105,7 @@ class Matrices(Model):
             influence = beside
         iota = np.ones(count) if influence is None else _vector(influence, count, folder)
         if names is None and _holds(beside, "names", folder):
-            names = [str(one) for one in _load(_path(beside, folder), "names")]
+            names = [str(one) for one in _load(folder / Path(beside), "names")]
         made = _names(names, count)
         # A matrix that is symmetric to rounding is made so exactly.
         m, c, k = (0.5 * (one + one.T) for one in (m, c, k))
@@ -194,15 +197,19 @@ def _vector(value: Any, count: int, folder: Path) -> NDArray[np.float64]:
 
 def _array(value: Any, field: str, folder: Path) -> NDArray[np.float64]:
     if isinstance(value, str | Path):
-        value = _load(_path(value, folder), field)
+        value = _load(folder / check_path(value, field), field)
     elif hasattr(value, "toarray"):  # sparse, of scipy
         value = value.toarray()
+    parts = [value, *value[:1]] if isinstance(value, list | tuple) else [value]
+    for part in parts:
+        if is_list(part) and isinstance(part, Sized) and len(part) > _MOST:
+            raise InputError(f"{field}: {len(part)} numbers in a row; at most {_MOST} are accepted")
     try:
         given = np.asarray(value)
         if given.dtype.kind not in "iuf":
             raise ValueError
         found = np.array(given, dtype=np.float64)
-    except ValueError:
+    except (ValueError, TypeError, OverflowError):
         raise InputError(
             f"{field}: {shown(value)} is not an array of real numbers; pass numbers in SI units in "
             "rows of equal length, or the path of an npz, npy or CSV file"
@@ -214,11 +221,7 @@ def _array(value: Any, field: str, folder: Path) -> NDArray[np.float64]:
     return found
 
 
-def _path(value: Any, folder: Path) -> Path:
-    return folder / Path(value)
-
-
-def _is_npz(value: Any) -> bool:
+def _is_npz(value: Any) -> TypeGuard[str | Path]:
     return isinstance(value, str | Path) and str(value).lower().endswith(".npz")
 
 
@@ -226,7 +229,7 @@ def _holds(file: Any, name: str, folder: Path) -> bool:
     """Return whether an npz file contains an array of this name."""
     if file is None:
         return False
-    path = _path(file, folder)
+    path = folder / check_path(file, name)
     found: Mapping[str, Any] = _open(path, name)
     return name in found
 

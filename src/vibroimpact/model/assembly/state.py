@@ -84,10 +84,10 @@ class AssemblyState(Model):
         touching: Iterable[str] | None = None,
     ) -> None:
         super().__init__(
-            displacement=displacement or {},
-            velocity=velocity or {},
-            deformation=deformation or {},
-            memory=memory or {},
+            displacement=displacement,
+            velocity=velocity,
+            deformation=deformation,
+            memory=memory,
             phase=phase,
             touching=touching,
         )
@@ -99,7 +99,8 @@ class AssemblyState(Model):
             return data
         read = dict(data)
         for field, accepts in _ACCEPTS.items():
-            given = data.get(field) or {}
+            given = data.get(field)
+            given = {} if given is None else given
             if not isinstance(given, Mapping):
                 raise InputError(
                     f"{field}: {shown(given)} is not a mapping from names, as the other values are"
