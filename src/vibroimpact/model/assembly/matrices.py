@@ -105,7 +105,7 @@ class Matrices(Model):
             influence = beside
         iota = np.ones(count) if influence is None else _vector(influence, count, folder)
         if names is None and _holds(beside, "names", folder):
-            names = [str(one) for one in _load(folder / Path(beside), "names")]
+            names = [str(one) for one in _load(folder / Path(str(beside)), "names")]
         made = _names(names, count)
         # A matrix that is symmetric to rounding is made so exactly.
         m, c, k = (0.5 * (one + one.T) for one in (m, c, k))
