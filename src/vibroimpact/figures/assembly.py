@@ -68,7 +68,6 @@ def assembly_drawing(
             ha="center",
             va="center",
             fontsize="small",
-            fontweight="bold" if words.bold else "normal",
             zorder=4,
             path_effects=_OUTLINE if words.over_lines else (),
         )

@@ -43,11 +43,10 @@ class Line:
 
 @dataclass(frozen=True)
 class Words:
-    """A text, whose middle is at a point. A text over lines is outlined."""
+    """A text of one or two lines, whose middle is at a point. One over lines is outlined."""
 
     text: str
     at: Point
-    bold: bool = False
     over_lines: bool = True
 
 
@@ -116,10 +115,8 @@ def _draw_mass(made: Drawing, assembly: Assembly, name: str, x: float, column: f
     half = 0.5 * column - 16.0
     box = ((x - half, 2.0), (x + half, 2.0), (x + half, _BOX), (x - half, _BOX))
     made.line("mass", *box, closed=True)
-    known = name in assembly.masses
-    made.words.append(Words(name, (x, 13.0 if known else 19.0), True, False))
-    if known:
-        made.words.append(Words(pretty(assembly.masses[name], MASS), (x, 27.0), over_lines=False))
+    mass = f"\n{pretty(assembly.masses[name], MASS)}" if name in assembly.masses else ""
+    made.words.append(Words(f"{name}{mass}", (x, 0.5 * (2.0 + _BOX)), over_lines=False))
 
 
 def _draw_spring(made: Drawing, kind: Kind, x0: float, x1: float, y: float) -> None:
@@ -176,14 +173,14 @@ def as_svg(made: Drawing) -> str:
         shape = "polygon" if line.closed else "polyline"
         pieces.append(f'<{shape} points="{_points(line.points)}" {_PENS[line.kind]}/>')
     for words in made.words:
-        weight = ' font-weight="bold"' if words.bold else ""
-        outline = (
-            ' stroke="white" stroke-width="3" paint-order="stroke"' if words.over_lines else ""
-        )
-        pieces.append(
-            f'<text x="{words.at[0]:g}" y="{words.at[1] + 3.5:g}" text-anchor="middle" '
-            f'font-family="sans-serif" font-size="11"{weight}{outline}>{escape(words.text)}</text>'
-        )
+        outline = _OUTLINE if words.over_lines else ""
+        rows = words.text.split("\n")
+        for i, row in enumerate(rows):
+            y = words.at[1] + 3.5 + 14.0 * (i - 0.5 * (len(rows) - 1))
+            pieces.append(
+                f'<text x="{words.at[0]:g}" y="{y:g}" text-anchor="middle" '
+                f'font-family="sans-serif" font-size="11"{outline}>{escape(row)}</text>'
+            )
     return "".join([*pieces, "</svg>"])
 
 

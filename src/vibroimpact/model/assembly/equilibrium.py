@@ -213,7 +213,7 @@ def _minimum(assembly: Assembly) -> Vector:
     reached = _residual(problem, u)
     # Where free masses only move apart, all forces vanish at the end: those at u = 0 are the scale.
     first = _size(problem, u)
-    if reached <= _EXACT * first:
+    if reached <= _EXACT * first + _rounding(problem, u):
         return u
     damping = 1.0
     for _ in range(_MOST_STEPS):
@@ -397,7 +397,8 @@ def _rounding(problem: _Problem, u: Vector) -> float:
         float(np.abs(tangent).max()),
         float((1.0 / soft).max(initial=0.0)),
     )
-    return _ROUNDING * stiffest * float(np.abs(u).max(initial=0.0))
+    gaps = float(np.abs(problem.gaps).max(initial=0.0))
+    return stiffest * (_ROUNDING * float(np.abs(u).max(initial=0.0)) + math.ulp(gaps))
 
 
 def _check_reach(problem: _Problem, u: Vector) -> None:
