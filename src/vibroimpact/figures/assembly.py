@@ -73,5 +73,6 @@ def assembly_drawing(
         )
     ax.set_xlim(0.0, made.width)
     ax.set_ylim(made.height, 0.0)
+    ax.set_aspect("equal")
     ax.set_axis_off()
     return ax
