@@ -3,7 +3,7 @@
 State
     y = (u, v, w, 1) with the displacements u and velocities v of n masses, and the forcing w: the
     sine and cosine of each harmonic, or a record's acceleration and slope. y′ = A y within a
-    contact mode, so that resonance, free masses and records are no special cases. Besides, each
+    contact mode, so that resonance, free masses and records need no special case. Besides, each
     Kelvin–Voigt stop has its deformation: while pressed it changes with the closing displacement,
     while free it decays as exp(−κ t), κ = stiffness / damping. It is a state of its own, because as
     a difference of displacements it would lose digits beside a large gap.

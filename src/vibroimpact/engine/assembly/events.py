@@ -57,7 +57,7 @@ def accelerations(
 ) -> None:
     """Write the accelerations of a state in the mode that was entered at a place of the plan.
 
-    Behind them follow the forces of those pressed and of those resting. The place has room for
+    After them follow the forces of those pressed and of those resting. The place has room for
     n + 1 accelerations; `moved` as in `series.expand`.
     """
     n = int(plan[at.MASSES])

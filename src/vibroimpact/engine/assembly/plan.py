@@ -231,7 +231,7 @@ def _is_diagonal(matrix: Matrix) -> bool:
 
 
 def _ranges(filled: NDArray[np.bool_]) -> Matrix:
-    """First and behind the last of the places of each row that are filled."""
+    """The first of the places, and that after the last, of each row that are filled."""
     found = np.zeros((len(filled), 2))
     for i, row in enumerate(filled):
         places = np.flatnonzero(row)

@@ -147,7 +147,7 @@ def expand_state(plan: Vector, y: Vector, deformation: Vector, length: float) ->
                 one = stops + f * at.STOP_WIDTH
                 left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
                 plan[force + p] = plan[a + left] - plan[a + right]
-        # Behind the order a row is used as room; it is never read.
+        # Beyond the order a row is used as room; it is never read.
         after = int(plan[at.SCRATCH]) if j == order else a + row + v
         here = beyond(plan, a)
         constant = plan[at.MOVED] if j == 0 else 0.0

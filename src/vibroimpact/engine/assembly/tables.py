@@ -103,7 +103,7 @@ def table_of_mode(plan: Vector) -> int:
 
 @kernel
 def gather(plan: Vector, x: Vector) -> None:
-    """Write x, and behind it the magnitudes."""
+    """Write x, and after it the magnitudes."""
     base = 2 * int(plan[at.MASSES]) + int(plan[at.WAVES]) + 1
     y, p = int(plan[at.Y]), int(plan[at.PRESSED])
     for i in range(base):
