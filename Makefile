@@ -49,6 +49,9 @@ test test-full: $(VENV)/.installed-test
 
 test-full: FULL := --full
 
+# Tests start many processes, and each would compile the sources again.
+test test-full: export PYTHONDONTWRITEBYTECODE :=
+
 paper: $(VENV)/.installed-run
 	@$(BIN)/python -m paper $(ARGS)
 

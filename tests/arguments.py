@@ -136,6 +136,27 @@ def calls(folder: Path) -> Mapping[str, Call]:
     swept = {"rig": vi.Rig(rig(), 2.0)}
     near = [-0.01, 0.01]
     made: dict[str, dict[str, Any]] = {
+        "Assembly": {
+            "masses": {"a": 1.0},
+            "links": {"spring": vi.Link("ground", "a", vi.Isolator(1.0, 0.1))},
+            "stops": {"wall": vi.Link("a", "ground", vi.RigidStop(0.5, 0.1))},
+            "forces": {"a": 1.0},
+            "damping": vi.ModalDamping(0.05),
+            "units": "none",
+            "matrices": None,
+        },
+        "Assembly.from_matrices": {
+            "mass": [[1.0]],
+            "damping": [[0.1]],
+            "stiffness": [[2.0]],
+            "names": ["a"],
+            "influence": [1.0],
+            "stops": {"wall": vi.Link("a", "ground", vi.RigidStop(0.5, 0.1))},
+            "links": {"spring": vi.Link("ground", "a", vi.Isolator(1.0, 0.1))},
+            "forces": {"a": 1.0},
+            "units": "none",
+            "folder": folder,
+        },
         "BilinearIsolator": {
             "elastic_stiffness": 100.0,
             "post_yield_stiffness": 50.0,
@@ -170,9 +191,18 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "friction": 0.1,
             "damping_exponent": 1.0,
         },
-        "Harmonic": {"amplitude": 1.0, "frequency": 1.0, "phase": 0.0, "of": "acceleration"},
+        "Harmonic": {
+            "amplitude": 1.0,
+            "frequency": 1.0,
+            "phase": 0.0,
+            "of": "acceleration",
+            "on": None,
+        },
         "Isolator": {"stiffness": 1.0, "damping": 1.0, "damping_exponent": 1.0},
         "JankowskiBumper": {"stiffness": 1.0, "gap": 0.1, "restitution": 0.5, "mass": 1.0},
+        "Link": {"left": "a", "right": "b", "law": vi.Isolator(1.0, 0.1)},
+        "ModalDamping": {"ratio": [0.1, 0.2]},
+        "RayleighDamping": {"mass_factor": 0.1, "stiffness_factor": 0.01},
         "Law": {"formula": "k*u + c*v", "gap": None, "k": 100.0, "c": 1.0},
         "Output": {"function": "max(velocity)", "units": "m/s", "long_name": "top speed"},
         "Oscillator": {
@@ -189,6 +219,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "phases": [0.0, 1.0],
             "phase": 0.0,
             "of": "acceleration",
+            "on": None,
         },
         "PolynomialIsolator": {
             "stiffness": 1.0,
@@ -211,7 +242,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "displacement": 1e-3 * np.sin(np.arange(200) * 0.1),
             "step": 0.01,
         },
-        "Rig": {"oscillator": rig(), "shaking": 1.0, "frequency": 1.5, "name": "mine"},
+        "Rig": {"system": rig(), "shaking": 1.0, "frequency": 1.5, "name": "mine"},
         "RigidStop": {"restitution": 0.5, "gap": 0.1},
         "State": {
             "displacement": 0.0,
@@ -221,6 +252,9 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "phase": None,
             "contact": None,
             "isolator": 0.0,
+            "deformation": None,
+            "memory": None,
+            "touching": None,
         },
         "Thresholds": {"prominence": 0.02, "extent": 0.08, "touch": 0.1, "deformation": 0.1},
         "basin_stability": {
@@ -289,6 +323,17 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "outputs": None,
             "progress": None,
         },
+        "chain": {
+            "masses": [1.0, 2.0],
+            "stiffnesses": [3.0, 4.0],
+            "damping_ratio": 0.05,
+            "damping": "rayleigh",
+            "stops": {"wall": vi.Link("floor_2", "ground", vi.RigidStop(0.5, 0.1))},
+            "forces": {"floor_1": 0.1},
+            "rayleigh_modes": (1, 2),
+            "units": "none",
+        },
+        "modes": {"rig": vi.chain([1.0, 2.0], [3.0, 4.0])},
         "classify_scenario": {
             **swept,
             "frequencies": [1.3, 1.4, 1.5, 1.6],

@@ -17,6 +17,7 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 
 NO_DATASET = {
+    "chain",
     "explore",
     "fit_report",
     "fitted_rig",

@@ -24,7 +24,7 @@ from reference.public_motion import (
 )
 from samples import sample
 
-CYCLES = sample(20, 4)
+CYCLES = sample(20, 2)
 SECONDS = sample(20.0, 8.0)
 TOLERANCE = 1e-11
 

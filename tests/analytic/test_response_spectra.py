@@ -107,8 +107,8 @@ class Straight(NamedTuple):
 HALF_SINE = [math.sin(math.pi * n / 12) for n in range(13)]
 ROUGH = np.random.default_rng(4).uniform(-3.0, 3.0, 14).tolist()
 STRAIGHT = {
-    "a half sine": (Straight(HALF_SINE, 0.05), sample([0.03, 0.21, 0.8, 1.2, 5.0], [0.21, 1.2])),
-    "rough": (Straight(ROUGH, 0.1), sample([0.07, 0.3, 1.0, 40.0], [0.07, 1.0])),
+    "a half sine": (Straight(HALF_SINE, 0.05), sample([0.03, 0.21, 0.8, 1.2, 5.0], [0.21])),
+    "rough": (Straight(ROUGH, 0.1), sample([0.07, 0.3, 1.0, 40.0], [1.0])),
     "one long line": (Straight([1.0, -2.0], 1.0), [0.045, 0.5]),
 }
 

@@ -37,6 +37,7 @@ def test_a_seed_draws_the_same_states():
     assert (one["states"].values != other["states"].values).any()
 
 
+@pytest.mark.full
 def test_motions_keep_their_numbers_along_a_parameter():
     frequencies = [1.6, 1.8, 2.2, 2.6, 2.75]
     data = vi.basin_stability(

@@ -78,6 +78,7 @@ def vi_interval(hits: int, total: int) -> tuple[float, float]:
     return found.low, found.high
 
 
+@pytest.mark.full
 def test_the_mirror_image_is_that_of_half_a_cycle_later():
     case = vi.laboratory.case(CODE)
     nodes = sample(200, 60)

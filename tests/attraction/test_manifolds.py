@@ -197,6 +197,7 @@ def test_given_saddles_are_those_that_borders_lead_to():
         assert tree.query(pieces)[0].max() < 0.006
 
 
+@pytest.mark.full
 def test_tangles_are_found_where_curves_cross():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), vi.Bumper(30.0, 0.6, 0.5), None)
     shaking, sides = vi.Harmonic(1.0, 3.3 / (2.0 * np.pi)), np.array([2.1, 3.6])
@@ -231,6 +232,7 @@ def tangle(cycles: int, longest: float = 3.0) -> xr.Dataset:
     return vi.manifolds(TANGLE, start, *window, period=3, longest=longest, curve_cycles=cycles)
 
 
+@pytest.mark.full
 def test_work_is_bounded_and_what_is_left_out_is_told(monkeypatch):
     """With few cycles, each curve is the beginning of the one with many."""
     used = []
@@ -354,6 +356,7 @@ def test_what_remembers_has_no_curves_in_the_plane():
         vi.manifolds(vi.Rig(rig, EXCITATION))
 
 
+@pytest.mark.full
 def test_a_saddle_that_presses_a_stop_with_a_restitution_is_refused_at_that_phase():
     stop = vi.PowerBumper(stiffness=10e6, gap="5 mm", exponent=1.5, restitution=0.7)
     rig = CASE.oscillator.replace(right=stop, left=stop)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+import pytest
 
 import vibroimpact as vi
 from samples import sample
@@ -62,6 +63,7 @@ def test_an_ellipse_is_no_smaller_than_it_need_be():
         assert one.traps[0, REACH] > 0.3 * border
 
 
+@pytest.mark.full
 def test_chaotic_motions_are_held_by_cells():
     search = searched(1.06)
     assert [one.found.period for one in search.known] == [0, 0]
@@ -87,6 +89,7 @@ def test_chaotic_motions_are_held_by_cells():
         assert (follow(search.stage, first, None, search.traps, 0).owner == number).all()
 
 
+@pytest.mark.full
 def test_motions_of_long_periods_have_a_trap_a_point():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), vi.RigidStop(0.9, 0.0), None)
     search = Search(Stage(vi.Rig(rig, vi.Harmonic(1.0, 3.3 / (2.0 * np.pi)))))

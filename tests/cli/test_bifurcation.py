@@ -34,6 +34,7 @@ def test_over_the_gap(tmp_path, told):
         np.testing.assert_array_equal(data[name], same[name])
 
 
+@pytest.mark.full
 def test_bifurcations_of_branches_are_printed(tmp_path, told):
     few = ("B3-10mm-A3", "--vary", "frequency=1.2Hz:1.3Hz:2", "--branches")
     code, out, _ = told(tmp_path, *few)
@@ -68,6 +69,7 @@ def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
     assert float(data["section"].sel(component="phase")[0, 0]) == pytest.approx(np.pi / 2.0)
 
 
+@pytest.mark.full
 def test_a_study_says_its_frequency(tmp_path, told):
     (tmp_path / "rig.toml").write_text(
         'case = "B2-Ginf-A3"\n[simulate]\nfrequency = "2 Hz"\n', encoding="utf-8"
@@ -106,6 +108,7 @@ def test_refused(run, words, told_of):
     assert errors.startswith(f"vibroimpact: error: {told_of}")
 
 
+@pytest.mark.full
 def test_own_outputs_are_computed(run, tmp_path):
     words = ("B2-G1-A3", "--vary", "frequency=2Hz:2.2Hz:2", "--direction", "up")
     code, _, errors = run(*words, "--compute", "top [m/s] = max(abs(velocity))")

@@ -43,6 +43,7 @@ def gaps(tmp_path_factory, told):
     return json.loads(out), folder
 
 
+@pytest.mark.full
 def test_basins_find_an_isolated_branch(run, tmp_path):
     (tmp_path / "isola.toml").write_text(ISOLA)
     words = ("isola.toml", "--vary", "frequency=0.94Hz:0.97Hz", "--longest", "5", "--json")
@@ -189,6 +190,7 @@ def test_the_fold_over_the_gap_is_where_the_motion_with_contacts_ends(gaps):
     assert not (motion["event_time"] > motion["time"][-1] - 50.0).any()
 
 
+@pytest.mark.full
 def test_quantity_period_name_and_format(run, tmp_path):
     words = ("--vary", "frequency=0.99Hz:1.27Hz", "--quantity", "eccentricity", "--longest", "1")
     code, out, _ = run("B3-10mm-A3", *words, "--name", "pair", "--figure", "svg", "--json")
@@ -209,11 +211,13 @@ def test_quantity_period_name_and_format(run, tmp_path):
     assert len(list((tmp_path / "out").iterdir())) == 2
 
 
+@pytest.mark.full
 def test_excursion_is_a_quantity(run):
     words = ("--vary", "frequency=1.8Hz:4Hz", "--quantity", "displacement_excursion")
     assert run("B2-G1-A3", *words)[0] == 0
 
 
+@pytest.mark.full
 def test_free_flight_is_found_in_a_narrow_range(run):
     """It is stable from 1.6652 Hz on, though both ends of a sweep to 2 Hz hit the bumpers."""
     code, out, _ = run("B2-G1-A3", "--vary", "frequency=1.5Hz:2Hz", "--json")
@@ -221,6 +225,7 @@ def test_free_flight_is_found_in_a_narrow_range(run):
     assert {one["kind"] for one in json.loads(out)["bifurcations"]} == {"fold", "grazing"}
 
 
+@pytest.mark.full
 def test_study_with_unequal_sides(run, tmp_path):
     code, out, errors = run(str(STUDY), "--vary", "frequency=1.4Hz:2.4Hz", "--json")
     assert (code, errors) == (0, "")
@@ -240,6 +245,7 @@ def test_study_with_unequal_sides(run, tmp_path):
     assert hits == {(0, 0), (1, 0), (1, 1)}
 
 
+@pytest.mark.full
 def test_a_phase_and_a_value_typed_over_a_study(run, tmp_path):
     """The orbits are cut at the study's phase, but they are the same."""
     (tmp_path / "late.toml").write_text(
@@ -325,6 +331,7 @@ def test_an_output_that_is_a_file_is_refused_and_kept(run, tmp_path):
     assert (tmp_path / "taken").read_text() == "kept"
 
 
+@pytest.mark.full
 def test_the_branch_of_another_motion(run, tmp_path):
     """Period 5 beside the motion from rest, over the frequency and over another parameter."""
     (tmp_path / "soft.toml").write_text(
@@ -364,6 +371,7 @@ def test_a_first_orbit_that_cannot_be(run, words, named):
     assert errors.count("\n") == 1
 
 
+@pytest.mark.full
 def test_an_isolator_without_stiffness(run, tmp_path):
     """Between two springs that both touch the mass it is linear, and its swing known."""
     (tmp_path / "study.toml").write_text(
@@ -386,6 +394,7 @@ def test_an_isolator_without_stiffness(run, tmp_path):
     )
 
 
+@pytest.mark.full
 def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
     (tmp_path / "quay.toml").write_text(QUAY, encoding="utf-8")
     code, _, errors = run("quay.toml", "--vary", "frequency=1.9Hz:2Hz")
@@ -394,6 +403,7 @@ def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
     assert float(data["displacement_max"].max()) == pytest.approx(5e-3, rel=1e-12)
 
 
+@pytest.mark.full
 def test_own_outputs_have_a_figure_each(run, tmp_path):
     span = ("--vary", "frequency=2.4Hz:2.6Hz", "--start", "8mm,0mm/s", "--frequency", "2.5Hz")
     power = ("--compute", "power [W] = mean(isolator.damping*velocity**2)")

@@ -28,6 +28,7 @@ def test_text(run, tmp_path):
     assert data["frequency"].values[0] == pytest.approx(0.4 * 1.1004, rel=1e-3)
 
 
+@pytest.mark.full
 def test_json(run, tmp_path):
     words = ("B2-G1-A3", "--from", "0.5Hz", "--to", "5Hz", "--step", "0.01Hz", "--json")
     code, out, _ = run(*words, "--figure", "pdf")
@@ -60,6 +61,7 @@ def test_several_harmonics_are_refused(run, tmp_path):
         assert errors.count("\n") == 1
 
 
+@pytest.mark.full
 def test_thresholds_and_what_they_change(run):
     code, out, _ = run("B2-G4-A1", "--touch", "0.05", "--json")
     assert code == 0
@@ -72,6 +74,7 @@ def test_thresholds_and_what_they_change(run):
     assert "with --touch 0.05: S2" in out
 
 
+@pytest.mark.full
 def test_changed_rig(run):
     """One bumper alone, and none."""
     code, out, _ = run("B2-G1-A3", "--set", "left=none", "--json")
@@ -107,6 +110,7 @@ def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, w
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.full
 def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
     (tmp_path / "quay.toml").write_text(QUAY, encoding="utf-8")
     code, told, errors = run("quay.toml", "--from", "1Hz", "--to", "3Hz", "--step", "0.05Hz")

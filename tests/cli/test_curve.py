@@ -62,6 +62,7 @@ def ratios(tmp_path_factory, told):
     return json.loads(out), folder
 
 
+@pytest.mark.full
 def test_json_and_groups(ratios):
     facts, folder = ratios
     assert (facts["bifurcation"], facts["parameters"]) == ("fold", ["frequency", "stiffness_ratio"])
@@ -115,6 +116,7 @@ def test_grazing_in_closed_form(run, tmp_path):
     assert ends == {"the range of gap ends at 1 mm", "the range of gap ends at 20 mm"}
 
 
+@pytest.mark.full
 def test_two_parameters_neither_of_which_is_the_frequency(run, tmp_path):
     """Free flight at 2 Hz grazes a gap in proportion to the amplitude."""
     words = ("--vary", "gap=2mm:20mm", "--vary", "amplitude=0.02g:0.1g")
@@ -139,6 +141,7 @@ def test_identified_parameters_over_a_plane(run, tmp_path):
     assert (tmp_path / "out/B2-G1-A3-identified-fold-frequency-gap.nc").is_file()
 
 
+@pytest.mark.full
 def test_a_study_and_what_is_typed_over_it(run, tmp_path):
     (tmp_path / "low.toml").write_text('case = "B2-G1-A3"\n[excitation]\namplitude = "0.04 g"\n')
     words = ("--bifurcation", "grazing", "--set", "isolator.damping=1.2 kN s/m", "--figure", "svg")

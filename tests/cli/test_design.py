@@ -97,6 +97,7 @@ def test_a_study_with_records(run, study):
     ) in words
 
 
+@pytest.mark.full
 def test_of_all_records_no_fractile_is_told(run, study):
     narrow = ("--vary", "gap=20mm:60mm:2")
     for words in (("--fractile", "1"), ("a.csv", "--fractile", "0.5")):
@@ -106,6 +107,7 @@ def test_of_all_records_no_fractile_is_told(run, study):
         assert "fractile" not in told
 
 
+@pytest.mark.full
 def test_a_gap_that_is_enough_for_a_fractile_is_hit_under_the_others(run, study):
     """Between the two records: one reaches it. Each side's fractile alone would not tell."""
     records = {name: vi.Record.read(study / name) for name in RECORDS}
@@ -141,6 +143,7 @@ def test_where_no_gap_is_enough_for_all_it_is_told():
     assert design.facts(gap, data, None)["required_gap_of_all_records"] is None
 
 
+@pytest.mark.full
 def test_what_keeps_the_gap_is_told_where_the_chart_varies_it(run, study):
     narrow = ("--vary", "gap=20mm:60mm:2")
     code, told, _ = run("building.toml", "--gap", "50mm", *narrow)
@@ -160,6 +163,7 @@ def test_what_keeps_the_gap_is_told_where_the_chart_varies_it(run, study):
     assert "The designs vary" not in told
 
 
+@pytest.mark.full
 def test_a_limit_holds_for_the_chart_too(run, study):
     code, told, errors = run("building.toml", "--limit", "penetration", "20mm", "--json")
     assert (code, errors) == (0, "")
@@ -175,6 +179,7 @@ def test_a_limit_holds_for_the_chart_too(run, study):
     )
 
 
+@pytest.mark.full
 def test_dampings_follow_at_a_restitution_and_are_told(run, study):
     returning = STUDY.replace('damping = "5 MN s/m"', "restitution = 0.6")
     (study / "wall.toml").write_text(returning)
@@ -193,6 +198,7 @@ def test_dampings_follow_at_a_restitution_and_are_told(run, study):
     assert "damping of" not in told
 
 
+@pytest.mark.full
 def test_sines_best_and_json(run, study):
     (study / "sines.toml").write_text(STUDY + '[excitation]\namplitude = "0.1 g"\n')
     words = ("--gap", "200mm", "--vary", "gap=0.1:0.4:3", "--from", "0.3Hz", "--to", "0.5Hz")
@@ -215,6 +221,7 @@ def test_sines_best_and_json(run, study):
         assert (study / path).is_file()
 
 
+@pytest.mark.full
 def test_the_usual_chart_of_records_on_the_command_line(run, study):
     (study / "rig.toml").write_text(STUDY)
     code, told, _ = run("rig.toml", "a.csv", "--scale", "0.5", "--figure", "svg")
@@ -230,6 +237,7 @@ def test_the_usual_chart_of_records_on_the_command_line(run, study):
     assert f"Required gap: {need:.4g} mm for no contact under a.csv" in " ".join(told.split())
 
 
+@pytest.mark.full
 def test_three_measured_records(run, tmp_path):
     """The building under El Centro, Kobe and Morgan Hill, as they were recorded."""
     folder = measured("boucwen_frame")

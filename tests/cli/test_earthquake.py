@@ -54,6 +54,7 @@ def test_words_figure_and_data(run, tmp_path, quake):
     assert float(values["peak_force (N)"]) == float(direct["peak_force"])
 
 
+@pytest.mark.full
 def test_a_residual_that_nothing_damps_is_not_called_settled(run, tmp_path, quake):
     study = """
 [oscillator]
@@ -69,6 +70,7 @@ damping = %s
         assert ("not settled: the isolator has no damping" in " ".join(told.split())) == expected
 
 
+@pytest.mark.full
 def test_several_records_options_and_json(run, tmp_path, quake):
     (tmp_path / "weak.csv").write_text((tmp_path / quake).read_text())
     code, told, _ = run(
@@ -89,6 +91,7 @@ def test_several_records_options_and_json(run, tmp_path, quake):
         assert (tmp_path / path).is_file()
 
 
+@pytest.mark.full
 def test_each_record_of_a_suite_has_its_own_component_and_scale(run, tmp_path, quake):
     head, *rows = (tmp_path / quake).read_text().splitlines()
     both = [f"{row},{2.0 * float(row.split(',')[1]):.9g}" for row in rows]
@@ -114,6 +117,7 @@ def test_each_record_of_a_suite_has_its_own_component_and_scale(run, tmp_path, q
         )
 
 
+@pytest.mark.full
 def test_a_study_with_its_record_and_one_without(run, tmp_path, quake):
     rig = """
     [oscillator]
@@ -138,6 +142,7 @@ def test_a_study_with_its_record_and_one_without(run, tmp_path, quake):
     )
 
 
+@pytest.mark.full
 def test_the_records_of_a_design(run, tmp_path, quake):
     """The same study gives the page of each record and the design."""
     (tmp_path / "other.csv").write_text((tmp_path / quake).read_text())
@@ -158,6 +163,7 @@ def test_two_files_of_one_name_are_refused(run, tmp_path, quake):
     assert errors.startswith(f"vibroimpact: error: RECORD: 'b/{quake}' has the same file name as")
 
 
+@pytest.mark.full
 def test_what_is_said_in_place_of_a_file_is_told(run, tmp_path):
     head = ["PEER", "Made, 2000", "ACCELERATION TIME SERIES IN UNITS OF G"]
     values = [f"{0.01 * (i % 3 - 1):.7E}" for i in range(50)]

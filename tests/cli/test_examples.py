@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from samples import sample
 from vibroimpact.cli import main
 
@@ -24,6 +26,7 @@ def test_first_sweep(tmp_path):
     assert (tmp_path / "out/B2-G1-A3-sweep.nc").is_file()
 
 
+@pytest.mark.full
 def test_kinds_of_motion(tmp_path):
     script = EXAMPLES / "kinds_of_motion.py"
     done = subprocess.run(
@@ -35,6 +38,7 @@ def test_kinds_of_motion(tmp_path):
     assert (tmp_path / "kinds-of-motion.png").is_file()
 
 
+@pytest.mark.full
 def test_study(tmp_path, capsys):
     for command in ("sweep", "simulate"):
         assert main([command, str(EXAMPLES / "study.toml"), "-o", str(tmp_path)]) == 0
@@ -45,6 +49,7 @@ def test_study(tmp_path, capsys):
     }
 
 
+@pytest.mark.full
 def test_unexplored_region(tmp_path):
     script = EXAMPLES / "unexplored_region.py"
     done = subprocess.run(
@@ -60,6 +65,7 @@ def test_unexplored_region(tmp_path):
             assert (tmp_path / figure).is_file()
 
 
+@pytest.mark.full
 def test_two_motions(tmp_path):
     script = EXAMPLES / "two_motions.py"
     done = subprocess.run(

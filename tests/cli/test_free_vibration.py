@@ -69,6 +69,7 @@ def test_a_dropped_mass_bounces(run):
     assert f"{1e3 * u:.6g} mm" in out
 
 
+@pytest.mark.full
 def test_options_take_away_the_shaking_and_the_isolator(run, tmp_path, capsys):
     words = ("--amplitude", "0", "--displacement", "5mm", "--cycles", "3", "-o", str(tmp_path))
     assert main(["simulate", "B2-G1-A3", *words]) == 0
@@ -125,6 +126,7 @@ def test_an_oscillator_without_isolator_is_held_by_stops():
         vi.Oscillator(2)
 
 
+@pytest.mark.full
 def test_only_stops_that_deform_are_listed_with_a_deformation(run):
     words = ("--displacement", "0.5 m", "--cycles", "1")
     assert "deformed" not in run("simulate", FALL, *words)[1]

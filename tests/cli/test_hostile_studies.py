@@ -61,6 +61,7 @@ def test_a_name_is_never_mathematics(tmp_path, capsys):
     capsys.readouterr()
 
 
+@pytest.mark.full
 def test_studies_in_other_scripts_have_files_of_their_own(tmp_path, capsys):
     for name in ("防撞", "隔震"):
         path = study(tmp_path, f'name = "{name}"' + RIG, f"{name}.toml")
@@ -72,6 +73,7 @@ def test_studies_in_other_scripts_have_files_of_their_own(tmp_path, capsys):
     assert "boxes are drawn" in line
 
 
+@pytest.mark.full
 def test_studies_of_similar_names_have_files_of_their_own(tmp_path, capsys):
     for number, name in enumerate(("a b", "a/b", "a:b")):
         path = study(tmp_path, f'name = "{name}"' + RIG, f"{number}.toml")
@@ -88,6 +90,7 @@ def test_a_font_that_is_missing_is_reported_once(tmp_path, capsys):
     assert all(line.startswith("vibroimpact: warning: ") for line in lines)
 
 
+@pytest.mark.full
 def test_no_figure_needs_latex(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     with mpl.rc_context({"text.usetex": True}):

@@ -42,12 +42,14 @@ def test_one_command_makes_a_report_and_a_rig_that_sweep_takes(file, tmp_path, c
     assert main(["sweep", str(study), "--step", "0.5Hz", "-o", str(tmp_path), "--json"]) == 0
 
 
+@pytest.mark.full
 def test_an_amplitude_replaces_that_of_the_file(file, tmp_path, capsys):
     words = ["identify", str(file), "--rig", "B2-G2-A2", "--free", "gap", "--starts", "1"]
     assert main([*words, "--amplitude", "0.05g", "-o", str(tmp_path), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["amplitudes"]["test"].startswith("0.05 g")
 
 
+@pytest.mark.full
 def test_names_of_files_and_columns_stay_text(file, tmp_path, capsys):
     """They may hold colours of terminals, line breaks and tags."""
     test = tmp_path / "a\x1b[31m\n# b <i>.csv"
@@ -65,6 +67,7 @@ def test_names_of_files_and_columns_stay_text(file, tmp_path, capsys):
     assert "<i>" not in written[1]
 
 
+@pytest.mark.full
 def test_a_study_need_not_say_the_amplitude_that_the_file_says(file, tmp_path, capsys):
     guess = tmp_path / "guess.toml"
     guess.write_text(
@@ -91,6 +94,7 @@ def test_a_study_need_not_say_the_amplitude_that_the_file_says(file, tmp_path, c
     assert found["value"] == pytest.approx(31900.0, rel=0.01)
 
 
+@pytest.mark.full
 def test_an_amplitude_of_the_study_that_the_file_replaces_is_reported(file, tmp_path, capsys):
     words = [
         "identify",
@@ -109,6 +113,7 @@ def test_an_amplitude_of_the_study_that_the_file_replaces_is_reported(file, tmp_
     assert line in " ".join(printed.out.split())
 
 
+@pytest.mark.full
 def test_an_amplitude_without_a_unit_is_asked_for(file, tmp_path, capsys):
     path = tmp_path / "bare.csv"
     path.write_text(file.read_text().replace("0.04 g", "0.04", 1))

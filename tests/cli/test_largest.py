@@ -28,6 +28,7 @@ WALL = BUILDING.replace(
 )
 
 
+@pytest.mark.full
 def test_a_building_in_millimetres_g_and_meganewtons(run, tmp_path):
     (tmp_path / "building.toml").write_text(BUILDING)
     code, told, errors = run("building.toml", "--physical")
@@ -49,6 +50,7 @@ def test_a_building_in_millimetres_g_and_meganewtons(run, tmp_path):
     assert "e+" not in told
 
 
+@pytest.mark.full
 def test_a_study_is_drawn_in_physical_units_and_a_published_case_normalised(run, tmp_path):
     (tmp_path / "building.toml").write_text(BUILDING)
     for words, path, label in (

@@ -173,6 +173,7 @@ def test_an_interrupt_after_the_end_has_its_exit_code():
     assert (done.returncode, done.stderr) == (130, "")
 
 
+@pytest.mark.full
 def test_a_reader_that_leaves(tmp_path):
     program = (
         f"{sys.executable} -c 'import sys; from vibroimpact.cli import main; sys.exit(main())'"

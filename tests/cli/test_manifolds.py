@@ -26,6 +26,7 @@ def test_text_and_files(run, tmp_path):
     assert {p.name for p in (tmp_path / "out").iterdir()} == {f"{NAME}.nc", f"{NAME}.png"}
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("option", ["--curve-cycles", "--longest"])
 def test_advice_names_the_option(run, tmp_path, option):
     few = {"--curve-cycles": "2000", "--longest": "1"}[option]
@@ -54,6 +55,7 @@ def test_a_saddle_that_is_given(run, tmp_path):
     assert told["crossings"] == 0
 
 
+@pytest.mark.full
 def test_without_borders_there_is_no_saddle(run):
     code, out, _ = run("B3-Ginf-A3", "--frequency", "0.7Hz", "--nodes", "4", *WINDOW)
     assert code == 0

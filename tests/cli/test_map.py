@@ -38,6 +38,7 @@ def test_text_and_files(run, tmp_path):
     np.testing.assert_allclose(data["gap_ratio"], np.linspace(0.2, 1, 5))
 
 
+@pytest.mark.full
 def test_json_and_again(run, tmp_path):
     first, again = (json.loads(run(*WORDS, "--refine", "0", "--json")[1]) for _ in range(2))
     assert (first.pop("replaced"), again.pop("replaced")) == ([], [first["files"]["figure"]])
@@ -57,6 +58,7 @@ def test_without_the_border(run):
     assert facts["border"] == []
 
 
+@pytest.mark.full
 def test_physical_axes_of_a_case(run, tmp_path):
     words = ("--vary", "gap=5mm:15mm:3", "--vary", "proportional_stiffness=100kN/m:1MN/m:log:3")
     code, out, _ = run("B2-G1-A3", *words, "--refine", "0", *STEP, "--json")
@@ -84,6 +86,7 @@ def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
     assert errors.count("\n") == 1
 
 
+@pytest.mark.full
 def test_a_command_that_was_killed_goes_on(tmp_path, told):
     program = "import sys; from vibroimpact.cli import main; sys.exit(main(sys.argv[1:]))"
     asked = (*WORDS, "--refine", sample("2", "1"), "--no-border")
@@ -107,6 +110,7 @@ def test_a_command_that_was_killed_goes_on(tmp_path, told):
     xr.testing.assert_identical(first, second)
 
 
+@pytest.mark.full
 def test_another_map_in_the_same_place_is_refused(run):
     assert run(*WORDS, "--refine", "0")[0] == 0
     code, out, errors = run(*WORDS, "--refine", "1")

@@ -154,6 +154,7 @@ def test_json_contacts(two, settled):
         assert 0.0 < contact["peak_force"] < mass * peak
 
 
+@pytest.mark.full
 def test_files_load_by_group(two):
     facts, folder = two
     path = folder / facts["files"]["data"]
@@ -186,6 +187,7 @@ def test_files_load_by_group(two):
     assert on.sizes["event"] == 0
 
 
+@pytest.mark.full
 def test_one_branch(run, tmp_path):
     code, out, _ = run("B2-G1-A3", "--frequency", "2Hz", "--branch", "backward", "--json")
     assert code == 0
@@ -198,6 +200,7 @@ def test_one_branch(run, tmp_path):
     assert vi.load(path, group="backward_branch")["motion"].item() == "periodic"
 
 
+@pytest.mark.full
 def test_a_branch_that_was_asked_for_is_not_called_the_only_motion(run):
     words = ("B2-G1-A3", "--frequency", "2Hz", "--branch", "backward", "--samples", "32")
     code, out, _ = run(*words)
@@ -205,6 +208,7 @@ def test_a_branch_that_was_asked_for_is_not_called_the_only_motion(run):
     assert "2 Hz: the motion of the backward branch; others may coexist with it" in out
 
 
+@pytest.mark.full
 def test_list_of_frequencies(run, tmp_path):
     words = ("--frequency", "0.58Hz, 2.6Hz", "--random", "0", "--samples", "32")
     code, out, _ = run("B2-G1-A3", *words, "--output", "figure8", "--name", "two", *AS_PDF)
@@ -259,6 +263,7 @@ def test_chaotic_motion(run, tmp_path):
     assert [float(row[1]) for row in rows] == pytest.approx(phases, abs=0.05)
 
 
+@pytest.mark.full
 def test_rig_without_bumpers(run, tmp_path):
     words = ("B2-Ginf-A3", "--frequency", "2Hz", "--random", "1")
     code, out, _ = run(*words, "--json")
@@ -280,6 +285,7 @@ def test_rig_without_bumpers(run, tmp_path):
     assert vi.load(path, group="forward_and_backward_branch").sizes["event"] == 0
 
 
+@pytest.mark.full
 def test_rig_with_one_bumper(run):
     words = (
         "--set",
@@ -307,6 +313,7 @@ def test_rig_with_one_bumper(run):
     assert all(contact["side"] == 1 for contact in motion["contacts"])
 
 
+@pytest.mark.full
 def test_study(run, tmp_path):
     words = ("--frequency", "2.2Hz", "--set", "left.gap=8mm", "--branch", "forward", "--json")
     code, out, _ = run(str(STUDY), *words)
@@ -324,6 +331,7 @@ def test_study(run, tmp_path):
     assert rig["right"]["gap"] == pytest.approx(7.5e-3)
 
 
+@pytest.mark.full
 def test_phase_of_a_study(run, tmp_path):
     """The record begins where the study's forcing does."""
     (tmp_path / "late.toml").write_text(
@@ -342,6 +350,7 @@ def test_phase_of_a_study(run, tmp_path):
     assert "--frequency: missing" in errors
 
 
+@pytest.mark.full
 def test_an_isolator_without_stiffness(run, tmp_path):
     """Between two springs that both touch the mass it is linear, and its swing known."""
     (tmp_path / "study.toml").write_text(
@@ -357,6 +366,7 @@ def test_an_isolator_without_stiffness(run, tmp_path):
     assert motion["displacement_max"] == pytest.approx(swing, rel=1e-9)
 
 
+@pytest.mark.full
 def test_a_motion_that_is_given_up(run, tmp_path):
     """Nothing takes the energy of a mass that bounces through half of a very slow cycle."""
     words = ("--set", "isolator.damping=0", "--set", "stops.damping=0", "--frequency", "0.0001Hz")

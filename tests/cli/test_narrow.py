@@ -9,6 +9,7 @@ from collections import Counter
 
 import pytest
 
+from samples import sample
 from vibroimpact.cli import main
 
 
@@ -38,10 +39,15 @@ def told(tmp_path, monkeypatch):
     "line",
     [
         ("sweep", "B2-G1-A3", "--step", "0.05Hz", "--set", "left.damping=1234567.89 N s/m"),
-        ("simulate", "B2-G1-A3", "--frequency", "2.5Hz", "--set", "left.gap=9.12345mm"),
-        ("motion", "B3-10mm-A3", "--frequency", "1.12Hz", "--random", "0"),
-        ("branch", "B2-G1-A3", "--vary", "frequency=1.6Hz:1.8Hz"),
-        ("classify", "B2-G1-A3"),
+        *sample(
+            [
+                ("simulate", "B2-G1-A3", "--frequency", "2.5Hz", "--set", "left.gap=9.12345mm"),
+                ("motion", "B3-10mm-A3", "--frequency", "1.12Hz", "--random", "0"),
+                ("branch", "B2-G1-A3", "--vary", "frequency=1.6Hz:1.8Hz"),
+                ("classify", "B2-G1-A3"),
+            ],
+            [],
+        ),
     ],
     ids=lambda line: line[0],
 )

@@ -69,6 +69,7 @@ def test_changes_in_their_order_and_json(run, quake):
     assert largest["damping"] == 0.05
 
 
+@pytest.mark.full
 def test_one_of_several_components(run, tmp_path):
     (tmp_path / "quake.V2").write_text("\n".join([*csmip(1, "90 DEG"), *csmip(2, "UP")]) + "\n")
     code, _, errors = run("quake.V2")

@@ -81,6 +81,7 @@ def test_many_changes_make_a_file_name_that_any_disk_takes():
     assert what.slug != other.slug
 
 
+@pytest.mark.full
 def test_two_gaps_of_a_study_are_two_results(run, tmp_path):
     (tmp_path / "x.toml").write_text(STUDY)
     for gap in ("100mm", "200mm"):
@@ -112,6 +113,7 @@ def test_the_parameter_set_of_a_study_that_an_option_replaces(tmp_path):
     )
 
 
+@pytest.mark.full
 def test_a_replaced_file_is_told(run, tmp_path):
     run("B2-G1-A3", *FEW)
     (tmp_path / "out/B2-G1-A3-sweep.txt").unlink()
@@ -129,6 +131,7 @@ def test_a_replaced_file_is_told(run, tmp_path):
     assert (facts["name"], facts["replaced"]) == ("B2-G1-A3, gap 9 mm", [])
 
 
+@pytest.mark.full
 def test_a_gap_in_metres_that_was_meant_in_millimetres(run):
     code, _, errors = run("B2-G1-A3", *FEW, "--gap", "15")
     assert code == 0

@@ -45,6 +45,7 @@ def test_json_and_options(run, tmp_path):
         assert (tmp_path / path).is_file()
 
 
+@pytest.mark.full
 def test_the_start_chooses_the_motion(run):
     words = ("B2-G1-A3", "--frequency", "2Hz", "--json")
     contacts = []
@@ -64,6 +65,7 @@ def test_the_start_chooses_the_motion(run):
     assert contacts[0] != contacts[1]
 
 
+@pytest.mark.full
 def test_study(run, tmp_path):
     (tmp_path / "wall.toml").write_text(
         'case = "B2-G1-A3"\n[simulate]\nfrequency = "1.5 Hz"\ncycles = 7\nsamples = 8\n'
@@ -115,6 +117,7 @@ def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, w
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.full
 def test_revolutions_per_minute_in_hertz_are_doubted(run):
     code, out, errors = run("B2-G1-A3", "--frequency", "600", "--cycles", "2")
     assert code == 0

@@ -132,6 +132,7 @@ def test_study(run, tmp_path):
     assert parameters["max_cycles"] == 70
 
 
+@pytest.mark.full
 def test_figure_is_repeated_to_the_byte(run, tmp_path):
     figures = []
     for _ in range(2):
@@ -244,6 +245,7 @@ def test_interrupted(run, tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.full
 def test_interrupted_while_writing_leaves_the_old_file(run, tmp_path, monkeypatch):
     assert run("B2-G1-A3", *COARSE)[0] == 0
     before = (tmp_path / "out/B2-G1-A3-sweep.png").read_bytes()
@@ -258,6 +260,7 @@ def test_interrupted_while_writing_leaves_the_old_file(run, tmp_path, monkeypatc
     assert len(list((tmp_path / "out").iterdir())) == 3
 
 
+@pytest.mark.full
 def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
     (tmp_path / "quay.toml").write_text(QUAY, encoding="utf-8")
     code, told, errors = run("quay.toml", "--from", "1Hz", "--to", "3Hz", *COARSE)
@@ -268,6 +271,7 @@ def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
     assert float(data["displacement_max"].max()) == pytest.approx(5e-3, rel=1e-12)
 
 
+@pytest.mark.full
 def test_own_outputs_are_computed_printed_and_drawn(run, tmp_path):
     power = "power [W] = mean(damping*velocity**2)"
     words = ("B2-G1-A3", "--frequencies", "1.5Hz,2Hz", "--compute", power)

@@ -8,6 +8,7 @@ import re
 import pytest
 
 import vibroimpact as vi
+from samples import sample
 from vibroimpact.cli import main
 from vibroimpact.model.study import read_rig_study
 from vibroimpact.model.written_units import unitless
@@ -32,16 +33,23 @@ def study(tmp_path_factory):
     return path
 
 
+
+
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
         (("sweep", "--from", "0.1", "--to", "0.3", "--step", "0.02"), "frequencies from ω = 0.628"),
         (("simulate", "--frequency", "0.2", "--cycles", "5"), "State after 5 cycles (25)"),
-        (("motion", "--frequency", "1 rad/s", "--random", "2"), "ω = 1: "),
         (("branch", "--vary", "frequency=0.1:0.25"), "the range ends at ω = 1.57079633"),
-        (("branch", "--vary", "gap=1:3", "--frequency", "0.2"), "gap"),
-        (("basins", "--frequency", "0.2", "--nodes", "12"), "excursion "),
-        (("bifurcation", "--vary", "frequency=0.1:0.2:4"), "largest exponent\n"),
+        *sample(
+            [
+                (("motion", "--frequency", "1 rad/s", "--random", "2"), "ω = 1: "),
+                (("branch", "--vary", "gap=1:3", "--frequency", "0.2"), "gap"),
+                (("basins", "--frequency", "0.2", "--nodes", "12"), "excursion "),
+                (("bifurcation", "--vary", "frequency=0.1:0.2:4"), "largest exponent\n"),
+            ],
+            [],
+        ),
     ],
     ids=lambda words: " ".join(words[:2]) if isinstance(words, tuple) else "",
 )
@@ -58,6 +66,7 @@ def test_no_unit_is_printed(study, tmp_path, capsys, words, expected):
     assert not unitless()  # any more
 
 
+@pytest.mark.full
 def test_the_same_rig_in_si_units(study, tmp_path, capsys):
     study = tmp_path / "si.toml"
     study.write_text(ONE.replace("[excitation]", 'units = "SI"\n[excitation]'))
@@ -107,6 +116,7 @@ def test_stated_none_refuses_a_unit_of_an_option(tmp_path, capsys, words):
     assert len(told.strip().splitlines()) == 1
 
 
+@pytest.mark.full
 def test_designs_and_records_without_units(tmp_path, capsys):
     rig, record = str(_none(tmp_path)), tmp_path / "shake.txt"
     record.write_text("".join(f"{0.1 * n:.1f} {0.8 * (n % 7 - 3)}\n" for n in range(200)))
@@ -135,6 +145,7 @@ def test_a_study_states_the_quantity_of_a_plain_amplitude(tmp_path, of):
     assert read_rig_study(path).periodic.of == of
 
 
+@pytest.mark.full
 def test_an_option_keeps_the_quantity_of_the_study(tmp_path, capsys):
     path = tmp_path / "one.toml"
     path.write_text(f'{ONE}of = "force"\n')

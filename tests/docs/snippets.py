@@ -6,7 +6,8 @@
 - A ``toml`` block that begins with a comment such as ``# wall.toml`` is that file.
 - ``sh`` and other blocks are only read.
 
-In what a page shows, a line of three dots stands for any lines.
+In what a page shows, a line of three dots stands for any lines. Blocks that take long, and those
+that need their results, follow a line ``<!-- full run -->``: the daily run leaves them out.
 
 After a change that changes what is printed: ``python tests/docs/snippets.py`` writes it into all
 pages, except where a block has such dots, and what a page draws and shows to where it is shown.
@@ -40,6 +41,8 @@ PAGES = sorted(
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]+\]\(([^)\s]+)\)")
+LATER = "<!-- full run -->\n\n"
+"""What stands before a block of the full run."""
 _FILE = re.compile(r"# ([\w.-]+\.toml)\n")
 
 
@@ -58,13 +61,15 @@ class Shown(NamedTuple):
         return same_print(self.expected, self.printed)
 
 
-def run_page(text: str, name: str = "page") -> Iterator[Shown]:
+def run_page(text: str, name: str = "page", full: bool = True) -> Iterator[Shown]:
     """Run a page's blocks in the present folder, one after the other."""
     blocks: list[re.Match[str] | None] = [*FENCE.finditer(text), None]
     script: dict[str, Any] = {"__name__": "__main__"}
     for block, following in pairwise(blocks):
         assert block
         kind, code = block.groups()
+        if not full and text[: block.start()].endswith(LATER):
+            continue
         if kind == "python":
             line = text.count("\n", 0, block.start(2))
             compiled = compile("\n" * line + code, name, "exec")

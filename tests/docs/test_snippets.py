@@ -9,6 +9,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import pytest
 
+import samples
 from docs.snippets import FENCE, PAGES, PICTURE, ROOT, run_page
 
 LINK = re.compile(r"(?<!!)\[[^\]]*\]\(([^)\s]+)\)")
@@ -23,14 +24,14 @@ def test_blocks_run_and_print_what_is_shown(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     text = page.read_text(encoding="utf-8")
     try:
-        for shown in run_page(text, name(page)):
+        for shown in run_page(text, name(page), samples.full):
             line = text.count("\n", 0, shown.start) + 1
             assert shown.agrees, (
                 f"{name(page)}:{line} shows\n{shown.expected}\nbut this is printed\n{shown.printed}"
             )
     finally:
         plt.close("all")
-    if page.parent.name == "tutorials":
+    if page.parent.name == "tutorials" and samples.full:
         assert all(any(Path().rglob(Path(target).name)) for target in PICTURE.findall(text))
 
 
@@ -90,6 +91,9 @@ def test_a_wrong_page_is_noticed(tmp_path, monkeypatch):
     assert [shown.agrees for shown in run_page(page.format("..."))] == [True]
     assert [shown.agrees for shown in run_page(page.format("1\n3"))] == [False]
     assert [shown.agrees for shown in run_page("```python\nprint(1)\n```\n")] == [False]
+    later = f"<!-- full run -->\n\n{page.format('3')}"
+    assert [shown.agrees for shown in run_page(later)] == [False]
+    assert list(run_page(later, full=False)) == []
     wrong = "```console\n$ vibroimpact sweep B9-G1-A3\n{}```\n"
     assert [shown.agrees for shown in run_page(wrong.format(""))] == [False]
     with pytest.raises(AssertionError, match="ended with 2"):

@@ -53,6 +53,7 @@ def test_every_run_is_the_response_by_itself() -> None:
     assert float(data["impact_count"].max()) > 3
 
 
+@pytest.mark.full
 def test_rigs_by_name_with_other_laws_and_stops() -> None:
     data = vi.demands(RIGS, [*RECORDS.values()], 1.0, threads=2)
     assert data["record"].values.tolist() == ["0", "1", "2"]

@@ -52,6 +52,7 @@ def _ran(tmp_path, known: str) -> list[str]:
     return done.stdout.split()
 
 
+@pytest.mark.full
 def test_only_the_entry_becomes_machine_code(tmp_path):
     if not numba.__version__.startswith(emission.KNOWN):
         pytest.skip(f"numba {numba.__version__} compiles all of it")

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from engine.compiled import ENTRIES, RIGS, compile_for, entries
+from samples import sample
 from vibroimpact.engine import jit
 from vibroimpact.engine.flow_dispatch import _ADVANCE
 
@@ -122,7 +123,7 @@ def cached(tmp_path: Path) -> tuple[str, Path]:
 
 def test_a_flipped_bit_in_compiled_code_is_noticed(cached: tuple[str, Path]) -> None:
     code, folder = cached
-    for suffix in ("nbi", "nbc"):
+    for suffix in sample(("nbi", "nbc"), ("nbc",)):
         (path,) = folder.rglob(f"*.{suffix}")
         content = bytearray(path.read_bytes())
         content[len(content) // 2] ^= 16
@@ -137,7 +138,7 @@ def test_code_that_others_may_write_to_is_not_run(cached: tuple[str, Path]) -> N
     made = [folder, *folder.rglob("*")]
     assert not [path for path in made if path.stat().st_mode & 0o022]
     assert NOTICE not in run(code, folder)
-    for depth in ("", "engine-*", "engine-*/*"):
+    for depth in sample(("", "engine-*", "engine-*/*"), ("engine-*",)):
         (path,) = folder.glob(depth) if depth else (folder,)
         path.chmod(0o777)
         error = run(code, folder)

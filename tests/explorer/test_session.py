@@ -183,6 +183,7 @@ def test_knobs_beyond_all_bounds_are_told_in_words(session, path):
                     session.make(stage, session.asked)
 
 
+@pytest.mark.full
 def test_without_damping_there_is_a_scenario(session):
     told = session.take({"do": "change", "path": "isolator.damping", "value": 0})
     assert "refused" not in told

@@ -206,6 +206,7 @@ def seen(page):
     ]
 
 
+@pytest.mark.full
 def test_the_page_shows_no_unit(opened):
     page = opened(f"#{share.address(begin(RIG, 'bare'))}")
     settle(page)
@@ -250,6 +251,7 @@ def test_a_click_chooses_omega(opened):
     assert math.tau * state.shaking.frequency == pytest.approx(2.5)
 
 
+@pytest.mark.full
 def test_a_cycle_takes_a_moment_whatever_the_unit_of_time(opened):
     """ω = 1.8 in seconds would be a cycle in 14 s of the page."""
     page = opened(f"#{share.address(begin(RIG, 'bare'))}")

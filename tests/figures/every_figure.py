@@ -127,6 +127,27 @@ def exponents() -> xr.Dataset:
     return vi.lyapunov_exponents(rigs, [1.1], 64, vary={"gap": [3e-3, 4e-3, 5e-3]})
 
 
+def several_masses() -> vi.Assembly:
+    """Return an assembly with crossing links, a preload, and gaps of all kinds of stops."""
+    spring = vi.Isolator("200 MN/m", "1 MN s/m")
+    bumper = vi.Bumper("60 MN/m", "0.9 MN s/m", "10 cm")
+    return vi.Assembly(
+        {"base": "300 t", "lower_storey": "250 t", "roof": "200 t"},
+        links={
+            "isolator": vi.Link("ground", "base", vi.Isolator("5 MN/m", "0.2 MN s/m")),
+            "storey": vi.Link("base", "lower_storey", spring),
+            "upper_storey": vi.Link("lower_storey", "roof", spring),
+            "brace": vi.Link("roof", "base", spring),
+        },
+        stops={
+            "moat_left": vi.Link("ground", "base", bumper),
+            "moat_right": vi.Link("base", "ground", bumper.replace(gap="15 cm")),
+            "neighbour": vi.Link("roof", "ground", vi.RigidStop(0.6, "4 cm")),
+            "pad": vi.Link("lower_storey", "roof", vi.PowerBumper("2 GN/m^1.5", "-1 mm")),
+        },
+    )
+
+
 class Drawn(NamedTuple):
     """A figure: a function that draws it, and the number of axes that it draws on."""
 
@@ -231,6 +252,7 @@ EVERY: dict[str, Drawn] = {
         ),
         0,
     ),
+    "assembly_drawing": Drawn(_over(several_masses, figures.assembly_drawing)),
     "accelerogram": Drawn(
         lambda **how: figures.accelerogram(
             RECORD, vi.response_spectrum(RECORD, PERIODS, [0.02, 0.05]), **how

@@ -85,6 +85,7 @@ def test_axes_of_ones_own_and_a_file(tmp_path):
     assert save_figure(ax, tmp_path / "one.png").stat().st_size > 10_000
 
 
+@pytest.mark.full
 def test_curves_of_saddles_are_drawn_over_basins():
     curves = vi.manifolds(
         "B3-10mm-A3", None, (-0.012, 0.012), (-0.1, 0.1), frequency=0.7, longest=2.0

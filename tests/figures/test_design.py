@@ -35,6 +35,7 @@ def test_contours_over_two_parameters(data) -> None:
     np.testing.assert_allclose(dots.get_ydata(), 1e-3 * STIFFNESSES[at[:, 0]])
 
 
+@pytest.mark.full
 def test_numbers_of_contours_stand_on_their_lines_apart_and_inside(data) -> None:
     panels = design_chart(data)
     panels[0].figure.draw_without_rendering()  # which moves them to where they stay
@@ -191,6 +192,7 @@ def test_what_is_hatched_ends_where_the_interpolated_value_is_the_limit(data) ->
     assert looked_at >= 4
 
 
+@pytest.mark.full
 def test_what_is_hatched_ends_on_the_contour_line_of_the_limit(data) -> None:
     levels = next(iter(design_chart(data)[0].collections)).levels
     some = limited(data, peak_displacement=1e-3 * levels[len(levels) // 2])
@@ -204,6 +206,7 @@ def test_what_is_hatched_ends_on_the_contour_line_of_the_limit(data) -> None:
     assert apart.min(axis=0).max() < 1e-3
 
 
+@pytest.mark.full
 def test_what_exceeds_any_of_several_limits_is_hatched_up_to_its_own_edge(data) -> None:
     limits = {"penetration": 0.025, "peak_force": float(data["peak_force"].quantile(0.8))}
     both = hatched(design_chart(limited(data, **limits))[0])
@@ -217,6 +220,7 @@ def test_what_exceeds_any_of_several_limits_is_hatched_up_to_its_own_edge(data) 
     assert {(True, False), (False, True), (False, False)} <= found
 
 
+@pytest.mark.full
 def test_designs_that_were_not_done_are_hatched_half_way_to_the_next(data) -> None:
     for value in (np.nan, np.inf):
         broken = data.copy(deep=True)
@@ -238,6 +242,7 @@ def test_where_no_design_was_done_all_is_hatched(data) -> None:
         assert all(inside(g, k) for g in (0.02, 0.29) for k in (110.0, 1900.0))
 
 
+@pytest.mark.full
 def test_limits_that_all_or_none_exceed(data) -> None:
     all_of_them, none = limited(data, peak_displacement=1e-3), limited(data, peak_displacement=9.0)
     for panel in design_chart(all_of_them):
@@ -257,6 +262,7 @@ def test_limits_that_all_or_none_exceed(data) -> None:
         assert not inside(first + 1e-3, stiffness)
 
 
+@pytest.mark.full
 def test_without_its_limits_a_design_is_hatched_half_way_to_the_next(data) -> None:
     unknown = limited(data, penetration=0.025).assign_attrs(parameters="{}")
     inside = hatched(design_chart(unknown)[0])
@@ -271,6 +277,7 @@ def test_without_its_limits_a_design_is_hatched_half_way_to_the_next(data) -> No
     assert changes
 
 
+@pytest.mark.full
 def test_a_front_within_limits_is_named_so(data) -> None:
     some = limited(data, penetration=0.025)
     for ax in (pareto_front(some), *design_chart(some), *design_chart(some.isel(gap=0))):
@@ -279,6 +286,7 @@ def test_a_front_within_limits_is_named_so(data) -> None:
         assert "not dominated by another" not in words
 
 
+@pytest.mark.full
 def test_a_fractile_over_the_records_is_named() -> None:
     vary = {"gap": GAPS}
     records = [noise(8, count=120), noise(9, count=120)]
@@ -311,6 +319,7 @@ def test_refused(data) -> None:
         design_chart(data.isel(gap=[0]))
 
 
+@pytest.mark.full
 def test_the_present_design_is_marked() -> None:
     """The rig has gaps of 80 mm and bumpers of 400 N/m: a star in the plane, a line over one."""
     wall = vi.Bumper(400.0, 1.0, 0.08)
@@ -328,12 +337,14 @@ def test_the_present_design_is_marked() -> None:
     assert not [line for line in beyond.lines if line.get_marker() == "*"]
 
 
+@pytest.mark.full
 def test_gaps_that_differ_are_no_present_design(data) -> None:
     """The rig of `data` has no common gap, so nothing is marked."""
     for ax in design_chart(data):
         assert not [line for line in ax.lines if line.get_marker() == "*"]
 
 
+@pytest.mark.full
 def test_a_rig_with_one_stop_has_a_chart_of_this_stop() -> None:
     vary = {"gap": [0.02, 0.05], "stops.stiffness": [300.0, 500.0]}
     found = vi.design_chart(RIGS["elastic"], vary, records=noise(8, count=60))

@@ -15,6 +15,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 import vibroimpact as vi
+from samples import sample
 from vibroimpact.figures import (
     clearances,
     hysteresis_cycle,
@@ -507,6 +508,7 @@ def page():
     return motion_page(columns, title="A3")
 
 
+@pytest.mark.full
 def test_page_has_a_column_a_frequency_and_a_row_a_figure():
     made = page()
     assert made.shape == (5, 2)
@@ -575,13 +577,14 @@ def test_page_shows_whole_periods_and_fits_the_paper():
     assert time_history(doubled())[0].get_xlim() == (0.0, 4.0)
     assert time_history(hitting())[0].get_xlim() == (0.0, 3.0)
     assert clearances(tripled())[0].get_xlim() == (0.0, 3.0)
-    for count in (1, 2, 3, 6):
+    for count in sample((1, 2, 3, 6), (3,)):
         drawn = motion_page({str(i): hitting() for i in range(count)})
         short, long = sorted(drawn[0, 0].figure.get_size_inches())
         assert short <= 210 / 25.4
         assert long <= 297 / 25.4
 
 
+@pytest.mark.full
 def test_page_says_of_what_kind_each_motion_is():
     titles = [ax.get_title() for ax in motion_page({"1.06 Hz": chaotic(), "cut": transient()})[0]]
     assert titles == ["1.06 Hz\nchaotic", "cut"]
@@ -589,6 +592,7 @@ def test_page_says_of_what_kind_each_motion_is():
     assert named[0, 0].get_title() == "2 Hz, forward branch\nperiod 1"
 
 
+@pytest.mark.full
 def test_page_of_motions_that_do_not_repeat():
     made = motion_page({"chaotic": chaotic(), "transient": transient()}, cycles=3.0, highest=5.0)
     assert made[2, 0].get_xlim() == (0.0, 3.0)
@@ -601,7 +605,7 @@ def test_page_of_motions_that_do_not_repeat():
 # Files, axes, and what is left alone
 
 
-@pytest.mark.parametrize("kind", ["png", "pdf", "svg"])
+@pytest.mark.parametrize("kind", sample(["png", "pdf", "svg"], ["pdf"]))
 def test_a_page_is_the_same_file_every_time(kind, tmp_path):
     written = [
         save_figure(motion_page({"2.8 Hz": doubled()})[0, 0], tmp_path / f"{name}.{kind}")

@@ -12,6 +12,7 @@ import pytest
 from matplotlib.axes import Axes
 
 import vibroimpact as vi
+from samples import sample
 from vibroimpact import figures
 
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -43,7 +44,7 @@ DRAWN: dict[str, Callable[..., object]] = {
 PANELS = {"resonance_curves": 2, "time_history": 3, "clearances": 2, "motion_page": 5}
 
 
-@pytest.mark.parametrize("name", DRAWN)
+@pytest.mark.parametrize("name", sample([*DRAWN], [*DRAWN][::3]))
 def test_a_notebook_shows_what_is_returned(name):
     drawn = DRAWN[name]()
     png = drawn._repr_png_()
@@ -68,6 +69,7 @@ def test_axes_that_are_given_are_drawn_on_and_left_to_pyplot_to_show(name):
     assert picture() is None  # or it would be shown twice
 
 
+@pytest.mark.full
 def test_a_page_is_drawn_on_given_axes_column_by_column():
     figure, made = plt.subplots(5, 2)
     plt.close(figure)
@@ -81,6 +83,7 @@ def test_a_page_is_drawn_on_given_axes_column_by_column():
         figures.motion_page(columns, made[:, 0])
 
 
+@pytest.mark.full
 def test_what_is_returned_is_saved_as_it_is(tmp_path):
     page, curves = DRAWN["motion_page"](), DRAWN["resonance_curves"]()
     one = DRAWN["phase_portrait"]()

@@ -110,12 +110,16 @@ def test_a_branch_in_engineers_units() -> None:
 @pytest.mark.parametrize(
     ("rig", "eta"),
     [
-        ("B2-G1-A3", True),
+        pytest.param("B2-G1-A3", True, marks=pytest.mark.full),
         (vi.laboratory.case("B2-G1-A3", parameters="identified"), True),
-        (vi.laboratory.case("B2-G1-A3").rig, True),
-        (vi.Rig(vi.laboratory.case("B2-G1-A3").oscillator, "0.05 g"), False),
+        pytest.param(vi.laboratory.case("B2-G1-A3").rig, True, marks=pytest.mark.full),
+        pytest.param(
+            vi.Rig(vi.laboratory.case("B2-G1-A3").oscillator, "0.05 g"),
+            False,
+            marks=pytest.mark.full,
+        ),
         ("case.toml", False),
-        ("own.toml", False),
+        pytest.param("own.toml", False, marks=pytest.mark.full),
     ],
     ids=["code", "case", "rig of a case", "own rig", "study of a case", "own study"],
 )

@@ -148,6 +148,7 @@ def test_the_same_map_makes_the_same_file(tmp_path):
     assert one.read_bytes() == two.read_bytes()
 
 
+@pytest.mark.full
 def test_the_words_beside_a_colour_bar_are_whole():
     small = vi.scenario_map(
         None,

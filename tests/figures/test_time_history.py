@@ -169,6 +169,7 @@ def test_dots_have_the_values_of_their_events(frequency):
             assert len(drawn) == mine.sum()
 
 
+@pytest.mark.full
 def test_a_peak_at_a_jump_of_the_acceleration_has_its_sign():
     """A force pushes the mass towards a dashpot, whose force at once is the peak."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.05), vi.Bumper(1.0, 30.0, 0.1))

@@ -36,6 +36,7 @@ def made(frequency, cycles, samples):
     return time, found.y[0], np.array(slopes) + base, base
 
 
+@pytest.mark.full
 def test_a_csv_of_a_noisy_history_with_uneven_gaps(tmp_path):
     time, u, acceleration, base = made(1.6, 8, 50)
     draw = np.random.default_rng(2)

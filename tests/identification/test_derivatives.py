@@ -132,6 +132,7 @@ def test_differences_before_a_grazing_are_those_of_free_flight():
         assert (by_the_fit(GRAZED, np.array([frequency]), name) == 0.0).all()
 
 
+@pytest.mark.full
 def test_residuals_are_continuous_where_a_fold_passes_a_measured_frequency():
     case = FOLDED
     data = curves(case.oscillator, case.amplitude, 0.02, seed=2)

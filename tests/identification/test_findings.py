@@ -98,6 +98,7 @@ def test_every_kind_has_a_size(name):
     assert size_of(quantity, at_rest, swing) == pytest.approx(sizes[quantity.symbol], rel=1e-9)
 
 
+@pytest.mark.full
 def test_of_a_bumper_that_is_never_touched_only_the_least_gap_is_known():
     grid = np.arange(0.8, 2.0, 0.1)
     wide = CASE.oscillator.right.replace(gap="45 mm")

@@ -45,6 +45,7 @@ def away(found):
     return (found.fitted_value.values - TRUE) / found.standard_error.values
 
 
+@pytest.mark.full
 def test_unequal_gaps_and_bumpers_from_a_motion_that_hits_both():
     data = record(motion(1.5, 24, skip=8), 0.01)
     found = vi.identify(START, data, FREE, profiles=False, tried=0, starts=1)
@@ -61,6 +62,7 @@ def test_without_noise():
     assert found.fitted_value.values == pytest.approx(TRUE, rel=2e-3)
 
 
+@pytest.mark.full
 def test_displacement_alone_without_the_base():
     data = record(motion(1.5, 16, skip=8), 0.005, ("displacement",))
     with pytest.raises(vi.InputError, match="rig: this is an Oscillator alone"):
@@ -75,6 +77,7 @@ def test_steady_motions_need_no_initial_states():
     assert np.abs(found.fitted_value.values / TRUE - 1.0).max() < 0.05
 
 
+@pytest.mark.full
 def test_a_base_that_is_no_sine_is_followed_as_it_was_measured():
     draw = np.random.default_rng(0)
     time = np.arange(0.0, 8.0, 0.01)

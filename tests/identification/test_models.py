@@ -13,6 +13,7 @@ from vibroimpact.measurements.read import as_measured
 CASE = vi.laboratory.case("B2-G1-A3", "identified")
 
 
+@pytest.mark.full
 def test_a_hertzian_bumper_fitted_by_a_linear_one_is_noticed():
     rig = hertzian(CASE.oscillator, 3e-3)
     data = curves(rig, CASE.amplitude, 0.02, seed=0, frequencies=np.arange(1.0, 4.01, 0.1))
@@ -45,6 +46,7 @@ def test_a_bumper_that_is_never_touched_is_not_determined():
     assert not found.interval_open.sel(parameter="isolator.stiffness").values.any()
 
 
+@pytest.mark.full
 def test_the_posterior_is_as_wide_as_the_covariance():
     pytest.importorskip("emcee")
     case = vi.laboratory.case("B2-G2-A2", "identified")

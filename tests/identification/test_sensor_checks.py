@@ -60,6 +60,7 @@ def test_a_right_sensor_is_not_suspected(data):
     assert "reversed" not in found.findings
 
 
+@pytest.mark.full
 def test_an_offset_is_suggested_as_the_cause(data):
     moved = data.assign(displacement=data.displacement + 2e-3)
     found = vi.identify(RIG, moved, "stops.right.gap,stops.left.gap", **QUICK)

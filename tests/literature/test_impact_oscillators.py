@@ -28,6 +28,7 @@ from literature.comparisons.impact_oscillators import (
 )
 from reference.impact_orbits import Oscillator, doubling, possible_orbits
 from reference.public_motion import events
+from samples import sample
 
 BUDD_DUX = [  # ω, r, σ, n
     (2.8, 0.8, 0.0, 1),
@@ -44,7 +45,7 @@ BUDD_DUX = [  # ω, r, σ, n
 ]
 
 
-@pytest.mark.parametrize(("omega", "r", "sigma", "n"), BUDD_DUX)
+@pytest.mark.parametrize(("omega", "r", "sigma", "n"), sample(BUDD_DUX, BUDD_DUX[::3]))
 def test_budd_and_dux_orbits(omega: float, r: float, sigma: float, n: int) -> None:
     one = Oscillator(omega / math.tau, 0.0, r, sigma, n)
     with mp.workdps(30):

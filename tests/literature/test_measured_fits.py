@@ -38,6 +38,7 @@ def impact(name: str, run: str) -> tuple[xr.Dataset, float]:
     return as_measured(xr.Dataset(channels, {"time": time[seen]})), float(mass)
 
 
+@pytest.mark.full
 def test_a_foam_pad_is_a_spring_to_a_fortieth_of_its_force_and_no_dashpot():
     data, mass = impact("pad_40mm", "Run 1")
     assert mass == pytest.approx(0.565, abs=0.01)

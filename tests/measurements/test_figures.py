@@ -240,6 +240,7 @@ def test_noise_is_the_same_to_the_last_bit_when_a_sensor_is_turned_round():
         assert noise_of(mirrored(data)) == noise_of(data)
 
 
+@pytest.mark.full
 @settings(max_examples=sample(100, 15), deadline=None)
 @given(measured_sides())
 def test_a_sensor_turned_round_tells_the_same(data):

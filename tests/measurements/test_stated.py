@@ -279,6 +279,7 @@ def test_sparse_columns_are_read_and_complex_ones_named(tmp_path):
         assert "left out: acceleration (complex numbers)" in data.attrs["notes"]
 
 
+@pytest.mark.full
 def test_a_matlab_file_that_unpacks_to_more_than_memory_holds(tmp_path):
     head = b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM"
     packed = zlib.compressobj(9)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from samples import sample
 from vibroimpact import figures
 from vibroimpact.model.parameters import parameter
 
@@ -52,10 +53,9 @@ def test_numbers_print_with_their_units() -> None:
 @pytest.mark.parametrize(
     ("name", "span"),
     [
-        ("isolator.k", ("20 kN/m", "30 kN/m")),
-        ("isolator.q", (1e8, 1e10)),
+        *sample([("isolator.k", ("20 kN/m", "30 kN/m")), ("isolator.q", (1e8, 1e10))], []),
+        *sample([("stops.right.k5", (1e11, 1e13))], []),
         ("stops.ks", ("300 kN/m", "600 kN/m")),
-        ("stops.right.k5", (1e11, 1e13)),
     ],
 )
 def test_points_of_a_branch_are_motions_of_rigs_with_that_number(
@@ -139,13 +139,16 @@ SOFTENING = vi.Law("k*u/(1 + abs(u)/a) + c*v", k="26 kN/m", a="5 cm", c="1.1 kN 
 SOFT = RIG.with_parts(RIG.oscillator.replace(isolator=SOFTENING))
 
 
+@pytest.mark.full
 def test_a_branch_ends_at_the_bound_beyond_which_there_is_no_such_law() -> None:
-    found = vi.branch(SOFT, parameter="isolator.a", span=(1e-4, 0.1), frequency="1.2 Hz")
-    assert float(found["isolator.a"].min()) == 1e-4
+    least = sample(1e-4, 0.03)
+    found = vi.branch(SOFT, parameter="isolator.a", span=(least, 0.1), frequency="1.2 Hz")
+    assert float(found["isolator.a"].min()) == least
     with pytest.raises(vi.InputError, match=r"isolator\.a at 0: isolator\.formula: column 17"):
         vi.branch(SOFT, parameter="isolator.a", span=(0.0, 0.1), frequency="1.2 Hz")
 
 
+@pytest.mark.full
 def test_designs_and_basins_vary_numbers_of_formulas() -> None:
     stability = vi.basin_stability(
         SOFT,

@@ -241,6 +241,7 @@ class TestBroken:
         assert len(turned) >= 8
         assert {"s4-two-motions", "s3-many-harmonics"} <= turned
 
+    @pytest.mark.full
     def test_directions_mixed_up(self, monkeypatch, found):
         sweeps = study_module.sweeps
 

@@ -62,7 +62,7 @@ def stop_force(rig: vi.Oscillator, step: Step, u: mpf, v: mpf) -> mpf:
     return sign * laws.kelvin_voigt(stop.stiffness, stop.damping, d, w)
 
 
-@pytest.mark.parametrize("name", sample(tuple(ALL), (*ONE_EACH, *SHAKEN_EACH)))
+@pytest.mark.parametrize("name", sample(tuple(ALL), (*ONE_EACH[::2], *SHAKEN_EACH[::2])))
 def test_every_step_obeys_the_plain_formulae(name: str) -> None:
     """du/dt = v, M dv/dt = forces and dz/dt = rate, all along each step."""
     rig, shaken = ALL[name]
@@ -150,7 +150,9 @@ def test_every_law_is_under_every_shaking_on_either_side() -> None:
             assert {one[3:] for one in seen if one[:3] == (*kind, side)} == stops
 
 
-@pytest.mark.parametrize("name", ["friction, bumpers", "exponential, softening, power"])
+@pytest.mark.parametrize(
+    "name", sample(["friction, bumpers", "exponential, softening, power"], ["friction, bumpers"])
+)
 def test_order_and_digits_change_nothing(name: str) -> None:
     rig, shaken = CASES[name]
     one = follow(rig, shaken, 3)

@@ -72,7 +72,7 @@ def test_free_flight_is_the_closed_form(damping: float) -> None:
             assert abs(state[1] - v) < mpf(10) ** -50
 
 
-@pytest.mark.parametrize("name", RUNS)
+@pytest.mark.parametrize("name", sample([*RUNS], [*RUNS][::4]))
 def test_every_phase_is_its_closed_form_and_ends_at_its_first_zero(name: str) -> None:
     setup, start = RUNS[name]
     run = integrate(setup, AMPLITUDE, FREQUENCY, 0.0, start, 3)
@@ -91,7 +91,9 @@ def test_every_phase_is_its_closed_form_and_ends_at_its_first_zero(name: str) ->
                 assert min(piece.margin(name, t) for name in piece.stops) > -(mpf(10) ** -48)
 
 
-@pytest.mark.parametrize("name", ["typical", "elastic", "overdamped contact", "no gap", "unequal"])
+@pytest.mark.parametrize(
+    "name", sample(["typical", "elastic", "overdamped contact", "no gap", "unequal"], ["unequal"])
+)
 def test_base_work_is_dissipated_or_stored(name: str) -> None:
     setup, start = RUNS[name]
     run = integrate(setup, AMPLITUDE, FREQUENCY, 0.0, start, 2)
@@ -125,7 +127,9 @@ def test_base_work_is_dissipated_or_stored(name: str) -> None:
         assert abs(balance) < mpf(10) ** -25 * energy((mpf("0.01"), mpf("0.1"), 0, 0))
 
 
-@pytest.mark.parametrize("name", ["typical", "hard", "overdamped contact", "no gap"])
+@pytest.mark.parametrize(
+    "name", sample(["typical", "hard", "overdamped contact", "no gap"], ["typical"])
+)
 def test_order_and_digits_change_nothing(name: str) -> None:
     setup, start = RUNS[name]
     run = integrate(setup, AMPLITUDE, FREQUENCY, 0.3, start, 5)

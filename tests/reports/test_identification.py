@@ -115,6 +115,7 @@ def test_models_are_compared(case, data, fit):
         vi.compare_fits({"one": fit, "other": wrong})
 
 
+@pytest.mark.full
 def test_names_of_tests_are_no_markdown_and_no_html(tmp_path):
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, frequencies=np.arange(1.0, 2.0, 0.1))

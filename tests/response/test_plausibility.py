@@ -92,9 +92,12 @@ SHAKEN = vi.Harmonic(18.4087, 3.33011)
 @pytest.mark.parametrize(
     "of",
     [
-        lambda rig: vi.simulate(rig, 1, samples=0),
+        pytest.param(lambda rig: vi.simulate(rig, 1, samples=0), marks=pytest.mark.full),
         lambda rig: vi.sweep(rig, [3.33011], max_cycles=1, window=1),
-        lambda rig: vi.steady(rig, samples=8, max_cycles=1, exponent_cycles=1, window=1),
+        pytest.param(
+            lambda rig: vi.steady(rig, samples=8, max_cycles=1, exponent_cycles=1, window=1),
+            marks=pytest.mark.full,
+        ),
     ],
     ids=["simulate", "sweep", "steady"],
 )

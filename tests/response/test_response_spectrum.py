@@ -146,6 +146,7 @@ def test_progress_is_told_until_all_is_done():
     assert told[-1] == (40, 40)
 
 
+@pytest.mark.full
 def test_without_the_compiler_it_is_the_same():
     code = (
         "import numpy as np, vibroimpact as vi\n"

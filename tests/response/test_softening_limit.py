@@ -33,6 +33,7 @@ def test_a_motion_that_runs_away_from_its_only_stop() -> None:
     assert (found["status"] == Status.REVERSED).all()
 
 
+@pytest.mark.full
 def test_a_motion_that_comes_back() -> None:
     """Values are there, for a stiffer spring further out or a stop bounds it."""
     for rig in (vi.Oscillator(1.0, WELLS), vi.Oscillator(1.0, SOFT, vi.RigidStop(0.5, 1.2))):

@@ -72,6 +72,7 @@ def test_where_two_directions_or_periods_differ_it_is_looked_at():
     assert _looked_at(SMOOTH, period=twice) == [(28, 32)]
 
 
+@pytest.mark.full
 def test_a_part_of_the_branch_tells_what_the_whole_one_tells(monkeypatch):
     """Rigs beside the cusp in which jumps begin, and others."""
     asked = []

@@ -28,6 +28,7 @@ from vibroimpact.tasks import executors
 FREE = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3))
 
 
+@pytest.mark.full
 def test_nodes_are_classified_as_one_by_one():
     data = small()
     step = OPTIONS["step"]
@@ -79,6 +80,7 @@ def test_no_result_depends_on_threads_or_blocks_or_where_it_is_kept(tmp_path):
         xr.testing.assert_equal(data.load(), small())
 
 
+@pytest.mark.full
 def test_many_rigs_go_to_processes_by_themselves(monkeypatch):
     asked = []
 
@@ -118,6 +120,7 @@ def test_a_map_that_was_stopped_is_completed_to_the_same(tmp_path):
     xr.testing.assert_identical(data.load(), small())
 
 
+@pytest.mark.full
 def test_a_process_that_was_killed(tmp_path):
     """At any moment, without a chance to tidy up."""
     code = (
@@ -181,6 +184,7 @@ def test_a_physical_map_agrees_with_the_dimensionless_one():
     np.testing.assert_allclose(data["peak_eta_a_forward"], scaled["peak_eta_a_forward"], rtol=1e-6)
 
 
+@pytest.mark.full
 def test_progress_counts_up(tmp_path):
     told = []
     vi.scenario_map(None, X, Y, **OPTIONS, progress=lambda *at: told.append(at))

@@ -149,7 +149,7 @@ def mended(store):
 CASES = [("scenario", damage) for damage in DAMAGES] + [("gap_ratio", flip), ("level", remove)]
 
 
-@pytest.mark.parametrize(("array", "damage"), CASES)
+@pytest.mark.parametrize(("array", "damage"), sample(CASES, CASES[::2]))
 def test_a_damaged_file_is_made_again(whole, tmp_path, array, damage):
     shutil.copytree(whole[0], store := tmp_path / "map")
     damage(chunks(store / array)[0])
@@ -159,7 +159,7 @@ def test_a_damaged_file_is_made_again(whole, tmp_path, array, damage):
         vi.scenario_map(None, X, Y, **OPTIONS, store=store)
 
 
-@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize("damage", sample(DAMAGES, DAMAGES[::3]))
 def test_damage_after_opening_is_an_error_in_one_line(whole, tmp_path, damage):
     """Values of a map with a store are read when they are used, which may be much later."""
     shutil.copytree(whole[0], store := tmp_path / "map")
@@ -205,7 +205,7 @@ def test_what_is_interrupted_leaves_no_files_of_its_own(tmp_path, monkeypatch):
     assert [path.name for path in tmp_path.iterdir()] == ["map"]
 
 
-@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize("damage", sample(DAMAGES, DAMAGES[1::2]))
 def test_a_lost_mark_costs_a_block_at_most(whole, tmp_path, damage):
     shutil.copytree(whole[0], store := tmp_path / "map")
     for file in chunks(store / "done")[::2]:
@@ -249,6 +249,7 @@ def test_a_folder_whose_own_description_is_damaged_is_refused(whole, tmp_path, c
         vi.scenario_map(None, X, Y, **OPTIONS, store=store)
 
 
+@pytest.mark.full
 def test_every_flipped_bit_of_a_chunk_is_noticed(whole, tmp_path):
     shutil.copytree(whole[0], store := tmp_path / "map")
     rng = np.random.default_rng(1)

@@ -42,6 +42,7 @@ def test_a_closed_curve_is_gone_round_once():
     assert found.sizes["cusp_number"] == 2
 
 
+@pytest.mark.full
 def test_a_curve_that_creeps_ends_with_a_reason():
     """The fold comes so close to a grazing that no step leads on."""
     found = beside_the_cusp("stiffness_ratio", 0.1, 500.0)
@@ -167,6 +168,7 @@ def test_it_ends_where_the_fold_grazes():
     assert np.abs(folds - lower[-1, 0]).min() > 2e-3
 
 
+@pytest.mark.full
 def test_a_linear_isolator_s_fold_ends_in_a_grazing_too():
     """A section that moves on the way over the amplitude leads on to where it grazes."""
     data = highest_fold(0.0, 2.0, 1)
@@ -245,6 +247,7 @@ def test_a_parameter_of_one_side_takes_the_symmetry():
         assert np.abs(folds - here).min() < 2e-3  # between two points of the curve
 
 
+@pytest.mark.full
 def test_no_step_lands_on_the_curve_beside_it():
     """1e-5 from a grazing on its way, behind which motions with one contact more fold as well."""
     case = vi.laboratory.case("B3-10mm-A3")

@@ -155,6 +155,7 @@ def chattering():
     return branches
 
 
+@pytest.mark.full
 def test_a_chatter_loses_its_impacts_one_by_one(chattering):
     """Each impact is lost in a fold and a grazing; both lie close together in a long chatter."""
     for data in chattering:

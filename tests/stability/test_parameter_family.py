@@ -114,7 +114,7 @@ def test_over_the_restitution_of_a_wall():
 
 @pytest.mark.parametrize(
     ("parameter", "low", "high"),
-    [("elastic_stiffness", *sample((2.0, 6.0), (3.3, 4.6))), ("stops.right.restitution", 0.4, 0.9)],
+    [*sample([("elastic_stiffness", 2.0, 6.0)], []), ("stops.right.restitution", 0.4, 0.9)],
 )
 def test_parameters_that_do_not_count_in_proportion(parameter, low, high):
     """Each orbit belongs to the rig that the parameter says, and closes there."""

@@ -93,6 +93,7 @@ def test_everything_else_of_many_tasks(cluster, computed):
     assert computed(where=cluster).identical(computed())
 
 
+@pytest.mark.full
 def test_from_the_command_line(cluster, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     words = ("bifurcation", "B3-10mm-A3", "--vary", "frequency=1Hz:1.2Hz:3")
@@ -103,6 +104,7 @@ def test_from_the_command_line(cluster, tmp_path, monkeypatch, capsys):
     assert found[0].identical(found[1])
 
 
+@pytest.mark.full
 def test_a_map_outlives_workers(cluster, on_threads):
     killed = []
 
@@ -275,6 +277,7 @@ def test_workers_that_join_later_take_part():
     assert len(set(names)) == 3
 
 
+@pytest.mark.full
 def test_threads_and_a_cluster_exclude_one_another(cluster):
     told = (
         r"^threads: 2 has no effect with where=.*, because each worker of a cluster sets its own "

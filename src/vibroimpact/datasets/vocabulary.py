@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from vibroimpact.datasets.assembly_variables import ASSEMBLIES
 from vibroimpact.datasets.batch_variables import MANY_MOTIONS
 from vibroimpact.datasets.design_variables import DESIGN
 from vibroimpact.datasets.fit_variables import FITS
@@ -114,6 +115,7 @@ VARIABLES: dict[str, Variable] = {
         "state at the stroboscopic section at the end of each frequency step",
         "components in m, m/s, m, m, rad and 1",
     ),
+    **ASSEMBLIES,
     **MOTIONS,
     **FITS,
     **DESIGN,

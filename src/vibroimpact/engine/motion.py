@@ -31,7 +31,7 @@ SLIPS_RIGHT, SLIPS_LEFT = 16, 32
 
 MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR, AGE = range(8)
 STATE = 8
-"""A motion as a vector, between calls; behind it stands its clock."""
+"""A motion as a vector, between calls; its clock follows."""
 
 Clock = tuple[float, float]
 """Sine and cosine of the forcing's phase."""

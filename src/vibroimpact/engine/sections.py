@@ -1,7 +1,7 @@
 """A motion from section to section: the loop of all entries that follow one through a schedule.
 
 A schedule is a table with a row for each section: the clock that the forcing has there, and the
-time to the next section. Behind its last row it begins anew: a periodic forcing has a single row, a
+time to the next section. After its last row it begins anew: a periodic forcing has a single row, a
 record one for each of its straight lines, at which the clock is A_t and its slope.
 
 Who looks on is found by the type of what he notes (`watcher`).
@@ -32,7 +32,7 @@ FULL = -1
 
 
 class Schedule(NamedTuple):
-    """Sections, and how the forcing goes on behind each."""
+    """Sections, and how the forcing goes on after each."""
 
     rows: Vector
     """Their table."""
@@ -129,7 +129,7 @@ def follow(
     first, last
         Number of the first section, and of that before which it ends; the last may be incomplete.
     max_events
-        Contacts and detachments behind a section at which the motion is given up.
+        Contacts and detachments after a section at which the motion is given up.
     notes
         What is noted; its type tells who looks on (`watcher`).
     progress : ndarray or None

@@ -17,6 +17,7 @@ from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.frequency_text import forcings
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.toml_text import quoted, toml
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import as_first_argument, unitless, written_for
 from vibroimpact.scenarios.axes import one_sine
@@ -119,9 +120,9 @@ def _from_table(table: Any) -> State:
 @as_first_argument
 def study(state: State) -> str:
     """Return the study file of a state, which all commands accept."""
-    lines = [f"name = {_quoted(state.name)}", "", "[oscillator]"]
+    lines = [f"name = {quoted(state.name)}", "", "[oscillator]"]
     for key, value in state.oscillator.model_dump(exclude_none=True).items():
-        lines.append(f"{key} = {_toml(value)}")
+        lines.append(f"{key} = {toml(value)}")
     low, high = state.span
     step = (high - low) / (FINE - 1)
     lines += [
@@ -147,23 +148,8 @@ def _amplitude(state: State) -> list[str]:
     if of == "acceleration":
         return [f"amplitude = {size!r}"]
     if unitless():
-        return [f"amplitude = {size!r}", f"of = {_quoted(of)}"]
+        return [f"amplitude = {size!r}", f"of = {quoted(of)}"]
     return [f"amplitude = {json.dumps(f'{size!r} {QUANTITIES[of].symbol}')}"]
-
-
-def _toml(value: Any) -> str:
-    if isinstance(value, dict):
-        inside = ", ".join(
-            f"{key} = {_toml(item)}" for key, item in value.items() if item is not None
-        )
-        return f"{{ {inside} }}"
-    return _quoted(value) if isinstance(value, str) else repr(value)
-
-
-def _quoted(text: str) -> str:
-    """A string of TOML: that of JSON, but for signs that TOML wants escaped or cannot hold."""
-    whole = text.encode("utf-8", "replace").decode()  # half a letter is none
-    return json.dumps(whole, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 @as_first_argument

@@ -1,4 +1,5 @@
 from .accelerogram import accelerogram as accelerogram
+from .assembly import assembly_drawing as assembly_drawing
 from .basin_shares import basin_shares as basin_shares
 from .basins import basin_portrait as basin_portrait
 from .branches import branch_diagram as branch_diagram

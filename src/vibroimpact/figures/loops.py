@@ -217,5 +217,6 @@ def contact_force(
         number, closing = law.dissipation_number, float(v[0])
         chi = law.dissipation if number is None else number / closing if closing else 0.0
         return np.maximum(law.stiffness * d**law.exponent * (1.0 + (chi or 0.0) * v), 0.0)
+    assert law.mass is not None  # which an oscillator requires
     damping = 2.0 * law.damping_ratio * np.sqrt(law.mass * law.stiffness * np.sqrt(d))
     return np.asarray(law.stiffness * d**1.5 + damping * np.maximum(v, 0.0))

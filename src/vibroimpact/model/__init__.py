@@ -1,6 +1,14 @@
-"""The mechanical model: oscillator, excitation and state, physical or dimensionless."""
+"""The mechanical model: oscillator or assembly, excitation and state, physical or dimensionless."""
 
 from vibroimpact.model import laboratory
+from vibroimpact.model.assembly import (
+    Assembly,
+    AssemblyState,
+    Link,
+    ModalDamping,
+    RayleighDamping,
+    chain,
+)
 from vibroimpact.model.dimensionless import (
     Dimensionless,
     DimensionlessBumper,
@@ -34,6 +42,8 @@ from vibroimpact.model.validation import Model, validate
 __all__ = [
     "GRAVITY",
     "AnyIsolator",
+    "Assembly",
+    "AssemblyState",
     "BilinearIsolator",
     "BoucWenIsolator",
     "Bumper",
@@ -47,17 +57,21 @@ __all__ = [
     "Isolator",
     "JankowskiBumper",
     "Law",
+    "Link",
+    "ModalDamping",
     "Model",
     "Oscillator",
     "Periodic",
     "PolynomialIsolator",
     "PowerBumper",
+    "RayleighDamping",
     "Record",
     "Repeated",
     "Rig",
     "RigidStop",
     "State",
     "Stop",
+    "chain",
     "equilibrium",
     "from_dimensionless",
     "laboratory",

@@ -15,8 +15,11 @@ from __future__ import annotations
 
 import math
 from itertools import product
+from typing import overload
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.assembly import Assembly, AssemblyState
+from vibroimpact.model.assembly.equilibrium import equilibrium as of_assembly
 from vibroimpact.model.isolators import FrictionIsolator, Isolator
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import FORCE, LENGTH
@@ -25,24 +28,28 @@ from vibroimpact.model.stops import Bumper, RigidStop
 from vibroimpact.model.units import pretty
 
 
-def equilibrium(oscillator: Oscillator) -> State:
+@overload
+def equilibrium(system: Oscillator) -> State: ...
+@overload
+def equilibrium(system: Assembly) -> AssemblyState: ...
+def equilibrium(system: Oscillator | Assembly) -> State | AssemblyState:
     """Return the state of rest that a slow loading from u = 0 reaches.
 
     Parameters
     ----------
-    oscillator
-        The oscillator. Its base is at rest.
+    system
+        The oscillator or the assembly. Its base is at rest.
 
     Returns
     -------
-    State
+    State or AssemblyState
         The displacement, with zero velocity. The other values follow from the rig: a bumper is
         compressed as far as the mass penetrates into it.
 
     Raises
     ------
     InputError
-        If a softening isolator does not hold the mass.
+        If a softening isolator or link does not hold the mass.
 
     Examples
     --------
@@ -50,6 +57,9 @@ def equilibrium(oscillator: Oscillator) -> State:
     >>> equilibrium(Oscillator(1.0, Isolator(1.0, 0.1), Bumper(3.0, 0.1, -0.4))).displacement
     -0.3
     """
+    if isinstance(system, Assembly):
+        return of_assembly(system)
+    oscillator = system
     linear = isinstance(oscillator.isolator, Isolator) and all(
         isinstance(stop, Bumper | RigidStop) for stop in oscillator.stops
     )

@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeA
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from pydantic import model_validator
+from pydantic import SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from vibroimpact.arguments import check_list
 from vibroimpact.errors import InputError, shown
+from vibroimpact.model.assembly.names import check_part_name
 from vibroimpact.model.quantities import (
     ACCELERATION,
     ANGLE,
@@ -64,12 +65,32 @@ MOST = 32
 class _Repeated(Model):
     """Base class of both excitations. If the amplitude has a unit, the unit determines `of`."""
 
-    _quiet: ClassVar[Mapping[str, Any]] = {"of": "acceleration"}
+    _quiet: ClassVar[Mapping[str, Any]] = {"of": "acceleration", "on": None}
 
     if TYPE_CHECKING:
         frequency: float
         phase: float
         of: Of
+        on: str | None
+
+    @model_validator(mode="after")
+    def _acts_on_a_mass(self) -> Self:
+        if self.on is None:
+            return self
+        check_part_name(self.on, "on")
+        if self.moves_base:
+            raise InputError(
+                f"on: {self.on!r}, but the {self.of} of the base acts on all masses; remove on, or "
+                'pass a force such as "120 N" or an unbalance such as "0.4 kg m"'
+            )
+        return self
+
+    @model_serializer(mode="wrap")
+    def _without_open_mass(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        table: dict[str, Any] = handler(self)
+        if self.on is None:
+            del table["on"]
+        return table
 
         @property
         def amplitude(self) -> float:
@@ -149,6 +170,9 @@ class Harmonic(_Repeated):
     of
         Quantity of an amplitude that has no unit: ``"acceleration"`` (m/s², the default),
         ``"displacement"`` (m), ``"force"`` (N) or ``"unbalance"`` (kg m).
+    on
+        Name of the mass of an `Assembly` on which a force or an unbalance acts. Default: None, for
+        the mass of an `Oscillator`, and for a motion of the base.
 
     Raises
     ------
@@ -160,6 +184,7 @@ class Harmonic(_Repeated):
     frequency: Annotated[float, Accepts(FREQUENCY, above=0.0)]
     phase: Annotated[float, Accepts(ANGLE)] = 0.0
     of: Of = "acceleration"
+    on: str | None = None
 
     @constructor
     def __init__(
@@ -168,9 +193,10 @@ class Harmonic(_Repeated):
         frequency: float | str,
         phase: float | str = 0.0,
         of: Of | None = None,
+        on: str | None = None,
     ) -> None:
         given = {} if of is None else {"of": of}
-        super().__init__(amplitude=amplitude, frequency=frequency, phase=phase, **given)
+        super().__init__(amplitude=amplitude, frequency=frequency, phase=phase, on=on, **given)
 
     @model_validator(mode="before")
     @classmethod
@@ -212,8 +238,8 @@ class Periodic(_Repeated):
         Phases φ_1, φ_2, … in rad, or texts such as ``"90 deg"``. Default: all are 0.
     phase
         Phase φ in rad, at which the excitation starts in its period. Default: 0.
-    of
-        Quantity of amplitudes that have no unit, as in `Harmonic`.
+    of, on
+        Quantity of amplitudes that have no unit, and the mass on which they act, as in `Harmonic`.
 
     Raises
     ------
@@ -226,6 +252,7 @@ class Periodic(_Repeated):
     phases: tuple[Annotated[float, Accepts(ANGLE)], ...] = ()
     phase: Annotated[float, Accepts(ANGLE)] = 0.0
     of: Of = "acceleration"
+    on: str | None = None
 
     @constructor
     def __init__(
@@ -235,11 +262,12 @@ class Periodic(_Repeated):
         phases: Iterable[float | str] | None = None,
         phase: float | str = 0.0,
         of: Of | None = None,
+        on: str | None = None,
     ) -> None:
         given: dict[str, Any] = {} if of is None else {"of": of}
         if phases is not None:
             given["phases"] = phases
-        super().__init__(frequency=frequency, amplitudes=amplitudes, phase=phase, **given)
+        super().__init__(frequency=frequency, amplitudes=amplitudes, phase=phase, on=on, **given)
 
     @model_validator(mode="before")
     @classmethod

@@ -26,7 +26,7 @@ from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, Isolator, Isolat
 from vibroimpact.model.isolators.design import designed
 from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
 from vibroimpact.model.stated_units import has_unit
-from vibroimpact.model.stops import STOPS, Bumper, RigidStop, Stop
+from vibroimpact.model.stops import STOPS, Bumper, JankowskiBumper, RigidStop, Stop
 from vibroimpact.model.stops.bumper import returning
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
@@ -169,6 +169,16 @@ class Oscillator(Model):
     @classmethod
     def _built_in_isolator(cls, value: AnyIsolator) -> AnyIsolator:
         return as_isolator(value)
+
+    @field_validator("right", "left", mode="after")
+    @classmethod
+    def _hit_by_a_mass(cls, value: Stop | None) -> Stop | None:
+        if isinstance(value, JankowskiBumper) and value.mass is None:
+            raise InputError(
+                'mass: missing; pass the mass that hits this stop, such as "550 kg" (only an '
+                "Assembly fills it in)"
+            )
+        return value
 
     @field_validator("right", "left", mode="after")
     @classmethod

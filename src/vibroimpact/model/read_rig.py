@@ -11,12 +11,13 @@ from typing import Any, ParamSpec, TypeAlias, TypeVar
 from vibroimpact.arguments import check_list, is_list, is_pair
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import laboratory
+from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.excitation import Harmonic, Periodic
 from vibroimpact.model.laboratory import Case
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, several_masses
 from vibroimpact.model.study import read_rig_study
 from vibroimpact.model.written_units import written_for
 
@@ -59,8 +60,22 @@ def as_rig(
         If the value is not a rig, or if the study file is invalid. Also if a frequency is passed,
         but a record shakes the rig.
     """
-    rig = _read(value, where, oscillator_alone)
+    rig = _with_one_mass(_read(value, where, oscillator_alone), where)
     return rig if frequency is None else rig.at(frequency)
+
+
+def as_assembly(value: Any, where: str = "rig") -> Assembly:
+    """Return the assembly that an argument describes: an `Assembly`, or a rig with one.
+
+    Raises
+    ------
+    InputError
+        If the value is not a rig, if the study file is invalid, or if the rig has an oscillator.
+    """
+    system = _read(value, where, oscillator_alone=True).system
+    if not isinstance(system, Assembly):
+        raise InputError(f"{where}: an Oscillator has one mass; an Assembly is accepted")
+    return system
 
 
 def in_units_of_rig(function: Callable[_P, _R]) -> Callable[_P, _R]:
@@ -104,7 +119,7 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
     read = []
     for i, (name, item) in enumerate(items):
         place = where if alone else f"{where}[{name or i}]"
-        rig = _read(item, place, oscillator_alone)
+        rig = _with_one_mass(_read(item, place, oscillator_alone), place)
         read.append((name or rig.name or str(i), rig))
     # As of two study files of one name in two folders.
     counts = Counter(name for name, _ in read)
@@ -115,7 +130,14 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
 
 def is_one_rig(value: object) -> bool:
     """Return whether a value is one rig, or part of one rig, instead of several rigs."""
-    return isinstance(value, Rig | Case | Oscillator | str | Path)
+    return isinstance(value, Rig | Case | Oscillator | Assembly | str | Path)
+
+
+def _with_one_mass(rig: Rig, where: str) -> Rig:
+    """Return a rig with an oscillator, and raise an error for an assembly."""
+    if isinstance(rig.system, Assembly):
+        raise InputError(several_masses(where))
+    return rig
 
 
 def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
@@ -131,6 +153,8 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
             return laboratory.case(value).rig
         except InputError as error:
             why = f" ({error})" if laboratory.is_code(value) else ""
+    if isinstance(value, Assembly):
+        return Rig(value)
     if isinstance(value, Oscillator):
         if oscillator_alone:
             return Rig(value)

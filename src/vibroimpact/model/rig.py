@@ -1,17 +1,19 @@
-"""The rig, an oscillator with its excitation: the first argument of most public functions."""
+"""The rig, a system with its excitation: the first argument of most public functions."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TypeAlias, cast
+from typing import TypeAlias, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import is_list
 from vibroimpact.errors import InputError, shown
+from vibroimpact.model.assembly import Assembly
+from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.html_table import table
 from vibroimpact.model.oscillator import Oscillator
@@ -22,6 +24,8 @@ from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import NONE, SI, written_for
 
+System: TypeAlias = Oscillator | Assembly
+"""What a rig shakes."""
 Shaking: TypeAlias = float | str | Harmonic | Periodic | Record | Sequence[float | str]
 """Accepted values for the shaking of a rig: an amplitude, a text with a unit, one amplitude per
 frequency of a sweep, a `Harmonic`, a `Periodic` or a `Record`."""
@@ -31,12 +35,12 @@ _EXAMPLE = 'Rig(oscillator, "0.05 g") or Rig(oscillator, Harmonic("0.05 g", "2 H
 
 @dataclass(frozen=True, init=False)
 class Rig:
-    """An oscillator and its excitation.
+    """An oscillator, or an assembly of several masses, and its excitation.
 
     Parameters
     ----------
-    oscillator
-        The mass with its isolator and its stops.
+    system
+        An `Oscillator`: the mass with its isolator and its stops; or an `Assembly`.
     shaking
         What shakes the rig. It is one of:
 
@@ -49,6 +53,9 @@ class Rig:
           Functions of one motion do not accept it, because the list does not state its frequencies;
         - None or 0, if nothing shakes the rig, or if a function gets the shaking from another
           argument. `simulate` then computes the free vibration.
+
+        A force or an unbalance on an assembly requires the mass on which it acts, as in
+        ``Harmonic("120 N", "2 Hz", on="roof")``.
     frequency
         Forcing frequency in Hz, or text such as ``"2 Hz"``. Default: the frequency of the shaking.
         If the shaking is only an amplitude, the frequency is open.
@@ -57,7 +64,7 @@ class Rig:
 
     Attributes
     ----------
-    oscillator : Oscillator
+    system : Oscillator or Assembly
     shaking : Harmonic, Periodic, Record or None
         The excitation. If the frequency of the rig is open, the frequency of this object has no
         meaning. If the rig has a list of amplitudes, this object has the largest one.
@@ -74,8 +81,8 @@ class Rig:
     Raises
     ------
     InputError
-        If ``oscillator`` is not an `Oscillator`, or if the shaking or the frequency is invalid.
-        Also if the shaking is a list of amplitudes and a frequency is passed.
+        If ``system`` is neither an `Oscillator` nor an `Assembly`, or if the shaking or the
+        frequency is invalid. Also if the shaking is a list of amplitudes and a frequency is passed.
 
     Examples
     --------
@@ -87,7 +94,7 @@ class Rig:
     2.0
     """
 
-    oscillator: Oscillator
+    system: System
     shaking: Repeated | Record | None
     frequency: float | None
     amplitudes: tuple[float, ...] | None
@@ -96,16 +103,16 @@ class Rig:
 
     def __init__(
         self,
-        oscillator: Oscillator,
+        system: System,
         shaking: Shaking | None = None,
         frequency: float | str | None = None,
         name: str | None = None,
     ) -> None:
-        if not isinstance(oscillator, Oscillator):
-            raise InputError(f"oscillator: {_misplaced(oscillator)}; write {_EXAMPLE}")
-        if isinstance(shaking, Oscillator | Rig):
+        if not isinstance(system, System):
+            raise InputError(f"system: {_misplaced(system)}; write {_EXAMPLE}")
+        if isinstance(shaking, System | Rig):
             raise InputError(f"shaking: {shown(shaking)} is not an excitation; write {_EXAMPLE}")
-        oscillator = with_stated_units(oscillator, {"shaking": shaking})
+        system = with_stated_units(system, {"shaking": shaking})
         amplitudes: tuple[float, ...] | None = None
         own: float | None = None
         if isinstance(shaking, Harmonic | Periodic):
@@ -117,7 +124,7 @@ class Rig:
         if frequency is not None:
             own = to_si(frequency, FREQUENCY, "frequency", above=0.0)
             if amplitudes is not None:
-                raise InputError(_one_needed(oscillator, shaking, amplitudes))
+                raise InputError(_one_needed(system, shaking, amplitudes))
             if isinstance(shaking, Record):
                 raise InputError(
                     f"frequency: {own:g} Hz, but the shaking is a Record, which has no frequency; "
@@ -125,11 +132,11 @@ class Rig:
                 )
             if shaking is not None:
                 shaking = shaking.replace(frequency=own)
-        self._set(oscillator, shaking, own, amplitudes, name)
+        self._set(system, _on_a_mass(system, shaking), own, amplitudes, name)
 
     def _set(
         self,
-        oscillator: Oscillator,
+        system: System,
         shaking: Repeated | Record | None,
         frequency: float | None,
         amplitudes: tuple[float, ...] | None,
@@ -137,7 +144,7 @@ class Rig:
         published: bool = False,
     ) -> None:
         for attribute, value in (
-            ("oscillator", oscillator),
+            ("system", system),
             ("shaking", shaking),
             ("frequency", frequency),
             ("amplitudes", amplitudes),
@@ -145,6 +152,19 @@ class Rig:
             ("published", published),
         ):
             object.__setattr__(self, attribute, value)
+
+    @property
+    def oscillator(self) -> Oscillator:
+        """The oscillator.
+
+        Raises
+        ------
+        InputError
+            If the system is an assembly.
+        """
+        if isinstance(self.system, Assembly):
+            raise InputError(several_masses("rig"))
+        return self.system
 
     @property
     def amplitude(self) -> float:
@@ -168,7 +188,7 @@ class Rig:
             amplitudes.
         """
         if self.amplitudes is not None:
-            raise InputError(_one_needed(self.oscillator, self.shaking, self.amplitudes))
+            raise InputError(_one_needed(self.system, self.shaking, self.amplitudes))
         if isinstance(self.shaking, Harmonic | Periodic):
             return self.shaking
         return as_periodic(self.shaking, "shaking")[0]  # which says what is wrong
@@ -204,14 +224,14 @@ class Rig:
     @classmethod
     def of_open_frequency(
         cls,
-        oscillator: Oscillator,
+        system: System,
         shaking: Repeated | Record | None,
         name: str | None = None,
         *,
         published: bool = False,
     ) -> Rig:
         """Return a rig with the shape of a periodic shaking, but with an open frequency."""
-        rig = cls(oscillator, shaking, name=name)
+        rig = cls(system, shaking, name=name)
         object.__setattr__(rig, "frequency", None)
         object.__setattr__(rig, "published", published)
         return rig
@@ -254,7 +274,7 @@ class Rig:
         InputError
             As in `periodic`. Also if the frequency is invalid.
         """
-        moved = Rig(self.oscillator, self.periodic, frequency, self.name)
+        moved = Rig(self.system, self.periodic, frequency, self.name)
         object.__setattr__(moved, "published", self.published)
         return moved
 
@@ -268,14 +288,16 @@ class Rig:
     def vibrating_freely(self) -> Rig:
         """Return the rig with an excitation of amplitude 0, in whose cycles time is counted.
 
-        If the frequency is open, a cycle is one natural period, or 1 s without a spring.
+        If the frequency is open, a cycle is one natural period, or 1 s without a spring. Of an
+        assembly, it is the longest natural period.
         """
-        natural = self.oscillator.angular_frequency / math.tau
+        natural = self.system.angular_frequency / math.tau
         hertz = self.frequency or natural or 1.0
         still = Harmonic(0.0, hertz)
         if self.shaking is not None:
-            still = still.replace(phase=self.periodic.phase, of=self.periodic.of)
-        return self.with_parts(self.oscillator, still, keep_open=False)
+            whole = self.periodic
+            still = still.replace(phase=whole.phase, of=whole.of, on=whole.on)
+        return self.with_parts(self.system, still, keep_open=False)
 
     @property
     def hardest(self) -> Rig:
@@ -283,7 +305,7 @@ class Rig:
         if self.amplitudes is None:
             return self
         hardest = object.__new__(Rig)
-        hardest._set(self.oscillator, self.shaking, self.frequency, None, self.name, self.published)
+        hardest._set(self.system, self.shaking, self.frequency, None, self.name, self.published)
         return hardest
 
     def levels(self, count: int) -> NDArray[np.float64]:
@@ -310,12 +332,12 @@ class Rig:
 
     def with_parts(
         self,
-        oscillator: Oscillator,
+        system: System,
         shaking: Repeated | Record | None = None,
         *,
         keep_open: bool = True,
     ) -> Rig:
-        """Return a copy with another oscillator, and optionally with another shaking.
+        """Return a copy with another system, and optionally with another shaking.
 
         If the frequency is open, it stays open, unless ``keep_open`` is False.
         """
@@ -324,7 +346,7 @@ class Rig:
             frequency = shaking.frequency
         changed = object.__new__(Rig)
         changed._set(
-            oscillator,
+            system,
             shaking or self.shaking,
             frequency,
             self.amplitudes,
@@ -334,7 +356,7 @@ class Rig:
         return changed
 
     def __repr__(self) -> str:
-        parts = [repr(self.oscillator)]
+        parts = [repr(self.system)]
         if self.amplitudes is not None:
             parts.append(repr(list(self.amplitudes)))
         elif isinstance(self.shaking, Harmonic | Periodic) and self.frequency is None:
@@ -347,12 +369,13 @@ class Rig:
 
     def __str__(self) -> str:
         with written_for(self):
-            return f"Rig(oscillator={self.oscillator}, shaking={self._shaking_text()})"
+            return f"Rig({_word(self.system)}={self.system}, shaking={self._shaking_text()})"
 
     def _repr_html_(self) -> str:
         title = "Rig" if self.name is None else f"Rig {self.name}"
         with written_for(self):
-            return table(title, [*self.oscillator.rows(), ("shaking", self._shaking_text())])
+            rows = [*self.system.rows(), ("shaking", self._shaking_text())]
+            return f"{_picture(self.system)}{table(title, rows)}"
 
     def _open(self) -> object:
         """Return the shaking with an open frequency, as its amplitude if it is a plain sine."""
@@ -371,11 +394,11 @@ class Rig:
 
 
 def _one_needed(
-    oscillator: Oscillator, shaking: Repeated | Record | None, amplitudes: tuple[float, ...]
+    system: System, shaking: Repeated | Record | None, amplitudes: tuple[float, ...]
 ) -> str:
-    """Say that one amplitude is needed, with an example in the units of the oscillator."""
+    """Say that one amplitude is needed, with an example in the units of the system."""
     assert isinstance(shaking, Harmonic)  # as a list is read
-    with written_for(oscillator):
+    with written_for(system):
         return several(amplitudes, shaking)
 
 
@@ -383,11 +406,60 @@ def _misplaced(value: object) -> str:
     """Describe the value that was passed instead of an oscillator."""
     if isinstance(value, Harmonic | Periodic | Record):
         return f"a {type(value).__name__} is a shaking, which is the second argument"
-    return f"{shown(value)} is not an Oscillator"
+    return f"{shown(value)} is not an Oscillator or an Assembly"
 
 
-def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> Oscillator:
-    """Return the oscillator for values that may state units, such as its shaking, by their names.
+def several_masses(where: str) -> str:
+    """Return the error of a function that requires one mass, but gets an assembly."""
+    return (
+        f"{where}: an Assembly of several masses is not accepted by this function; pass a Rig with "
+        "an Oscillator"
+    )
+
+
+def _word(system: System) -> str:
+    return "assembly" if isinstance(system, Assembly) else "oscillator"
+
+
+def _picture(system: System) -> str:
+    return system.picture() if isinstance(system, Assembly) else ""
+
+
+def _on_a_mass(system: System, shaking: Repeated | Record | None) -> Repeated | Record | None:
+    """Return the shaking with the mass on which a force acts, checked.
+
+    Raises
+    ------
+    InputError
+        If a force on one of several masses does not state which, or if there is no such mass.
+    """
+    if isinstance(shaking, Record) or shaking is None:
+        return shaking
+    if isinstance(system, Oscillator):
+        if shaking.on is not None:
+            raise InputError(
+                f"shaking.on: {shaking.on!r}, but an Oscillator has only one mass; remove on"
+            )
+        return shaking
+    if shaking.moves_base:
+        return shaking
+    if shaking.on is not None:
+        check_known(shaking.on, system.names, "mass", "shaking.on")
+        return shaking
+    if len(system.names) > 1:
+        size = pretty(shaking.amplitude, shaking.quantity)
+        raise InputError(
+            f"shaking: {size} acts on one of {len(system.names)} masses; state which, such as "
+            f'Harmonic("{size}", "2 Hz", on="{system.names[-1]}")'
+        )
+    return shaking.replace(on=system.names[0])
+
+
+_S = TypeVar("_S", Oscillator, Assembly, Oscillator | Assembly)
+
+
+def with_stated_units(system: _S, values: Mapping[str, object]) -> _S:
+    """Return the system for values that may state units, such as its shaking, by their names.
 
     A mass and a stiffness of 1 are 1 kg and 1 N/m after all if another value has a unit, unless
     ``units="none"`` was passed.
@@ -398,15 +470,15 @@ def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> O
         If a value states a unit, but the rig has none for another reason.
     """
     for name, value in values.items():
-        if isinstance(value, Record) and value.about.unit == NONE and oscillator.units != NONE:
+        if isinstance(value, Record) and value.about.unit == NONE and system.units != NONE:
             raise InputError(
                 f"{name}: {value.about.source!r} was read without a unit, but the rig has units; "
                 "read it with its unit, such as g"
             )
-    if oscillator.units != NONE:
-        return oscillator
+    if system.units != NONE:
+        return system
     for name, value in values.items():
-        if isinstance(value, Record) and _states_unit(value) and not oscillator.may_have_units:
+        if isinstance(value, Record) and _states_unit(value) and not system.may_have_units:
             raise InputError(
                 f"{name}: {value.about.source!r} contains accelerations in {value.about.unit}, but "
                 'the rig has no units (units is "none"); if the numbers of the record are '
@@ -415,13 +487,13 @@ def with_stated_units(oscillator: Oscillator, values: Mapping[str, object]) -> O
         parts = cast("Sequence[object]", value) if is_list(value) else [value]
         if not any(map(_states_unit, parts)):
             continue
-        if not oscillator.may_have_units:
+        if not system.may_have_units:
             raise InputError(
                 f'{name}: {shown(value)} has a unit, but the rig has none (units is "none"); pass '
                 "a number without a unit, or remove units"
             )
-        return oscillator.replace(units=SI)
-    return oscillator
+        return system.replace(units=SI)
+    return system
 
 
 def _states_unit(value: object) -> bool:

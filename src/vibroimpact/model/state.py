@@ -1,16 +1,27 @@
-"""The state of an oscillator, from which a motion can be started or resumed."""
+"""The state of an oscillator or an assembly, from which a motion can be started or resumed."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from numbers import Integral
 from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator
 
 from vibroimpact.errors import InputError, shown
+from vibroimpact.model.assembly.state import AssemblyState
 from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
 from vibroimpact.model.validation import Accepts, Model, constructor
+
+_BOTH = ("displacement", "velocity")
+_BY_NAME = ("deformation", "memory", "touching")
+"""Values that only the state of an assembly has."""
+_INSTEAD = {
+    "right_bumper": "deformation",
+    "left_bumper": "deformation",
+    "contact": "touching",
+    "isolator": "memory",
+}
 
 
 def _contact(value: Any) -> int | None:
@@ -28,7 +39,11 @@ def _contact(value: Any) -> int | None:
 
 
 class State(Model):
-    """The state of an oscillator at one instant.
+    """The state of an oscillator, or of an assembly by names, at one instant.
+
+    Numbers make the state of an `Oscillator`. Mappings from names make that of an `Assembly`, as in
+    ``State({"base": "1 cm"}, {"roof": 0.1}, deformation={"moat": "2 mm"})``. A mass that is not
+    named is at u = 0, and at rest.
 
     The deformations of the bumpers are part of the state: after the mass has left a bumper, the
     bumper is still deformed and relaxes.
@@ -40,9 +55,9 @@ class State(Model):
     Parameters
     ----------
     displacement
-        Displacement u in m, relative to the base.
+        Displacement u in m, relative to the base; or a mapping from masses to displacements.
     velocity
-        Velocity u̇ in m/s, relative to the base.
+        Velocity u̇ in m/s, relative to the base; or a mapping from masses to velocities.
     right_bumper
         Deformation u_R of the right bumper in m, at least 0. Default: the bumper is undeformed, or
         compressed by the mass if the displacement exceeds the gap. For a stop without memory (any
@@ -61,11 +76,20 @@ class State(Model):
         Internal variable (memory) of a hysteretic isolator, in m. For the bilinear isolator it is
         the deformation z of the elastic part. For the Bouc-Wen model it is z. For the exponential
         model it is the hysteretic force divided by k_a - k_b.
+    deformation
+        For an assembly: mapping from stops to their deformations in m, at least 0. A stop that is
+        not named is undeformed, or compressed as far as its two bodies overlap.
+    memory
+        For an assembly: mapping from hysteretic links to their internal variables in m. Default: 0.
+    touching
+        For an assembly: names of the stops whose bodies touch. Default: deduced from the
+        displacements and the deformations.
 
     Raises
     ------
     InputError
-        If a value is not finite, has a wrong unit or has a wrong sign.
+        If a value is not finite, has a wrong unit or has a wrong sign. Also if values of an
+        oscillator and of an assembly are passed together.
     """
 
     _quiet: ClassVar[Mapping[str, Any]] = {"isolator": 0.0}
@@ -78,16 +102,37 @@ class State(Model):
     contact: Annotated[Literal[-1, 0, 1, 2] | None, BeforeValidator(_contact)] = None
     isolator: Annotated[float, Accepts(LENGTH)] = 0.0
 
+    def __new__(cls, *args: Any, **values: Any) -> Any:
+        """Return the state of an assembly if values are mappings from names."""
+        given = dict(zip(cls.model_fields, args, strict=False)) | values
+        by_name = [key for key in _BY_NAME if given.get(key) is not None]
+        by_name += [key for key in _BOTH if isinstance(given.get(key), Mapping)]
+        if cls is not State or not by_name:
+            return super().__new__(cls)
+        for key in given:
+            if key not in (*_BOTH, *_BY_NAME, "phase"):
+                other = _INSTEAD.get(key)
+                use = f"use {other}" if other else f"remove {key}"
+                raise InputError(
+                    f"{key}: passed together with {by_name[0]} by name, which is for an Assembly; "
+                    f"{use}, or pass numbers for an Oscillator"
+                )
+        return AssemblyState(**given)
+
     @constructor
     def __init__(
         self,
-        displacement: float | str = 0.0,
-        velocity: float | str = 0.0,
+        displacement: float | str | Mapping[str, float | str] = 0.0,
+        velocity: float | str | Mapping[str, float | str] = 0.0,
         right_bumper: float | str | None = None,
         left_bumper: float | str | None = None,
         phase: float | str | None = None,
         contact: int | None = None,
         isolator: float | str = 0.0,
+        *,
+        deformation: Mapping[str, float | str] | None = None,
+        memory: Mapping[str, float | str] | None = None,
+        touching: Iterable[str] | None = None,
     ) -> None:
         super().__init__(
             displacement=displacement,

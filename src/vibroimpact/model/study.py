@@ -1,4 +1,4 @@
-"""The rig of a study file in TOML: a laboratory case, or an oscillator with its shaking.
+"""The rig of a study file in TOML: a laboratory case, an oscillator or an assembly.
 
 The tables of the commands, such as ``[sweep]``, are read by `vibroimpact.cli.study`.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Self, TypeVar
 
@@ -14,6 +15,7 @@ from pydantic import Field, model_validator
 
 from vibroimpact.errors import InputError, printable
 from vibroimpact.model import laboratory
+from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.excitation import Harmonic, Of, Periodic, Repeated
 from vibroimpact.model.laboratory import Parameters
 from vibroimpact.model.names import check_name
@@ -21,7 +23,8 @@ from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
 from vibroimpact.model.quantities import ANGLE, TIME
 from vibroimpact.model.record import Record
-from vibroimpact.model.rig import Rig, with_stated_units
+from vibroimpact.model.rig import Rig, System, with_stated_units
+from vibroimpact.model.toml_text import quoted, toml
 from vibroimpact.model.validation import Accepts, Model, validate
 from vibroimpact.model.wrong_kinds import NumberOrText
 
@@ -56,6 +59,7 @@ class ExcitationTable(Model):
         None, examples=['phases = ["0 deg", "90 deg"]']
     )
     of: Of | None = Field(None, examples=['of = "force"'])
+    on: str | None = Field(None, examples=['on = "roof"'])
     phase: Annotated[float, Accepts(ANGLE)] = 0.0
     record: str | None = Field(None, examples=['record = "quake.csv"'])
     component: str | None = Field(None, examples=['component = "1"'])
@@ -73,8 +77,13 @@ class ExcitationTable(Model):
         for name, needs in (("phases", "amplitudes"), *beside.items()):
             if getattr(self, name) is not None and ways[needs] is None:
                 raise InputError(f"{name} is given without {needs}; add {needs}, or remove {name}")
-        if self.of is not None and self.amplitude is None and self.amplitudes is None:
-            raise InputError("of is given without amplitude; add amplitude, or remove of")
+        for name in ("of", "on"):
+            if getattr(self, name) is not None and (
+                self.amplitude is None and self.amplitudes is None
+            ):
+                raise InputError(
+                    f"{name} is given without amplitude; add amplitude, or remove {name}"
+                )
         return self
 
     def shaking(self, folder: Path) -> Repeated | Record | None:
@@ -94,11 +103,11 @@ class ExcitationTable(Model):
                 decimal=self.decimal,
             )
         if self.amplitudes is not None:
-            return Periodic(1.0, self.amplitudes, self.phases, self.phase, of=self.of)
+            return Periodic(1.0, self.amplitudes, self.phases, self.phase, of=self.of, on=self.on)
         if self.amplitude is None or is_nothing(self.amplitude):
             return None
         shaken, _ = as_periodic(self.amplitude, "amplitude", self.of)
-        return shaken.replace(phase=self.phase)
+        return shaken.replace(phase=self.phase, on=self.on)
 
 
 class RigStudy(Model):
@@ -108,6 +117,7 @@ class RigStudy(Model):
     case: str | None = Field(None, examples=['case = "B2-G1-A3"'])
     parameters: Parameters | None = None
     oscillator: Oscillator | None = None
+    assembly: dict[str, Any] | None = Field(None, examples=["[assembly.masses]"])
     excitation: ExcitationTable = ExcitationTable()
     sweep: Any = None
     simulate: Any = None
@@ -118,13 +128,15 @@ class RigStudy(Model):
     def _one_rig(self) -> Self:
         if self.name is not None:
             check_name(self.name, "name")
-        if (self.case is None) == (self.oscillator is None):
-            if self.case is None:
-                raise InputError(
-                    'neither case nor oscillator is given; add case, such as case = "B2-G1-A3", '
-                    "or the table [oscillator]"
-                )
-            raise InputError("both case and oscillator are given; remove one of them")
+        systems = ("case", "oscillator", "assembly")
+        given = [name for name in systems if getattr(self, name) is not None]
+        if not given:
+            raise InputError(
+                'neither case nor oscillator is given; add case, such as case = "B2-G1-A3", or '
+                "the table [oscillator] or [assembly]"
+            )
+        if len(given) > 1:
+            raise InputError(f"both {given[0]} and {given[1]} are given; remove one of them")
         if self.parameters is not None and self.case is None:
             raise InputError(
                 "parameters: this key is only for a laboratory case; remove it, or replace the "
@@ -153,23 +165,71 @@ class RigStudy(Model):
         except InputError as error:
             raise InputError(f"{where}: excitation.{error}") from None
         if self.case is None:
-            assert self.oscillator is not None  # one of the two is there
             stated: dict[str, object] = {
                 "excitation.amplitude": self.excitation.amplitude,
                 "excitation.amplitudes": self.excitation.amplitudes,
                 "excitation.record": shaking,
             }
             try:
-                oscillator = with_stated_units(self.oscillator, stated)
+                system = with_stated_units(self._system(path.parent), stated)
             except InputError as error:
                 raise InputError(f"{where}: {error}") from None
-            return Rig.of_open_frequency(oscillator, shaking, name)
+            try:
+                return Rig.of_open_frequency(system, shaking, name)
+            except InputError as error:  # the table of the shaking has another name
+                raise InputError(
+                    f"{where}: excitation{str(error).removeprefix('shaking')}"
+                ) from None
         try:
             case = laboratory.case(self.case, parameters or self.parameters or "table")
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
         usual = Harmonic(case.amplitude, 1.0, phase=self.excitation.phase)
         return Rig.of_open_frequency(case.oscillator, shaking or usual, name)
+
+    def _system(self, folder: Path) -> System:
+        """Return the oscillator, or the assembly, whose matrices may be files in a folder."""
+        if self.assembly is None:
+            assert self.oscillator is not None  # one of the two is there
+            return self.oscillator
+        table = dict(self.assembly)
+        if isinstance(table.get("matrices"), dict):
+            table["matrices"] = {**table["matrices"], "folder": folder}
+        return validate(Assembly, table, "assembly")
+
+
+def study_text(rig: Rig) -> str:
+    """Return the study file of a rig. Read again, it gives an equal rig with an open frequency.
+
+    Raises
+    ------
+    InputError
+        If a record shakes the rig, or if it has one amplitude per frequency of a sweep.
+    """
+    if isinstance(rig.shaking, Record):
+        raise InputError(
+            "shaking: a record cannot be written into a study file; write its file as "
+            "excitation.record"
+        )
+    lines = [] if rig.name is None else [f"name = {quoted(rig.name)}", ""]
+    table = rig.system.model_dump(exclude_none=True)
+    if isinstance(rig.system, Assembly):
+        values = {key: one for key, one in table.items() if not isinstance(one, dict)}
+        parts = {key: one for key, one in table.items() if isinstance(one, dict)}
+        lines += ["[assembly]", *_lines(values), ""] if values else []
+        for key, part in parts.items():
+            lines += [f"[assembly.{key}]", *_lines(part), ""]
+    else:
+        lines += ["[oscillator]", *_lines(table), ""]
+    if rig.shaking is not None:
+        shaken = rig.periodic.model_dump()
+        del shaken["frequency"]
+        lines += ["[excitation]", *_lines(shaken), ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def _lines(table: Mapping[str, Any]) -> list[str]:
+    return [f"{key} = {toml(value)}" for key, value in table.items()]
 
 
 def read_study(path: Path, kind: type[_Study]) -> _Study:

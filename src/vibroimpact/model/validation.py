@@ -30,7 +30,8 @@ from vibroimpact.model.sizes import SMALLEST, check_size
 from vibroimpact.model.units import accepted, pretty, read
 from vibroimpact.model.wrong_kinds import path_of, wrong_kind
 
-_FIELD = re.compile(r"[a-z_]+(\.[a-z_]+)*: ")
+_FIELD = re.compile(r"[a-z_]+(\.[\w-]+)*: ")
+"""Path of a field at the start of a message; names in it may be those of the user."""
 _Init = TypeVar("_Init", bound=Callable[..., None])
 _ModelType = TypeVar("_ModelType", bound="Model")
 

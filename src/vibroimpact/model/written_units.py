@@ -70,7 +70,7 @@ def write_for(subject: object) -> None:
 
 
 def has_no_units(subject: Any) -> bool:
-    """Return whether a rig, an oscillator, or a dataset that was computed from them has no units.
+    """Return whether a rig, its system, or a dataset that was computed from them has no units.
 
     A mapping of such objects has no units if none of them has units.
     """
@@ -79,27 +79,33 @@ def has_no_units(subject: Any) -> bool:
         return attributes.get(ATTRIBUTE) == NONE
     if isinstance(subject, Mapping):
         return bool(subject) and all(has_no_units(one) for one in subject.values())
-    return getattr(getattr(subject, "oscillator", subject), "units", SI) == NONE
+    return getattr(system_of(subject), "units", SI) == NONE
+
+
+def system_of(subject: Any) -> Any:
+    """Return the oscillator or the assembly of a rig or a case, and anything else as it is."""
+    for name in ("system", "oscillator"):
+        if hasattr(subject, name):
+            return getattr(subject, name)
+    return subject
 
 
 def parameters_without_units(parameters: str | Mapping[str, Any]) -> bool:
-    """Return whether all oscillators in the parameters of a dataset have no units."""
-    found = list(
-        _oscillators(json.loads(parameters) if isinstance(parameters, str) else parameters)
-    )
+    """Return whether all systems in the parameters of a dataset have no units."""
+    found = list(_systems(json.loads(parameters) if isinstance(parameters, str) else parameters))
     return bool(found) and all(one.get("units") == NONE for one in found)
 
 
-def _oscillators(value: object) -> Iterator[Mapping[str, Any]]:
-    """Yield the oscillators of nested parameters, such as those of several rigs."""
+def _systems(value: object) -> Iterator[Mapping[str, Any]]:
+    """Yield the oscillators and assemblies of nested parameters, such as those of several rigs."""
     if isinstance(value, Mapping):
         for name, one in value.items():
-            if name == "oscillator" and isinstance(one, Mapping):
+            if name in ("oscillator", "assembly") and isinstance(one, Mapping):
                 yield one
             elif name == "oscillators" and isinstance(one, Mapping):
                 yield from one.values()
             else:
-                yield from _oscillators(one)
+                yield from _systems(one)
     elif isinstance(value, list | tuple):
         for one in value:
-            yield from _oscillators(one)
+            yield from _systems(one)

@@ -98,6 +98,7 @@ def stop_numbers(stop: Stop | None) -> Numbers | None:
             chi = stop.dissipation if number is None else -number
             return PowerLaw(stop.stiffness, stop.exponent, chi or 0.0, 0.0, stop.gap)
         case JankowskiBumper():
+            assert stop.mass is not None  # which an oscillator requires
             viscous = 2.0 * stop.damping_ratio * math.sqrt(stop.mass * stop.stiffness)
             return PowerLaw(stop.stiffness, 1.5, 0.0, viscous, stop.gap)
         case OwnLaw():

@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 from samples import sample
+from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.flow_dispatch import flow_of, planned
-from vibroimpact.engine.motion import FLIGHT, GIVEN_UP, LIMIT, Motion
+from vibroimpact.engine.flow_tables import plan_of
+from vibroimpact.engine.motion import STATE
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Law, PowerLaw, rig_vector
 from vibroimpact.engine.series import kernels, root, slopes, step
 from vibroimpact.engine.series import layout as at
@@ -18,8 +20,7 @@ from vibroimpact.engine.series.emit import Plain
 from vibroimpact.engine.series.program import SYMBOLS
 from vibroimpact.engine.series.root import Rooted
 from vibroimpact.engine.series.step import Shape
-from vibroimpact.engine.taylor.advance import advance_taylor
-from vibroimpact.engine.taylor.plan import build
+from vibroimpact.engine.status import DONE, TOO_MANY_EVENTS
 
 
 def symbols(*operations: str | int) -> tuple[int, ...]:
@@ -61,7 +62,7 @@ SHAPES += [
     for single in (True, False)
 ]
 # Each is compiled for itself.
-SHAPES = sample(SHAPES, SHAPES[::4])
+SHAPES = sample(SHAPES, SHAPES[::7])
 NUMBERS = {
     "drag": 0.2,
     "drag_exponent": 0.6,
@@ -165,18 +166,22 @@ def forces(plan: np.ndarray, shape: Shape, x: float, v: float, z: float) -> tupl
 def test_a_plan_of_other_laws_is_given_up(made: Law, asked: Law) -> None:
     """Never followed by kernels that lack one of its laws."""
     one, other = (rig_vector(1.0, 1.0, 0.1, None, None, law=law) for law in (made, asked))
-    motion = Motion(FLIGHT, 0, 0.3, 0.4, 0.0, 0.0, 0.1, 0.0, (0.6, 0.8))
-    for rig, outcome in ((other, GIVEN_UP), (one, LIMIT)):
-        plan = planned(flow_of(one), rig)
-        build(plan, 0.6, 1.3)
-        event, _, _, _ = advance_taylor(plan, motion, 0.1)
-        assert event == outcome
+    assert outcome_of(one, one) == DONE
+    assert outcome_of(one, other) == TOO_MANY_EVENTS
 
 
 def test_a_plan_of_another_stop_is_given_up() -> None:
     free = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0))
     stopped = rig_vector(1.0, 1.0, 0.1, PowerLaw(9.0, 1.5, 0.0, 0.0, 1.0), None, law=Law(cubic=1.0))
-    plan = planned(flow_of(free), stopped)
-    build(plan, 0.6, 1.3)
-    motion = Motion(FLIGHT, 0, 0.3, 0.4, 0.0, 0.0, 0.0, 0.0, (0.6, 0.8))
-    assert advance_taylor(plan, motion, 0.1)[0] == GIVEN_UP
+    assert outcome_of(free, stopped) == TOO_MANY_EVENTS
+
+
+def outcome_of(made: np.ndarray, asked: np.ndarray) -> int:
+    """What becomes of a rig in the plan of another, by the entry that is compiled for all."""
+    trajectory = batch.trajectory
+    plan = plan_of(made, trajectory.groups)
+    _, _, outcome = trajectory.of(plan)(
+        plan, asked, 0.6, 0.2, 0.0, np.zeros(STATE), 0.0, 1.0, 0, 100,
+        np.empty((0, record.SAMPLE)), np.empty((101, record.EVENT)),
+    )  # fmt: skip
+    return outcome

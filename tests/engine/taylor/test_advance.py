@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import cycle, product
 
 import numpy as np
 import pytest
@@ -18,6 +19,9 @@ from vibroimpact.engine.motion import ISOLATOR, LEFT_BUMPER, MODE, U, V, mirror_
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.law_numbers import isolator_numbers
 
+PAIRS = [*product(ISOLATORS, STOPS)]
+EACH = [*zip(ISOLATORS, cycle(STOPS), strict=False)]
+"""Each isolator and each stop."""
 CYCLES = 8
 SEEN = [U, V, ISOLATOR]
 
@@ -70,8 +74,7 @@ def test_each_isolator_against_dop853(isolator: str) -> None:
     np.testing.assert_allclose(found[SEEN], exact, atol=2e-12)
 
 
-@pytest.mark.parametrize("stop", STOPS)
-@pytest.mark.parametrize("isolator", ISOLATORS)
+@pytest.mark.parametrize(("isolator", "stop"), sample(PAIRS, EACH))
 def test_a_motion_can_be_cut_anywhere(isolator: str, stop: str) -> None:
     rig = between(isolator, stop)
     whole = followed(rig, SHAKEN, 3, started(rig, 0.1, 0.3))
@@ -83,8 +86,7 @@ def test_a_motion_can_be_cut_anywhere(isolator: str, stop: str) -> None:
         assert parts[MODE] == whole[MODE]
 
 
-@pytest.mark.parametrize("stop", STOPS)
-@pytest.mark.parametrize("isolator", ISOLATORS)
+@pytest.mark.parametrize(("isolator", "stop"), sample(PAIRS, EACH))
 def test_the_mirror_image_moves_as_the_mirror_image(isolator: str, stop: str) -> None:
     other = "bumper" if stop != "bumper" else "hunt-crossley"
     rig, turned = between(isolator, stop, other), between(isolator, other, stop)

@@ -10,6 +10,7 @@ import pytest
 import vibroimpact as vi
 from engine.taylor.rigs import HYSTERETIC, ISOLATORS, between
 from engine.taylor.test_carry import carried
+from samples import sample
 from vibroimpact.response.engine_input import engine_state
 
 FREQUENCY = 0.9 / math.tau
@@ -19,7 +20,7 @@ PLAIN = [name for name in ISOLATORS if name not in (*HYSTERETIC, "friction")]
 
 
 @pytest.mark.parametrize("stop", [None, "spring", "rigid", "hunt-crossley"])
-@pytest.mark.parametrize("isolator", PLAIN)
+@pytest.mark.parametrize("isolator", sample(PLAIN, PLAIN[::3]))
 def test_two_exponents_sum_up_to_the_divergence(isolator: str, stop: str | None) -> None:
     """Where only displacement and velocity are remembered."""
     found = vi.lyapunov_exponents(vi.Rig(between(isolator, stop), 0.6), [FREQUENCY], 200)
@@ -29,7 +30,7 @@ def test_two_exponents_sum_up_to_the_divergence(isolator: str, stop: str | None)
 
 
 @pytest.mark.parametrize("stop", ["spring", "rigid", "hunt-crossley", "flores"])
-@pytest.mark.parametrize("isolator", PLAIN)
+@pytest.mark.parametrize("isolator", sample(PLAIN, PLAIN[::3]))
 def test_the_exponents_of_an_orbit_are_those_of_its_determinant(isolator: str, stop: str) -> None:
     """What a cycle leaves of an area of displacement and velocity, by the tangent map."""
     rig = between(isolator, stop)

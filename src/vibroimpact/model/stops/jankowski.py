@@ -34,7 +34,8 @@ class JankowskiBumper(Named):
         model reaches it approximately.
     mass
         Mass m that hits the stop, in kg, greater than 0; or text such as ``"550 kg"``. For two
-        bodies that hit each other it is m₁ m₂/(m₁ + m₂).
+        bodies that hit each other it is m₁ m₂/(m₁ + m₂). Default: None; an `Assembly` then uses
+        the two bodies that the stop joins. An `Oscillator` requires the mass.
 
     Raises
     ------
@@ -44,11 +45,12 @@ class JankowskiBumper(Named):
 
     kind: ClassVar[str] = "jankowski"
     exponent: ClassVar[float] = 1.5
+    _quiet: ClassVar = {"mass": None}
 
     stiffness: Annotated[float, Accepts(power_stiffness(1.5), above=0.0)]
     gap: Annotated[float, Accepts(LENGTH)]
     restitution: Annotated[float, Accepts(DIMENSIONLESS, above=0.0, maximum=1.0)]
-    mass: Annotated[float, Accepts(MASS, above=0.0)]
+    mass: Annotated[float | None, Accepts(MASS, above=0.0, optional=True)] = None
 
     @constructor
     def __init__(
@@ -56,7 +58,7 @@ class JankowskiBumper(Named):
         stiffness: float | str,
         gap: float | str,
         restitution: float | str,
-        mass: float | str,
+        mass: float | str | None = None,
     ) -> None:
         super().__init__(stiffness=stiffness, gap=gap, restitution=restitution, mass=mass)
 

@@ -1,0 +1,326 @@
+"""A motion from event to event, and over a length of time."""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.events import pack_fresh, speeds, switch_mode, unpack_fresh
+from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.assembly.roots import first_fall
+from vibroimpact.engine.assembly.series import (
+    expand_state,
+    to_bernstein,
+    travel_by_series,
+    watched_series,
+)
+from vibroimpact.engine.assembly.tables import (
+    LEVELS,
+    STEP_LENGTH,
+    WIDTH,
+    exact_rows,
+    gather,
+    table_of_mode,
+    travel_by_tables,
+)
+from vibroimpact.engine.assembly.tables import is_clear as is_clear_on_leap
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond
+
+_SAME = 1e-12
+"""Share of a step within which events are simultaneous, so that the stop's number decides."""
+
+_WRONG = 1e-14
+"""A watched function below zero by more than this share of what it is made of is so by a jump, not
+by rounding."""
+
+_ROUNDING = 2e-16
+"""A watched function that goes below zero by no more than this share is a touch."""
+_TINY = 1e-300
+
+
+@kernel
+def begin(plan: Vector, amplitude: float, omega: float) -> None:
+    """Take a forcing; of a record, the amplitude is a bound on its values and not used."""
+    n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
+    shape, push = int(plan[at.SHAPE]), int(plan[at.PUSH])
+    factor = amplitude
+    for _ in range(int(plan[at.POWER])):
+        factor *= omega
+    if plan[at.RECORD] != 0.0:
+        factor = 1.0
+        plan[at.HIGHEST] = 0.0
+    else:
+        plan[at.HIGHEST] = omega * (w // 2)
+    plan[at.AMPLITUDE], plan[at.OMEGA] = factor, omega
+    for i in range(n * w):
+        plan[push + i] = factor * plan[shape + i]
+    plan[at.MODE] = -1.0
+    plan[at.USED] = 0.0
+    for i in range(2 * int(max(plan[at.SLOTS], 1.0))):
+        plan[int(plan[at.KEYS]) + i] = -1.0
+
+
+@kernel
+def build(plan: Vector, amplitude: float, omega: float) -> None:
+    """As `begin`; tables are made when a mode is entered."""
+    begin(plan, amplitude, omega)
+
+
+@apart
+def load_motion(plan: Vector, state: Vector, s: float, c: float) -> None:
+    """Take up a motion at a section, where the clock is s, c."""
+    n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
+    y, deformation = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
+    for i in range(2 * n):
+        y[i] = state[at.PARTS + i]
+    for f in range(count):
+        deformation[f] = state[at.PARTS + 2 * n + f]
+    if plan[at.RECORD] != 0.0:
+        y[2 * n], y[2 * n + 1] = s, c
+    else:  # the harmonics' phasors are powers of the fundamental's
+        sine, cosine = s, c
+        for q in range(w // 2):
+            y[2 * n + 2 * q], y[2 * n + 2 * q + 1] = sine, cosine
+            sine, cosine = sine * c + cosine * s, cosine * c - sine * s
+    y[2 * n + w] = 1.0
+    unpack_fresh(plan, state[at.STATE_FRESH])
+    plan[at.AGE] = state[at.PARTS + 2 * n + count]
+    plan[at.LEVEL] = 0.0
+    enter_mode(plan, int(state[at.STATE_MODE]))
+
+
+@apart
+def store_motion(plan: Vector, state: Vector) -> None:
+    """Write the motion as a state with its clock."""
+    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+    y, deformation = int(plan[at.Y]), int(plan[at.DEFORMATION])
+    state[at.STATE_MODE], state[at.STATE_FRESH] = plan[at.MODE], pack_fresh(plan)
+    for i in range(2 * n):
+        state[at.PARTS + i] = plan[y + i]
+    for f in range(count):
+        state[at.PARTS + 2 * n + f] = plan[deformation + f]
+    end = at.PARTS + 2 * n + count
+    state[end] = plan[at.AGE]
+    state[end + 1], state[end + 2] = plan[y + 2 * n], plan[y + 2 * n + 1]
+
+
+@kernel
+def relax(plan: Vector, mode: int, deformation: Vector, t: float) -> None:
+    """Let the free Kelvin–Voigt stops' deformations decay."""
+    stops = int(plan[at.STOP])
+    for f in range(int(plan[at.STOPS])):
+        if deformation[f] > 0.0 and not mode >> f & 1:
+            deformation[f] *= math.exp(-plan[stops + f * at.STOP_WIDTH + at.RELAXATION] * t)
+
+
+@kernel
+def magnitude(plan: Vector, f: int, mode: int, b: Vector) -> float:
+    """The size of what a watched function is made of, by which its rounding is measured."""
+    n = int(plan[at.MASSES])
+    y, one = beyond(plan, int(plan[at.Y])), int(plan[at.STOP]) + f * at.STOP_WIDTH
+    d = abs(plan[int(plan[at.DEFORMATION]) + f])
+    if mode >> f & 1 == 0:
+        size: float = abs(plan[one + at.GAP]) + speeds(plan, f, y) + d
+    elif plan[one + at.KIND] == at.KELVIN_VOIGT:
+        size = plan[one + at.STOP_STIFFNESS] * d
+        size += plan[one + at.STOP_DAMPING] * speeds(plan, f, beyond(y, n))
+    else:
+        size = 0.0
+        for j in range(at.DEGREE + 1):
+            size = max(size, 100.0 * abs(b[j]))  # what holds the bodies is a difference of forces
+    return size
+
+
+@kernel
+def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> float:
+    """When a stop's watched function first falls to zero, as a share of the step, or NONE."""
+    b = beyond(plan, int(plan[at.BERNSTEIN]))
+    zeros = int(plan[int(plan[at.ZEROS]) + f])
+    d, x = 0.0, 0.0
+    if mode >> f & 1 == 0:
+        d = plan[int(plan[at.DEFORMATION]) + f]
+        if d > 0.0:
+            x = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RELAXATION] * length
+        else:
+            d = 0.0
+    size = magnitude(plan, f, mode, b)
+    if zeros > 0:
+        b[0] = -d
+        if zeros > 1:
+            b[1] = b[0] + x * d / at.DEGREE
+        if zeros > 2:
+            b[2] = 0.0
+    elif b[0] + d < -_WRONG * size:
+        return 0.0
+    return first_fall(b, d, x, end, zeros, _ROUNDING * size + _TINY, plan)
+
+
+@kernel
+def is_positive(a: Vector, order: int) -> bool:
+    """Whether the size of a power series' terms alone shows that it is positive on [0, 1]."""
+    least = a[0]
+    for j in range(1, order + 1):
+        least += min(a[j], 0.0)
+    found: bool = least > 0.0
+    return found
+
+
+@kernel
+def remember(plan: Vector, target: int, deformations: int) -> None:
+    """Keep the present state."""
+    n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
+    y, deformation = int(plan[at.Y]), int(plan[at.DEFORMATION])
+    for i in range(2 * n + w + 1):
+        plan[target + i] = plan[y + i]
+    for f in range(count):
+        plan[deformations + f] = plan[deformation + f]
+
+
+@apart
+def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
+    """As `advance`, in a mode that has tables: a leap, a step, or the way to an event."""
+    n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
+    mode = int(plan[at.MODE])
+    zeros = beyond(plan, int(plan[at.ZEROS]))
+    base = 2 * n + w + 1
+    x = beyond(plan, int(plan[at.SCRATCH]))
+    width = int(plan[place + WIDTH])
+    room = beyond(x, (width + 7) // 8 * 8)
+    gather(plan, x)
+    h = plan[place + STEP_LENGTH]
+    level = int(plan[at.LEVEL])
+    while level > 0 and h * (1 << (level - 1)) >= left:
+        level -= 1
+    clear, all_clear = 0, False
+    while True:  # the longest leap on which nothing can happen
+        all_clear = True
+        for f in range(count):
+            if clear >> f & 1:
+                continue
+            if zeros[f] == 0.0 and is_clear_on_leap(plan, place, level, f, x, room):
+                clear |= 1 << f
+            else:
+                all_clear = False
+                if level > 0:
+                    break
+        if all_clear or level == 0:
+            break
+        level -= 1
+    hit, end = -1, 1.0
+    time = min(h * (1 << level), left)
+    if all_clear:
+        plan[at.LEVEL] = min(level + 1.0, LEVELS - 1.0)
+    else:
+        plan[at.LEVEL] = 1.0
+        b = beyond(plan, int(plan[at.BERNSTEIN]))
+        end = time / h
+        for f in range(count):
+            if clear >> f & 1:
+                continue
+            limit = end if hit < 0 else end - _SAME
+            if limit < 0.0:
+                break
+            exact_rows(plan, place, f, x, b)
+            tau = first_event(plan, f, mode, h, limit)
+            if tau <= limit:
+                hit, end = f, tau
+        if hit >= 0:
+            time = end * h
+    plan[at.PIECE_LENGTH] = h
+    plan[at.PIECES] = max(math.ceil(time / h - _SAME), 1.0)
+    if time > 0.0:
+        travel_by_tables(plan, place, time, x, room)
+        relax(plan, mode, beyond(plan, int(plan[at.DEFORMATION])), time)
+        y, deformation = int(plan[at.Y]), int(plan[at.DEFORMATION])
+        for i in range(base):
+            plan[y + i] = x[i]
+        for j in range(int(plan[at.PRESSED])):
+            f = int(plan[int(plan[at.PRESSED_LIST]) + j])
+            plan[deformation + f] = x[base + j]
+    return finish(plan, mode, hit, time, end > _SAME)
+
+
+@apart
+def next_stretch(plan: Vector, left: float) -> int:
+    """Go on to the next event, at most for a step and for the time that is left.
+
+    Returns what ended the stretch; its length is `plan[LENGTH]`, its stop `plan[EVENT_STOP]`. The
+    stretch is kept in the plan, for `channels` and `tangent`.
+    """
+    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+    y, deformation = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
+    zeros = beyond(plan, int(plan[at.ZEROS]))
+    mode = int(plan[at.MODE])
+    plan[at.STEPS] += 1.0
+    remember(plan, int(plan[at.START]), int(plan[at.START_DEFORMATION]))
+    plan[at.STRETCH_MODE], plan[at.PIECES], plan[at.PIECE] = plan[at.MODE], 1.0, 0.0
+    total = 0.0
+    for i in range(2 * n):
+        total += abs(y[i])
+    if not total < 1e200:
+        plan[at.EVENT], plan[at.LENGTH] = float(at.GIVEN_UP), 0.0
+        return at.GIVEN_UP
+    place = table_of_mode(plan)
+    if place > 0:
+        return stretch_by_tables(plan, place, left)
+    h = at.STEP / max(plan[at.RATE], 1e-200)
+    length = left if left <= h else min(h, 0.5 * left)
+    expand_state(plan, y, deformation, length)
+    a, b = beyond(plan, int(plan[at.COEFFICIENTS])), beyond(plan, int(plan[at.BERNSTEIN]))
+    hit, end = -1, 1.0
+    for f in range(count):
+        watched_series(plan, f, mode, a)
+        if zeros[f] == 0.0 and is_positive(a, int(plan[at.ORDER])):
+            continue
+        limit = end if hit < 0 else end - _SAME
+        if limit < 0.0:
+            break
+        to_bernstein(plan, a, b)
+        tau = first_event(plan, f, mode, length, limit)
+        if tau <= limit:
+            hit, end = f, tau
+    if hit < 0 or end > 0.0:
+        travel_by_series(plan, y, deformation, end)
+        relax(plan, mode, deformation, end * length)
+    return finish(plan, mode, hit, end * length, end > _SAME)
+
+
+@kernel
+def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int:
+    """End a stretch, by the event of a stop or by none."""
+    y, deformation = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
+    if moved:
+        for f in range(int(plan[at.STOPS])):
+            plan[int(plan[at.ZEROS]) + f] = 0.0
+    plan[at.LENGTH], plan[at.EVENT_STOP] = length, float(hit)
+    plan[at.AGE] += length
+    event = at.LIMIT
+    if hit >= 0:
+        remember(plan, int(plan[at.END]), int(plan[at.END_DEFORMATION]))
+        mode, event = switch_mode(plan, mode, hit, y, deformation)
+        enter_mode(plan, mode)
+        plan[at.AGE] = 0.0
+        plan[at.LEVEL] = 0.0
+    plan[at.EVENT] = float(event)
+    return event
+
+
+@kernel
+def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
+    """Follow a motion from a section over a length (s), in place; see `flow.cycle`."""
+    load_motion(plan, state, s, c)
+    t, events = 0.0, 0
+    while t < length:
+        left = length - t
+        event = next_stretch(plan, left)
+        if event == at.GIVEN_UP:
+            events = max_events + 1
+            break
+        t = length if plan[at.LENGTH] == left else t + plan[at.LENGTH]
+        if event != at.LIMIT:
+            events += 1
+            if events > max_events:
+                break
+    store_motion(plan, state)
+    return events

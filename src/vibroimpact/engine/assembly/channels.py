@@ -1,0 +1,146 @@
+"""What is observed on a stretch: functions of time with a power series on each piece.
+
+event = next_stretch(plan, left)
+open_stretch(plan)
+for i in range(pieces(plan)):
+open_piece(plan, i)                           # in this order
+order = series(plan, FORCE, stop, out)        # or value(plan, FORCE, stop, tau)
+close_stretch(plan)
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.assembly.series import expand_state, travel_by_series, watched_series
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond
+
+DISPLACEMENT, VELOCITY, ACCELERATION, ABSOLUTE_ACCELERATION, CLEARANCE, FORCE, DEFORMATION = range(
+    7
+)
+"""Of a mass: m, m/s, m/s² relative to the base and absolute; of a stop: m, N, m."""
+
+SERIES = at.TERMS + 2
+"""Length of a series: its coefficients, then a size and a rate: size · exp(−rate τ) is added."""
+
+
+@apart
+def open_stretch(plan: Vector) -> None:
+    """Go back to where the last stretch begins."""
+    plan[at.ACTUAL_MODE] = plan[at.MODE]
+    enter_mode(plan, int(plan[at.STRETCH_MODE]))
+    n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
+    for i in range(2 * n + w + 1):
+        plan[int(plan[at.PIECE_Y]) + i] = plan[int(plan[at.START]) + i]
+    for f in range(count):
+        plan[int(plan[at.PIECE_DEFORMATION]) + f] = plan[int(plan[at.START_DEFORMATION]) + f]
+
+
+@kernel
+def close_stretch(plan: Vector) -> None:
+    """Return to the present."""
+    enter_mode(plan, int(plan[at.ACTUAL_MODE]))
+
+
+@kernel
+def pieces(plan: Vector) -> int:
+    """How many pieces the last stretch has, all of the same length."""
+    return int(plan[at.PIECES])
+
+
+@kernel
+def piece_length(plan: Vector) -> float:
+    """Their length (s)."""
+    length: float = plan[at.LENGTH] / plan[at.PIECES]
+    return length
+
+
+@kernel
+def fade(plan: Vector, deformation: Vector, t: float) -> None:
+    """Let the free stops' numbers decay, in the mode that was entered."""
+    stops, mode = int(plan[at.STOP]), int(plan[at.MODE])
+    for f in range(int(plan[at.STOPS])):
+        if deformation[f] != 0.0 and not mode >> f & 1:
+            deformation[f] *= math.exp(-plan[stops + f * at.STOP_WIDTH + at.RELAXATION] * t)
+
+
+@apart
+def open_piece(plan: Vector, i: int) -> None:
+    """Make the series of a piece; one after the other."""
+    y = beyond(plan, int(plan[at.PIECE_Y]))
+    deformation = beyond(plan, int(plan[at.PIECE_DEFORMATION]))
+    length = piece_length(plan)
+    if i > 0:
+        travel_by_series(plan, y, deformation, 1.0)
+        fade(plan, deformation, length)
+    expand_state(plan, y, deformation, length)
+
+
+@apart
+def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
+    """Write a channel's power series in τ, 0 to 1 on the piece; returns its order."""
+    n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
+    row = 2 * (n + 1)
+    order = int(plan[at.ORDER])
+    states, waves = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES])
+    length = plan[at.PIECE_LENGTH]
+    mode, one = int(plan[at.MODE]), int(plan[at.STOP]) + index * at.STOP_WIDTH
+    pressed = channel >= CLEARANCE and mode >> index & 1 == 1
+    out[at.TERMS], out[at.TERMS + 1] = 0.0, 0.0
+    if channel in (ACCELERATION, ABSOLUTE_ACCELERATION):
+        order -= 1
+        push = int(plan[at.PUSH]) + index * w
+        for j in range(order + 1):
+            a = (j + 1) / length * plan[states + (j + 1) * row + n + 1 + index]
+            if channel == ABSOLUTE_ACCELERATION and plan[at.SHAKEN] != 0.0:
+                for q in range(w):
+                    a -= plan[push + q] * plan[waves + j * w + q]
+            out[j] = a
+        return order
+    if (channel == FORCE and pressed) or (channel == CLEARANCE and not pressed):
+        watched_series(plan, index, mode, out)
+    for j in range(order + 1):
+        here = states + j * row
+        if channel == DISPLACEMENT:
+            out[j] = plan[here + index]
+        elif channel == VELOCITY:
+            out[j] = plan[here + n + 1 + index]
+        elif channel == FORCE:
+            if not pressed:
+                out[j] = 0.0
+        elif channel == CLEARANCE:
+            if pressed:
+                out[j] = 0.0
+        elif plan[one + at.KIND] == at.RIGID or not pressed:
+            out[j] = 0.0
+        elif j == 0:
+            out[j] = plan[int(plan[at.PIECE_DEFORMATION]) + index]
+        else:
+            out[j] = plan[here + int(plan[one + at.LEFT])] - plan[here + int(plan[one + at.RIGHT])]
+    if not pressed and channel in (CLEARANCE, DEFORMATION):
+        d = plan[int(plan[at.PIECE_DEFORMATION]) + index]
+        if d > 0.0:
+            out[at.TERMS], out[at.TERMS + 1] = d, plan[one + at.RELAXATION] * length
+    return order
+
+
+@kernel
+def evaluate(out: Vector, order: int, tau: float) -> float:
+    """The value of a series."""
+    total = 0.0
+    for j in range(order, -1, -1):
+        total = total * tau + out[j]
+    if out[at.TERMS] > 0.0:
+        total += out[at.TERMS] * math.exp(-out[at.TERMS + 1] * tau)
+    return total
+
+
+@kernel
+def value(plan: Vector, channel: int, index: int, tau: float) -> float:
+    """A channel's value on the piece."""
+    out = beyond(plan, int(plan[at.ROOM]))
+    order = series(plan, channel, index, out)
+    return evaluate(out, order, tau)

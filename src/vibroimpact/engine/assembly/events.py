@@ -1,0 +1,236 @@
+"""What happens where a watched function falls to zero."""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.mode import enter_mode, hold
+from vibroimpact.engine.assembly.series import accelerate, places
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond
+
+_CHATTERED = 1e-6
+"""A chatter is completed where what is left of it lasts for less than this share of the times in
+which the state and the force that presses the bodies may change. The bodies then rest at once: the
+impulse of the rest during this time, less that which stops them, is that of the impacts, so that
+what is lost is of second order, 1e-12."""
+
+_NOISE = 1e-15
+"""A closing speed below this share of the bodies' speeds is rounding."""
+
+_KEPT = 6
+"""Zeros by construction that fit into a state."""
+
+
+@kernel
+def closing(plan: Vector, f: int, values: Vector) -> float:
+    """Left minus right at a stop, of a number for each mass."""
+    n = int(plan[at.MASSES])
+    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+    left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
+    total = 0.0
+    if left < n:
+        total += values[left]
+    if right < n:
+        total -= values[right]
+    return total
+
+
+@kernel
+def speeds(plan: Vector, f: int, values: Vector) -> float:
+    """As `closing`, the sum of both magnitudes."""
+    n = int(plan[at.MASSES])
+    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+    left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
+    total = 0.0
+    if left < n:
+        total += abs(values[left])
+    if right < n:
+        total += abs(values[right])
+    return total
+
+
+@kernel
+def accelerations(
+    plan: Vector, u: Vector, v: Vector, w: Vector, deformation: Vector, moved: float, place: int
+) -> None:
+    """Write the accelerations of a state in the mode that was entered at a place of the plan.
+
+    After them follow the forces of those pressed and of those resting. The place has room for
+    n + 1 accelerations; `moved` as in `series.expand`.
+    """
+    n = int(plan[at.MASSES])
+    here = beyond(plan, int(plan[at.SCRATCH]))
+    for i in range(n):
+        here[i], here[n + 1 + i] = u[i], v[i]
+    here[n], here[2 * n + 1] = 0.0, 0.0
+    forces = beyond(plan, place + n + 1)
+    for p in range(int(plan[at.PRESSED])):
+        forces[p] = deformation[int(plan[int(plan[at.PRESSED_LIST]) + p])]
+    accelerate(plan, places(plan), here, w, forces, moved, place)
+
+
+@kernel
+def push_and_jerk(plan: Vector, f: int, y: Vector, deformation: Vector) -> tuple[float, float]:
+    """Closing acceleration at a stop in the present mode, and its rate."""
+    n, count, w = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.WAVES])
+    row = 2 * (n + 1)
+    place = int(plan[at.SCRATCH]) + row
+    room = place + n + 1 + count
+    accelerations(plan, y, beyond(y, n), beyond(y, 2 * n), deformation, 1.0, place)
+    push = closing(plan, f, beyond(plan, place))
+    # The same map of the state's derivative.
+    waves, rates, second = room, room + w, room + w + count
+    for i in range(n):
+        plan[second + i] = plan[place + i]
+    for g in range(count):
+        plan[rates + g] = closing(plan, g, beyond(y, n))
+    if plan[at.RECORD] != 0.0:
+        plan[waves], plan[waves + 1] = y[2 * n + 1], 0.0
+    else:
+        for q in range(w // 2):
+            turn = plan[at.OMEGA] * (q + 1)
+            plan[waves + 2 * q] = turn * y[2 * n + 2 * q + 1]
+            plan[waves + 2 * q + 1] = -turn * y[2 * n + 2 * q]
+    velocities = beyond(y, n)
+    accelerations(
+        plan,
+        velocities,
+        beyond(plan, second),
+        beyond(plan, waves),
+        beyond(plan, rates),
+        0.0,
+        place,
+    )
+    return push, closing(plan, f, beyond(plan, place))
+
+
+@apart
+def settles(
+    plan: Vector, f: int, returned: float, e: float, y: Vector, deformation: Vector
+) -> bool:
+    """Whether the impacts after a return with this speed are completed at once, by rest."""
+    if e >= 1.0:
+        return False
+    push, jerk = push_and_jerk(plan, f, y, deformation)
+    if not push > 0.0:
+        return False
+    lasts = 2.0 * returned / (push * (1.0 - e))
+    return lasts * plan[at.RATE] <= _CHATTERED and lasts * abs(jerk) <= _CHATTERED * push
+
+
+@kernel
+def halt(plan: Vector, y: Vector) -> None:
+    """Take the closing speeds from all resting stops, by the least change in energy."""
+    n = int(plan[at.MASSES])
+    r, listed = int(plan[at.RESTING]), int(plan[at.RESTING_LIST])
+    response, stops = int(plan[at.RESPONSE]), int(plan[at.STOP])
+    impulses = beyond(plan, int(plan[at.SCRATCH]))
+    for j in range(r):
+        impulses[j] = closing(plan, int(plan[listed + j]), beyond(y, n))
+    hold(plan, impulses)
+    for j in range(r):
+        f = int(plan[listed + j])
+        one = stops + f * at.STOP_WIDTH
+        for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
+            y[n + i] -= plan[response + f * n + i] * impulses[j]
+
+
+@kernel
+def impact(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> int:
+    """Newton's law of restitution at a rigid stop; returns the mode."""
+    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+    zeros = beyond(plan, int(plan[at.ZEROS]))
+    coupling = beyond(plan, int(plan[at.COUPLING]) + f * count)
+    v = beyond(y, n)
+    e: float = plan[one + at.RESTITUTION]
+    speed = closing(plan, f, v)
+    if speed <= _NOISE * speeds(plan, f, v):
+        e = 0.0
+    decided = False
+    for g in range(count):
+        if g != f and coupling[g] != 0.0:
+            rigid = plan[int(plan[at.STOP]) + g * at.STOP_WIDTH + at.KIND] == at.RIGID
+            decided |= rigid and (zeros[g] > 0.0 or mode >> g & 1 == 1)
+            zeros[g] = min(zeros[g], 1.0)
+    if decided:
+        plan[at.ORDERED] += 1.0
+    # Left without speed, and pressed before anything could part them: the force is only beginning.
+    pressed = zeros[f] >= 2.0
+    if pressed or settles(plan, f, max(e * speed, 0.0), e, y, deformation):
+        mode |= 1 << f
+        enter_mode(plan, mode)
+        halt(plan, y)
+        return mode
+    kick = (1.0 + e) * speed / coupling[f]
+    response = beyond(plan, int(plan[at.RESPONSE]) + f * n)
+    for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
+        v[i] -= response[i] * kick
+    zeros[f] = 1.0 if e * speed > 0.0 else 2.0
+    # Who rested on a body that was hit is hit in turn, or left.
+    for j in range(int(plan[at.RESTING])):
+        g = int(plan[int(plan[at.RESTING_LIST]) + j])
+        if coupling[g] != 0.0 and abs(closing(plan, g, v)) > _NOISE * speeds(plan, g, v):
+            mode &= ~(1 << g)
+            zeros[g] = 1.0
+    return mode
+
+
+@apart
+def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> tuple[int, int]:
+    """Go through the event of a stop whose watched function is zero; the mode and what it was."""
+    count = int(plan[at.STOPS])
+    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+    zeros = beyond(plan, int(plan[at.ZEROS]))
+    coupling = beyond(plan, int(plan[at.COUPLING]) + f * count)
+    rigid = plan[one + at.KIND] == at.RIGID
+    dashpot = plan[one + at.RELAXATION] < math.inf
+    bit = 1 << f
+    if mode >> f & 1:
+        zeros[f] = 3.0
+        event = at.RISE
+        if not rigid:
+            event = at.RELEASE
+            if not dashpot or deformation[f] < 0.0:
+                deformation[f] = 0.0
+            zeros[f] = 2.0 if deformation[f] > 0.0 else 1.0
+        return mode & ~bit, event
+    if rigid:
+        return impact(plan, mode, f, y, deformation), at.IMPACT
+    # A dashpot's force begins with a jump, a spring's with zero.
+    zeros[f] = 0.0 if dashpot else 1.0
+    if not dashpot:
+        deformation[f] = 0.0
+    else:
+        for g in range(count):
+            if g != f and coupling[g] != 0.0:
+                zeros[g] = min(zeros[g], 2.0)
+    return mode | bit, at.CONTACT
+
+
+@kernel
+def pack_fresh(plan: Vector) -> float:
+    """The zeros by construction as one number: 4 (stop + 1) + order, at most six of them."""
+    zeros = beyond(plan, int(plan[at.ZEROS]))
+    packed, kept = 0, 0
+    for f in range(int(plan[at.STOPS])):
+        if zeros[f] > 0.0 and kept < _KEPT:
+            packed = packed * 256 + 4 * (f + 1) + int(zeros[f])
+            kept += 1
+    return float(packed)
+
+
+@kernel
+def unpack_fresh(plan: Vector, packed: float) -> None:
+    """The reverse of `pack_fresh`."""
+    zeros, count = beyond(plan, int(plan[at.ZEROS])), int(plan[at.STOPS])
+    for f in range(count):
+        zeros[f] = 0.0
+    rest = int(packed)
+    while rest > 0:
+        f = rest % 256 // 4 - 1
+        if f < count:
+            zeros[f] = float(rest % 4)
+        rest //= 256

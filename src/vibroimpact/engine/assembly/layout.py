@@ -1,0 +1,117 @@
+"""Where things are in a plan and in a state.
+
+A plan begins with whole numbers, kept as floats: sizes, and the places of blocks.
+A state is [mode, fresh, u (n), v (n), deformation (a number for each stop), age, s, c]. `fresh`
+tells which watched functions are zero by construction (see `events.pack_fresh`).
+"""
+
+from __future__ import annotations
+
+(
+    MASSES,
+    STOPS,
+    WAVES,
+    RECORD,
+    POWER,
+    INTERVAL,
+    # Of the forcing.
+    AMPLITUDE,
+    OMEGA,
+    HIGHEST,
+    # Blocks of the model.
+    ROWS,
+    STIFFNESS,
+    DAMPING,
+    SHAPE,
+    PUSH,
+    CONSTANT,
+    STOP,
+    RESPONSE,
+    COUPLING,
+    ROW_SUMS,
+    ECONOMY,
+    # What the mode says.
+    MODE,
+    RATE,
+    PRESSED,
+    RESTING,
+    PRESSED_LIST,
+    RESTING_LIST,
+    FACTOR,
+    # The motion.
+    Y,
+    DEFORMATION,
+    ZEROS,
+    AGE,
+    LEVEL,
+    # The last stretch.
+    STRETCH_MODE,
+    EVENT,
+    EVENT_STOP,
+    LENGTH,
+    PIECES,
+    START,
+    START_DEFORMATION,
+    END,
+    END_DEFORMATION,
+    # The Taylor series of a piece.
+    PIECE,
+    PIECE_LENGTH,
+    ORDER,
+    SERIES,
+    WAVE_SERIES,
+    FORCE_SERIES,
+    # Rooms.
+    BERNSTEIN,
+    ROOM,
+    WIDTHS,
+    SCRATCH,
+    # Counters.
+    STEPS,
+    SPLITS,
+    ORDERED,
+    # Tables.
+    SLOTS,
+    MOST_PRESSED,
+    TABLE,
+    TABLE_SIZE,
+    KEYS,
+    SLOT_OF,
+    USED,
+    TABLE_NOW,
+    TABLE_ROOM,
+    RULES,
+    MOVED,
+    ACTUAL_MODE,
+    PIECE_Y,
+    PIECE_DEFORMATION,
+    SHAKEN,
+    UNDECIDED,
+    COEFFICIENTS,
+) = range(71)
+HEADER = 72
+
+LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION, FIRST, BEHIND = (
+    range(10)
+)
+"""Of a stop: its bodies (n for the ground), gap (m), kind, N/m, N s/m, –, κ (1/s; inf without a
+dashpot), and the range of masses on which it acts at once."""
+STOP_WIDTH = 10
+
+KELVIN_VOIGT, RIGID = 0, 1
+
+DEGREE = 15
+TERMS = 28
+"""Taylor coefficients, at most."""
+STEP = 2.5
+"""h ρ; the remainder is then 2.5²⁸/28! = 5e-19 of the state."""
+
+LIMIT, CONTACT, IMPACT, RELEASE, RISE, GIVEN_UP = range(6)
+"""What ends a stretch: its limit (or a step), a Kelvin–Voigt stop is met, a rigid one is hit (or
+comes to rest: its bit is set then), a Kelvin–Voigt stop is left, a rest ends, or the motion is no
+longer finite."""
+
+STATE_MODE, STATE_FRESH, PARTS = range(3)
+
+MOST_STOPS = 52
+"""Bits of a mode, which is kept as a float."""

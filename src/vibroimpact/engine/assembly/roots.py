@@ -1,0 +1,167 @@
+"""The first root of a Bernstein polynomial plus an exponential that decays, with proof.
+
+f(x) = Σ b_j B_j(x) + d exp(−X x) on [0, 1], d ≥ 0. On a piece, the exponential is at least the
+parabola that touches it at the left end and meets it at the right one, which has three terms in
+Bernstein form. If all coefficients of the lower bound are positive, f has no root; if the slope's
+upper bound is negative everywhere and f is not positive at the end, it has one. Otherwise the piece
+is halved. What goes below zero by no more than rounding, or for less than 2⁻⁴⁶ of the step, is a
+touch and is passed over.
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond
+
+NONE = 9.0
+_D = at.DEGREE
+_BINOMIALS = tuple(float(math.comb(at.DEGREE, i)) for i in range(at.DEGREE + 1))
+_NARROW = 2.0**-46
+_MOST_SPLITS = 10_000
+"""No polynomial needs so many but by an error; `UNDECIDED` counts those that do."""
+_LONG = 4.0
+"""Relaxation times on a piece from which its memory is left out of the lower bound."""
+
+
+@apart
+def first_fall(
+    b: Vector, d: float, x_rate: float, end: float, zeros: int, noise: float, plan: Vector
+) -> float:
+    """The first x ≤ end at which f falls through zero, or NONE; b is overwritten.
+
+    `zeros`: the order of the zero at 0 that is there by construction; `noise`: by how much f may be
+    below zero by rounding.
+    """
+    if zeros == 0 and b[0] + d <= 0.0:  # rounding has put it below zero, or it is on its way there
+        if _D * (b[1] - b[0]) - x_rate * d < -noise:
+            return 0.0
+        b[0] = -d
+        zeros = 1
+    room, widths = int(plan[at.ROOM]), int(plan[at.WIDTHS])
+    left, width, waiting, splits = 0.0, 1.0, 0, 0
+    while left < end:
+        e = d * math.exp(-x_rate * left) if d > 0.0 else 0.0
+        x = x_rate * width
+        known = zeros if left == 0.0 else 0
+        last = e * math.exp(-x) if e > 0.0 else 0.0
+        free = positive(b, e, x, last, known, noise)
+        if not free and b[_D] + last <= 0.0 and falling(b, e, x, last, known):
+            if known > 0:
+                return 0.0
+            root = left + width * only_root(b, e, x)
+            return root if root <= end else NONE
+        if not free and width > _NARROW:
+            splits += 1
+            plan[at.SPLITS] += 1.0
+            if splits > _MOST_SPLITS:
+                plan[at.UNDECIDED] += 1.0
+                return NONE
+            # With a zero at the left, the exponential must be followed there to its curvature.
+            cut = 3.0 / x if e > 0.0 and x > _LONG and known > 0 else 0.5
+            split(b, cut, beyond(plan, room + 16 * waiting))
+            plan[widths + waiting] = width * (1.0 - cut)
+            width *= cut
+            waiting += 1
+            continue
+        if waiting == 0:
+            return NONE
+        waiting -= 1
+        left += width
+        width = plan[widths + waiting]
+        for j in range(_D + 1):
+            b[j] = plan[room + 16 * waiting + j]
+    return NONE
+
+
+@kernel
+def positive(b: Vector, e: float, x: float, last: float, known: int, noise: float) -> bool:
+    """Whether f is proved positive on (0, 1], but for its known zeros at 0."""
+    found = True
+    if e == 0.0 or x > _LONG:
+        if e > 0.0 and known > 0:
+            return False
+        for j in range(_D + 1):
+            found &= (b[j] > -noise) | (j < known)
+        return found
+    if x > 0.1:
+        bowl = last - e * (1.0 - x)
+    else:
+        bowl = e * x * x * (0.5 - x * (1 / 6 - x * (1 / 24 - x * (1 / 120 - x / 720))))
+    for j in range(_D + 1):
+        line = j * (1.0 / _D)
+        square = line * ((j - 1) * (1.0 / (_D - 1)))
+        found &= (b[j] + e * (1.0 - x * line) + bowl * square > -noise) | (j < known)
+    return found
+
+
+@kernel
+def falling(b: Vector, e: float, x: float, last: float, known: int) -> bool:
+    """Whether f is proved to fall all the way; a slope that is zero by construction may be so."""
+    found = True
+    for j in range(_D):
+        found &= (_D * (b[j + 1] - b[j]) - x * last < 0.0) | ((e == 0.0) & (j < known - 1))
+    return found
+
+
+@kernel
+def split(b: Vector, cut: float, right: Vector) -> None:
+    """De Casteljau: b becomes the part before the cut, `right` the part after it."""
+    rest = 1.0 - cut
+    for k in range(_D):
+        right[_D - k] = b[_D]
+        for j in range(_D, k, -1):
+            b[j] = b[j] * cut + rest * b[j - 1]
+    right[0] = b[_D]
+
+
+@kernel
+def only_root(b: Vector, e: float, x: float) -> float:
+    """The root of a falling f in [0, 1], by Newton's method within a bracket."""
+    low, high, t = 0.0, 1.0, 1.0
+    before = b[0] + e
+    for j in range(1, _D + 1):  # where the control polygon crosses
+        here = b[j] + (e * math.exp(-x * j / _D) if e > 0.0 else 0.0)
+        if here <= 0.0:
+            t = (j - 1 + before / (before - here)) / _D if before > 0.0 else 0.0
+            break
+        before = here
+    for _ in range(60):
+        f, slope = value(b, t)
+        if e > 0.0:
+            memory = e * math.exp(-x * t)
+            f += memory
+            slope -= x * memory
+        if f > 0.0:
+            low = t
+        else:
+            high = t
+        new = t - f / slope if slope < 0.0 else low
+        if not low <= new <= high:
+            new = 0.5 * (low + high)
+        if abs(new - t) <= 1e-9 * max(t, 0.0625):  # the next step would be below rounding
+            return new
+        t = new
+    return t
+
+
+@kernel
+def value(b: Vector, x: float) -> tuple[float, float]:
+    """Value and slope of a Bernstein polynomial, by Horner's rule in x / (1 − x)."""
+    near = x <= 0.5
+    small = x if near else 1.0 - x
+    ratio = small / (1.0 - small)
+    rest = 1.0 - small
+    total, slope, scale = 0.0, 0.0, 1.0
+    # Σ C(D, j) b_j r^j and its derivative.
+    for i in range(_D, -1, -1):
+        slope = slope * ratio + total
+        total = total * ratio + _BINOMIALS[i] * (b[i] if near else b[_D - i])
+    for _ in range(_D - 1):
+        scale *= rest
+    # p = rest^D S(r), dr/dx = 1 / rest²
+    p = scale * rest * total
+    p1 = scale * (slope / rest - _D * total)
+    return p, p1 if near else -p1

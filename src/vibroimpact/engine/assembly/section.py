@@ -1,0 +1,146 @@
+"""States at a section: what they are made of, disturbed and put in order (see `engine.flow`)."""
+
+from __future__ import annotations
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.advance import load_motion, next_stretch, store_motion
+from vibroimpact.engine.assembly.events import closing
+from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.assembly.tangent import carry_disturbances
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.memory import beyond
+
+_FORGOTTEN = 9.0
+"""What relaxes by more powers of e in a cycle is another's memory no more."""
+_WORK_LIMIT = 1e7
+"""Steps that one cycle may take."""
+
+
+@kernel
+def too_much_work(plan: Vector, period: float) -> int:
+    """Whether one cycle may take too long: by the rate with all bumpers pressed."""
+    mode = 0
+    for f in range(int(plan[at.STOPS])):
+        if plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] == at.KELVIN_VOIGT:
+            mode |= 1 << f
+    enter_mode(plan, mode)
+    return 1 if not plan[at.RATE] * period < at.STEP * _WORK_LIMIT else 0
+
+
+@kernel
+def stiff_rate(plan: Vector) -> float:
+    """What makes a velocity of a displacement (1/s): the rate in flight."""
+    enter_mode(plan, 0)
+    rate: float = plan[at.RATE]
+    return rate
+
+
+@kernel
+def parts(plan: Vector) -> int:
+    """u, v and a deformation of each stop."""
+    return 2 * int(plan[at.MASSES]) + int(plan[at.STOPS])
+
+
+@kernel
+def units(plan: Vector, units: Vector) -> None:
+    """Write what makes a velocity of each part."""
+    n, rate = int(plan[at.MASSES]), stiff_rate(plan)
+    for i in range(parts(plan)):
+        units[i] = 1.0 if n <= i < 2 * n else rate
+
+
+@kernel
+def size(plan: Vector, state: Vector) -> float:
+    """The size of a motion, as a velocity (m/s)."""
+    n, rate, most = int(plan[at.MASSES]), stiff_rate(plan), 0.0
+    for i in range(n):
+        most = max(most, rate * abs(state[at.PARTS + i]), abs(state[at.PARTS + n + i]))
+    return most
+
+
+@kernel
+def place(plan: Vector, state: Vector) -> None:
+    """Make of a state the nearest that can be, and its mode of its parts.
+
+    A rigid stop that is passed moves its bodies apart, in the ratio of their inertias; rest stays
+    where the bodies touch without closing speed.
+    """
+    n, count, mode = int(plan[at.MASSES]), int(plan[at.STOPS]), int(state[at.STATE_MODE])
+    u, v = beyond(state, at.PARTS), beyond(state, at.PARTS + n)
+    deformation = beyond(state, at.PARTS + 2 * n)
+    found = 0
+    for f in range(count):
+        one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+        reach = closing(plan, f, u) - plan[one + at.GAP]
+        d = max(deformation[f], 0.0)
+        if plan[one + at.KIND] == at.RIGID:
+            d = 0.0
+            if reach > 0.0:
+                push = reach / plan[int(plan[at.COUPLING]) + f * count + f]
+                for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
+                    u[i] -= plan[int(plan[at.RESPONSE]) + f * n + i] * push
+            if mode >> f & 1 and reach >= 0.0 and closing(plan, f, v) == 0.0:
+                found |= 1 << f
+        else:
+            dashpot = plan[one + at.STOP_DAMPING]
+            if mode >> f & 1 or reach > d:
+                force = plan[one + at.STOP_STIFFNESS] * reach + dashpot * closing(plan, f, v)
+                d = max(reach, 0.0)
+                if reach >= 0.0 and force >= 0.0:
+                    found |= 1 << f
+            if dashpot == 0.0 and not found >> f & 1:
+                d = 0.0
+        deformation[f] = d
+    state[at.STATE_MODE], state[at.STATE_FRESH] = float(found), 0.0
+    state[at.PARTS + 2 * n + count] = 0.0
+
+
+@kernel
+def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) -> float:
+    """Change a part by so much; return by how much it has changed.
+
+    0 where the part does not outlive a period by itself.
+    """
+    n, mode = int(plan[at.MASSES]), int(state[at.STATE_MODE])
+    if part >= 2 * n:
+        f = part - 2 * n
+        one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+        if mode >> f & 1 or plan[one + at.KIND] == at.RIGID:
+            return 0.0
+        if not plan[one + at.RELAXATION] * period < _FORGOTTEN:
+            return 0.0
+    before: float = state[at.PARTS + part]
+    state[at.PARTS + part] = before + by
+    place(plan, state)
+    changed: float = state[at.PARTS + part] - before
+    return changed
+
+
+@kernel
+def tangent(
+    plan: Vector,
+    state: Vector,
+    s: float,
+    c: float,
+    length: float,
+    max_events: int,
+    q: Vector,
+    rows: int,
+) -> int:
+    """As `cycle`, carrying disturbances along, the rows of q."""
+    load_motion(plan, state, s, c)
+    t, events = 0.0, 0
+    while t < length:
+        left = length - t
+        event = next_stretch(plan, left)
+        if event == at.GIVEN_UP:
+            events = max_events + 1
+            break
+        carry_disturbances(plan, q, rows)
+        t = length if plan[at.LENGTH] == left else t + plan[at.LENGTH]
+        if event != at.LIMIT:
+            events += 1
+            if events > max_events:
+                break
+    store_motion(plan, state)
+    return events

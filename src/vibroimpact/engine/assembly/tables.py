@@ -1,0 +1,385 @@
+"""Tables of a mode: its watched functions and its state at any time as products with the state.
+
+x is y and the deformations of the pressed stops, N numbers. A table has rows of eight: eight
+results, for each number of x (`vectors.combine`). Propagators are kept less the identity, so that
+no digits are lost. Each column is made from the Taylor series of a unit vector.
+
+- leaps of 1, 2, 4, 8 steps; propagators of j/32 and j/1024 of a step; four derivatives of v: any
+  time is three products;
+- of each watched function on a step, the 16 Bernstein coefficients;
+- of each on a leap, 8 coefficients of an approximation of degree 7, and a row of bounds: on each
+  step of the leap, approximation less function has coefficients of at most Σ bound_i |x_i|. If all
+  8 are above that, there is no root.
+"""
+
+from __future__ import annotations
+
+import math
+from math import comb
+from typing import Any
+
+import numpy as np
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.series import expand_state, gain, to_bernstein, watched_series
+from vibroimpact.engine.assembly.vectors import combine
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond
+
+LEVELS = 4
+_FRACTIONS = 32
+_JETS = 4
+_LOW = 7
+_NODES = 8
+# Places in `rules`.
+_AT_NODES = 0
+_FIT = LEVELS * _NODES * 16
+_LIFT = _FIT + 64
+_RULES = _LIFT + 128
+# Of a table.
+STEP_LENGTH, WIDTH, LEAPS, FRACTION, FINE, JETS, FULL, LOW, BOUND = range(9)
+_HEAD = 16
+
+
+def table_size(n: int, stops: int, waves: int) -> int:
+    """Numbers in the tables of one mode."""
+    width = 2 * n + waves + 1 + stops
+    square = -(-width // 8) * 8 * width
+    rows = (LEVELS + 2 * _FRACTIONS) * square + -(-_JETS * n // 8) * 8 * width
+    return _HEAD + rows + stops * width * (16 + LEVELS * (8 + 1)) + 8
+
+
+def rules() -> Any:
+    """Numbers with which approximations of degree 7 are made, see `_AT_NODES`, `_FIT`, `_LIFT`."""
+
+    def basis(d: int, x: float) -> list[float]:
+        return [comb(d, j) * x**j * (1.0 - x) ** (d - j) for j in range(d + 1)]
+
+    nodes = 0.5 - 0.5 * np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
+    at_nodes = [
+        basis(at.DEGREE, x * 2**level - math.floor(x * 2**level))
+        for level in range(LEVELS)
+        for x in nodes
+    ]
+    fit = np.linalg.inv(np.array([basis(_LOW, x) for x in nodes]))
+    d = at.DEGREE
+    lift = [
+        [
+            comb(_LOW, i) * comb(d - _LOW, j - i) / comb(d, j) if 0 <= j - i <= d - _LOW else 0.0
+            for i in range(_LOW + 1)
+        ]
+        for j in range(d + 1)
+    ]
+    return np.concatenate([np.ravel(at_nodes), np.ravel(fit), np.ravel(lift), nodes])
+
+
+@apart
+def table_of_mode(plan: Vector) -> int:
+    """Where the tables of the present mode begin, made if need be; 0 if it has none."""
+    known = int(plan[at.TABLE_NOW])
+    if known >= 0:
+        return known
+    mode = int(plan[at.MODE])
+    bits, rest = 0, mode
+    while rest > 0:
+        rest &= rest - 1
+        bits += 1
+    place = 0
+    if bits <= int(plan[at.MOST_PRESSED]):
+        size = 2 * int(plan[at.SLOTS])
+        keys, slots = int(plan[at.KEYS]), int(plan[at.SLOT_OF])
+        k = (mode * 40503 + (mode >> 16) * 2531) % size
+        while plan[keys + k] >= 0.0 and int(plan[keys + k]) != mode:
+            k = (k + 1) % size
+        if plan[keys + k] < 0.0:
+            plan[keys + k], plan[slots + k] = float(mode), plan[at.USED]
+            plan[at.USED] += 1.0
+            place = int(plan[at.TABLE]) + int(plan[slots + k]) * int(plan[at.TABLE_SIZE])
+            make_tables(plan, place)
+        place = int(plan[at.TABLE]) + int(plan[slots + k]) * int(plan[at.TABLE_SIZE])
+    plan[at.TABLE_NOW] = float(place)
+    return place
+
+
+@kernel
+def gather(plan: Vector, x: Vector) -> None:
+    """Write x, and after it the magnitudes."""
+    base = 2 * int(plan[at.MASSES]) + int(plan[at.WAVES]) + 1
+    y, p = int(plan[at.Y]), int(plan[at.PRESSED])
+    for i in range(base):
+        x[i] = plan[y + i]
+    deformation, listed = int(plan[at.DEFORMATION]), int(plan[at.PRESSED_LIST])
+    for j in range(p):
+        x[base + j] = plan[deformation + int(plan[listed + j])]
+
+
+@apart
+def make_tables(plan: Vector, place: int) -> None:
+    """Write the tables of the present mode."""
+    n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
+    mode, p = int(plan[at.MODE]), int(plan[at.PRESSED])
+    base = 2 * n + w + 1
+    width = base + p
+    blocks = (width + 7) // 8
+    square = blocks * width * 8
+    h = at.STEP / max(plan[at.RATE], 1e-200)
+    if plan[at.RECORD] != 0.0:
+        h = plan[at.INTERVAL] / math.ceil(plan[at.INTERVAL] / h)
+    table = beyond(plan, place)
+    table[STEP_LENGTH], table[WIDTH] = h, float(width)
+    leaps = place + _HEAD
+    fraction = leaps + LEVELS * square
+    fine = fraction + _FRACTIONS * square
+    jets = fine + _FRACTIONS * square
+    full = jets + (_JETS * n + 7) // 8 * 8 * width
+    low = full + count * 16 * width
+    bound = low + LEVELS * count * 8 * width
+    table[LEAPS], table[FRACTION], table[FINE] = float(leaps), float(fraction), float(fine)
+    table[JETS], table[FULL], table[LOW], table[BOUND] = (
+        float(jets),
+        float(full),
+        float(low),
+        float(bound),
+    )
+    for i in range(leaps, bound + LEVELS * count * width):
+        plan[i] = 0.0
+    unit = int(plan[at.TABLE_ROOM])
+    pressed = unit + width + 8
+    row = 2 * (n + 1)
+    series, waves = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES])
+    a, b = beyond(plan, int(plan[at.COEFFICIENTS])), beyond(plan, int(plan[at.BERNSTEIN]))
+    for column in range(width):
+        for i in range(width):
+            plan[unit + i] = 1.0 if i == column else 0.0
+        for j in range(p):
+            f = int(plan[int(plan[at.PRESSED_LIST]) + j])
+            plan[pressed + f] = plan[unit + base + j]
+        expand_state(plan, beyond(plan, unit), beyond(plan, pressed), h)
+        for i in range(width):
+            if i < 2 * n:
+                block, stride, of = series, row, i if i < n else i + 1
+            else:
+                block, stride, of = waves, w, i - 2 * n
+            for k in range(2 * _FRACTIONS):
+                tau = k / _FRACTIONS if k < _FRACTIONS else (k - _FRACTIONS) / _FRACTIONS**2
+                start = (fraction if k < _FRACTIONS else fine) + k % _FRACTIONS * square
+                if i < base - 1:
+                    value = gain(plan, block, stride, of, tau)
+                else:
+                    value = _deformed(plan, i - base, tau) if i >= base else 0.0
+                plan[start + (i // 8 * width + column) * 8 + i % 8] = value
+            value = 0.0
+            if i < base - 1:
+                value = gain(plan, block, stride, of, 1.0)
+            elif i >= base:
+                value = _deformed(plan, i - base, 1.0)
+            plan[leaps + (i // 8 * width + column) * 8 + i % 8] = value
+        for j in range(_JETS):
+            for i in range(n):
+                r = j * n + i
+                value = plan[series + (j + 1) * row + n + 1 + i]
+                plan[jets + (r // 8 * width + column) * 8 + r % 8] = value
+        for f in range(count):
+            watched_series(plan, f, mode, a)
+            to_bernstein(plan, a, b)
+            for r in range(16):
+                plan[full + ((2 * f + r // 8) * width + column) * 8 + r % 8] = b[r]
+    for level in range(1, LEVELS):
+        _compose(plan, leaps + (level - 1) * square, leaps + level * square, width)
+    _screen(plan, place)
+
+
+@kernel
+def _deformed(plan: Vector, p: int, tau: float) -> float:
+    """Gain of a pressed stop's deformation."""
+    row = 2 * (int(plan[at.MASSES]) + 1)
+    one = int(plan[at.STOP]) + int(plan[int(plan[at.PRESSED_LIST]) + p]) * at.STOP_WIDTH
+    series = int(plan[at.SERIES])
+    left = gain(plan, series, row, int(plan[one + at.LEFT]), tau)
+    right = gain(plan, series, row, int(plan[one + at.RIGHT]), tau)
+    return left - right
+
+
+@kernel
+def _compose(plan: Vector, source: int, target: int, width: int) -> None:
+    """Twice a propagator, both less the identity: 2 E + E E."""
+    for column in range(width):
+        for i in range(width):
+            at_i = (i // 8 * width) * 8 + i % 8
+            value = 0.0
+            for q in range(width):
+                cell = source + (q // 8 * width + column) * 8 + q % 8
+                value += plan[source + at_i + q * 8] * plan[cell]
+            value += 2.0 * plan[source + at_i + column * 8]
+            plan[target + at_i + column * 8] = value
+
+
+@kernel
+def _screen(plan: Vector, place: int) -> None:
+    """Write the approximations of degree 7 on the leaps, with the bounds of their errors."""
+    count = int(plan[at.STOPS])
+    width = int(plan[place + WIDTH])
+    rules = int(plan[at.RULES])
+    nodes = rules + _RULES
+    full, low, bound = int(plan[place + FULL]), int(plan[place + LOW]), int(plan[place + BOUND])
+    leaps = int(plan[place + LEAPS])
+    room = int(plan[at.TABLE_ROOM]) + 2 * (width + count + 8)
+    # The exact rows on each step of the longest leap: 16 rows of width numbers for each.
+    exact = room
+    steps = 1 << (LEVELS - 1)
+    values = exact + steps * 16 * width
+    part = values + 16
+    for f in range(count):
+        for r in range(16):
+            for c in range(width):
+                plan[exact + r * width + c] = plan[
+                    full + ((2 * f + r // 8) * width + c) * 8 + r % 8
+                ]
+        for q in range(1, steps):
+            before, here = exact + (q - 1) * 16 * width, exact + q * 16 * width
+            for r in range(16):
+                for c in range(width):
+                    value = plan[before + r * width + c]
+                    for k in range(width):
+                        cell = leaps + (k // 8 * width + c) * 8 + k % 8
+                        value += plan[before + r * width + k] * plan[cell]
+                    plan[here + r * width + c] = value
+        for level in range(LEVELS):
+            number = level * count + f
+            pieces = 1 << level
+            for c in range(width):
+                for i in range(_NODES):
+                    q = int(plan[nodes + i] * pieces)
+                    value = 0.0
+                    weights = rules + _AT_NODES + (level * _NODES + i) * 16
+                    for r in range(16):
+                        value += plan[weights + r] * plan[exact + (q * 16 + r) * width + c]
+                    plan[values + i] = value
+                for i in range(8):
+                    value = 0.0
+                    for k in range(8):
+                        value += plan[rules + _FIT + 8 * i + k] * plan[values + k]
+                    plan[low + (number * width + c) * 8 + i] = value
+                most = 0.0
+                for q in range(pieces):
+                    _restrict(
+                        beyond(plan, low + (number * width + c) * 8),
+                        q / pieces,
+                        (q + 1) / pieces,
+                        beyond(plan, part),
+                    )
+                    for r in range(16):
+                        value = plan[exact + (q * 16 + r) * width + c]
+                        for i in range(8):
+                            value -= plan[rules + _LIFT + 8 * r + i] * plan[part + i]
+                        most = max(most, abs(value))
+                plan[bound + number * width + c] = most
+
+
+@kernel
+def _restrict(b: Vector, left: float, right: float, out: Vector) -> None:
+    """Bernstein coefficients of degree 7 on a part of the interval, by blossoms."""
+    room = beyond(out, 8)
+    for j in range(_LOW + 1):
+        for i in range(_LOW + 1):
+            room[i] = b[i]
+        for k in range(_LOW):
+            t = right if k < j else left
+            for i in range(_LOW - k):
+                room[i] = (1.0 - t) * room[i] + t * room[i + 1]
+        out[j] = room[0]
+
+
+@kernel
+def is_clear(plan: Vector, place: int, level: int, f: int, x: Vector, room: Vector) -> bool:
+    """Whether a watched function is proved positive on a leap."""
+    width = int(plan[place + WIDTH])
+    number = level * int(plan[at.STOPS]) + f
+    combine(beyond(plan, int(plan[place + LOW]) + number * width * 8), 8, x, width, room)
+    least = min(
+        min(min(room[0], room[1]), min(room[2], room[3])),
+        min(min(room[4], room[5]), min(room[6], room[7])),
+    )
+    if not least > 0.0:
+        return False
+    bounds = beyond(plan, int(plan[place + BOUND]) + number * width)
+    error = 0.0
+    for i in range(width):
+        error += bounds[i] * abs(x[i])
+    found: bool = least > error
+    return found
+
+
+@kernel
+def exact_rows(plan: Vector, place: int, f: int, x: Vector, b: Vector) -> None:
+    """Write the Bernstein coefficients of a watched function on a step."""
+    width = int(plan[place + WIDTH])
+    full = int(plan[place + FULL]) + 2 * f * width * 8
+    combine(beyond(plan, full), 8, x, width, b)
+    combine(beyond(plan, full + width * 8), 8, x, width, beyond(b, 8))
+
+
+@kernel
+def propagate(plan: Vector, matrix: int, width: int, x: Vector, room: Vector) -> None:
+    """X += E x."""
+    blocks = (width + 7) // 8
+    for k in range(blocks):
+        combine(beyond(plan, matrix + k * width * 8), 8, x, width, beyond(room, 8 * k))
+    for i in range(width):
+        x[i] += room[i]
+
+
+@kernel
+def travel_by_tables(plan: Vector, place: int, time: float, x: Vector, room: Vector) -> None:
+    """Carry x on over any time up to the longest leap."""
+    n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
+    width = int(plan[place + WIDTH])
+    square = (width + 7) // 8 * width * 8
+    h = plan[place + STEP_LENGTH]
+    left = time
+    for level in range(LEVELS - 1, -1, -1):
+        if left >= h * (1 << level):
+            propagate(plan, int(plan[place + LEAPS]) + level * square, width, x, room)
+            left -= h * (1 << level)
+    if left <= 0.0:
+        return
+    j = int(left / h * _FRACTIONS**2 + 0.5)
+    coarse, fine = j // _FRACTIONS, j % _FRACTIONS
+    if coarse == _FRACTIONS:
+        propagate(plan, int(plan[place + LEAPS]), width, x, room)
+    elif coarse > 0:
+        propagate(plan, int(plan[place + FRACTION]) + coarse * square, width, x, room)
+    if fine > 0:
+        propagate(plan, int(plan[place + FINE]) + fine * square, width, x, room)
+    t = left - h * j * (1.0 / _FRACTIONS**2)
+    if t == 0.0:
+        return
+    for k in range((_JETS * n + 7) // 8):
+        combine(
+            beyond(plan, int(plan[place + JETS]) + k * width * 8), 8, x, width, beyond(room, 8 * k)
+        )
+    tau = t / h
+    base = 2 * n + w + 1
+    gains = beyond(room, (_JETS * n + 7) // 8 * 8)
+    for i in range(n):
+        a, b, c, d = room[i], room[n + i], room[2 * n + i], room[3 * n + i]
+        gains[i] = t * (x[n + i] + tau * (a / 2 + tau * (b / 3 + tau * (c / 4 + tau * (d / 5)))))
+        x[i] += gains[i]
+        x[n + i] += tau * (a + tau * (b + tau * (c + tau * d)))
+    gains[n] = 0.0
+    for p in range(int(plan[at.PRESSED])):
+        f = int(plan[int(plan[at.PRESSED_LIST]) + p])
+        one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+        x[base + p] += gains[int(plan[one + at.LEFT])] - gains[int(plan[one + at.RIGHT])]
+    if plan[at.RECORD] != 0.0:
+        x[2 * n] += t * x[2 * n + 1]
+        return
+    for q in range(w // 2):
+        k = 2 * n + 2 * q
+        angle = plan[at.OMEGA] * (q + 1) * t
+        square_ = angle * angle
+        sine = angle * (1.0 - square_ * (1 / 6 - square_ * (1 / 120)))
+        less = -square_ * (0.5 - square_ * (1 / 24))
+        s, c = x[k], x[k + 1]
+        x[k] += s * less + c * sine
+        x[k + 1] += c * less - s * sine

@@ -1,0 +1,143 @@
+"""What becomes of small disturbances: the exact tangent flow.
+
+A disturbance is a row (δu, δv, δ of each stop's deformation) at a fixed forcing phase. Within a
+mode it obeys the homogeneous equations. At an event, the disturbed motion is late by
+δt = −δg/ġ, where g is the watched function:
+
+- A Kelvin–Voigt stop is met: (δu, δv) += (f⁻ − f⁺) δt. As the force begins with −c ġ, the closing
+  speed cancels: δv += M⁻¹w c δg. Then δ of the pressed deformation is w·δu.
+- It is left: both vector fields agree, nothing happens. The same where a rest ends.
+- Impact: R(δy + f⁻ δt) − f⁺ δt, R x = x − (1 + e) M⁻¹w (w·x)/(wᵀM⁻¹w) on velocities.
+- Rest begins: the same with the projection onto what all resting stops allow.
+"""
+
+from __future__ import annotations
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.channels import (
+    close_stretch,
+    fade,
+    open_stretch,
+    piece_length,
+    pieces,
+)
+from vibroimpact.engine.assembly.events import accelerations, closing, halt
+from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.assembly.series import expand_state, travel_by_series
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond
+
+
+@kernel
+def tie(plan: Vector, row: Vector) -> None:
+    """A pressed stop's disturbance is that of its closing displacement; a resting one has none."""
+    n, mode = int(plan[at.MASSES]), int(plan[at.MODE])
+    for f in range(int(plan[at.STOPS])):
+        one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+        if plan[one + at.KIND] == at.RIGID:
+            row[2 * n + f] = 0.0
+        elif mode >> f & 1:
+            row[2 * n + f] = closing(plan, f, row)
+        elif plan[one + at.STOP_DAMPING] == 0.0:
+            row[2 * n + f] = 0.0
+
+
+@kernel
+def unit_disturbances(plan: Vector, mode: int, q: Vector) -> None:
+    """Write a unit disturbance of each part into the rows of q, those that a mode allows."""
+    enter_mode(plan, mode)
+    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+    width = 2 * n + count
+    for i in range(width):
+        row = beyond(q, i * width)
+        for j in range(width):
+            row[j] = 1.0 if i == j else 0.0
+        tie(plan, row)
+
+
+@apart
+def carry_disturbances(plan: Vector, q: Vector, rows: int) -> None:
+    """Carry the rows of q through the last stretch and its event."""
+    n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
+    width = 2 * n + count
+    event = int(plan[at.EVENT])
+    open_stretch(plan)
+    y = beyond(plan, int(plan[at.PIECE_Y]))
+    length = piece_length(plan)
+    if length > 0.0:
+        for i in range(rows):
+            row = beyond(q, i * width)
+            deformation = beyond(row, 2 * n)
+            for k in range(2 * n):
+                y[k] = row[k]
+            for k in range(w + 1):
+                y[2 * n + k] = 0.0
+            for _ in range(pieces(plan)):
+                expand_state(plan, y, deformation, length)
+                travel_by_series(plan, y, deformation, 1.0)
+                fade(plan, deformation, length)
+            for k in range(2 * n):
+                row[k] = y[k]
+    if event == at.IMPACT:
+        accelerations_at(plan, at.END, at.END_DEFORMATION, int(plan[at.ROOM]))
+    close_stretch(plan)
+    if event == at.LIMIT or event == at.GIVEN_UP:
+        return
+    before = int(plan[at.ROOM])
+    after = before + 2 * (n + 1 + count)
+    if event == at.IMPACT:
+        accelerations_at(plan, at.Y, at.DEFORMATION, after)
+    for i in range(rows):
+        row = beyond(q, i * width)
+        if event == at.IMPACT:
+            _reflect(plan, row, beyond(plan, before), beyond(plan, after))
+        elif event == at.CONTACT:
+            _meet(plan, row)
+        tie(plan, row)
+
+
+@kernel
+def accelerations_at(plan: Vector, state: int, deformations: int, place: int) -> None:
+    """The accelerations of a state that is kept in the plan, in the mode that was entered."""
+    n = int(plan[at.MASSES])
+    y = beyond(plan, int(plan[state]))
+    deformation = beyond(plan, int(plan[deformations]))
+    accelerations(plan, y, beyond(y, n), beyond(y, 2 * n), deformation, 1.0, place)
+
+
+@kernel
+def _meet(plan: Vector, row: Vector) -> None:
+    n, f = int(plan[at.MASSES]), int(plan[at.EVENT_STOP])
+    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+    gap = row[2 * n + f] - closing(plan, f, row)
+    push = plan[one + at.STOP_DAMPING] * gap
+    response = int(plan[at.RESPONSE]) + f * n
+    for k in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
+        row[n + k] += plan[response + k] * push
+    if plan[at.RESTING] > 0.0:
+        halt(plan, row)
+
+
+@kernel
+def _reflect(plan: Vector, row: Vector, before: Vector, after: Vector) -> None:
+    n, f = int(plan[at.MASSES]), int(plan[at.EVENT_STOP])
+    count = int(plan[at.STOPS])
+    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+    arrived = beyond(plan, int(plan[at.END]) + n)
+    left = beyond(plan, int(plan[at.Y]) + n)
+    speed = closing(plan, f, arrived)
+    late = -closing(plan, f, row) / speed if speed > 0.0 else 0.0
+    for k in range(n):
+        row[k] += (arrived[k] - left[k]) * late
+        row[n + k] += before[k] * late
+    if int(plan[at.MODE]) >> f & 1:
+        halt(plan, row)
+    else:
+        e = -closing(plan, f, left) / speed if speed > 0.0 else 0.0
+        coupling = plan[int(plan[at.COUPLING]) + f * count + f]
+        kick = (1.0 + e) * closing(plan, f, beyond(row, n)) / coupling
+        response = int(plan[at.RESPONSE]) + f * n
+        for k in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
+            row[n + k] -= plan[response + k] * kick
+    for k in range(n):
+        row[n + k] -= after[k] * late

@@ -1,0 +1,143 @@
+"""Damping of an assembly that its modes determine: modal and Rayleigh damping.
+
+It is added to the dashpots of the links.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar, Self, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import field_validator
+
+from vibroimpact.arguments import check_list, is_list
+from vibroimpact.errors import InputError
+from vibroimpact.model.law_registry import Kinds, Named
+from vibroimpact.model.quantities import DIMENSIONLESS, TIME, Quantity, Scale
+from vibroimpact.model.validation import Accepts, constructor
+
+_RATE = Quantity("rate", (("second", -1),), "1/s", "0.3 1/s", 0.3, (Scale(0.0, 1.0, "1/s"),))
+_RATIO = Accepts(DIMENSIONLESS, minimum=0.0)
+
+
+class ModalDamping(Named):
+    """Viscous damping with a damping ratio of each mode.
+
+    The damping matrix is C = M Φ diag(2 ζ_j ω_j) Φᵀ M, with the modes Φ (Φᵀ M Φ = 1) of the masses
+    on the initial stiffness of all links. A mode without stiffness has no modal damping.
+
+    Parameters
+    ----------
+    ratio
+        Damping ratio ζ of all modes, at least 0, or text such as ``"5 %"``; or a list with one
+        ratio per mode, in the order of the natural frequencies.
+
+    Raises
+    ------
+    InputError
+        If a ratio is invalid.
+    """
+
+    kind: ClassVar[str] = "modal"
+    usual: ClassVar[bool] = True
+
+    ratio: float | tuple[float, ...]
+
+    @constructor
+    def __init__(self, ratio: Any) -> None:
+        super().__init__(ratio=ratio)
+
+    @field_validator("ratio", mode="before")
+    @classmethod
+    def _one_or_each(cls, value: Any) -> Any:
+        if not is_list(value):
+            return _RATIO(value)
+        found = []
+        for i, one in enumerate(check_list(value, "ratio")):
+            try:
+                found.append(_RATIO(one))
+            except InputError as error:
+                raise InputError(f"mode {i + 1}: {error}") from None
+        return tuple(found)
+
+    def check_modes(self, count: int) -> None:
+        """Raise an error unless there is one ratio, or one per mode.
+
+        Raises
+        ------
+        InputError
+            If there are as many ratios as there are not modes.
+        """
+        if isinstance(self.ratio, tuple) and len(self.ratio) != count:
+            raise InputError(
+                f"damping.ratio: {len(self.ratio)} ratios for {count} modes; pass one ratio, or "
+                f"{count}"
+            )
+
+    def matrix(
+        self,
+        mass: NDArray[np.float64],
+        stiffness: NDArray[np.float64],
+        omega: NDArray[np.float64],
+        shapes: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """Return C (N s/m) for M, K, angular frequencies, and modes (columns, Φᵀ M Φ = 1)."""
+        weighted = mass @ shapes
+        ratios = np.broadcast_to(np.asarray(self.ratio, dtype=float), omega.shape)
+        return np.asarray((weighted * (2.0 * ratios * omega)) @ weighted.T)
+
+
+class RayleighDamping(Named):
+    """Viscous damping proportional to the masses and the stiffness, C = α M + β K.
+
+    K is the initial stiffness of all links. A mode of the angular frequency ω has the damping ratio
+    (α/ω + β ω)/2.
+
+    Parameters
+    ----------
+    mass_factor
+        Factor α of the mass matrix in 1/s, at least 0. It damps motion relative to the base.
+    stiffness_factor
+        Factor β of the stiffness matrix in s, at least 0; or text such as ``"2 ms"``.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, has a wrong unit or is less than 0.
+    """
+
+    kind: ClassVar[str] = "rayleigh"
+
+    mass_factor: Annotated[float, Accepts(_RATE, minimum=0.0)] = 0.0
+    stiffness_factor: Annotated[float, Accepts(TIME, minimum=0.0)] = 0.0
+
+    @constructor
+    def __init__(self, mass_factor: float | str = 0.0, stiffness_factor: float | str = 0.0) -> None:
+        super().__init__(mass_factor=mass_factor, stiffness_factor=stiffness_factor)
+
+    @classmethod
+    def from_ratio(cls, ratio: float, first: float, second: float) -> Self:
+        """Return the damping with one damping ratio at two angular frequencies (rad/s).
+
+        Between the two, the damping ratio is smaller; outside of them, it is larger.
+        """
+        total = first + second
+        return cls(2.0 * ratio * first * second / total, 2.0 * ratio / total)
+
+    def check_modes(self, count: int) -> None:
+        """Accept any number of modes."""
+
+    def matrix(
+        self,
+        mass: NDArray[np.float64],
+        stiffness: NDArray[np.float64],
+        omega: NDArray[np.float64],
+        shapes: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        """Return C (N s/m) for M and K."""
+        return self.mass_factor * mass + self.stiffness_factor * stiffness
+
+
+AnyDamping: TypeAlias = ModalDamping | RayleighDamping
+DAMPINGS = Kinds(ModalDamping, RayleighDamping)

@@ -1,0 +1,188 @@
+"""A drawing of an assembly: the masses, their links, and the gaps to scale.
+
+Each mass is a box with a stem below it. Each link and each stop is a row between the stems of its
+two bodies. The base is a hatched line on the left and on the right. A stop is a spring or a plate
+on its right body, and its gap is the distance from the stem of its left body.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from html import escape
+from typing import TYPE_CHECKING, Literal
+
+from vibroimpact.model.assembly.names import GROUND
+from vibroimpact.model.quantities import LENGTH, MASS
+from vibroimpact.model.stops import RigidStop
+from vibroimpact.model.units import pretty
+
+if TYPE_CHECKING:
+    from vibroimpact.model.assembly.assembly import Assembly
+    from vibroimpact.model.assembly.link import Link
+
+Kind = Literal["mass", "stem", "ground", "link", "stop", "gap", "bridge"]
+Point = tuple[float, float]
+
+_COLUMN, _ROW, _BOX = 120.0, 34.0, 36.0
+"""Distance between bodies, height of a row, and height of the boxes, in points."""
+_LONGEST_GAP = 0.5
+"""Length of the largest gap, relative to the room between two bodies."""
+_TEETH = 4
+
+
+@dataclass(frozen=True)
+class Line:
+    """A polyline."""
+
+    kind: Kind
+    points: tuple[Point, ...]
+    closed: bool = False
+
+
+@dataclass(frozen=True)
+class Words:
+    """A text of one or two lines, whose middle is at a point. One over lines is outlined."""
+
+    text: str
+    at: Point
+    over_lines: bool = True
+
+
+@dataclass
+class Drawing:
+    """Lines and texts in points; y increases downwards."""
+
+    width: float
+    height: float
+    lines: list[Line] = field(default_factory=list)
+    words: list[Words] = field(default_factory=list)
+
+    def line(self, kind: Kind, *points: Point, closed: bool = False) -> None:
+        """Add a polyline."""
+        self.lines.append(Line(kind, points, closed))
+
+
+def drawing(assembly: Assembly) -> Drawing:
+    """Return the drawing of an assembly."""
+    names = assembly.names
+    parts = [*assembly.links.items(), *assembly.stops.items()]
+    column = max(_COLUMN, 8.0 * max(len(name) for name in names) + 40.0)
+    made = Drawing(column * (len(names) + 1), _BOX + 12.0 + _ROW * max(len(parts), 1) + 10.0)
+    place = {name: column * (i + 1) for i, name in enumerate(names)}
+    rows = {name: _BOX + 12.0 + _ROW * (i + 0.75) for i, (name, _) in enumerate(parts)}
+    left, right = 10.0, made.width - 10.0
+    sides = {
+        x
+        for _, link in parts
+        for x in [left] * (link.left == GROUND) + [right] * (link.right == GROUND)
+    }
+    for x in sorted(sides):
+        _draw_ground(made, x, -1.0 if x == left else 1.0)
+    for name, x in place.items():
+        ends = [rows[part] for part, link in parts if name in (link.left, link.right)]
+        if ends:
+            made.line("stem", (x, _BOX), (x, max(ends)))
+        _draw_mass(made, assembly, name, x, column)
+    gaps = [abs(stop.stop.gap) for stop in assembly.stops.values()]
+    scale = _LONGEST_GAP * column / (max(gaps, default=0.0) or 1.0)
+    for name, link in parts:
+        y = rows[name]
+        x0 = left if link.left == GROUND else place[link.left]
+        x1 = right if link.right == GROUND else place[link.right]
+        if link.is_stop:
+            _draw_stop(made, name, link, (x0, x1, y), scale)
+        else:
+            _draw_spring(made, "link", x0, x1, y)
+            made.words.append(Words(name, (0.5 * (x0 + x1), y - 11.0)))
+        low, high = sorted((x0, x1))
+        for other, x in place.items():
+            if low < x < high and other not in (link.left, link.right):
+                made.line("bridge", (x - 5.0, y), (x + 5.0, y))
+    return made
+
+
+def _draw_ground(made: Drawing, x: float, side: float) -> None:
+    made.line("ground", (x, 4.0), (x, made.height - 4.0))
+    y = 8.0
+    while y < made.height - 4.0:
+        made.line("ground", (x, y), (x + side * 7.0, y + 6.0))
+        y += 9.0
+
+
+def _draw_mass(made: Drawing, assembly: Assembly, name: str, x: float, column: float) -> None:
+    half = 0.5 * column - 16.0
+    box = ((x - half, 2.0), (x + half, 2.0), (x + half, _BOX), (x - half, _BOX))
+    made.line("mass", *box, closed=True)
+    mass = f"\n{pretty(assembly.masses[name], MASS)}" if name in assembly.masses else ""
+    made.words.append(Words(f"{name}{mass}", (x, 0.5 * (2.0 + _BOX)), over_lines=False))
+
+
+def _draw_spring(made: Drawing, kind: Kind, x0: float, x1: float, y: float) -> None:
+    lead = 0.15 * (x1 - x0)
+    start, end = x0 + lead, x1 - lead
+    count = max(2 * _TEETH, 2 * round(abs(end - start) / 16.0))
+    teeth = [
+        (start + (end - start) * (i + 0.5) / count, y + (5.0 if i % 2 else -5.0))
+        for i in range(count)
+    ]
+    made.line(kind, (x0, y), (start, y), *teeth, (end, y), (x1, y))
+
+
+def _draw_stop(
+    made: Drawing, name: str, link: Link, where: tuple[float, float, float], scale: float
+) -> None:
+    x0, x1, y = where
+    gap = link.stop.gap
+    way = math.copysign(1.0, x1 - x0)
+    face = x0 + way * max(gap, 0.0) * scale
+    made.line("stop", (face, y - 8.0), (face, y + 8.0))
+    if isinstance(link.law, RigidStop):
+        made.line("stop", (face, y - 3.0), (x1, y - 3.0), (x1, y + 3.0), (face, y + 3.0))
+    else:
+        _draw_spring(made, "stop", face, x1, y)
+    if gap > 0.0:
+        made.line("gap", (x0, y + 6.0), (face, y + 6.0))
+    label = f"{name}: {'preload' if gap < 0.0 else 'gap'} {pretty(abs(gap), LENGTH)}"
+    made.words.append(Words(label, (0.5 * (x0 + x1), y - 14.0)))
+
+
+_PENS = {
+    "mass": 'fill="#e8edf5" stroke="black" stroke-width="1.2"',
+    "stem": 'fill="none" stroke="black" stroke-width="2"',
+    "ground": 'fill="none" stroke="#555" stroke-width="1"',
+    "link": 'fill="none" stroke="black" stroke-width="1.2"',
+    "stop": 'fill="none" stroke="#c8102e" stroke-width="1.4"',
+    "gap": 'fill="none" stroke="#1f4fbf" stroke-width="1" stroke-dasharray="3 2"',
+    "bridge": 'fill="none" stroke="white" stroke-width="5"',
+}
+
+
+_OUTLINE = ' stroke="white" stroke-width="3" paint-order="stroke"'
+"""Keeps a text readable on a line."""
+
+
+def as_svg(made: Drawing) -> str:
+    """Return a drawing as SVG, for notebooks."""
+    pieces = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{made.width:g}" height="{made.height:g}" '
+        f'viewBox="0 0 {made.width:g} {made.height:g}" style="background:white">'
+    ]
+    for line in made.lines:
+        shape = "polygon" if line.closed else "polyline"
+        pieces.append(f'<{shape} points="{_points(line.points)}" {_PENS[line.kind]}/>')
+    for words in made.words:
+        outline = _OUTLINE if words.over_lines else ""
+        rows = words.text.split("\n")
+        for i, row in enumerate(rows):
+            y = words.at[1] + 3.5 + 14.0 * (i - 0.5 * (len(rows) - 1))
+            pieces.append(
+                f'<text x="{words.at[0]:g}" y="{y:g}" text-anchor="middle" '
+                f'font-family="sans-serif" font-size="11"{outline}>{escape(row)}</text>'
+            )
+    return "".join([*pieces, "</svg>"])
+
+
+def _points(points: Iterable[Point]) -> str:
+    return " ".join(f"{x:.6g},{y:.6g}" for x, y in points)

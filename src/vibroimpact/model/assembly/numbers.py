@@ -1,0 +1,98 @@
+"""An assembly in plain numbers and arrays, for code that computes its motion."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.model.assembly.assembly import Assembly
+from vibroimpact.model.assembly.link import AnyLaw, Link
+from vibroimpact.model.assembly.names import GROUND
+from vibroimpact.model.own_law import Law
+from vibroimpact.model.stops import JankowskiBumper
+
+GROUND_INDEX = -1
+"""Index of the ground."""
+
+
+class PartNumbers(NamedTuple):
+    """A link or a stop in numbers."""
+
+    name: str
+    left: int
+    """Index of the left body; -1 for the ground."""
+    right: int
+    kind: str
+    """Name of the law, as in study files, such as ``"kelvin-voigt"``."""
+    gap: float
+    """Gap of a stop (m); NaN for a link."""
+    values: dict[str, float]
+    """The other numbers of the law in SI units, by name. A Jankowski bumper has a mass here."""
+    meeting_mass: float
+    """The mass (kg) that meets at a stop: m₁ m₂/(m₁ + m₂), or m at the ground."""
+    law: AnyLaw
+    """The law itself, such as for the operations of a formula."""
+
+
+class AssemblyNumbers(NamedTuple):
+    """M ü + C u̇ + K u + (curved links) + (stops) = −M ι A_t + f in numbers, in SI units."""
+
+    names: tuple[str, ...]
+    mass: NDArray[np.float64]
+    """M, shape (masses, masses)."""
+    damping: NDArray[np.float64]
+    """C of linear links, of matrices and of modal or Rayleigh damping."""
+    stiffness: NDArray[np.float64]
+    """K of linear links and of matrices."""
+    influence: NDArray[np.float64]
+    """ι, shape (masses,)."""
+    force: NDArray[np.float64]
+    """f, shape (masses,)."""
+    links: tuple[PartNumbers, ...]
+    """All links that are not in K and C, in the order of the assembly."""
+    stops: tuple[PartNumbers, ...]
+    """All stops, in the order of the assembly."""
+
+
+def numbers(assembly: Assembly) -> AssemblyNumbers:
+    """Return an assembly as numbers and arrays."""
+    linear = [link for link in assembly.links.values() if link.law.linear]
+    return AssemblyNumbers(
+        assembly.names,
+        assembly.mass_matrix,
+        assembly.matrix_of_links("damping", linear) + assembly.rule_damping,
+        assembly.matrix_of_links("stiffness", linear),
+        assembly.influence,
+        assembly.constant_force,
+        tuple(
+            _part(assembly, name, link)
+            for name, link in assembly.links.items()
+            if not link.law.linear
+        ),
+        tuple(_part(assembly, name, stop) for name, stop in assembly.stops.items()),
+    )
+
+
+def _part(assembly: Assembly, name: str, link: Link) -> PartNumbers:
+    law = link.law
+    values: dict[str, Any] = dict(law.numbers) if isinstance(law, Law) else dict(law)
+    meeting = assembly.meeting_mass(link)
+    if isinstance(law, JankowskiBumper) and law.mass is None:
+        values["mass"] = meeting
+    values.pop("gap", None)
+    return PartNumbers(
+        name,
+        _index(assembly, link.left),
+        _index(assembly, link.right),
+        law.kind,
+        link.stop.gap if link.is_stop else float("nan"),
+        {key: one for key, one in values.items() if isinstance(one, float)},
+        meeting,
+        law,
+    )
+
+
+def _index(assembly: Assembly, end: str) -> int:
+    return GROUND_INDEX if end == GROUND else assembly.names.index(end)

@@ -1,0 +1,116 @@
+"""States at a section: placed, disturbed, and carried with their disturbances."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from engine.assembly.systems import neighbours, row
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly import section
+from vibroimpact.engine.assembly.advance import build
+from vibroimpact.engine.assembly.entries import follow_sections, sections
+from vibroimpact.engine.assembly.tangent import unit_disturbances
+from vibroimpact.engine.jit import Vector
+from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.plain_entries import single
+
+PLACE, DISTURB, DESCRIBE, TANGENT = range(4)
+
+
+@single("f8(i8, f8[::1], f8, f8, f8[::1], f8[:, ::1], f8[::1])")
+def ask(
+    given: Any,
+    what: int,
+    memory: Vector,
+    amplitude: float,
+    omega: float,
+    state: Vector,
+    q: Vector,
+    numbers: Vector,
+) -> float:
+    plan, here = pointer(memory), pointer(state)
+    build(plan, amplitude, omega)
+    if what == PLACE:
+        section.place(plan, here)
+    elif what == DISTURB:
+        return section.disturb(plan, here, int(numbers[0]), numbers[1], numbers[2])
+    elif what == DESCRIBE:
+        numbers[0] = section.parts(plan)
+        numbers[1] = section.stiff_rate(plan)
+        numbers[2] = section.size(plan, here)
+        numbers[3] = section.too_much_work(plan, 1.0)
+        numbers[4] = section.too_much_work(plan, 1e9)
+        section.units(plan, pointer(q))
+    else:
+        unit_disturbances(plan, int(state[0]), pointer(q))
+        s, c, length = numbers[0], numbers[1], numbers[2]
+        return section.tangent(plan, here, s, c, length, 1000, pointer(q), len(q))
+    return 0.0
+
+
+def test_a_state_is_described() -> None:
+    system = neighbours()
+    q, numbers = np.zeros((1, 6)), np.zeros(5)
+    state = system.state([0.003, -0.001], [0.2, -0.1])
+    ask(DESCRIBE, system.plan(), system.amplitude, system.omega, state, q, numbers)
+    parts, rate, size, little, much = numbers
+    assert (parts, little, much) == (6, 0, 1)
+    assert list(q[0]) == [rate, rate, 1.0, 1.0, rate, rate]
+    fastest = np.sqrt(222.0 / 0.9)
+    assert fastest <= rate <= 1.2 * fastest
+    assert size == max(0.2, rate * 0.003)
+
+
+def test_states_are_placed() -> None:
+    system = row(0.8)
+    state = system.state([0.03, 0.0, 0.0])
+    ask(PLACE, system.plan(), 1.0, 1.0, state, np.zeros((1, 1)), np.zeros(1))
+    # 20 mm too far: masses of 1 and 1.3 kg are moved apart about their centre.
+    assert state[2] - state[3] == pytest.approx(0.01, abs=1e-15)
+    assert state[2] + 1.3 * state[3] == pytest.approx(0.03, abs=1e-15)
+    assert state[0] == 0
+
+    system = row()
+    state = system.state([0.03, 0.0, 0.0], [0.0, 0.0, 0.0])
+    ask(PLACE, system.plan(), 1.0, 1.0, state, np.zeros((1, 1)), np.zeros(1))
+    assert state[0] == 1
+    assert state[8] == pytest.approx(0.02, abs=1e-15)
+    # Too fast away for the dashpot to press.
+    state = system.state([0.011, 0.0, 0.0], [-5.0, 0.0, 0.0])
+    ask(PLACE, system.plan(), 1.0, 1.0, state, np.zeros((1, 1)), np.zeros(1))
+    assert state[0] == 0
+    assert state[8] == pytest.approx(0.001, abs=1e-15)
+
+
+def test_parts_are_disturbed_that_outlive_a_period() -> None:
+    system = neighbours()
+    slow = [s._replace(stiffness=100.0, damping=60.0) for s in system.stops]
+    for stops, outlives in ((system.stops, False), (slow, True)):
+        one = system._replace(stops=stops)
+        for part in range(6):
+            state = one.state()
+            before = state.copy()
+            numbers = np.array([part, 1e-6, one.period])
+            by = ask(DISTURB, one.plan(), 1.0, one.omega, state, np.zeros((1, 1)), numbers)
+            assert by == (1e-6 if part < 4 or outlives else 0.0)
+            assert state[2 + part] - before[2 + part] == by
+
+
+def test_disturbances_of_a_section_are_carried() -> None:
+    system = neighbours()
+    line = sections(0.3, system.period, 1)
+    state = system.state()
+    follow_sections(system.plan(), system.amplitude, system.omega, state, np.tile(line, (7, 1)))
+    plain, q = state.copy(), np.zeros((6, 6))
+    rows = np.eye(6)
+    count = follow_sections(
+        system.plan(), system.amplitude, system.omega, plain, line, disturbances=rows
+    )
+    found = ask(TANGENT, system.plan(), system.amplitude, system.omega, state, q, line[0].copy())
+    assert found == count
+    assert (state == plain).all()
+    assert (q == rows).all()
+    assert at.PARTS == 2
