@@ -33,8 +33,6 @@ def study(tmp_path_factory):
     return path
 
 
-
-
 @pytest.mark.parametrize(
     ("words", "expected"),
     [

@@ -73,6 +73,10 @@ class _Repeated(Model):
         of: Of
         on: str | None
 
+        @property
+        def amplitude(self) -> float:
+            """Amplitude, or the largest one of several harmonics."""
+
     @model_validator(mode="after")
     def _acts_on_a_mass(self) -> Self:
         if self.on is None:
@@ -91,10 +95,6 @@ class _Repeated(Model):
         if self.on is None:
             del table["on"]
         return table
-
-        @property
-        def amplitude(self) -> float:
-            """Amplitude, or the largest one of several harmonics."""
 
     @property
     def quantity(self) -> Quantity:
