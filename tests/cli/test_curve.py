@@ -134,8 +134,9 @@ def test_two_parameters_neither_of_which_is_the_frequency(run, tmp_path):
 
 
 def test_identified_parameters_over_a_plane(run, tmp_path):
-    words = ("--parameters", "identified", "--over", "frequency,gap", "--bifurcation", "fold")
-    code, out, _ = run("B2-G1-A3", *words, "--first", "1.6Hz:1.8Hz", "--second", "7mm:8mm")
+    words = ("--parameters", "identified", "--bifurcation", "fold")
+    plane = ("--vary", "frequency=1.6Hz:1.8Hz", "--vary", "gap=7mm:8mm")
+    code, out, _ = run("B2-G1-A3", *words, *plane)
     assert code == 0
     assert "K = 26.8 kN/m" in out
     assert (tmp_path / "out/B2-G1-A3-identified-fold-frequency-gap.nc").is_file()

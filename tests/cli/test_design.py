@@ -90,7 +90,7 @@ def test_a_study_with_records(run, study):
     ) in words
     rows = (out / "building-design.csv").read_text().splitlines()
     assert len(rows) == 13
-    assert "bumper_damping (N s m-1)" in rows[0]
+    assert "stops.damping (N s m-1)" in rows[0]
     assert (
         "All designs keep the bumpers' damping of 5 MN s/m; --vary stiffness_at_restitution keeps "
         "their restitution instead."

@@ -20,7 +20,7 @@ case = "B2-G1-A3"
 frequencies = ["1 Hz", "2.4 Hz"]
 
 [ensemble]
-uncertain = { bumper-stiffness = "lognormal:0.2", gap = "uniform:7 mm:8 mm" }
+uncertain = { "stops.stiffness" = "lognormal:0.2", gap = "uniform:7 mm:8 mm" }
 draws = 4
 method = "latin"
 seed = 3
