@@ -166,7 +166,7 @@ def test_threads_change_no_bit_and_it_is_saved(tmp_path) -> None:
 def test_what_has_no_bound_is_infinite() -> None:
     soft = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 0.5, -50.0, 0.0))
     with pytest.warns(RuntimeWarning, match=r"design: 1 of 2 designs could not be computed: "):
-        data = vi.design_chart(vi.Rig(soft, 3.0), {"damping": [1.0, 40.0]})
+        data = vi.design_chart(vi.Rig(soft, 3.0), {"isolator.damping": [1.0, 40.0]})
     assert np.isinf(data["peak_acceleration"].values[0])
     assert np.isfinite(data["peak_acceleration"].values[1])
     assert data["pareto"].values.tolist() == [False, True]
@@ -176,13 +176,13 @@ def test_what_has_no_bound_is_infinite() -> None:
     ("arguments", "line"),
     [
         ({"vary": {}}, "vary: {}; pass the values of at least one parameter"),
-        ({"vary": {"length": [1.0]}}, "vary: 'length'; one of "),
+        ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; one of frequency, "),
         (
             {"vary": {"amplitude": [1.0]}},
             "vary: 'amplitude' depends on the shaking, which is not varied here; remove it",
         ),
         ({"vary": {"gap": []}}, "gaps: the list is empty"),
-        ({"vary": {"yield_force": [1.0]}}, "yield_force: unknown key"),
+        ({"vary": {"yield_force": [1.0]}}, "vary: 'yield_force' is not a parameter of this rig; "),
         ({"records": []}, "records: missing; pass at least one Record"),
         ({"records": [RECORDS["a"], 3]}, r"records\['1'\]: 3 is not a record; pass a Record"),
         ({"shaking": "3 s"}, "shaking: '3 s'"),

@@ -87,7 +87,7 @@ def test_what_binds_and_what_does_not_is_noted() -> None:
     assert note.endswith(" N of 1 MN")
     stiff = {"stops.stiffness": (2e6, 3e6)}
     ended = vi.least_acceleration(RIG, stiff, records=RECORDS, gap="10 mm")
-    assert ended.attrs["notes"] == "bumper_stiffness lies at the lower end of its range, 2000 kN/m"
+    assert ended.attrs["notes"] == "stops.stiffness lies at the lower end of its range, 2000 kN/m"
 
 
 def test_it_is_repeatable() -> None:

@@ -100,7 +100,7 @@ def test_over_the_restitution_of_a_wall():
         return case.oscillator.replace(right=vi.RigidStop(restitution, "2 mm"), left=None)
 
     data = vi.branch(vi.Rig(rig(0.6), shaken), span=(0.5, 0.95), parameter="restitution")
-    assert data.attrs["parameter"] == "restitution"
+    assert data.attrs["parameter"] == "stops.restitution"
     ends = {data.attrs["ended_low"], data.attrs["ended_high"]}
     assert ends == {"the range ends at 0.5", "the range ends at 0.95"}
     for i in np.linspace(0, data.sizes["point"] - 1, 6).astype(int):
