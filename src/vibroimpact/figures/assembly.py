@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from matplotlib.axes import Axes
+from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
 
@@ -17,6 +18,8 @@ from vibroimpact.model.written_units import written_for
 _INCH = 72.0
 _OUTLINE = [withStroke(linewidth=3.0, foreground="white")]
 """Keeps a text readable on a line."""
+_LEGIBLE = 6.0
+"""Size (pt) below which words are not made smaller."""
 _PENS: dict[str, dict[str, Any]] = {
     "stem": {"color": "black", "linewidth": 2.0, "zorder": 2},
     "ground": {"color": "0.35", "linewidth": 0.8, "zorder": 2},
@@ -61,16 +64,22 @@ def assembly_drawing(
             ax.add_patch(box).set_zorder(3)
         else:
             ax.plot(*zip(*line.points, strict=True), **_PENS[line.kind])
+    # The drawing shrinks with a narrow figure, and its words with it as far as they can be read.
+    figure = ax.get_figure(root=True)
+    assert figure is not None
+    small = FontProperties(size="small").get_size_in_points()
+    share = figure.get_size_inches()[0] * _INCH / made.width
+    size = min(small, max(_LEGIBLE, share * small))
     for words in made.words:
         ax.text(
             *words.at,
             words.text,
             ha="center",
             va="center",
-            fontsize="small",
+            fontsize=size,
             zorder=4,
             path_effects=_OUTLINE if words.over_lines else (),
-        )
+        ).set_in_layout(False)  # the drawing has room for them
     ax.set_xlim(0.0, made.width)
     ax.set_ylim(made.height, 0.0)
     ax.set_aspect("equal")
