@@ -273,7 +273,7 @@ def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
 
 @pytest.mark.full
 def test_own_outputs_are_computed_printed_and_drawn(run, tmp_path):
-    power = "power [W] = mean(damping*velocity**2)"
+    power = "power [W] = mean(isolator.damping*velocity**2)"
     words = ("B2-G1-A3", "--frequencies", "1.5Hz,2Hz", "--compute", power)
     code, out, errors = run(*words, "--compute", "touch=mean(abs(contact) > 0)")
     assert (code, errors) == (0, "")

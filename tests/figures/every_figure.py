@@ -31,7 +31,7 @@ PERIODS = np.geomspace(0.05, 2.0, 20)
 SCALES = np.linspace(0.2, 3.0, 10)
 OUTPUT = {
     "power": vi.Output(
-        "mean(damping*velocity**2)",
+        "mean(isolator.damping*velocity**2)",
         units="W",
         long_name="mean power of the dashpot of the isolator over one period",
     )

@@ -64,8 +64,8 @@ def test_figures_of_a_fit(fit):
     assert np.sort(drawn) == pytest.approx(np.sort(fit.fit_residual.values / fit.noise.values[0]))
     panels = fit_profiles(fit)
     assert [ax.get_xlabel().split(" (")[0] for ax in panels] == [
-        "bumper stiffness",
-        "bumper damping",
+        "stops.stiffness",
+        "stops.damping",
     ]
     with pytest.raises(vi.InputError, match="has no time history"):
         fit_history(fit)

@@ -144,7 +144,13 @@ def test_over_any_parameters():
     data = vi.lyapunov_exponents(
         [case], [2.0, 3.0], 640, vary={"damping_ratio": ratios, "isolator.stiffness": springs}
     )
-    assert data["exponents"].dims == ("rig", "frequency", "damping_ratio", "isolator.stiffness", "exponent")
+    assert data["exponents"].dims == (
+        "rig",
+        "frequency",
+        "damping_ratio",
+        "isolator.stiffness",
+        "exponent",
+    )
     known = -np.outer(ratios, np.sqrt(np.array(springs) / rig.mass))
     for k in range(2):
         np.testing.assert_allclose(data["exponents"][0, k].mean("exponent"), known, rtol=1e-12)

@@ -105,7 +105,7 @@ def test_over_the_restitution_of_a_wall():
     assert ends == {"the range ends at 0.5", "the range ends at 0.95"}
     for i in np.linspace(0, data.sizes["point"] - 1, 6).astype(int):
         here = data.isel(point=i)
-        alone = vi.orbit(vi.Rig(rig(float(here["restitution"])), shaken), here["section"])
+        alone = vi.orbit(vi.Rig(rig(float(here["stops.restitution"])), shaken), here["section"])
         assert float(alone["displacement_min"]) == pytest.approx(
             float(here["displacement_min"]), rel=1e-9
         )

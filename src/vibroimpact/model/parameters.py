@@ -59,7 +59,7 @@ _UNITS = {
     power_stiffness(3.0): "N m-3",
     power_stiffness(5.0): "N m-5",
 }
-"""Units as they are written in datasets. For other quantities, the symbol is written."""
+"""Units as they are written in datasets. For other quantities, the symbol is written, or 1."""
 
 _BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
 """Words in names of parameters that refer to the stops on both sides."""
@@ -67,7 +67,7 @@ _BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
 
 def written_units(quantity: Quantity) -> str:
     """Return the SI unit of a quantity, as it is written in datasets."""
-    return _UNITS.get(quantity, quantity.symbol)
+    return _UNITS.get(quantity, quantity.symbol) or "1"
 
 
 def in_units(units: str) -> Quantity:

@@ -153,7 +153,7 @@ def _names(part: ast.AST, known: tuple[str, ...]) -> list[str]:
                 raise InputError(
                     f"{name!r} is neither a time history nor a parameter of the rig; "
                     f"{meant(name, known)}{', '.join(histories)}, and parameters such as mass, "
-                    "damping and frequency are accepted"
+                    "isolator.damping and frequency are accepted"
                 )
             return [name]
         case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=one):
