@@ -42,12 +42,14 @@ def test_a_map_over_what_a_rigid_stop_has() -> None:
     )
     assert data["scenario"].sel(gap_ratio=1.2).values.tolist() == [0, 0]
     assert (data["scenario"].sel(gap_ratio=0.7).values > 0).all()
-    assert data["restitution"].attrs["units"] == "1"
+    assert data["stops.restitution"].attrs["units"] == "1"
 
 
 def test_nodes_change_what_each_stop_has() -> None:
     both = between(0.5).replace(left=vi.Bumper(20.0, 0.4, 0.5))
-    rig = Base(vi.Rig(both, SINE)).rig({"restitution": 0.2, "stiffness_ratio": 30.0}).oscillator
+    rig = (
+        Base(vi.Rig(both, SINE)).rig({"stops.restitution": 0.2, "stiffness_ratio": 30.0}).oscillator
+    )
     assert rig.right == vi.RigidStop(0.2, rig.right.gap)
     assert rig.right.gap == pytest.approx(0.5 * PEAK)
     assert rig.left.stiffness == pytest.approx(30.0)

@@ -19,8 +19,8 @@ Compute: TypeAlias = Annotated[
         negative="",
         help="Compute an own output of each motion, such as 'power [W] = "
         "mean(isolator.damping*velocity**2)': its name, its units, and a formula of time "
-        "histories, numbers of the rig, and max, min, mean, rms and integral over one period. The option may be "
-        "repeated.",
+        "histories, numbers of the rig, and max, min, mean, rms and integral over one period. The "
+        "option may be repeated.",
     ),
 ]
 
