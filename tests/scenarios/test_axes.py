@@ -30,7 +30,7 @@ def test_physical_parameters():
 def test_a_name_means_in_maps_what_it_means_along_branches(name):
     varied = PARAMETERS[name]
     oscillator = CASE.oscillator
-    if name == "restitution":
+    if name == "stops.restitution":
         oscillator = oscillator.replace(left=vi.RigidStop(0.5, oscillator.left.gap))
         assert Base(vi.Rig(oscillator, SINE)).rig({name: 0.7}).oscillator.left.restitution == 0.7
         return
