@@ -70,7 +70,9 @@ def test_a_rigid_stop_has_no_stiffness_to_map_over(name: str) -> None:
 def test_a_bumper_has_no_restitution_to_map_over() -> None:
     rig = FREE.replace(right=vi.Bumper(20.0, 0.4, 0.5))
     axes = ("restitution", [0.1, 0.2]), ("gap_ratio", [0.5, 1.0])
-    with pytest.raises(vi.InputError, match=r"^rig: .stops\.restitution. applies to rigid stops, but"):
+    with pytest.raises(
+        vi.InputError, match=r"^rig: .stops\.restitution. applies to rigid stops, but"
+    ):
         vi.scenario_map(vi.Rig(rig, 1.0), *axes)
     with pytest.raises(vi.InputError, match=r"^x\[1\]: 1\.2"):
         vi.scenario_map(vi.Rig(rig, 1.0), ("restitution", [0.1, 1.2]), axes[1])
