@@ -47,7 +47,7 @@ def isolator(table):
         ),
         (
             OWN + '[excitation]\namplitude = 1\nfrequency = "2 Hz"\n',
-            "excitation.frequency: unknown key; amplitude, amplitudes, phases, of, phase, "
+            "excitation.frequency: unknown key; amplitude, amplitudes, phases, of, on, phase, "
             "record, component, step, unit and decimal are accepted; write the frequency in the "
             "table [simulate] or as --frequency",
         ),
