@@ -23,12 +23,13 @@ from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
-from vibroimpact.model import Record, Repeated, State, equilibrium, to_si
+from vibroimpact.model import Assembly, AssemblyState, Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.response.assembly_motion import compute_assembly_history
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import (
     EVENTS_AT_ONCE,
@@ -47,7 +48,7 @@ from vibroimpact.tasks.threads import Progress
 def simulate(
     rig: AnyRig,
     cycles: float | None = None,
-    start: State | xr.DataArray | xr.Dataset | None = None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None = None,
     samples: int | None = None,
     *,
     frequency: float | str | None = None,
@@ -106,10 +107,12 @@ def simulate(
     InputError
         If a value is invalid, or if an undamped mass without stops is shaken at resonance.
     """
-    rig = as_rig(rig)
+    rig = as_rig_of_any_masses(rig)
     if frequency is not None:
         rig = (rig if rig.is_shaken else rig.vibrating_freely()).at(frequency)
     data = compute_history(rig, cycles, start, samples, tail, max_events, progress)
+    if isinstance(rig.system, Assembly):
+        return data
     # A short motion shows nothing: only the closed form of free flight counts.
     notes = [*noted(data), *doubt_stops(rig)]
     return describe(data, "vibroimpact.simulate", notes=notes)
@@ -118,14 +121,13 @@ def simulate(
 def compute_history(
     rig: Rig,
     cycles: float | None,
-    start: State | xr.DataArray | xr.Dataset | None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None,
     samples: int | None,
     tail: float | str | None = None,
     max_events: int = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Do what `simulate` does, without doubts about the rig."""
-    oscillator = rig.oscillator
     if not rig.is_shaken:
         rig = rig.vibrating_freely()
     excitation = rig.shaking if isinstance(rig.shaking, Record) else rig.harmonic
@@ -140,7 +142,11 @@ def compute_history(
                 "time after the record, pass tail)"
             )
         behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
-        return through(Rig(oscillator, excitation), behind, start, samples, max_events, progress)
+        if isinstance(rig.system, Assembly):
+            return compute_assembly_history(
+                rig, excitation, behind, start, samples, max_events, progress
+            )
+        return through(rig, behind, start, samples, max_events, progress)
     if tail is not None:
         raise InputError(
             f"tail: {tail!r}, but no Record shakes this rig; remove tail, and set the duration by "
@@ -150,6 +156,11 @@ def compute_history(
         raise InputError("cycles: missing; pass the number of forcing cycles, such as 100")
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
     check_samples(length, samples, "cycles")
+    if isinstance(rig.system, Assembly):
+        return compute_assembly_history(
+            rig, excitation, length, start, samples, max_events, progress
+        )
+    oscillator = rig.oscillator
     if oscillator.isolator.linear:  # in closed form about its steady motion, which is none there
         check_bounded(Rig(oscillator, excitation))
     state = equilibrium(oscillator) if start is None else as_state(start)
