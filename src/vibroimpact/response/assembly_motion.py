@@ -44,8 +44,10 @@ _WORK_LIMIT = 1e7
 _START, _END, _CONTACT, _IMPACT = 1, 0, layout.CONTACT, layout.IMPACT
 _HIT = 2
 """Kinds of events in a dataset, `event_contact`, and in the engine's log."""
-_SAME = 1e-12
+_SAME = 1e-15
 """Share of a section within which a stretch ends where the log has its event."""
+_AT_REST = 1e-12
+"""A closing speed below this share of the largest speed is none: rest begins without an impact."""
 
 
 class Sections(NamedTuple):
@@ -210,6 +212,7 @@ class _Run:
         assert isinstance(system, Assembly)
         self.n, self.stops = len(system.names), len(system.stops)
         self.sections, self.state, self.samples = sections, vector, samples
+        self.closing = [system.closing(stop) for stop in system.stops.values()]
         self.forcing = (
             (shaking.peak, 0.0)
             if isinstance(shaking, Record)
@@ -242,7 +245,7 @@ class _Run:
         if self.samples and total and self.status is Status.DONE:
             # What is at the very end is the beginning of what would follow.
             following = self.sections.following(self.samples)
-            self.seen.append(self._sampled(following))
+            self.seen.append(self._sampled(following, self.state))
         return done
 
     def _over(self, first: int, last: int) -> int:
@@ -292,28 +295,30 @@ class _Run:
             self.plan[layout.ORDERED], self.plan[layout.UNDECIDED] = ordered, undecided
             self.log[:, 0] = -1.0
 
-    def _sampled(self, parts: _Array, start: _Array | None = None) -> _Array:
-        """Return all channels where each part begins, just after what happens there."""
-        start = self.state if start is None else start
+    def _rows_at_begin(self, lines: _Array, start: _Array) -> _Array:
+        """Go over sections; all channels where a stretch begins."""
         while True:
             self.rows[:, 0] = -1.0
             follow_sections(
                 self.sampling,
                 *self.forcing,
                 start.copy(),
-                parts,
+                lines,
                 max_events=self.max_events,
                 samples=self.rows,
                 tau=0.0,
             )
             if self.rows[-1, 0] < 0.0:
-                break
+                return self.rows[self.rows[:, 0] >= 0.0].copy()
             self._more_rows()
-        begins = np.flatnonzero((self.rows[:, 0] >= 0.0) & (self.rows[:, 1] == 0.0))
-        of = self.rows[begins, 0]
-        # A stretch without length, which ends in an event at once, has no series.
-        chosen = begins[np.searchsorted(of, np.arange(len(parts)), side="right") - 1]
-        return self.rows[chosen].copy()
+
+    def _sampled(self, parts: _Array, start: _Array) -> _Array:
+        """Return all channels where each part begins, just after what happens there."""
+        rows = self._rows_at_begin(parts, start)
+        rows = rows[rows[:, 1] == 0.0]
+        # A stretch without length, which ends in an event at once, has no series: take the last.
+        found: _Array = rows[np.searchsorted(rows[:, 0], np.arange(len(parts)), side="right") - 1]
+        return found
 
     def _more_rows(self) -> None:
         self.rows = np.empty((2 * len(self.rows), self.rows.shape[1]))
@@ -346,12 +351,29 @@ class _Run:
                 for g in sorted(resting - {f} - held):
                     yield _Event(section, time, g, _END, u, v)
                     resting.discard(g)
-                yield _Event(section, time, f, _START if f in held else _HIT, u, v)
-                resting |= {f} & held
+                closing = abs(float(self.closing[f] @ v))
+                again = i > 0 and log[i - 1, 2] == f and log[i - 1, 1] == time
+                moving = closing > _AT_REST * float(np.abs(v).max())
+                if f not in held or (moving and not again):
+                    yield _Event(section, time, f, _HIT, u, v)
+                if f in held:
+                    # The impact after which the bodies rest is followed by the rest.
+                    yield _Event(
+                        section, time, f, _START, u, self._velocity_after(after, section, before)
+                    )
+                    resting.add(f)
             else:
                 yield _Event(section, time, f, _START if what == _CONTACT else _END, u, v)
                 resting.discard(f)
             row = after
+
+    def _velocity_after(self, row: int, section: int, before: _Array) -> _Array:
+        """Return the velocities at the beginning of a stretch of a section."""
+        rows = self._rows_at_begin(self.sections.lines[section : section + 1], before)
+        if row < len(rows):
+            return _Seen.of(rows, self.n).velocity[row]
+        now: _Array = self.state[layout.PARTS + self.n : layout.PARTS + 2 * self.n].copy()
+        return now
 
 
 def compute_assembly_history(
