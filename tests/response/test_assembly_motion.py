@@ -162,11 +162,11 @@ def test_neighbours_under_a_record_in_fifty_digits() -> None:
         constant=np.array([0.0, 0.4]),
         grid=2e-3,
     )
-    slopes = np.append(np.diff(values), np.zeros(6)) / 0.02
-    for k, slope in enumerate(slopes):
-        exact.advance(
-            0.02 if k < 164 else 0.1 - 5 * 0.02 or 0.02, k, (values[k] if k < 159 else 0.0, slope)
-        )
+    # The record is followed by 0.1 s without acceleration.
+    slopes = np.append(np.diff(values), np.zeros(5)) / 0.02
+    begins = np.append(values[:-1], np.zeros(5))
+    for k, line in enumerate(zip(begins, slopes, strict=True)):
+        exact.advance(0.02, k, line)
     against_exact(motion, exact, 0.02)
 
 
@@ -222,3 +222,243 @@ def test_neighbours_between_events_of_a_general_integrator() -> None:
     assert w.max() > 0.0
     np.testing.assert_allclose(motion["displacement"], found.y[:2], atol=1e-8)
     np.testing.assert_allclose(motion["velocity"], found.y[2:], atol=1e-6)
+
+
+def test_a_bumper_may_move_the_masses_at_the_base() -> None:
+    """Restitution between two free masses: momentum is kept, the relative speed is multiplied."""
+    pair = vi.Assembly(
+        {"a": 2.0, "b": 3.0},
+        stops={"between": vi.Link("a", "b", vi.RigidStop(0.5, 0.1))},
+    )
+    start = vi.State(velocity={"a": 1.0})
+    motion = vi.simulate(vi.Rig(pair), 1, start, frequency=1.0, samples=100)
+    assert motion["event_time"].values == pytest.approx([0.1], rel=1e-14)
+    assert motion["event_contact"].values.tolist() == [2]
+    np.testing.assert_allclose(motion["velocity"].isel(time=-1), [0.1, 0.6], rtol=1e-13)
+    at_impact = motion["velocity"].sel(mass="a")[10]
+    assert at_impact == pytest.approx(0.1)  # just after the event
+
+
+def test_rest_between_masses_is_a_contact_of_its_own() -> None:
+    """Two carts that an inelastic stop joins; a wall's impact ends their rest, without its event."""
+    carts = vi.Assembly(
+        {"a": 1.0, "b": 1.0},
+        {"a": vi.Link("ground", "a", vi.Isolator(40.0, 0.0))},
+        {
+            "between": vi.Link("a", "b", vi.RigidStop(0.0, 0.0)),
+            "wall": vi.Link("b", "ground", vi.RigidStop(0.5, 0.3)),
+        },
+        {"a": 20.0},
+    )
+    start = vi.State({"a": -0.4, "b": 0.1})
+    motion = vi.simulate(vi.Rig(carts), 1.0, start, frequency=1.0)
+    names, kinds = motion["event_stop"].values.tolist(), motion["event_contact"].values.tolist()
+    # a meets b (2), they rest on each other (1) and reach the wall together (0, 2).
+    assert names[:4] == ["between", "between", "between", "wall"]
+    assert kinds[:4] == [2, 1, 0, 2]
+    together = motion["event_velocity"][1]
+    assert together[0] == pytest.approx(float(together[1]), rel=1e-14)
+    assert together[0] == pytest.approx(float(motion["event_velocity"][0, 0]) / 2.0, rel=1e-13)
+    assert motion["event_time"][0] == motion["event_time"][1]
+    resting = (motion["time"] > motion["event_time"][1]) & (
+        motion["time"] < motion["event_time"][2]
+    )
+    pressing = motion["contact_force"].sel(stop="between")[resting.values]
+    assert len(pressing) > 3
+    assert (pressing > 0.0).all()
+
+
+@pytest.mark.parametrize("samples", [0, 16])
+@pytest.mark.parametrize("what", ["harmonic", "record"])
+def test_motions_are_resumed(what: str, samples: int) -> None:
+    if what == "harmonic":
+        rig = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9, 0.3))
+        whole = vi.simulate(rig, 12, samples=samples)
+        first = vi.simulate(rig, 5.4, samples=samples)
+        touched = 0
+        for start in (first, first["final_state"]):
+            rest = vi.simulate(rig, 6.6, start, samples=samples)
+            near(rest["final_state"], whole["final_state"], 1e-11)
+        for cycles in np.arange(0.5, 4.0, 0.1):
+            part = vi.simulate(rig, cycles, samples=0)
+            touched += int(part["final_state"].sel(component="touching.between"))
+            rest = vi.simulate(rig, 4.0 - cycles, part, samples=samples)
+            near(rest["final_state"], vi.simulate(rig, 4, samples=0)["final_state"], 1e-11)
+        assert touched > 0
+    else:
+        record = vi.Record(2.0 * QUAKE.acceleration, 0.02)
+        whole = vi.simulate(vi.Rig(neighbours(), record), samples=samples)
+        first = vi.simulate(vi.Rig(neighbours(), vi.Record(record.acceleration[:151], 0.02)))
+        other = vi.Rig(neighbours(), vi.Record(record.acceleration[150:], 0.02))
+        rest = vi.simulate(other, start=first, samples=samples)
+        near(rest["final_state"], whole["final_state"], 1e-11)
+        if samples:
+            joined = first.sizes["event"] + rest.sizes["event"]
+            assert joined == whole.sizes["event"] > 20
+
+
+def test_samples_do_not_change_the_motion() -> None:
+    rig = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9))
+    ends = [vi.simulate(rig, 30.3, samples=samples)["final_state"] for samples in (0, 1, 50)]
+    assert (ends[0] == ends[1]).all()
+    assert (ends[0] == ends[2]).all()
+
+
+def test_at_rest_in_equilibrium() -> None:
+    """A bumper that a constant force presses."""
+    held = vi.Assembly(
+        {"a": 1.0, "b": 2.0},
+        {"a": vi.Link("ground", "a", vi.Isolator(50.0, 1.0))},
+        {"between": vi.Link("b", "a", vi.Bumper(400.0, 2.0, 0.01))},
+        {"b": 10.0},
+    )
+    motion = vi.simulate(vi.Rig(held), 2.0)
+    u = [10.0 / 50.0, 10.0 / 50.0 + 0.01 + 10.0 / 400.0]
+    np.testing.assert_allclose(motion["displacement"].values.T - u, 0.0, atol=1e-14)
+    np.testing.assert_allclose(motion["contact_force"], 10.0, rtol=1e-12)
+    assert motion.sizes["event"] == 0
+
+
+def test_the_rule_for_simultaneous_impacts_is_reported() -> None:
+    balls = vi.Assembly(
+        dict.fromkeys("abc", 1.0),
+        stops={
+            "ab": vi.Link("a", "b", vi.RigidStop(1.0, 0.1)),
+            "bc": vi.Link("b", "c", vi.RigidStop(1.0, 0.0)),
+        },
+    )
+    start = vi.State(velocity={"a": 1.0})
+    with pytest.warns(RuntimeWarning, match="at the same instant as another impact or rest"):
+        motion = vi.simulate(vi.Rig(balls), 1, start, frequency=1.0)
+    assert motion["simultaneous_impacts"] >= 1
+    assert "their order is that of the stops" in motion.attrs["notes"]
+
+
+def test_a_motion_that_is_given_up_ends_there() -> None:
+    ball = vi.Assembly(
+        {"ball": 1.0},
+        stops={"floor": vi.Link("ground", "ball", vi.RigidStop(0.99, 0.0))},
+        forces={"ball": -9.81},
+    )
+    start = vi.State({"ball": 0.1})
+    with pytest.warns(RuntimeWarning, match="simulate stopped in cycle 1"):
+        motion = vi.simulate(vi.Rig(ball), 20, start, frequency=1.0, max_events=5)
+    assert motion["status"] == 2
+    assert motion.sizes["time"] == 256
+    assert motion["time"][-1] < 1.0
+    assert float(motion["final_state"].sel(component="displacement.ball")) > 0.0
+    assert motion.sizes["event"] > 5
+    assert json.loads(motion.attrs["parameters"])["cycles"] == 1.0
+    stiff = neighbours().replace(masses={"low": 1e-30, "high": 0.9})
+    with pytest.warns(RuntimeWarning, match="fastest rate"):
+        motion = vi.simulate(vi.Rig(stiff, vi.Harmonic(3.0, 1.9)), 2)
+    assert motion["status"] == 3
+    assert motion.sizes["time"] == 0
+
+
+RIG = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9))
+
+
+@pytest.mark.parametrize(
+    ("given", "says"),
+    [
+        ({"start": vi.State(0.01)}, "is the state of one mass; pass values by name"),
+        ({"start": 3}, "start: 3 is not a state"),
+        ({"start": vi.State({"roof": 0.01})}, "start.displacement.*'roof'"),
+        ({"start": vi.State({"low": 0.05})}, "start.deformation.between|passed"),
+        (
+            {"start": vi.State({"low": 0.05}, deformation={"between": 0.01})},
+            r"start.deformation.between: 0.01 m, but the displacements compress this bumper by",
+        ),
+        ({"start": vi.State({"low": -0.05})}, "overlap by"),
+        (
+            {"start": vi.State({"low": 0.0}, deformation={"wall": 0.01})},
+            "start.deformation.wall: 0.01 m, but a rigid stop does not deform",
+        ),
+        (
+            {"start": vi.State({"low": 0.0}, touching=["wall"])},
+            "start.touching: 'wall', but ground and low are 0.02 m apart",
+        ),
+        (
+            {"start": vi.State({"low": 0.0}, touching=["between"])},
+            "start.touching: 'between', but low and high do not press it",
+        ),
+        ({"tail": 1.0}, "tail: 1.0, but no Record shakes this rig"),
+    ],
+)
+def test_bad_starts_are_refused(given: dict[str, Any], says: str) -> None:
+    if says.endswith("passed"):
+        vi.simulate(RIG, 1, **given)  # a bumper is compressed as far as its bodies overlap
+        return
+    with pytest.raises(vi.InputError, match=says) as error:
+        vi.simulate(RIG, 1, **given)
+    assert "\n" not in str(error.value)
+
+
+def test_states_of_other_rigs_are_refused() -> None:
+    other = vi.simulate(vi.Rig(one_mass(BUMPER, None)[1]), 1, samples=0)
+    with pytest.raises(vi.InputError, match=r"'displacement.m', which this assembly has not"):
+        vi.simulate(RIG, 1, other)
+    with pytest.raises(vi.InputError, match="is not a state"):
+        vi.simulate(vi.Rig(one_mass(BUMPER, None)[0], SHAKING["force"]), 1, other)
+
+
+@pytest.mark.parametrize(
+    ("part", "law", "says"),
+    [
+        ("links", vi.FrictionIsolator(100.0, 1.0, 3.0), "links.x: .*not a FrictionIsolator"),
+        ("links", vi.Law("k*u + k*u**3", k=3.0), "links.x: .* linear links .*not a Law"),
+        ("stops", vi.PowerBumper(1e5, 0.01, restitution=0.5), "stops.x: .*not a PowerBumper"),
+    ],
+)
+def test_laws_that_are_not_accepted_yet(part: str, law: Any, says: str) -> None:
+    assembly = neighbours()
+    added = assembly.replace(
+        **{part: {**getattr(assembly, part), "x": vi.Link("low", "high", law)}}
+    )
+    with pytest.raises(vi.InputError, match=says) as error:
+        vi.simulate(vi.Rig(added, vi.Harmonic(3.0, 1.9)), 1)
+    assert "\n" not in str(error.value)
+
+
+def test_functions_of_one_mass_refuse_the_motion() -> None:
+    motion = vi.simulate(RIG, 2)
+    for function in (vi.contacts, vi.totals, vi.fourier_spectrum):
+        with pytest.raises(vi.InputError, match="motion of an Assembly of several masses"):
+            function(motion)
+
+
+def test_a_motion_is_saved_and_resumed(tmp_path: Any) -> None:
+    motion = vi.simulate(RIG, 3)
+    vi.save(motion, tmp_path / "motion.nc")
+    again = vi.load(tmp_path / "motion.nc")
+    xr.testing.assert_identical(again["displacement"], motion["displacement"])
+    ends = [vi.simulate(RIG, 3, one, samples=0)["final_state"] for one in (motion, again)]
+    xr.testing.assert_identical(*ends)
+
+
+def test_a_study_file_and_a_rig_without_units(tmp_path: Any) -> None:
+    path = tmp_path / "rig.toml"
+    path.write_text(
+        "[assembly.masses]\na = 1.0\nb = 2.0\n"
+        '[assembly.links.k]\nleft = "ground"\nright = "a"\nstiffness = 5.0\ndamping = 0.1\n'
+        '[assembly.links.l]\nleft = "a"\nright = "b"\nstiffness = 5.0\ndamping = 0.1\n'
+        "[shaking]\namplitude = 1.0\nfrequency = 0.3\n"
+    )
+    motion = vi.simulate(str(path), 2)
+    assert motion.sizes["mass"] == 2
+    assert motion.sizes["stop"] == 0
+    assembly = vi.Assembly(
+        {"a": 1.0}, {"k": vi.Link("ground", "a", vi.Isolator(1.0, 0.1))}, units="none"
+    )
+    plain = vi.simulate(vi.Rig(assembly, 1.0, 0.2), 1)
+    assert plain.attrs["unit_system"] == "none"
+    assert plain["displacement"].attrs["units"] == "1"
+
+
+def test_no_warning_without_a_cause() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        motion = vi.simulate(RIG, 3)
+    assert "notes" not in motion.attrs
+    assert motion.attrs["message"] == "done"

@@ -108,7 +108,11 @@ def as_state(start: State | AssemblyState | xr.DataArray | xr.Dataset) -> State:
         return start
     if isinstance(start, xr.Dataset) and "final_state" in start:
         start = start["final_state"]
-    if isinstance(start, xr.DataArray) and start.dims == ("component",):
+    if (
+        isinstance(start, xr.DataArray)
+        and start.dims == ("component",)
+        and "displacement" in start["component"]
+    ):
         values: dict[str, Any] = {
             str(k): float(start.sel(component=k)) for k in start["component"].values
         }
