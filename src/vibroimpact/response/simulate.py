@@ -64,14 +64,16 @@ def simulate(
     ----------
     rig
         The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        path of a study file. The system may be an `Assembly` whose links are linear and whose stops
+        are bumpers or rigid stops.
     cycles
         Duration in forcing cycles, greater than 0. It need not be a whole number. If nothing shakes
         the rig, a cycle is one period of ``frequency``. If a record shakes the rig, do not pass
         ``cycles``: the record has its own duration.
     start
-        Initial state: a `State`, the dataset of an earlier call, or its ``final_state``. The latter
-        two also continue the phase of the excitation. Default: the mass at rest in its equilibrium.
+        Initial state: a `State` (by names for an assembly), the dataset of an earlier call, or its
+        ``final_state``. The latter two also continue the phase of the excitation. Default: at rest
+        in the equilibrium.
     samples
         Number of samples per forcing cycle, or per step of a record. It does not affect the
         computed motion. If it is 0, only ``final_state`` is returned, and the memory does not grow
@@ -102,10 +104,17 @@ def simulate(
         ``final_state`` as ``start``. If the computation was given up, the dataset ends at that
         time. The variable ``status`` and the attribute ``message`` then give the reason.
 
+        The motion of an assembly has the dims ``mass`` and ``stop``: ``displacement``, ``velocity``
+        and ``acceleration`` belong to the masses, ``clearance``, ``deformation`` and
+        ``contact_force`` (N, positive when it pushes the bodies apart) to the stops. Each event has
+        the name of its stop, ``event_stop``. ``simultaneous_impacts`` counts the impacts whose
+        order was decided by the order of the stops, and a warning reports them.
+
     Raises
     ------
     InputError
-        If a value is invalid, or if an undamped mass without stops is shaken at resonance.
+        If a value is invalid, or if an assembly has a law that is not accepted yet. Also if an
+        undamped mass without stops is shaken at resonance.
     """
     rig = as_rig_of_any_masses(rig)
     if frequency is not None:
