@@ -371,8 +371,8 @@ class _Run:
         """Return the velocities at the beginning of a stretch of a section."""
         rows = self._rows_at_begin(self.sections.lines[section : section + 1], before)
         if row < len(rows):
-            then: _Array = _Seen.of(rows, self.n).velocity[row]
-            return then
+            found: _Array = _Seen.of(rows, self.n).velocity[row]
+            return found
         now: _Array = self.state[layout.PARTS + self.n : layout.PARTS + 2 * self.n].copy()
         return now
 
