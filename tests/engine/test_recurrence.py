@@ -1,4 +1,4 @@
-"""A motion is said to have settled only where its limit is within the tolerance."""
+"""A motion counts as settled only if its limit is within the tolerance."""
 
 from __future__ import annotations
 

@@ -18,7 +18,7 @@ U, V, AGE = 2, 3, 7
 
 
 class Diary(NamedTuple):
-    """Numbers of the sections, then room for so many, and events that are told."""
+    """Numbers of the sections, the room for them, and the events that are reported."""
 
     notes: np.ndarray
     room: int

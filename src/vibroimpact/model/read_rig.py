@@ -64,6 +64,17 @@ def as_rig(
     return rig if frequency is None else rig.at(frequency)
 
 
+def as_rig_of_any_masses(value: Any, where: str = "rig") -> Rig:
+    """Return the rig that an argument describes, also if its system is an assembly.
+
+    Raises
+    ------
+    InputError
+        If the value is not a rig, or if the study file is invalid.
+    """
+    return _read(value, where, oscillator_alone=False)
+
+
 def as_assembly(value: Any, where: str = "rig") -> Assembly:
     """Return the assembly that an argument describes: an `Assembly`, or a rig with one.
 
@@ -87,7 +98,7 @@ def in_units_of_rig(function: Callable[_P, _R]) -> Callable[_P, _R]:
     @wraps(function)
     def wrapped(*args: _P.args, **kwargs: _P.kwargs) -> _R:
         rig = args[0] if args else kwargs.get("rig")
-        with written_for(as_rig(rig) if isinstance(rig, str | Path) else rig):
+        with written_for(as_rig_of_any_masses(rig) if isinstance(rig, str | Path) else rig):
             return function(*args, **kwargs)
 
     return wrapped

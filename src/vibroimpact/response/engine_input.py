@@ -16,7 +16,16 @@ from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Bumper, Oscillator, Periodic, Record, RigidStop, State, Stop
+from vibroimpact.model import (
+    AssemblyState,
+    Bumper,
+    Oscillator,
+    Periodic,
+    Record,
+    RigidStop,
+    State,
+    Stop,
+)
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.law_numbers import isolator_numbers, own_numbers, stop_numbers
 
@@ -93,13 +102,17 @@ def _drive(rig: Rig) -> Drive:
     return Drive(1.0 if shaken.moves_base else 0.0, scale, power, weights)
 
 
-def as_state(start: State | xr.DataArray | xr.Dataset) -> State:
+def as_state(start: State | AssemblyState | xr.DataArray | xr.Dataset) -> State:
     """Accept a `State`, a dataset of `simulate`, or its `final_state`."""
     if isinstance(start, State):
         return start
     if isinstance(start, xr.Dataset) and "final_state" in start:
         start = start["final_state"]
-    if isinstance(start, xr.DataArray) and start.dims == ("component",):
+    if (
+        isinstance(start, xr.DataArray)
+        and start.dims == ("component",)
+        and "displacement" in start["component"]
+    ):
         values: dict[str, Any] = {
             str(k): float(start.sel(component=k)) for k in start["component"].values
         }

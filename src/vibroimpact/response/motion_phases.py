@@ -112,6 +112,11 @@ def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
             "simulate with samples greater than 0"
         )
     parameters = json.loads(motion.attrs["parameters"])
+    if "assembly" in parameters:
+        raise InputError(
+            "motion: the motion of an Assembly of several masses is not accepted by this function; "
+            "pass that of an Oscillator"
+        )
     oscillator = validate(Oscillator, parameters["oscillator"], "motion.oscillator")
     assert isinstance(oscillator, Oscillator)
     if "record" in parameters:

@@ -15,7 +15,7 @@ from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
-from vibroimpact.model import Record, State, equilibrium
+from vibroimpact.model import AssemblyState, Record, State, equilibrium
 from vibroimpact.model.count_checks import MOST_SAMPLES, check_samples
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
@@ -35,7 +35,7 @@ _Array = NDArray[np.float64]
 def through(
     rig: Rig,
     tail: float,
-    start: State | xr.DataArray | xr.Dataset | None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None,
     samples: int,
     max_events: int,
     progress: Progress | None = None,

@@ -23,12 +23,13 @@ from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
-from vibroimpact.model import Record, Repeated, State, equilibrium, to_si
+from vibroimpact.model import Assembly, AssemblyState, Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, check_samples, whole
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.response.assembly_motion import compute_assembly_history
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import (
     EVENTS_AT_ONCE,
@@ -47,7 +48,7 @@ from vibroimpact.tasks.threads import Progress
 def simulate(
     rig: AnyRig,
     cycles: float | None = None,
-    start: State | xr.DataArray | xr.Dataset | None = None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None = None,
     samples: int | None = None,
     *,
     frequency: float | str | None = None,
@@ -63,14 +64,16 @@ def simulate(
     ----------
     rig
         The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        path of a study file. The system may be an `Assembly` whose links are linear and whose stops
+        are bumpers or rigid stops.
     cycles
         Duration in forcing cycles, greater than 0. It need not be a whole number. If nothing shakes
         the rig, a cycle is one period of ``frequency``. If a record shakes the rig, do not pass
         ``cycles``: the record has its own duration.
     start
-        Initial state: a `State`, the dataset of an earlier call, or its ``final_state``. The latter
-        two also continue the phase of the excitation. Default: the mass at rest in its equilibrium.
+        Initial state: a `State` (by names for an assembly), the dataset of an earlier call, or its
+        ``final_state``. The latter two also continue the phase of the excitation. Default: at rest
+        in the equilibrium.
     samples
         Number of samples per forcing cycle, or per step of a record. It does not affect the
         computed motion. If it is 0, only ``final_state`` is returned, and the memory does not grow
@@ -101,15 +104,24 @@ def simulate(
         ``final_state`` as ``start``. If the computation was given up, the dataset ends at that
         time. The variable ``status`` and the attribute ``message`` then give the reason.
 
+        The motion of an assembly has the dims ``mass`` and ``stop``: ``displacement``, ``velocity``
+        and ``acceleration`` belong to the masses, ``clearance``, ``deformation`` and
+        ``contact_force`` (N, positive when it pushes the bodies apart) to the stops. Each event has
+        the name of its stop, ``event_stop``. ``simultaneous_impacts`` counts the impacts whose
+        order was decided by the order of the stops, and a warning reports them.
+
     Raises
     ------
     InputError
-        If a value is invalid, or if an undamped mass without stops is shaken at resonance.
+        If a value is invalid, or if an assembly has a law that is not accepted yet. Also if an
+        undamped mass without stops is shaken at resonance.
     """
-    rig = as_rig(rig)
+    rig = as_rig_of_any_masses(rig)
     if frequency is not None:
         rig = (rig if rig.is_shaken else rig.vibrating_freely()).at(frequency)
     data = compute_history(rig, cycles, start, samples, tail, max_events, progress)
+    if isinstance(rig.system, Assembly):
+        return data
     # A short motion shows nothing: only the closed form of free flight counts.
     notes = [*noted(data), *doubt_stops(rig)]
     return describe(data, "vibroimpact.simulate", notes=notes)
@@ -118,14 +130,13 @@ def simulate(
 def compute_history(
     rig: Rig,
     cycles: float | None,
-    start: State | xr.DataArray | xr.Dataset | None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None,
     samples: int | None,
     tail: float | str | None = None,
     max_events: int = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Do what `simulate` does, without doubts about the rig."""
-    oscillator = rig.oscillator
     if not rig.is_shaken:
         rig = rig.vibrating_freely()
     excitation = rig.shaking if isinstance(rig.shaking, Record) else rig.harmonic
@@ -140,7 +151,11 @@ def compute_history(
                 "time after the record, pass tail)"
             )
         behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
-        return through(Rig(oscillator, excitation), behind, start, samples, max_events, progress)
+        if isinstance(rig.system, Assembly):
+            return compute_assembly_history(
+                rig, excitation, behind, start, samples, max_events, progress
+            )
+        return through(rig, behind, start, samples, max_events, progress)
     if tail is not None:
         raise InputError(
             f"tail: {tail!r}, but no Record shakes this rig; remove tail, and set the duration by "
@@ -150,6 +165,11 @@ def compute_history(
         raise InputError("cycles: missing; pass the number of forcing cycles, such as 100")
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
     check_samples(length, samples, "cycles")
+    if isinstance(rig.system, Assembly):
+        return compute_assembly_history(
+            rig, excitation, length, start, samples, max_events, progress
+        )
+    oscillator = rig.oscillator
     if oscillator.isolator.linear:  # in closed form about its steady motion, which is none there
         check_bounded(Rig(oscillator, excitation))
     state = equilibrium(oscillator) if start is None else as_state(start)

@@ -296,7 +296,6 @@ def test_a_rig_keeps_its_system():
 
 
 REFUSED = {
-    "simulate": lambda rig: vi.simulate(rig, 5, frequency=1.0),
     "sweep": lambda rig: vi.sweep(rig, [1.0]),
     "sweeps": lambda rig: vi.sweeps([rig], [1.0]),
     "steady": lambda rig: vi.steady(rig, frequency=1.0),

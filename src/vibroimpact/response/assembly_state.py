@@ -1,0 +1,201 @@
+"""States of assemblies: by names, as components of a dataset, and as the engine's vectors."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.engine.assembly import layout
+from vibroimpact.engine.assembly.plan import state_width
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model import Assembly, AssemblyState, Bumper, RigidStop, State
+from vibroimpact.response.engine_input import TOUCHING
+
+_Array = NDArray[np.float64]
+
+_AT_REST = 1e-14
+"""A closing speed below this share of the bodies' speeds is rounding."""
+_KEPT = 6
+"""Known zeros that fit into an engine's state."""
+_PARTS = ("displacement", "velocity", "deformation", "touching")
+
+
+def component_names(assembly: Assembly) -> list[str]:
+    """Return the names of the components of a state in a dataset, such as ``velocity.roof``."""
+    masses, stops = assembly.names, tuple(assembly.stops)
+    of = dict(zip(_PARTS, (masses, masses, stops, stops), strict=True))
+    return [*(f"{part}.{name}" for part in _PARTS for name in of[part]), "phase"]
+
+
+def state_components(assembly: Assembly, vector: _Array, phase: float) -> _Array:
+    """Return an engine's state as the components of a dataset's state."""
+    count = len(assembly.stops)
+    end = layout.PARTS + 2 * len(assembly.names)
+    mode = int(vector[layout.STATE_MODE])
+    touching = [float(mode >> f & 1) for f in range(count)]
+    deformations = np.maximum(vector[end : end + count], 0.0)
+    found = [*vector[layout.PARTS : end], *deformations, *touching, phase % (2.0 * math.pi)]
+    return np.array(found) + 0.0  # no negative zeros
+
+
+def as_assembly_state(start: Any, assembly: Assembly) -> AssemblyState:
+    """Accept a `State` by names, a dataset of `simulate`, or its ``final_state``.
+
+    Raises
+    ------
+    InputError
+        If the value is none of them, or names what the assembly has not.
+    """
+    if isinstance(start, xr.Dataset) and "final_state" in start:
+        start = start["final_state"]
+    if isinstance(start, xr.DataArray) and start.dims == ("component",):
+        start = _from_components(start, assembly)
+    if isinstance(start, AssemblyState):
+        start.check_names(assembly)
+        return start
+    if isinstance(start, State):
+        raise InputError(
+            f"start: {start} is the state of one mass; pass values by name, such as "
+            f'State(displacement={{"{assembly.names[0]}": 0.01}})'
+        )
+    raise InputError(
+        f"start: {shown(start)} is not a state; pass a State by name, such as "
+        f'State(displacement={{"{assembly.names[0]}": 0.01}}), the result of simulate, or its '
+        "final_state"
+    )
+
+
+def _from_components(start: xr.DataArray, assembly: Assembly) -> AssemblyState:
+    given = {str(name): float(start.sel(component=name)) for name in start["component"].values}
+    wanted = component_names(assembly)
+    if sorted(given) != sorted(wanted):
+        other = next((one for one in given if one not in wanted), None)
+        what = (
+            f"it has {other!r}, which this assembly has not"
+            if other is not None
+            else f"it has no {next(one for one in wanted if one not in given)!r}"
+        )
+        raise InputError(f"start: {what}; pass a state of the same masses and stops")
+    values: dict[str, dict[str, float]] = {part: {} for part in _PARTS}
+    for name, value in given.items():
+        if name != "phase":
+            part, _, of = name.partition(".")
+            values[part][of] = value
+    touching = [name for name, value in values.pop("touching").items() if value]
+    return AssemblyState(**values, phase=given["phase"], touching=touching)
+
+
+def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
+    """Return the state as the engine's vector, absent values deduced.
+
+    Raises
+    ------
+    InputError
+        If the state claims a contact or a deformation that is not possible.
+    """
+    n = len(assembly.names)
+    u = np.array([state.displacement.get(name, 0.0) for name in assembly.names])
+    v = np.array([state.velocity.get(name, 0.0) for name in assembly.names])
+    deformations = np.zeros(len(assembly.stops))
+    mode, zeros = 0, {}
+    for f, (name, stop) in enumerate(assembly.stops.items()):
+        w, law = assembly.closing(stop), stop.stop
+        reach, closing = float(w @ u) - law.gap, float(w @ v)
+        speeds = float(np.abs(w) @ np.abs(v))
+        slack = TOUCHING * max(
+            abs(law.gap),
+            float(np.abs(w) @ np.abs(u)),
+            speeds / (assembly.angular_frequency or math.inf),
+        )
+        said = None if state.touching is None else name in state.touching
+        if isinstance(law, RigidStop):
+            d = state.deformation.get(name, 0.0)
+            if d:
+                raise InputError(
+                    f"start.deformation.{name}: {d:g} m, but a rigid stop does not deform; pass 0"
+                )
+            still = abs(closing) <= _AT_REST * speeds
+            touches = reach >= -slack and still and said is not False
+            why = f"are {-reach:g} m apart and close at {closing:g} m/s"
+        else:
+            assert isinstance(law, Bumper)
+            touches, d = _on_bumper(name, law, state, reach, closing, speeds, slack, said)
+            why = f"do not press it (distance {d - reach:g} m, closing speed {closing:g} m/s)"
+        if said and not touches:
+            raise InputError(
+                f"start.touching: {name!r}, but {stop.left} and {stop.right} {why}; remove it from "
+                "touching"
+            )
+        deformations[f] = d
+        if touches:
+            mode |= 1 << f
+        elif abs(reach - d) <= slack and (order := _parting(law, d, closing, speeds)):
+            zeros[f] = order
+    vector = np.zeros(state_width(n, len(assembly.stops)))
+    vector[layout.STATE_MODE] = float(mode)
+    vector[layout.STATE_FRESH] = _packed(zeros)
+    vector[layout.PARTS : layout.PARTS + n] = u
+    vector[layout.PARTS + n : layout.PARTS + 2 * n] = v
+    vector[layout.PARTS + 2 * n : layout.PARTS + 2 * n + len(deformations)] = deformations
+    return vector
+
+
+def _on_bumper(
+    name: str,
+    law: Bumper,
+    state: AssemblyState,
+    reach: float,
+    closing: float,
+    speeds: float,
+    slack: float,
+    said: bool | None,
+) -> tuple[bool, float]:
+    """Whether a bumper is pressed, and its deformation (m)."""
+    given = state.deformation.get(name)
+    # Stated contact makes the deformation that of the bodies, to the last digit.
+    d = max(reach, 0.0) if given is None else given
+    if reach > d + slack:
+        raise InputError(
+            f"start.deformation.{name}: {d:g} m, but the displacements compress this bumper by "
+            f"{reach:g} m; pass at least {reach:g} m, or leave it out"
+        )
+    touches = d - reach <= slack
+    force = law.stiffness * d + law.damping * closing
+    rounding = TOUCHING * (law.stiffness * d + law.damping * speeds)
+    if law.damping == 0.0 and not touches:
+        d = 0.0  # without a dashpot a free bumper is at rest at once
+    if said is not None:
+        if not said and touches and law.damping == 0.0 and d > slack:
+            raise InputError(
+                f"start.touching: {name!r} is missing, but the bumper is compressed by {d:g} m and "
+                "has no dashpot, so it stays in contact; add it to touching"
+            )
+        return said and touches and force >= -rounding, d
+    begins = d <= slack and closing > 0.0
+    return touches and force > 0.0 and not begins, d
+
+
+def _parting(law: Bumper | RigidStop, d: float, closing: float, speeds: float) -> int:
+    """Return the order of the zero of a clearance that bodies at the face just leave, or 0.
+
+    The face of a relaxing bumper is left without relative speed, any other one at that of the
+    bodies.
+    """
+    if isinstance(law, Bumper) and d > 0.0:
+        spring = law.stiffness * d
+        return 2 if abs(spring + law.damping * closing) <= TOUCHING * spring else 0
+    if closing > 0.0 and closing > _AT_REST * speeds:
+        return 0
+    return 1 if closing < -_AT_REST * speeds else 2
+
+
+def _packed(zeros: dict[int, int]) -> float:
+    """Return known zeros as the engine keeps them; see `engine.assembly.events.pack_fresh`."""
+    packed = 0
+    for f, order in list(zeros.items())[:_KEPT]:
+        packed = packed * 256 + 4 * (f + 1) + order
+    return float(packed)
