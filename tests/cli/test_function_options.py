@@ -13,6 +13,7 @@ from cyclopts import Parameter
 from docstring_parser import parse_from_object
 
 import vibroimpact as vi
+from vibroimpact import cli
 from vibroimpact.cli import _COMMANDS
 from vibroimpact.cli.function_options import (
     describe,
@@ -23,6 +24,8 @@ from vibroimpact.cli.function_options import (
 from vibroimpact.cli.options import OutputOptions, RigOptions, ThresholdOptions
 from vibroimpact.cli.records import RecordOptions
 from vibroimpact.cli.states import StateOptions
+from vibroimpact.model.parameters import PARAMETERS, canonical
+from vibroimpact.scenarios.axes import NAMES
 
 OWN_DEFAULTS = {
     ("bifurcation", "direction"): "both, as the function, by its name",
@@ -118,6 +121,20 @@ def test_the_help_of_a_command_ends_with_its_examples(name):
     text = COMMANDS[name].__doc__
     assert text.splitlines()[-1].startswith(f"    vibroimpact {name}")
     assert "Parameters" not in text
+
+
+def test_parameters_in_the_examples_of_the_help_are_paths():
+    texts = [cli.__doc__, *(one.__doc__ for one in COMMANDS.values())]
+    found = [
+        path
+        for text in texts
+        for paths in re.findall(r"--(?:free|set|vary|uncertain|each) ([\w.,]+)", text)
+        for path in paths.split(",")
+    ]
+    assert len(found) > 15
+    parts = ("isolator", "left", "right")
+    strange = {one for one in found if canonical(one, PARAMETERS) not in PARAMETERS}
+    assert not strange.difference(parts, NAMES)
 
 
 @pytest.mark.parametrize("name", COMMANDS)

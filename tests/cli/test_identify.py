@@ -206,6 +206,7 @@ def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_pa
         ),
         (["--free", "nothing"], "free: 'nothing'"),
         (["--free", "stops.stifness,gap"], "did you mean stops.stiffness?"),
+        (["--free", "stiffness"], "did you mean 'isolator.stiffness' or 'stops.stiffness'?"),
     ],
 )
 def test_wrong_words_are_told(file, tmp_path, capsys, words, told):

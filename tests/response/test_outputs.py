@@ -151,6 +151,7 @@ def test_branches_have_outputs_of_orbits_and_bifurcations(function):
     [
         ("", "it has 0 characters"),
         ("max(velocty)", "'velocty' is neither a time history nor .* did you mean velocity"),
+        ("max(damping*velocity)", "did you mean 'isolator.damping'"),
         ("max(applied_force)", "'applied_force' is neither"),
         ("max(friction*velocity)", "'friction' is neither"),
         ("velocity", "'velocity' is a time history, not a number; apply max, min, mean"),

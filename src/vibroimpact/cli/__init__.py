@@ -53,7 +53,7 @@ For example:
     vibroimpact record quake.AT2
     vibroimpact earthquake B2-G1-A3 quake.AT2
     vibroimpact design B2-G1-A3
-    vibroimpact identify test.csv --rig B2-G1-A3 --free stiffness,damping
+    vibroimpact identify test.csv --rig B2-G1-A3 --free isolator.stiffness,gap
     vibroimpact ensemble B2-G1-A3 --uncertain gap=normal:5%
     vibroimpact classify B2-G1-A3
     vibroimpact map --vary stiffness_ratio=0.5:100:log --vary gap_ratio=0:1

@@ -9,8 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, meant, shown
-from vibroimpact.model.parameters import Parameter, canonical, parameter, parameters
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model.parameters import (
+    Parameter,
+    canonical,
+    parameter,
+    parameters,
+    suggestion,
+)
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, Quantity
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import to_si, with_si_unit
@@ -130,8 +136,7 @@ def _names(given: Any, field: str) -> list[str]:
     names = list(given) if isinstance(given, Iterable) else [given]
     if not all(isinstance(name, str) for name in names):
         raise InputError(
-            f"{field}: {shown(given)}; a list of names, or a text such as 'gap, stiffness', is "
-            "accepted"
+            f"{field}: {shown(given)}; a list of names, or a text such as 'gap, mass', is accepted"
         )
     return names
 
@@ -141,7 +146,7 @@ def _name(name: Any, known: Iterable[str], field: str = "free") -> str:
     key = canonical(name, [*known, *SENSORS])
     if key in SENSORS or key in known:
         return key
-    hint = meant(name, [*known, *SENSORS])
+    hint = suggestion(name, [*known, *SENSORS])
     raise InputError(
         f"{field}: {shown(name)}; {hint}{'A' if hint else 'a'} parameter of the rig "
         f"({', '.join(known)}) or of a sensor ({', '.join(SENSORS)}) is accepted"

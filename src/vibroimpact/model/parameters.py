@@ -279,16 +279,28 @@ def _path(steps: Steps) -> str:
     return ".".join(("stops", *steps) if steps[0] in ("right", "left") else steps)
 
 
+def _fields_named(name: str, known: Iterable[str]) -> str:
+    """Return the paths of a field, as words, or ""."""
+    paths = [one for one in known if one.endswith(f".{name}") and one.count(".") == 1]
+    return " or ".join(map(repr, paths))
+
+
+def suggestion(path: object, known: Iterable[str]) -> str:
+    """Return the paths that a wrong name may mean, such as ``did you mean right.gap?``, or ""."""
+    known = list(known)
+    if isinstance(path, str) and (meanings := _fields_named(path.strip().lower(), known)):
+        return f"did you mean {meanings}? "
+    return meant(path, [*known, *(one.removeprefix("stops.") for one in known)])
+
+
 def _unknown(path: object, rig: Rig, field: str) -> InputError:
     name = path.strip().lower() if isinstance(path, str) else ""
     if (symbol := name.replace("_", "")) in _SYMBOLS:
         return InputError(f"{field}: {path!r} is not a name of a parameter; use {_SYMBOLS[symbol]}")
     known = list(parameters(rig))
-    both = [one for one in known if one.endswith(f".{name}") and one.count(".") == 1]
-    if both:
-        return InputError(f"{field}: {path!r} is not a path; use {' or '.join(map(repr, both))}")
-    short = [one.removeprefix("stops.") for one in known if one.count(".") == 2]
-    hint = meant(path, [*known, *short])
+    if meanings := _fields_named(name, known):
+        return InputError(f"{field}: {path!r} is not a path; use {meanings}")
+    hint = suggestion(path, known)
     elsewhere = canonical(path, PARAMETERS) in PARAMETERS
     why = " is not a parameter of this rig" if elsewhere else " is unknown"
     return InputError(

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, meant, shown
-from vibroimpact.model.parameters import canonical
+from vibroimpact.model.parameters import canonical, suggestion
 
 _Value = NDArray[np.float64]
 
@@ -152,8 +152,8 @@ def _names(part: ast.AST, known: tuple[str, ...]) -> list[str]:
                 histories = [one for one in known if one in HISTORIES]
                 raise InputError(
                     f"{name!r} is neither a time history nor a parameter of the rig; "
-                    f"{meant(name, known)}{', '.join(histories)}, and parameters such as mass, "
-                    "isolator.damping and frequency are accepted"
+                    f"{suggestion(name, known)}{', '.join(histories)}, and parameters such as "
+                    "mass, isolator.damping and frequency are accepted"
                 )
             return [name]
         case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=one):
