@@ -62,9 +62,8 @@ def design_chart(
         ``"stops.damping"``, ``"isolator_period"``, ``"damping_ratio"`` and
         ``"isolator.yield_force"``. A parameter of stops is set on both sides, if the stop there has
         this parameter. If ``"stops.stiffness"`` is varied, the damping of the bumpers stays
-        constant. If
-        ``"stiffness_at_restitution"`` is varied, the damping changes so that the coefficient of
-        restitution stays constant.
+        constant. If ``"stiffness_at_restitution"`` is varied, the damping changes so that the
+        coefficient of restitution stays constant.
     records
         One record, or several as a list or as a mapping from names to records. They replace the
         shaking of the rig, and the rig may then be an `Oscillator` alone. The motion through each
