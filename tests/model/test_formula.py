@@ -7,9 +7,9 @@ import math
 import pytest
 
 from vibroimpact.engine.parameters import OWN_NUMBERS
-from vibroimpact.engine.series.program import LARGEST as LARGEST_EXPONENT
-from vibroimpact.engine.series.program import MOST_SYMBOLS, SYMBOLS
 from vibroimpact.errors import InputError, InputWarning
+from vibroimpact.law_numbers import LARGEST as LARGEST_EXPONENT
+from vibroimpact.law_numbers import MOST_SYMBOLS, SYMBOLS
 from vibroimpact.model import (
     Bumper,
     Isolator,
