@@ -57,7 +57,7 @@ def test_it_is_read_from_a_table_and_written_as_one() -> None:
     assert dict(stop) == {"stiffness": 4e4, "drag": 5e3, "gap": 7.5e-3}
     assert Side(stop=stop).model_dump()["stop"] == {"kind": "dragged", **dict(stop)}
     assert stop.summary() == "dragged, stiffness 40 kN/m, drag 5000 N s/m³, gap 7.5 mm"
-    with pytest.raises(vi.InputError, match="stop.drag: .*-1 N s/m³"):
+    with pytest.raises(vi.InputError, match=r"stop\.drag: .*-1 N s/m³"):
         read(drag=-1.0)
 
 
@@ -69,7 +69,7 @@ def test_the_engine_follows_it_as_the_law_that_a_user_writes() -> None:
 def test_it_pushes_and_never_pulls() -> None:
     stop = read()
     assert stop.static_force(2e-3) == pytest.approx(80.0, rel=1e-15)
-    assert not stop.linear and not stop.rigid and stop.spring_and_dashpot is None
+    assert (stop.linear, stop.rigid, stop.spring_and_dashpot) == (False, False, None)
     d, v = np.array([0.0, 2e-3, 2e-3]), np.array([1.0, 1.0, -1e4])
     assert stop.force(d, v).tolist() == pytest.approx([0.0, 80.02, 0.0], rel=1e-14)
 

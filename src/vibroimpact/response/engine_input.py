@@ -284,7 +284,8 @@ def _on_bumper(
 ) -> tuple[bool, float]:
     """Whether the mass presses a bumper, and the bumper's deformation away from the mass (m).
 
-    The law is the stiffness and the damping of the bumper. An undeformed bumper is not pressed yet by a mass at its face, unless the state says so.
+    The law is the stiffness and the damping of the bumper. An undeformed bumper is not pressed yet
+    by a mass at its face, unless the state says so.
     """
     stiffness, damping = law
     given = state.right_bumper if sign == 1 else state.left_bumper
