@@ -18,7 +18,7 @@ def charted(nodes: int, threads: int = 2) -> tuple[float, int]:
     building = vi.Oscillator("5000 t", isolator, wall, wall)
     vary = {
         "gap": np.linspace(0.1, 0.9, nodes),
-        "bumper_stiffness": np.geomspace(1e7, 5e8, nodes),
+        "stops.stiffness": np.geomspace(1e7, 5e8, nodes),
     }
     begin = time.perf_counter()
     data = vi.design_chart(

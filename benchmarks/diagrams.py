@@ -72,7 +72,11 @@ def _diagram(table: Table) -> None:
 def _ensemble(table: Table) -> None:
     rig = _rig()
     frequencies = np.linspace(0.5, 3.0, 50) / math.tau
-    spread = {"gap": "normal:5%", "bumper_stiffness": "lognormal:0.2", "damping": "lognormal:0.1"}
+    spread = {
+        "gap": "normal:5%",
+        "stops.stiffness": "lognormal:0.2",
+        "isolator.damping": "lognormal:0.1",
+    }
 
     def ensemble(count: int) -> object:
         response = partial(vi.sweeps, frequencies=frequencies, threads=2)

@@ -14,7 +14,7 @@ from vibroimpact.measurements.read import as_measured
 _FIT = 10.0
 _BOOTSTRAP = 120.0
 _DRAWS = 1000
-_FREE = "stiffness,damping,bumper_stiffness,bumper_damping,gap"
+_FREE = "isolator.stiffness,isolator.damping,stops.stiffness,stops.damping,gap"
 _CYCLES = 40
 """Cycles that the general solver is given to settle; the engine goes on until it has."""
 

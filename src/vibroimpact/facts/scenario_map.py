@@ -61,10 +61,10 @@ def constants(rig: Rig, x: str, y: str) -> str:
     walls = [dict(stop)["restitution"] for stop in stops if stop.rigid]
     for pair in ONE_QUANTITY:
         varied |= pair if varied & pair else set()
-    if "bumper_stiffness" in (x, y):
+    if "stops.stiffness" in (x, y):
         varied.add("relaxation_time")  # the damping is held
     rest = {
-        "restitution": ("e =", [f"{e:.3g}" for e in walls]),
+        "stops.restitution": ("e =", [f"{e:.3g}" for e in walls]),
         "relaxation_time": (
             "τ =",
             [f"{rig.oscillator.angular_frequency * c / k:.3g}" for k, c in bumpers],
