@@ -89,7 +89,6 @@ def clusters() -> Table:
             table.add(f"{name}: processes over threads", others.text(), "", "")
             table.add(f"{name}: threads, s", Spread.of(taken["threads"]).text(), "", "")
     table.notes.append(
-        f"In each of {_ROUNDS} rounds, the same call runs in three ways, in turn. The cluster and "
-        "the processes are started before."
+        f"{_ROUNDS} rounds of the same call, in turn. Cluster and processes are started before."
     )
     return table

@@ -78,8 +78,8 @@ def fixed() -> Table:
         work = Spread.of([one.work for one in runs])
         table.add(f"`{name}`", seconds.text(), digits(work.median))
     table.notes.append(
-        f"Each command does its smallest task, {_ROUNDS} times in turn. Values are the median and, "
-        "in brackets, the range. The sweeps of `classify` and the steps of `branch` and `curve` "
-        "are as fine as always. `explore` is left out, because it serves a page."
+        f"The smallest task of each command, {_ROUNDS} times in turn: median and range. The sweeps "
+        "of `classify` and the steps of `branch` and `curve` are as fine as always. `explore` "
+        "serves a page, and is left out."
     )
     return table
