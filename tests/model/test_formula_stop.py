@@ -57,7 +57,7 @@ def test_it_is_read_from_a_table_and_written_as_one() -> None:
     assert dict(stop) == {"stiffness": 4e4, "drag": 5e3, "gap": 7.5e-3}
     assert Side(stop=stop).model_dump()["stop"] == {"kind": "dragged", **dict(stop)}
     assert stop.summary() == "dragged, stiffness 40 kN/m, drag 5000 N s/m³, gap 7.5 mm"
-    with pytest.raises(vi.InputError, match=r"stop\.drag: .*-1 N s/m³"):
+    with pytest.raises(vi.InputError, match=r"stop\.drag: -1\.0 is less than 0"):
         read(drag=-1.0)
 
 
