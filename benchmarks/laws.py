@@ -6,7 +6,7 @@ from benchmarks import ours
 from benchmarks.peers.problem import P
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import Spread, interleave
-from vibroimpact.engine.parameters import Law
+from vibroimpact.law_numbers import IsolatorNumbers
 
 _PERIODS, _SAMPLES = 1_000, 256
 _ROUNDS = 21
@@ -23,8 +23,8 @@ _STOPS = {
 
 _TIMES = 2.0
 _ISOLATORS = {
-    "friction of a sixth of the shaking": (Law(friction=0.1), 1.0),
-    "bilinear: half its stiffness yields at 0.2": (Law(hysteretic=1.0, limit=0.2), 1.0),
+    "friction of a sixth of the shaking": (IsolatorNumbers(friction=0.1), 1.0),
+    "bilinear: half its stiffness yields at 0.2": (IsolatorNumbers(hysteretic=1.0, limit=0.2), 1.0),
 }
 
 

@@ -15,9 +15,10 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers import record
-from vibroimpact.engine.parameters import Law, Stop, rig_vector
+from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.state import copy, room, width
 from vibroimpact.engine.status import Status
+from vibroimpact.law_numbers import IsolatorNumbers, StopNumbers
 
 # a cos(Ωt) on the right-hand side is a base acceleration A sin(ωt + φ) with A = a, φ = −π/2.
 PHASE = -0.5 * math.pi
@@ -34,7 +35,7 @@ def vector(problem: Problem = P) -> np.ndarray:
     return stopped((problem.bumper_stiffness, problem.bumper_damping, problem.gap), problem)
 
 
-def stopped(stop: Stop, problem: Problem = P) -> np.ndarray:
+def stopped(stop: StopNumbers, problem: Problem = P) -> np.ndarray:
     """Return the same mass and isolator between two others of these stops."""
     return rig_vector(1.0, 1.0, 2.0 * problem.damping_ratio, stop, stop)
 
@@ -45,7 +46,7 @@ def oscillator(problem: Problem = P) -> vi.Oscillator:
     return vi.Oscillator(1.0, vi.Isolator(1.0, 2.0 * problem.damping_ratio), bumper, bumper)
 
 
-def yielding(law: Law, stiffness: float = 1.0, problem: Problem = P) -> np.ndarray:
+def yielding(law: IsolatorNumbers, stiffness: float = 1.0, problem: Problem = P) -> np.ndarray:
     """Return the same mass, dashpot and bumpers with an isolator that yields or slides."""
     bumper = (problem.bumper_stiffness, problem.bumper_damping, problem.gap)
     return rig_vector(1.0, stiffness, 2.0 * problem.damping_ratio, bumper, bumper, law=law)

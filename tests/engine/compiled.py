@@ -16,15 +16,16 @@ from vibroimpact import engine
 from vibroimpact.engine import flow_tables, jit
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.flow_tables import plan_of
-from vibroimpact.engine.parameters import Drive, Law, free_rig, rig_vector
+from vibroimpact.engine.parameters import Drive, free_rig, rig_vector
+from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.tasks.threads import available
 
-_YIELDS = Law(friction=1.0)
+_YIELDS = IsolatorNumbers(friction=1.0)
 _SEVERAL = Drive(weights=((1.0, 0.0), (0.0, 1.0)))
 _RECORD = Drive(interval=1.0)
 
 RIGS = {
-    "Curved": rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0)),
+    "Curved": rig_vector(1.0, 1.0, 0.1, None, None, law=IsolatorNumbers(cubic=1.0)),
     "Yielding": rig_vector(1.0, 1.0, 0.1, None, None, law=_YIELDS),
     "AnyStops": rig_vector(1.0, 1.0, 0.1, (0.5, 1.0), None),
     "Apart": free_rig(),

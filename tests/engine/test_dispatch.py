@@ -8,7 +8,8 @@ import pytest
 
 from vibroimpact.engine import dispatch, flow_dispatch
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.parameters import Law, free_rig, rig_vector
+from vibroimpact.engine.parameters import free_rig, rig_vector
+from vibroimpact.law_numbers import IsolatorNumbers
 
 NAMES = [
     name
@@ -44,7 +45,7 @@ def test_what_is_not_there_is_said() -> None:
 
 
 def test_without_a_compiler_the_rig_decides() -> None:
-    curved = rig_vector(1.0, 4.0, 0.1, None, None, law=Law(hysteretic=5.0))
+    curved = rig_vector(1.0, 4.0, 0.1, None, None, law=IsolatorNumbers(hysteretic=5.0))
     assert curved[par.CURVED] == 1.0
     assert dispatch.stiff_rate(curved) == 3.0
     linear = free_rig()

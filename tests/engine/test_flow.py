@@ -17,17 +17,18 @@ from vibroimpact.engine.observers import growth
 from vibroimpact.engine.observers import record as written
 from vibroimpact.engine.observers.demand import note_room, start_notes
 from vibroimpact.engine.observers.extremes import notes_room, nothing
-from vibroimpact.engine.parameters import Drive, Law, rig_vector
+from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.engine.state import FIRST, copy, parts_room, room, width, wind
+from vibroimpact.law_numbers import IsolatorNumbers
 
 BUMPER = (20.0, 2.0, 0.3)
 HARMONICS = Drive(weights=((1.0, 0.0), (0.0, 0.3)))
-YIELDS = Law(hysteretic=1.5, limit=0.3)
+YIELDS = IsolatorNumbers(hysteretic=1.5, limit=0.3)
 RIGS = {
     "Apart": rig_vector(1.0, 4.0, 0.1, BUMPER, BUMPER),
     "AnyStops": rig_vector(1.0, 4.0, 0.1, (0.7, 0.3), BUMPER),
     "Several": rig_vector(1.0, 4.0, 0.1, BUMPER, BUMPER, drive=HARMONICS),
-    "Curved": rig_vector(1.0, 4.0, 0.1, BUMPER, BUMPER, law=Law(cubic=1.0)),
+    "Curved": rig_vector(1.0, 4.0, 0.1, BUMPER, BUMPER, law=IsolatorNumbers(cubic=1.0)),
     "Yielding": rig_vector(1.0, 4.0, 0.1, BUMPER, BUMPER, law=YIELDS),
 }
 """A rig of each flow that the tests have compiled with all its functions."""

@@ -18,12 +18,13 @@ from vibroimpact.engine.flow_dispatch import (
     planned,
 )
 from vibroimpact.engine.linear.layout import PLAN
-from vibroimpact.engine.parameters import SIZE, Law, PowerLaw, Stop, free_rig, rig_vector
+from vibroimpact.engine.parameters import SIZE, free_rig, rig_vector
+from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw, StopNumbers
 
 BUMPER, WALL = (20.0, 0.4, 1.0), (0.5, 1.0)
 
 
-def rig(right: Stop | None, left: Stop | None) -> np.ndarray:
+def rig(right: StopNumbers | None, left: StopNumbers | None) -> np.ndarray:
     return rig_vector(1.0, 1.0, 0.1, right, left)
 
 
@@ -41,7 +42,9 @@ def rig(right: Stop | None, left: Stop | None) -> np.ndarray:
         (BUMPER, WALL, AnyStops),
     ],
 )
-def test_the_flow_follows_from_the_stops(right: Stop | None, left: Stop | None, flow: type) -> None:
+def test_the_flow_follows_from_the_stops(
+    right: StopNumbers | None, left: StopNumbers | None, flow: type
+) -> None:
     for sides in ((right, left), (left, right)):
         given = flow_of(rig(*sides))
         assert type(given) is flow
@@ -49,30 +52,30 @@ def test_the_flow_follows_from_the_stops(right: Stop | None, left: Stop | None, 
 
 
 POWER = PowerLaw(20.0, 1.5, 0.0, 0.0, 1.0)
-YIELDS = Law(hysteretic=1.5, limit=0.3)
+YIELDS = IsolatorNumbers(hysteretic=1.5, limit=0.3)
 
 
 @pytest.mark.parametrize(
     ("law", "right", "left", "flow"),
     [
-        (Law(friction=0.1), BUMPER, WALL, Yielding),
+        (IsolatorNumbers(friction=0.1), BUMPER, WALL, Yielding),
         (YIELDS, None, BUMPER, Yielding),
         (YIELDS._replace(drag=2.0), None, BUMPER, Curved),
         (YIELDS, BUMPER, (20.0, 0.4, -1.5), Curved),  # overlapping
         (YIELDS, BUMPER, POWER, Curved),
         (YIELDS._replace(friction=0.1), None, None, Curved),
         (YIELDS._replace(limit=math.inf, knee=1.0), None, None, Curved),  # of Bouc and Wen
-        (Law(cubic=1.0), None, None, Curved),
+        (IsolatorNumbers(cubic=1.0), None, None, Curved),
     ],
 )
 def test_the_flow_follows_from_the_isolator(
-    law: Law, right: Stop | None, left: Stop | None, flow: type
+    law: IsolatorNumbers, right: StopNumbers | None, left: StopNumbers | None, flow: type
 ) -> None:
     one = rig_vector(1.0, 1.0, 0.1, right, left, law=law)
     assert type(flow_of(one)) is flow
-    curved = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0))
+    curved = rig_vector(1.0, 1.0, 0.1, None, None, law=IsolatorNumbers(cubic=1.0))
     assert carries(one, one.copy())
-    assert carries(one, curved) == (law == Law(cubic=1.0))
+    assert carries(one, curved) == (law == IsolatorNumbers(cubic=1.0))
     # The curved flow follows branches of every law, but emits no series that it was not made for.
     assert carries(curved, one) >= carries(one, curved)
 
@@ -80,15 +83,19 @@ def test_the_flow_follows_from_the_isolator(
 @pytest.mark.parametrize(
     ("made_for", "asked", "carried"),
     [
-        (Law(cubic=1.0, quintic=2.0), Law(cubic=1.0), True),
-        (Law(cubic=1.0), Law(cubic=1.0, quintic=2.0), False),
-        (Law(drag=1.5), Law(drag=2.0), True),
-        (Law(drag=2.0), Law(drag=1.5), False),
-        (Law(hysteretic=1.0, knee=1.0, sharpness=2.0), Law(hysteretic=1.0, knee=1.0), False),
+        (IsolatorNumbers(cubic=1.0, quintic=2.0), IsolatorNumbers(cubic=1.0), True),
+        (IsolatorNumbers(cubic=1.0), IsolatorNumbers(cubic=1.0, quintic=2.0), False),
+        (IsolatorNumbers(drag=1.5), IsolatorNumbers(drag=2.0), True),
+        (IsolatorNumbers(drag=2.0), IsolatorNumbers(drag=1.5), False),
+        (
+            IsolatorNumbers(hysteretic=1.0, knee=1.0, sharpness=2.0),
+            IsolatorNumbers(hysteretic=1.0, knee=1.0),
+            False,
+        ),
     ],
 )
 def test_a_curved_flow_carries_rigs_that_have_no_more_laws(
-    made_for: Law, asked: Law, carried: bool
+    made_for: IsolatorNumbers, asked: IsolatorNumbers, carried: bool
 ) -> None:
     made, other = (rig_vector(1.0, 1.0, 0.1, None, None, law=law) for law in (made_for, asked))
     assert carries(made, other) == carried

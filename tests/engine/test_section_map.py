@@ -7,7 +7,8 @@ import pytest
 
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion, unpacked
 from vibroimpact.engine.one_mass import place
-from vibroimpact.engine.parameters import Law, PowerLaw, Stop, rig_vector
+from vibroimpact.engine.parameters import rig_vector
+from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw, StopNumbers
 
 DAMPED, PLAIN, WALL = (20.0, 0.4, 1.0), (20.0, 0.0, 1.0), (0.5, 1.0)
 
@@ -20,7 +21,13 @@ def placed(rig: np.ndarray, mode: int, *parts: float) -> Motion:
 
 
 def put(
-    right: Stop | None, left: Stop | None, mode: int, u: float, v: float, r: float, lft: float
+    right: StopNumbers | None,
+    left: StopNumbers | None,
+    mode: int,
+    u: float,
+    v: float,
+    r: float,
+    lft: float,
 ) -> Motion:
     return placed(rig_vector(1.0, 1.0, 0.1, right, left), mode, u, v, r, lft, 0.0)
 
@@ -56,7 +63,7 @@ def test_the_nearest_state_that_can_be(right, left, given, mode, u, deformations
 
 
 def test_a_spring_that_yields_is_not_stretched_further() -> None:
-    rig = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(hysteretic=2.0, limit=0.2))
+    rig = rig_vector(1.0, 1.0, 0.1, None, None, law=IsolatorNumbers(hysteretic=2.0, limit=0.2))
     for given, z in ((0.1, 0.1), (0.3, 0.2), (-7.0, -0.2)):
         assert placed(rig, FLIGHT, 0.5, 0.0, 0.0, 0.0, given).z == z
 

@@ -9,7 +9,7 @@ from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.state_grid import lattice
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import RigidStop, State
+from vibroimpact.model import State
 from vibroimpact.model.rig import Rig
 from vibroimpact.stability.settle import approach, reach, reach_at_rest
 from vibroimpact.tasks.threads import Progress
@@ -29,8 +29,8 @@ def walls(stage: Stage) -> tuple[float, float]:
     """Least and largest displacement that can be (m)."""
     left, right = stage.oscillator.left, stage.oscillator.right
     return (
-        -left.gap if isinstance(left, RigidStop) else -np.inf,
-        right.gap if isinstance(right, RigidStop) else np.inf,
+        -left.gap if left is not None and left.rigid else -np.inf,
+        right.gap if right is not None and right.rigid else np.inf,
     )
 
 

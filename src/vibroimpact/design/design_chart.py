@@ -20,7 +20,7 @@ from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside, shown
-from vibroimpact.model import Bumper, Oscillator
+from vibroimpact.model import Oscillator
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
@@ -167,7 +167,7 @@ def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
     names = {one.name for one in plan.varied}
     if "stops.damping" in names or not names & _STIFFNESSES:
         return {}
-    every = [{stop.damping for stop in rig.stops if isinstance(stop, Bumper)} for rig in rigs]
+    every = [{pair[1] for stop in rig.stops if (pair := stop.spring_and_dashpot)} for rig in rigs]
     if any(len(one) != 1 for one in every):
         return {}
     return {"stops.damping": np.array([one.pop() for one in every])}

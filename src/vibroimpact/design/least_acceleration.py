@@ -19,7 +19,7 @@ from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown, warn_of_input
-from vibroimpact.model import Bumper, Oscillator
+from vibroimpact.model import Oscillator
 from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.read_rig import AnyRig
@@ -259,7 +259,7 @@ def _space(rig: Oscillator, ranges: Any) -> _Space:
 
 def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
     """Return the default ranges of a bumper for this isolator."""
-    if not rig.stops or not all(isinstance(stop, Bumper) for stop in rig.stops):
+    if not rig.stops or not all(stop.spring_and_dashpot for stop in rig.stops):
         raise InputError(
             "ranges: missing; by default the search for the best design varies linear bumpers, but "
             + ("this rig has no stop" if not rig.stops else "a stop of this rig is of another kind")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator
+from vibroimpact.model import Oscillator
 
 
 def usual_ranges(oscillator: Oscillator, gap: float) -> dict[str, list[float]]:
@@ -23,8 +23,8 @@ def usual_ranges(oscillator: Oscillator, gap: float) -> dict[str, list[float]]:
             "range, such as --vary damping_ratio=0.05:0.3"
         )
     gaps = [gap * (i + 1) / 12.0 for i in range(14)]
-    bumpers = [stop for stop in stops if isinstance(stop, Bumper)]
+    bumpers = [pair for stop in stops if (pair := stop.spring_and_dashpot)]
     if len(bumpers) < len(stops):
         return {"gap": gaps}
-    middle = max(bumper.stiffness for bumper in bumpers)
+    middle = max(stiffness for stiffness, _ in bumpers)
     return {"gap": gaps, "stops.stiffness": [middle * 10.0 ** (i / 6.0) for i in range(-6, 7)]}

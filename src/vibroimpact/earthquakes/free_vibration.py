@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.model import FrictionIsolator, Oscillator
+from vibroimpact.model import Oscillator
 from vibroimpact.model.rig import Rig
 
 _STIFFNESSES = (
@@ -45,7 +45,7 @@ def free_tail(rig: Rig) -> float:
 def settles(oscillator: Oscillator) -> bool:
     """Whether it depends on the motion where the mass comes to rest."""
     isolator = oscillator.isolator
-    sticks = isinstance(isolator, FrictionIsolator) or isolator.initial_stiffness == 0.0
+    sticks = isolator.sticks or isolator.initial_stiffness == 0.0
     return sticks or isolator.remembers
 
 

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from vibroimpact.law_numbers import (
+    OWN_NUMBERS,
+    WORDS,
+    IsolatorNumbers,
+    OwnStop,
+    PowerLaw,
+    StopNumbers,
+)
 
 # Positions in the vector. Side 1 is the right bumper and side 2 the left one, so that
 # `BUMPER + WIDTH * (side - 1)` is where a bumper's numbers start.
@@ -46,8 +54,7 @@ FRICTION = LOAD + 17  # F_c/M, m/s²
 DRAG = LOAD + 18  # exponent of the velocity
 CURVED = LOAD + 19  # 1 if a law is not linear
 OWN = LOAD + 20
-"""Formulae of a user: that of the isolator and of each stop, `series.program` packed."""
-WORDS, OWN_NUMBERS = 5, 8
+"""Formulae of a user: that of the isolator and of each stop, `law_numbers.pack`."""
 OWN_FLAGS = WORDS
 OWN_FIRST = OWN_FLAGS + 1
 OWN_PER_MASS = OWN_FIRST + OWN_NUMBERS  # 1/M
@@ -62,47 +69,6 @@ HARMONIC, SEVERAL, RAMP = 0.0, 1.0, 2.0
 
 ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI, FORMULA = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
 CURVED_STOPS = (POWER_LAW, JANKOWSKI, FORMULA)
-
-Stop = tuple[Any, ...]
-"""K_j (N/m), C_j (N s/m) and G0_j (m) of a bumper; e and G0_j (m) of a rigid stop; a `PowerLaw` or
-an `OwnStop`."""
-
-
-class PowerLaw(NamedTuple):
-    """A bumper without memory: k δⁿ (1 + χ δ′), and c δ^¼ δ′ while it is approached.
-
-    Attributes
-    ----------
-    stiffness, exponent
-        k (N/mⁿ) and n.
-    dissipation
-        χ (s/m); below 0 minus the number d of χ = d / closing speed.
-    viscous
-        c, N s m^(−5/4).
-    gap
-        G0_j (m).
-    """
-
-    stiffness: float
-    exponent: float
-    dissipation: float
-    viscous: float
-    gap: float
-
-
-class OwnStop(NamedTuple):
-    """A bumper without memory that follows a formula of its deformation and the rate of that.
-
-    Attributes
-    ----------
-    own
-        The formula, from `series.program.pack`.
-    gap
-        G0_j (m).
-    """
-
-    own: tuple[float, ...]
-    gap: float
 
 
 class Drive(NamedTuple):
@@ -129,26 +95,6 @@ class Drive(NamedTuple):
     interval: float | None = None
 
 
-class Law(NamedTuple):
-    """What an isolator does besides its spring and dashpot; see the vector's positions.
-
-    Forces are in N, not yet per unit mass.
-    """
-
-    cubic: float = 0.0
-    quintic: float = 0.0
-    sinh: float = 0.0
-    sinh_rate: float = 0.0
-    hysteretic: float = 0.0
-    slope: float = 1.0
-    turning: float = 0.0
-    knee: float = 0.0
-    sharpness: float = 1.0
-    limit: float = np.inf
-    friction: float = 0.0
-    drag: float = 1.0
-
-
 _PER_MASS = (CUBIC, QUINTIC, SINH, HYSTERETIC, FRICTION)
 
 
@@ -156,12 +102,11 @@ def rig_vector(
     mass: float,
     stiffness: float,
     damping: float,
-    right: Stop | None,
-    left: Stop | None,
+    right: StopNumbers | None,
+    left: StopNumbers | None,
     load: float = 0.0,
     drive: Drive = Drive(),  # noqa: B008 (it is immutable)
-    law: Law = Law(),  # noqa: B008
-    own: Sequence[float] = (),
+    law: IsolatorNumbers = IsolatorNumbers(),  # noqa: B008
 ) -> NDArray[np.float64]:
     """Pack a rig for the kernels.
 
@@ -175,10 +120,8 @@ def rig_vector(
         Constant force on the mass (N).
     drive : Drive
         What shakes it.
-    law : Law
+    law : IsolatorNumbers
         What the isolator does besides.
-    own : sequence of float
-        A formula that it follows besides, from `series.program.pack`.
 
     Returns
     -------
@@ -186,9 +129,10 @@ def rig_vector(
     """
     vector = np.zeros(WEIGHTS + 2 * len(drive.weights) if drive.weights else SIZE)
     vector[LOAD] = load / mass
-    vector[CUBIC : DRAG + 1] = law
+    *numbers, own = law
+    vector[CUBIC : DRAG + 1] = numbers
     curved = any(isinstance(stop, PowerLaw | OwnStop) for stop in (right, left))
-    vector[CURVED] = curved or law != Law() or bool(own)
+    vector[CURVED] = curved or law != IsolatorNumbers()
     vector[OWN : OWN + len(own)] = own
     vector[OWN + OWN_STIFFNESS] /= mass
     for at in _PER_MASS:

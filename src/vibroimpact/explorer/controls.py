@@ -10,7 +10,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.explorer.change import DIMENSIONLESS, OF_RIG, SIDES, one_sided
 from vibroimpact.explorer.laws import free_displacement
 from vibroimpact.explorer.state import State
-from vibroimpact.model import Bumper, Model, Oscillator
+from vibroimpact.model import Model, Oscillator
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import (
@@ -211,7 +211,7 @@ def one_sided_or_none(rig: Oscillator, side: str) -> Oscillator | None:
 
 def _read(rig: Oscillator, state: State, name: str) -> float | None:
     """A dimensionless number of the rig, if it has it."""
-    bumpers = all(isinstance(stop, Bumper) for stop in rig.stops)
+    bumpers = all(stop.spring_and_dashpot for stop in rig.stops)
     if name in ("stiffness_ratio", "relaxation_time") and not bumpers:
         return None
     try:

@@ -7,45 +7,29 @@ displacement without stops, or for stops at a share of it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer.state import State
-from vibroimpact.model import (
-    AnyIsolator,
-    BilinearIsolator,
-    BoucWenIsolator,
-    Bumper,
-    ExponentialIsolator,
-    FrictionIsolator,
-    Isolator,
-    JankowskiBumper,
-    Law,
-    PolynomialIsolator,
-    PowerBumper,
-    RigidStop,
-    Stop,
-)
+from vibroimpact.model import AnyIsolator, Stop
 from vibroimpact.model.isolators import ISOLATORS
 from vibroimpact.model.largest_free_response import largest_free_flight
 from vibroimpact.model.stops import STOPS
 
 NONE = "none"
 """Kind that removes a stop."""
-_RESTITUTION, _RELAXATION, _STIFFER = 0.6, 0.01, 20.0
-"""Values of a new stop. τ and λ are close to those of the published rig."""
+_RESTITUTION, _STIFFER = 0.6, 20.0
+"""Restitution and stiffness ratio of a new stop. λ is close to that of the published rig."""
 _PRESSED = 0.2
 """Penetration at which two stops have equal forces, divided by the displacement without stops."""
 
 
 def isolator_laws() -> list[str]:
     """Return the kinds of isolators that can be selected, as they are named in study files."""
-    return [kind for kind in ISOLATORS.classes if kind != Law.kind]
+    return [kind for kind, law in ISOLATORS.classes.items() if law.like(*[1.0] * 3)]
 
 
 def stop_laws() -> list[str]:
     """Return the kinds of stops that can be selected, as they are named in study files."""
-    return [NONE, *(kind for kind in STOPS.classes if kind != Law.kind)]
+    return [NONE, *(kind for kind, law in STOPS.classes.items() if law.like(*[0.5] * 6))]
 
 
 def free_displacement(state: State) -> float:
@@ -74,17 +58,12 @@ def isolator_of(kind: str, state: State) -> AnyIsolator:
     k, c = old.static_force(u) / u, old.damping
     if old.damping_exponent != 1.0:
         c = 0.3 * (k * state.oscillator.mass) ** 0.5
-    made: dict[str, Callable[[], AnyIsolator]] = {
-        "linear": lambda: Isolator(k, c),
-        "friction": lambda: FrictionIsolator(k, c, 0.1 * k * u),
-        "bilinear": lambda: BilinearIsolator(1.6 * k, 0.9 * k, 0.18 * k * u, 0.5 * c),
-        "polynomial": lambda: PolynomialIsolator(k, c, 0.3 * k / u**2, 0.0),
-        "bouc-wen": lambda: BoucWenIsolator(1.8 * k, 0.9 * k, 0.18 * k * u, 0.5 * c),
-        "exponential": lambda: ExponentialIsolator(2.4 * k, 0.83 * k, 3.5 / u, 0.3 * c),
-    }
-    if kind not in made:
-        raise InputError(f"isolator.kind: {shown(kind)} is unknown; use one of {', '.join(made)}")
-    return made[kind]()
+    law = ISOLATORS.classes.get(kind)
+    made: AnyIsolator | None = law.like(k, c, u) if law is not None else None
+    if made is None:
+        known = ", ".join(isolator_laws())
+        raise InputError(f"isolator.kind: {shown(kind)} is unknown; use one of {known}")
+    return made
 
 
 def stop_of(kind: str, state: State, side: str) -> Stop | None:
@@ -105,18 +84,16 @@ def stop_of(kind: str, state: State, side: str) -> Stop | None:
     gap = 0.5 * u if old is None else old.gap
     depth = _PRESSED * u
     force = _STIFFER * rig.isolator.initial_stiffness * depth
-    if old is not None and not isinstance(old, RigidStop):
+    if old is not None and not old.rigid:
         force = old.static_force(depth)
     restitution = getattr(old, "restitution", None) or _RESTITUTION
-    k = force / depth
-    made: dict[str, Callable[[], Stop]] = {
-        "kelvin-voigt": lambda: Bumper(k, _RELAXATION * k / rig.angular_frequency, gap),
-        "rigid": lambda: RigidStop(restitution, gap),
-        "power": lambda: PowerBumper(force / depth**1.5, gap, restitution=restitution),
-        "jankowski": lambda: JankowskiBumper(force / depth**1.5, gap, restitution, rig.mass),
-    }
-    if kind not in made:
-        raise InputError(
-            f"{side}.kind: {shown(kind)} is unknown; use one of {', '.join((NONE, *made))}"
-        )
-    return made[kind]()
+    law = STOPS.classes.get(kind)
+    made: Stop | None = (
+        law.like(force, depth, gap, restitution, rig.angular_frequency, rig.mass)
+        if law is not None
+        else None
+    )
+    if made is None:
+        known = ", ".join(stop_laws())
+        raise InputError(f"{side}.kind: {shown(kind)} is unknown; use one of {known}")
+    return made

@@ -14,25 +14,18 @@ from vibroimpact.errors import InputError
 from vibroimpact.facts.number_format import plain
 from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import (
-    Bumper,
     Dimensionless,
-    Isolator,
-    Model,
     Periodic,
     Record,
     Repeated,
     Rig,
-    RigidStop,
     Stop,
     to_dimensionless,
 )
 from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.quantities import (
-    DAMPING,
     FORCE,
-    LENGTH,
     MASS,
-    STIFFNESS,
 )
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import NONE, unitless
@@ -68,39 +61,21 @@ def text(rig: Rig, shaking: bool = True, frequency: float | None = None) -> Rend
     )
     table.add_row(
         "isolator",
-        "none"
-        if isolator == Isolator(0.0, 0.0)
-        else f"K = {pretty(isolator.stiffness, STIFFNESS)}, C = {pretty(isolator.damping, DAMPING)}"
-        if isinstance(isolator, Isolator) and isolator.linear
-        else _law(isolator),
+        isolator.summary(),
         f"ξ = {plain(oscillator.damping_ratio, 4)}" if damped else "",
     )
     for side in ("right", "left"):
         bumper: Stop | None = getattr(oscillator, side)
         if bumper is None:
             # Beside a rigid stop, no bumper is missing.
-            rigid = any(isinstance(stop, RigidStop) for stop in oscillator.stops)
+            rigid = any(stop.rigid for stop in oscillator.stops)
             table.add_row(f"{side} {'stop' if rigid else 'bumper'}", "none", "")
             continue
         group = getattr(scaled, side) if scaled else None
-        if isinstance(bumper, RigidStop):
-            table.add_row(
-                f"{side} stop",
-                f"rigid, e = {plain(bumper.restitution, 4)}, gap {pretty(bumper.gap, LENGTH)}",
-                f"λ = ∞, δ0 = {plain(group.gap, 4)}" if group else "",
-            )
-            continue
-        if not isinstance(bumper, Bumper):
-            table.add_row(f"{side} bumper", _law(bumper), "")
-            continue
         table.add_row(
-            f"{side} bumper",
-            f"K = {pretty(bumper.stiffness, STIFFNESS)}, C = {pretty(bumper.damping, DAMPING)}, "
-            f"gap {pretty(bumper.gap, LENGTH)}",
-            f"λ = {plain(group.stiffness_ratio, 4)}, δ0 = {plain(group.gap, 4)}, "
-            f"τ = {plain(group.relaxation_time, 3)}"
-            if group
-            else "",
+            f"{side} {'stop' if bumper.rigid else 'bumper'}",
+            bumper.summary(),
+            group.summary() if group else "",
         )
     if oscillator.units == NONE:
         table.add_row("units", "none; frequencies are angular, ω = 2π f", "")
@@ -110,13 +85,6 @@ def text(rig: Rig, shaking: bool = True, frequency: float | None = None) -> Rend
         at = "" if frequency is None or not rig.is_shaken else f"at {forcing(frequency)}"
         table.add_row(*_shaking_words(rig.shaking), at)
     return Group(Text(rig.name or "", style="bold"), table)
-
-
-def _law(part: Model) -> str:
-    """A law with all its numbers, by the names that a study file gives them."""
-    rows = dict(part.rows())
-    kind = rows.pop("kind", "linear")
-    return ", ".join([kind, *(f"{name.replace('_', ' ')} {text}" for name, text in rows.items())])
 
 
 def _shaking_facts(shaken: Repeated | Record | None) -> dict[str, Any]:

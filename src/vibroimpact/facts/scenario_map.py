@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.model import Bumper, Rig, RigidStop, to_dimensionless
+from vibroimpact.model import Rig, to_dimensionless
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH, STIFFNESS
 from vibroimpact.model.units import pretty
@@ -57,17 +57,17 @@ def constants(rig: Rig, x: str, y: str) -> str:
     """Return the parameters that the map does not vary, with their values."""
     varied = {x, y}
     stops, shaken = rig.oscillator.stops, rig.periodic
-    bumpers = [stop for stop in stops if isinstance(stop, Bumper)]
-    walls = [stop for stop in stops if isinstance(stop, RigidStop)]
+    bumpers = [one for stop in stops if (one := stop.spring_and_dashpot)]
+    walls = [dict(stop)["restitution"] for stop in stops if stop.rigid]
     for pair in ONE_QUANTITY:
         varied |= pair if varied & pair else set()
     if "stops.stiffness" in (x, y):
         varied.add("relaxation_time")  # the damping is held
     rest = {
-        "stops.restitution": ("e =", [f"{stop.restitution:.3g}" for stop in walls]),
+        "stops.restitution": ("e =", [f"{e:.3g}" for e in walls]),
         "relaxation_time": (
             "τ =",
-            [f"{rig.oscillator.angular_frequency * b.damping / b.stiffness:.3g}" for b in bumpers],
+            [f"{rig.oscillator.angular_frequency * c / k:.3g}" for k, c in bumpers],
         ),
         "damping_ratio": ("ξ =", [f"{rig.oscillator.damping_ratio:.3g}"]),
     }
@@ -76,7 +76,7 @@ def constants(rig: Rig, x: str, y: str) -> str:
             "gap": ("gap", [pretty(stop.gap, LENGTH) for stop in stops]),
             "proportional_stiffness": (
                 "bumpers",
-                [pretty(b.stiffness, STIFFNESS) for b in bumpers],
+                [pretty(k, STIFFNESS) for k, _ in bumpers],
             ),
             "amplitude": (_SYMBOLS[shaken.of], [pretty(shaken.amplitude, shaken.quantity)]),
             **rest,

@@ -13,7 +13,7 @@ from vibroimpact.arguments import check_mapping, check_variables
 from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.identification.residual_structure import CERTAIN
-from vibroimpact.model import Bumper, Isolator, Oscillator, PolynomialIsolator, PowerBumper
+from vibroimpact.model import Isolator, Oscillator, PolynomialIsolator, PowerBumper
 from vibroimpact.model.parameters import PARAMETERS, canonical
 
 _CLEAR = 10.0
@@ -169,10 +169,11 @@ def hertzian(oscillator: Oscillator, depth: float) -> Oscillator:
     sides = {}
     for side in ("right", "left"):
         stop = getattr(oscillator, side)
-        if isinstance(stop, Bumper):
-            made = stop.stiffness / math.sqrt(depth)
+        if stop is not None and stop.spring_and_dashpot is not None:
+            stiffness, damping = stop.spring_and_dashpot
+            made = stiffness / math.sqrt(depth)
             # c δ' against k δ: so is χ δ' against 1.
-            lost = stop.damping / (stop.stiffness * depth)
+            lost = damping / (stiffness * depth)
             sides[side] = PowerBumper(made, stop.gap, 1.5, dissipation=lost)
     if not sides:
         raise InputError(

@@ -30,7 +30,7 @@ from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
-from vibroimpact.model.units import to_si
+from vibroimpact.model.units import plain, to_si
 from vibroimpact.model.validation import Accepts, Model, constructor
 from vibroimpact.model.written_units import SI
 
@@ -69,6 +69,11 @@ class DimensionlessBumper(Named):
     ) -> None:
         super().__init__(stiffness_ratio=stiffness_ratio, gap=gap, relaxation_time=relaxation_time)
 
+    def summary(self) -> str:
+        """Return λ, δ0 and τ in one line."""
+        ratio, gap = plain(self.stiffness_ratio, 4), plain(self.gap, 4)
+        return f"λ = {ratio}, δ0 = {gap}, τ = {plain(self.relaxation_time, 3)}"
+
 
 class DimensionlessRigidStop(Named):
     """Dimensionless parameters of one rigid stop.
@@ -99,6 +104,10 @@ class DimensionlessRigidStop(Named):
     def stiffness_ratio(self) -> float:
         """Stiffness ratio λ_j, which is infinite."""
         return math.inf
+
+    def summary(self) -> str:
+        """Return λ and δ0 in one line."""
+        return f"λ = ∞, δ0 = {plain(self.gap, 4)}"
 
 
 DimensionlessStop: TypeAlias = DimensionlessBumper | DimensionlessRigidStop

@@ -13,15 +13,10 @@ from functools import cache
 from typing import ClassVar, NamedTuple, NoReturn, TypeAlias
 
 from vibroimpact.errors import InputError, meant, shown
+from vibroimpact.law_numbers import LARGEST
 
 _LONGEST = 300
 """Largest number of characters of a formula."""
-
-LARGEST = 31
-"""Largest exponent."""
-
-MOST_OPERATIONS, MOST_NUMBERS = 50, 8
-"""Largest numbers of operations and of numbers in one formula."""
 
 Dimension: TypeAlias = tuple[float, float, float] | None
 """Powers of mass, length and time. None for a number without a unit, which may have any unit."""

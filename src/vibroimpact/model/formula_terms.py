@@ -6,11 +6,10 @@ import math
 from collections.abc import Iterator, Sequence
 
 from vibroimpact.errors import InputError
+from vibroimpact.law_numbers import MOST_SYMBOLS, OWN_NUMBERS
 from vibroimpact.model.formula import (
     EVEN,
     FUNCTIONS,
-    MOST_NUMBERS,
-    MOST_OPERATIONS,
     NEITHER,
     ODD,
     Formula,
@@ -225,8 +224,8 @@ def operations(
         elif sign < 0.0:
             found.append("neg")
     for what, count, most in (
-        ("operations", len(found), MOST_OPERATIONS),
-        ("numbers", len(numbers), MOST_NUMBERS),
+        ("operations", len(found), MOST_SYMBOLS),
+        ("numbers", len(numbers), OWN_NUMBERS),
     ):
         if count > most:
             raise InputError(

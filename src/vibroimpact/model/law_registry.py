@@ -57,6 +57,18 @@ class Named(Model):
         }
         return found if self.usual else {"kind": self.kind, **found}
 
+    @classmethod
+    def like(cls, *args: Any, **kwargs: Any) -> Any:
+        """Return a law that is about as strong as another one, if it has an example."""
+        return None
+
+    def summary(self) -> str:
+        """Return the law in one line: its kind and its numbers, named as in a table."""
+        rows = dict(self.rows())
+        kind = rows.pop("kind", self.kind)
+        words = [f"{name.replace('_', ' ')} {text}" for name, text in rows.items()]
+        return ", ".join([kind, *words])
+
     def rows(self) -> list[tuple[str, str]]:
         """Return the rows of `Model.rows`, after the kind of the law if it is not the default."""
         return super().rows() if self.usual else [("kind", self.kind), *super().rows()]

@@ -7,9 +7,19 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from pydantic import SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from vibroimpact.errors import InputError, shown, warn_of_input
+from vibroimpact.law_numbers import (
+    SYMBOLS,
+    IsolatorNumbers,
+    OwnStop,
+    PowerLaw,
+    Program,
+    pack,
+)
 from vibroimpact.model.formula import (
     ARGUMENTS,
     FUNCTIONS,
@@ -278,6 +288,52 @@ class Law(Named):
     def viscous_force(self, velocity: float) -> float:
         """Return the force (N) at u = 0 and a velocity (m/s)."""
         return self.read.value(0.0, velocity)
+
+    def engine_numbers(self) -> tuple[Any, ...]:
+        """Return the numbers by which the engine follows the law, as a stop or as an isolator."""
+        if self.power is not None:
+            stiffness, exponent, dissipation = self.power
+            return PowerLaw(stiffness, exponent, dissipation or 0.0, 0.0, self.gap)
+        names, values = self.operations
+        symbols = tuple(one if isinstance(one, int) else SYMBOLS.index(one) for one in names)
+        program = Program(symbols, tuple(values))
+        if self.is_stop:
+            return OwnStop(pack(program, self.initial_stiffness), self.gap)
+        parts = self.parts
+        law = IsolatorNumbers(
+            parts.cubic,
+            parts.quintic,
+            drag=2.0 if parts.square else 1.0,
+            own=pack(program, self.initial_stiffness - parts.stiffness),
+        )
+        return parts.stiffness, parts.square or parts.damping, law
+
+    def force(
+        self, displacement: ArrayLike, direction: ArrayLike, velocity: ArrayLike = 0.0
+    ) -> NDArray[np.float64]:
+        """Return the force (N) along a path, see `IsolatorLaw.force`.
+
+        Of a stop, `direction` is the velocity of the deformation, and the force is at least 0.
+        """
+        u = np.asarray(displacement, dtype=np.float64)
+        v = np.asarray(direction if self.is_stop else velocity, dtype=np.float64)
+        pairs = zip(u.tolist(), np.broadcast_to(v, u.shape).tolist(), strict=True)
+        values = np.array([self.read.value(*one) for one in pairs])
+        return np.maximum(values, 0.0) if self.is_stop else values
+
+    @property
+    def sticks(self) -> bool:
+        """Whether the mass can come to rest away from the equilibrium: always false."""
+        return False
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the mass cannot pass the stop: always false."""
+        return False
+
+    @property
+    def spring_and_dashpot(self) -> None:
+        """Of a stop whose face relaxes; an `Oscillator` replaces such a law by a `Bumper`."""
 
     @property
     def remembers(self) -> bool:

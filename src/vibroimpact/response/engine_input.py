@@ -18,16 +18,13 @@ from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import (
     AssemblyState,
-    Bumper,
     Oscillator,
     Periodic,
     Record,
-    RigidStop,
     State,
     Stop,
 )
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.law_numbers import isolator_numbers, own_numbers, stop_numbers
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
@@ -54,17 +51,20 @@ _CONTACTS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
 def engine_rig(rig: Rig) -> NDArray[np.float64]:
     """The rig as the vector that the engine reads."""
     oscillator = rig.oscillator
-    stiffness, damping, law = isolator_numbers(oscillator.isolator)
+    stiffness, damping, law = oscillator.isolator.engine_numbers()
+    right, left = (
+        None if stop is None else stop.engine_numbers()
+        for stop in (oscillator.right, oscillator.left)
+    )
     return rig_vector(
         oscillator.mass,
         stiffness,
         damping,
-        stop_numbers(oscillator.right),
-        stop_numbers(oscillator.left),
+        right,
+        left,
         oscillator.force,
         _drive(rig),
         law,
-        own_numbers(oscillator.isolator),
     )
 
 
@@ -160,15 +160,15 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
             abs(stop.gap), abs(u), abs(v) / (oscillator.angular_frequency or np.inf)
         )
         reach = sign * u - stop.gap
-        if isinstance(stop, RigidStop):
+        if stop.rigid:
             touches, deformation = _on_wall(stop, sign, state, name, reach, slack, said)
             if touches:
                 u = sign * stop.gap
-        elif not isinstance(stop, Bumper):
+        elif (law := stop.spring_and_dashpot) is None:
             slack = TOUCHING * max(abs(stop.gap), abs(u))
             touches, deformation = _on_power_law(sign, state, reach, slack, said, sign * v)
         else:
-            touches, deformation = _on_bumper(stop, sign, state, name, reach, slack, said, sign * v)
+            touches, deformation = _on_bumper(law, sign, state, name, reach, slack, said, sign * v)
         bit = RIGHT if sign == 1 else LEFT
         if touches:
             mode |= bit
@@ -213,8 +213,9 @@ def _parts(stop: Stop, deformation: float, closing: float) -> bool:
 
     It leaves the face of a relaxing bumper as fast as that relaxes, any other one at its own speed.
     """
-    if isinstance(stop, Bumper) and deformation > 0.0:
-        spring, dashpot = stop.stiffness * deformation, stop.damping * closing
+    if stop.spring_and_dashpot is not None and deformation > 0.0:
+        stiffness, damping = stop.spring_and_dashpot
+        spring, dashpot = stiffness * deformation, damping * closing
         return abs(spring + dashpot) <= TOUCHING * spring
     return closing <= 0.0
 
@@ -239,7 +240,7 @@ def _on_power_law(
 
 
 def _on_wall(
-    stop: RigidStop,
+    stop: Stop,
     sign: int,
     state: State,
     name: str,
@@ -272,7 +273,7 @@ def _on_wall(
 
 
 def _on_bumper(
-    stop: Bumper,
+    law: tuple[float, float],
     sign: int,
     state: State,
     name: str,
@@ -283,8 +284,10 @@ def _on_bumper(
 ) -> tuple[bool, float]:
     """Whether the mass presses a bumper, and the bumper's deformation away from the mass (m).
 
-    An undeformed bumper is not pressed yet by a mass at its face, unless the state says so.
+    The law is the stiffness and the damping of the bumper. An undeformed bumper is not pressed yet
+    by a mass at its face, unless the state says so.
     """
+    stiffness, damping = law
     given = state.right_bumper if sign == 1 else state.left_bumper
     deformation = max(reach, 0.0) if given is None else sign * given
     if reach > deformation + slack:
@@ -299,16 +302,16 @@ def _on_bumper(
             f"{_claim(state)}, but the {_SIDES[sign]} bumper is {deformation - reach:g} m away "
             "from the mass; pass 0 or None"
         )
-    force = stop.stiffness * deformation + stop.damping * closing
-    if stop.damping == 0.0 and not touches:
+    force = stiffness * deformation + damping * closing
+    if damping == 0.0 and not touches:
         deformation = 0.0  # without a dashpot a free bumper is at rest at once
-    rounding = TOUCHING * (stop.stiffness * deformation + stop.damping * abs(closing))
+    rounding = TOUCHING * (stiffness * deformation + damping * abs(closing))
     if said and force < -rounding:
         raise InputError(
             f"{_claim(state)}, but the {_SIDES[sign]} bumper would pull the mass with {-force:g} "
             "N; pass 0 or None, or a higher velocity towards the bumper"
         )
-    if said is False and touches and stop.damping == 0.0 and deformation > slack:
+    if said is False and touches and damping == 0.0 and deformation > slack:
         raise InputError(
             f"{_claim(state)}, but the mass compresses the {_SIDES[sign]} bumper by "
             f"{deformation:g} m, and a bumper without a dashpot stays in contact; pass {sign} or "

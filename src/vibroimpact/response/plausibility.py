@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.errors import InputError, warn_of_input
-from vibroimpact.model import Bumper, Harmonic, RigidStop, equilibrium
+from vibroimpact.model import Harmonic, equilibrium
 from vibroimpact.model.quantities import FREQUENCY, LENGTH
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound, undamped_frequency
@@ -70,11 +70,11 @@ def doubt_stops(rig: Rig, displacement: ArrayLike | None = None) -> list[str]:
 def _doubt_stiffnesses(rig: Rig) -> list[str]:
     """Doubt stops that the isolator outweighs by far, and that are usual in MN/m."""
     spring = rig.oscillator.isolator.initial_stiffness
-    stops = [stop for stop in rig.oscillator.stops if isinstance(stop, Bumper)]
+    pairs = [stop.spring_and_dashpot for stop in rig.oscillator.stops]
     notes = [
         f"{plain(stiffness / _MILLI, 4)} mN/m is {stiffness / spring:.3g} times the stiffness of "
         f"the isolator; is {plain(stiffness / _MILLI, 4)} MN/m meant?"
-        for stiffness in sorted({stop.stiffness for stop in stops})
+        for stiffness in sorted({pair[0] for pair in pairs if pair})
         if _SOFTEST * spring <= _MEGA / _MILLI * stiffness <= _HARDEST * spring
     ]
     warn_of_input("stiffness of a stop", notes)
@@ -172,7 +172,7 @@ def note_stiff_stops(rig: Rig, frequency: float) -> list[str]:
         return []  # nothing holds the mass
     notes = []
     for name, stop, side in (("right", oscillator.right, 1.0), ("left", oscillator.left, -1.0)):
-        if stop is None or isinstance(stop, RigidStop) or side * u <= stop.gap:
+        if stop is None or stop.rigid or side * u <= stop.gap:
             continue
         deep, step = side * u - stop.gap, _NUDGE * (side * u - stop.gap)
         rise = stop.static_force(deep + step) - stop.static_force(deep - step)

@@ -11,9 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.model import (
-    Bumper,
     Harmonic,
-    RigidStop,
     to_si,
 )
 from vibroimpact.model.derived_parameters import scale_of
@@ -226,14 +224,12 @@ class Base(NamedTuple):
         if not stops:
             raise InputError("rig: there is no stop; pass a rig with one or two stops")
         for name in values:
-            if name in _OF_BUMPERS and not any(isinstance(stop, Bumper) for stop in stops):
+            if name in _OF_BUMPERS and not any(stop.spring_and_dashpot for stop in stops):
                 raise InputError(
                     f"rig: {name!r} applies to bumpers, but this rig has none; vary 'gap', "
                     "'gap_ratio', 'stops.restitution', 'amplitude' or 'damping_ratio' instead"
                 )
-            if name == "stops.restitution" and not any(
-                isinstance(stop, RigidStop) for stop in stops
-            ):
+            if name == "stops.restitution" and not any(stop.rigid for stop in stops):
                 raise InputError(
                     "rig: 'stops.restitution' applies to rigid stops, but this rig has none; vary "
                     "another parameter, or pass a rig with a rigid stop"

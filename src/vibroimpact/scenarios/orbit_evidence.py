@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, State
+from vibroimpact.model import Harmonic, Oscillator, State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Swept
 from vibroimpact.response.engine_input import engine_state
@@ -71,11 +71,17 @@ def with_kinds(
 def _forgetful(oscillator: Oscillator, frequency: float) -> bool:
     """Whether all bumpers forget within a cycle: no motion is quasi-periodic (theory, 6.5)."""
     damped = oscillator.isolator.linear and oscillator.isolator.damping > 0.0
-    return damped and all(
-        isinstance(stop, RigidStop)
-        or (isinstance(stop, Bumper) and stop.damping * frequency * _RELAXATIONS <= stop.stiffness)
-        for stop in oscillator.stops
-    )
+    if not damped:
+        return False
+    for stop in oscillator.stops:
+        if stop.rigid:
+            continue
+        if stop.spring_and_dashpot is None:
+            return False
+        stiffness, damping = stop.spring_and_dashpot
+        if damping * frequency * _RELAXATIONS > stiffness:
+            return False
+    return True
 
 
 def _kind(

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Harmonic, Oscillator, RigidStop, Stop
+from vibroimpact.model import Harmonic, Oscillator, Stop
 from vibroimpact.model.clearance import room
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import (
@@ -82,11 +82,11 @@ def highest(rig: Rig) -> float:
 def _in_contact(oscillator: Oscillator, side: str, shaken: Harmonic) -> float:
     """Resonance over the natural frequency of a mass in contact with a stop all the time."""
     stop: Stop = getattr(oscillator, side)
-    if isinstance(stop, RigidStop):
+    if stop.rigid:
         return MOST_HIGH
     spring = oscillator.isolator.initial_stiffness
-    if isinstance(stop, Bumper) and oscillator.isolator.linear:
-        stiffer = math.sqrt(1.0 + stop.stiffness / spring)
+    if stop.spring_and_dashpot is not None and oscillator.isolator.linear:
+        stiffer = math.sqrt(1.0 + stop.spring_and_dashpot[0] / spring)
     else:
         swing = 0.5 * reference_excursions(Rig(oscillator, shaken))[0]
         depth = max(swing - room(oscillator)[side], 0.0)

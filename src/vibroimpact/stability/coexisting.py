@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import STARTS, check_mapping, check_progress
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Repeated, RigidStop, State, Stop, equilibrium
+from vibroimpact.model import Repeated, State, Stop, equilibrium
 from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
@@ -220,7 +220,7 @@ def find_motions(
 
 def _wall(stop: Stop | None) -> float:
     """Return the largest displacement on the side of a stop (m)."""
-    return stop.gap if isinstance(stop, RigidStop) else math.inf
+    return stop.gap if stop is not None and stop.rigid else math.inf
 
 
 def _labelled(one: _Kept, max_events: int) -> xr.Dataset:

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from vibroimpact.engine import section_map
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
-from vibroimpact.model.stops import RigidStop
 from vibroimpact.stability.fixed_points import (
     HELD,
     SEEN,
@@ -57,7 +56,7 @@ _GROWN, _FAR = 3.0, 3e-3
 
 def has_rigid_stop(orbit: Orbit) -> bool:
     """Whether an impact can vanish at all."""
-    return any(isinstance(s, RigidStop) for s in orbit.section.family.oscillator.stops)
+    return any(stop.rigid for stop in orbit.section.family.oscillator.stops)
 
 
 def fewer(one: Orbit, other: Orbit) -> bool:

@@ -16,7 +16,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, RigidStop, State, equilibrium
+from vibroimpact.model import State, equilibrium
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
@@ -114,12 +114,14 @@ def placed(rig: Rig, state: _Array) -> _Array:
     """The nearest state that a rig can have: no mass inside a stop, no memory beyond its bounds."""
     oscillator = rig.oscillator
     u, v = float(state[layout.U]), float(state[layout.V])
-    if isinstance(oscillator.right, RigidStop):
+    if oscillator.right is not None and oscillator.right.rigid:
         u = min(u, oscillator.right.gap)
-    if isinstance(oscillator.left, RigidStop):
+    if oscillator.left is not None and oscillator.left.rigid:
         u = max(u, -oscillator.left.gap)
     right, left = (
-        sign * max(float(state[at]), sign * u - stop.gap, 0.0) if isinstance(stop, Bumper) else None
+        sign * max(float(state[at]), sign * u - stop.gap, 0.0)
+        if stop is not None and stop.spring_and_dashpot is not None
+        else None
         for stop, sign, at in (
             (oscillator.right, 1.0, layout.RIGHT_BUMPER),
             (oscillator.left, -1.0, layout.LEFT_BUMPER),

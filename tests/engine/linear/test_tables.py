@@ -23,15 +23,16 @@ from vibroimpact.engine.linear.layout import (
 from vibroimpact.engine.linear.tables import build, overlapping, resting
 from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT, Row
 from vibroimpact.engine.parameters import SIZE as RIG
-from vibroimpact.engine.parameters import Stop, rig_vector
+from vibroimpact.engine.parameters import rig_vector
+from vibroimpact.law_numbers import StopNumbers
 
 PRESSED = (20.0, 0.4, -0.3)
 
 
 def plan(
     damping: float,
-    right: Stop | None = None,
-    left: Stop | None = None,
+    right: StopNumbers | None = None,
+    left: StopNumbers | None = None,
     amplitude: float = 0.0,
     omega: float = 1.0,
 ) -> np.ndarray:

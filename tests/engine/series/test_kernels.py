@@ -13,14 +13,14 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_tables import plan_of
 from vibroimpact.engine.motion import STATE
 from vibroimpact.engine.observers import record
-from vibroimpact.engine.parameters import Law, PowerLaw, rig_vector
+from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.series import kernels, root, slopes, step
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series.emit import Plain
-from vibroimpact.engine.series.program import SYMBOLS
 from vibroimpact.engine.series.root import Rooted
 from vibroimpact.engine.series.step import Shape
 from vibroimpact.engine.status import DONE, TOO_MANY_EVENTS
+from vibroimpact.law_numbers import SYMBOLS, IsolatorNumbers, PowerLaw
 
 
 def symbols(*operations: str | int) -> tuple[int, ...]:
@@ -156,14 +156,17 @@ def forces(plan: np.ndarray, shape: Shape, x: float, v: float, z: float) -> tupl
 @pytest.mark.parametrize(
     ("made", "asked"),
     [
-        (Law(cubic=1.0), Law(cubic=1.0, quintic=1.0)),
-        (Law(cubic=1.0), Law(sinh=1.0, sinh_rate=1.0)),
-        (Law(cubic=1.0), Law(hysteretic=1.0, knee=1.0)),
-        (Law(hysteretic=1.0, knee=1.0), Law(hysteretic=1.0, knee=1.0, sharpness=3.0)),
-        (Law(cubic=1.0), Law(cubic=1.0, drag=2.0)),
+        (IsolatorNumbers(cubic=1.0), IsolatorNumbers(cubic=1.0, quintic=1.0)),
+        (IsolatorNumbers(cubic=1.0), IsolatorNumbers(sinh=1.0, sinh_rate=1.0)),
+        (IsolatorNumbers(cubic=1.0), IsolatorNumbers(hysteretic=1.0, knee=1.0)),
+        (
+            IsolatorNumbers(hysteretic=1.0, knee=1.0),
+            IsolatorNumbers(hysteretic=1.0, knee=1.0, sharpness=3.0),
+        ),
+        (IsolatorNumbers(cubic=1.0), IsolatorNumbers(cubic=1.0, drag=2.0)),
     ],
 )
-def test_a_plan_of_other_laws_is_given_up(made: Law, asked: Law) -> None:
+def test_a_plan_of_other_laws_is_given_up(made: IsolatorNumbers, asked: IsolatorNumbers) -> None:
     """Never followed by kernels that lack one of its laws."""
     one, other = (rig_vector(1.0, 1.0, 0.1, None, None, law=law) for law in (made, asked))
     assert outcome_of(one, one) == DONE
@@ -171,8 +174,10 @@ def test_a_plan_of_other_laws_is_given_up(made: Law, asked: Law) -> None:
 
 
 def test_a_plan_of_another_stop_is_given_up() -> None:
-    free = rig_vector(1.0, 1.0, 0.1, None, None, law=Law(cubic=1.0))
-    stopped = rig_vector(1.0, 1.0, 0.1, PowerLaw(9.0, 1.5, 0.0, 0.0, 1.0), None, law=Law(cubic=1.0))
+    free = rig_vector(1.0, 1.0, 0.1, None, None, law=IsolatorNumbers(cubic=1.0))
+    stopped = rig_vector(
+        1.0, 1.0, 0.1, PowerLaw(9.0, 1.5, 0.0, 0.0, 1.0), None, law=IsolatorNumbers(cubic=1.0)
+    )
     assert outcome_of(free, stopped) == TOO_MANY_EVENTS
 
 

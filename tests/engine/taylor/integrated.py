@@ -6,10 +6,12 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
-from vibroimpact.engine.parameters import Law
+from vibroimpact.law_numbers import IsolatorNumbers
 
 
-def integrated(k: float, c: float, law: Law, shaken: vi.Harmonic, cycles: float) -> np.ndarray:
+def integrated(
+    k: float, c: float, law: IsolatorNumbers, shaken: vi.Harmonic, cycles: float
+) -> np.ndarray:
     """u, u̇ and z behind so many cycles from rest, of a mass of 1 kg without stops or friction."""
     amplitude, omega, phase = shaken.amplitude, shaken.angular_frequency, shaken.phase
     n, limit = int(law.sharpness), law.limit

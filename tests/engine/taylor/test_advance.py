@@ -17,7 +17,6 @@ from properties.strategies import Motion, examples, motions
 from samples import sample
 from vibroimpact.engine.motion import ISOLATOR, LEFT_BUMPER, MODE, U, V, mirror_image
 from vibroimpact.response.engine_input import engine_state
-from vibroimpact.response.law_numbers import isolator_numbers
 
 PAIRS = [*product(ISOLATORS, STOPS)]
 EACH = [*zip(ISOLATORS, cycle(STOPS), strict=False)]
@@ -69,7 +68,7 @@ def disturbed(rig: vi.Oscillator, shaken: vi.Harmonic, start: np.ndarray) -> Ite
 )
 def test_each_isolator_against_dop853(isolator: str) -> None:
     rig = between(isolator, None)
-    exact = integrated(*isolator_numbers(ISOLATORS[isolator]), SHAKEN, 10)
+    exact = integrated(*ISOLATORS[isolator].engine_numbers(), SHAKEN, 10)
     found = followed(rig, SHAKEN, 10, started(rig))
     np.testing.assert_allclose(found[SEEN], exact, atol=2e-12)
 
@@ -121,7 +120,7 @@ def test_passive_laws_never_create_energy(isolator: str, stop: str) -> None:
 def stored(rig: vi.Oscillator, isolator: str, stop: str, state: np.ndarray) -> float:
     """Energy (J) of the mass, the isolator's springs and the stops' springs."""
     u, v, z = state[SEEN]
-    k, _, law = isolator_numbers(ISOLATORS[isolator])
+    k, _, law = ISOLATORS[isolator].engine_numbers()
     total = 0.5 * v * v + 0.5 * k * u * u + law.cubic * u**4 / 4.0 + law.quintic * u**6 / 6.0
     if law.sinh:
         total += 2.0 * law.sinh / law.sinh_rate * (math.cosh(law.sinh_rate * u) - 1.0)

@@ -16,8 +16,9 @@ from vibroimpact.engine.batch import trajectory
 from vibroimpact.engine.flow_dispatch import carries
 from vibroimpact.engine.motion import MODE, STATE, U, V
 from vibroimpact.engine.observers import record
-from vibroimpact.engine.parameters import OWN, Law, OwnStop, PowerLaw, rig_vector
-from vibroimpact.engine.series.program import SYMBOLS, Program, pack, unpack
+from vibroimpact.engine.parameters import OWN, rig_vector
+from vibroimpact.engine.series.program import unpack
+from vibroimpact.law_numbers import SYMBOLS, IsolatorNumbers, OwnStop, PowerLaw, Program, pack
 
 SHAKEN = vi.Harmonic(0.6, 0.17, 0.4)
 
@@ -45,12 +46,14 @@ def test_an_emitted_formula_is_the_built_in_law() -> None:
     deep = tuple(program("number", 0, "x", "power", 2, "*", numbers=(30.0,)))
     square = PowerLaw(30.0, 2.0, 0.0, 0.0, 0.4)
     for built_in, own in (
-        (rig_vector(1.0, 1.0, 0.02, None, None, law=Law(cubic=0.7)),
-         rig_vector(1.0, 1.0, 0.02, None, None, own=cubic)),
-        (rig_vector(2.0, 1.0, 0.05, None, None, law=Law(drag=2.0)),
-         rig_vector(2.0, 1.0, 0.0, None, None, own=drag)),
-        (rig_vector(1.0, 1.0, 0.05, square, square, law=Law(cubic=0.3)),
-         rig_vector(1.0, 1.0, 0.05, OwnStop(deep, 0.4), OwnStop(deep, 0.4), law=Law(cubic=0.3))),
+        (rig_vector(1.0, 1.0, 0.02, None, None, law=IsolatorNumbers(cubic=0.7)),
+         rig_vector(1.0, 1.0, 0.02, None, None, law=IsolatorNumbers(own=cubic))),
+        (rig_vector(2.0, 1.0, 0.05, None, None, law=IsolatorNumbers(drag=2.0)),
+         rig_vector(2.0, 1.0, 0.0, None, None, law=IsolatorNumbers(own=drag))),
+        (rig_vector(1.0, 1.0, 0.05, square, square, law=IsolatorNumbers(cubic=0.3)),
+         rig_vector(
+             1.0, 1.0, 0.05, OwnStop(deep, 0.4), OwnStop(deep, 0.4), law=IsolatorNumbers(cubic=0.3)
+         )),
     ):  # fmt: skip
         np.testing.assert_allclose(end_of(own), end_of(built_in), atol=2e-12)
 
@@ -90,7 +93,14 @@ def test_a_program_is_packed_and_unpacked() -> None:
     rng = np.random.default_rng(1)
     for count in (1, 9, 10, 11, 49, 50):
         symbols = (*rng.integers(1, 5, count - 1).tolist(), 7)
-        rig = rig_vector(3.0, 1.0, 0.0, None, None, own=pack(Program(symbols, (1.5, 2.5)), 6.0))
+        rig = rig_vector(
+            3.0,
+            1.0,
+            0.0,
+            None,
+            None,
+            law=IsolatorNumbers(own=pack(Program(symbols, (1.5, 2.5)), 6.0)),
+        )
         assert unpack(rig, 0) == symbols
         assert unpack(rig, 1) == ()
         other = rig.copy()

@@ -12,15 +12,22 @@ from scipy.optimize import brentq
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.motion import BOTH, FLIGHT, Motion
-from vibroimpact.engine.parameters import Law, PowerLaw, rig_vector
+from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.series.layout import DEGREE, X
 from vibroimpact.engine.taylor.pieces import begun, motion_at
 from vibroimpact.engine.taylor.plan import build
+from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
 
-LAWS = {"cubic": Law(cubic=3.0), "both": Law(cubic=-0.4, quintic=0.7), "linear": Law(drag=1.0)}
+LAWS = {
+    "cubic": IsolatorNumbers(cubic=3.0),
+    "both": IsolatorNumbers(cubic=-0.4, quintic=0.7),
+    "linear": IsolatorNumbers(drag=1.0),
+}
 
 
-def exact(law: Law, damping: float, u: float, v: float, clock, degree: int) -> list[mpmath.mpf]:
+def exact(
+    law: IsolatorNumbers, damping: float, u: float, v: float, clock, degree: int
+) -> list[mpmath.mpf]:
     """Coefficients of u in time (s), of mass and stiffness 1, −sin θ shaking at ω = 1.3."""
     with mpmath.workdps(40):
         x = [mpmath.mpf(u), mpmath.mpf(v)]
@@ -72,7 +79,7 @@ def test_a_weak_drag_does_not_shorten_the_steps_of_a_mass_that_creeps() -> None:
     )
     lengths = []
     for damping in (0.0, 0.07):
-        rig = rig_vector(1.0, 1.8e4, damping, right, left, law=Law(drag=1.5))
+        rig = rig_vector(1.0, 1.8e4, damping, right, left, law=IsolatorNumbers(drag=1.5))
         plan = planned(flow_of(rig), rig)
         build(plan, 18.0, 21.0)
         creeping = Motion(BOTH, 0, held, 2.6e-7, 0.0, 0.0, 0.0, 0.0, (0.0, 1.0))

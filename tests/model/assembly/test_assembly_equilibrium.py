@@ -4,7 +4,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
@@ -166,6 +166,14 @@ def linear(draw):
 
 @settings(max_examples=150, deadline=None)
 @given(linear())
+@example(
+    vi.chain(
+        [1.0],
+        [7.0],
+        stops={"s0": vi.Link(GROUND, "floor_1", vi.RigidStop(0.5, 5e-324))},
+        forces={"floor_1": -1.0},
+    )
+)
 def test_linear_equilibria_agree_with_all_ways_to_press_the_stops(assembly):
     found = rest(assembly)
     best = enumerated(assembly)

@@ -24,6 +24,7 @@ from vibroimpact.engine.series.emit import REAL, WHOLE, Code, Plain
 from vibroimpact.engine.series.laws import drag
 from vibroimpact.engine.series.root import Rooted
 from vibroimpact.engine.series.step import LAWS, Shape
+from vibroimpact.law_numbers import WORDS
 
 NUMBERS = 7
 """Arguments of a kernel besides the plan."""
@@ -154,8 +155,8 @@ _code, _covers = kernel(laws_code), kernel(covers)
 @kernel
 def lacks(plan: Vector) -> bool:
     """Whether a rig has laws that the kernels of its plan do not have: it was made for another."""
-    for i in range(3 * par.WORDS):
-        needed = plan[par.OWN + i // par.WORDS * par.OWN_WIDTH + i % par.WORDS]
+    for i in range(3 * WORDS):
+        needed = plan[par.OWN + i // WORDS * par.OWN_WIDTH + i % WORDS]
         if needed != plan[at.MADE + i] and needed != 0.0:
             return True
     return not _covers(int(plan[at.LAWS]), _code(plan))
@@ -170,13 +171,13 @@ def drags_any_power(plan: Vector) -> bool:
 def operations(rig: Vector) -> Vector:
     """The operations of a rig's own formulas, as its vector packs them."""
     blocks = rig[par.OWN : par.OWN + 3 * par.OWN_WIDTH].reshape(3, par.OWN_WIDTH)
-    return blocks[:, : par.WORDS].ravel()
+    return blocks[:, :WORDS].ravel()
 
 
 def prepare(memory: Vector, rig: Vector) -> None:
     """Write the addresses of a rig's kernels into the memory of its plan."""
     memory[at.LAWS] = float(laws_code(rig))
-    memory[at.MADE : at.MADE + 3 * par.WORDS] = operations(rig)
+    memory[at.MADE : at.MADE + 3 * WORDS] = operations(rig)
     memory[at.ROOTS : at.ROOTS + 4] = np.nan
     addresses = memory.view(np.int64)
     for slot, (formulas, shape) in kernels(rig).items():

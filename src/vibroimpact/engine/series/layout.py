@@ -7,7 +7,7 @@ here is that of the piece in hand. Times are in units of the plan's own, a power
 from __future__ import annotations
 
 from vibroimpact.engine.linear.layout import SIZE, TABLES
-from vibroimpact.engine.parameters import WORDS
+from vibroimpact.law_numbers import WORDS
 
 DEGREE = 20
 """Highest power of a step's series."""

@@ -1,75 +1,27 @@
-"""A formula as numbers: its operations in reverse Polish notation, packed into a rig's vector.
+"""A formula as the engine evaluates it: unpacked from a rig's vector (`law_numbers.pack`).
 
 A vector then holds all of a rig, whoever receives it, in whichever process.
 """
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from vibroimpact.engine import parameters as par
-
-SYMBOLS = (
-    "end", "x", "v", "|x|", "|v|", "number", "+", "-", "*", "/", "neg", "power", "real power",
-    "exp", "sqrt", "sinh", "cosh", "tanh", "sin", "cos",
-)  # fmt: skip
-"""Of a program. Behind ``number`` and ``real power`` stands which number, behind ``power`` the
-whole exponent."""
-
-_BITS, _IN_WORD = 5, 10
-"""Of a symbol; symbols in a word, which a float holds exactly."""
-
-MOST_SYMBOLS = _IN_WORD * par.WORDS
-LARGEST = 2**_BITS - 1
-"""Largest whole exponent."""
-
-ABSOLUTE_X, ABSOLUTE_V = 1, 2
-"""Flags of a program: whether the sign of the displacement or of the velocity matters."""
-
-_WITH_DIGIT = ("number", "power", "real power")
-
-
-class Program(NamedTuple):
-    """Symbols, as numbers, and the numbers that they name."""
-
-    symbols: tuple[int, ...]
-    numbers: tuple[float, ...]
-
-
-def pack(program: Program, stiffness: float) -> list[float]:
-    """Write a program as numbers for `parameters.rig_vector`; `stiffness` is that at rest (N/m)."""
-    symbols = [*program.symbols, *[0] * (MOST_SYMBOLS - len(program.symbols))]
-    words = [
-        float(sum(one << _BITS * i for i, one in enumerate(symbols[at : at + _IN_WORD])))
-        for at in range(0, MOST_SYMBOLS, _IN_WORD)
-    ]
-    named = [SYMBOLS[one] for one in _operations(program.symbols)]
-    flags = ABSOLUTE_X * ("|x|" in named) + ABSOLUTE_V * ("|v|" in named)
-    numbers = [*program.numbers, *[0.0] * (par.OWN_NUMBERS - len(program.numbers))]
-    return [*words, float(flags), *numbers, 1.0, stiffness]
-
-
-def _operations(symbols: tuple[int, ...]) -> list[int]:
-    """The symbols without the digits behind some of them."""
-    found, digit = [], False
-    for one in symbols:
-        if not digit:
-            found.append(one)
-        digit = not digit and SYMBOLS[one] in _WITH_DIGIT
-    return found
+from vibroimpact.law_numbers import BITS, IN_WORD, LARGEST, SYMBOLS, WORDS
 
 
 def unpack(rig: Any, which: int) -> tuple[int, ...]:
     """Read the symbols of the isolator's program (0), or of that of a stop (1 right, 2 left)."""
     at = par.OWN + par.OWN_WIDTH * which
     found: list[int] = []
-    for word in np.asarray(rig[at : at + par.WORDS]) if rig[at] else ():
+    for word in np.asarray(rig[at : at + WORDS]) if rig[at] else ():
         rest = int(word)
-        for _ in range(_IN_WORD):
+        for _ in range(IN_WORD):
             found.append(rest & LARGEST)
-            rest >>= _BITS
+            rest >>= BITS
     while found and found[-1] == 0:
         found.pop()
     return tuple(found)

@@ -14,7 +14,6 @@ from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near
 from vibroimpact.engine.series.kernels import Slot
 from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
 from vibroimpact.engine.series.march import Shaken, number, taken
-from vibroimpact.engine.series.program import ABSOLUTE_X
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
 from vibroimpact.engine.taylor.ahead import branched
 from vibroimpact.engine.taylor.frame import branch_of, curved_stop, push_of
@@ -30,6 +29,7 @@ from vibroimpact.engine.taylor.watch import (
     starts_still,
     turns,
 )
+from vibroimpact.law_numbers import ABSOLUTE_X
 
 _RIGHT, _LEFT = int(Slot.ROOT_RIGHT), int(Slot.ROOT_LEFT)
 

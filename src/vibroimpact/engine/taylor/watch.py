@@ -52,11 +52,11 @@ from vibroimpact.engine.series.layout import (
     X,
     Z,
 )
-from vibroimpact.engine.series.program import ABSOLUTE_X
 from vibroimpact.engine.series.values import Frame
 from vibroimpact.engine.taylor.frame import balanced, curved_stop, push_of, steep
 from vibroimpact.engine.taylor.laws import EVEN
 from vibroimpact.engine.taylor.pieces import facing_of
+from vibroimpact.law_numbers import ABSOLUTE_X
 
 SIDE, WAY = NUMBERS + NAMES.index("side"), NUMBERS + NAMES.index("way")
 _OWN, _RIGHT, _LEFT = int(Slot.OWN), int(Slot.RIGHT), int(Slot.LEFT)

@@ -10,7 +10,6 @@ from vibroimpact.errors import InputError
 from vibroimpact.explorer.pictures.numbers import short
 from vibroimpact.explorer.state import State
 from vibroimpact.model import from_dimensionless, to_dimensionless
-from vibroimpact.model.dimensionless import DimensionlessBumper
 from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.scenarios.map import scenario_map
 from vibroimpact.scenarios.scenario import Scenario
@@ -43,7 +42,7 @@ def plane(state: State) -> Plane:
     rig = state.oscillator
     scaled = to_dimensionless(state.rig)
     stops = [stop for stop in (scaled.right, scaled.left) if stop is not None]
-    if not stops or not all(isinstance(stop, DimensionlessBumper) for stop in stops):
+    if not stops or not all(stop.spring_and_dashpot for stop in rig.stops):
         raise InputError(
             "map: the map requires at least one stop, and all stops must be Kelvin-Voigt bumpers; "
             "change the law of the stops to kelvin-voigt"

@@ -283,6 +283,11 @@ def _step(problem: _Problem, u: Vector, damping: float) -> Vector:
     return _polished(problem, stiffness, problem.force - curved + tangent @ u, forces, smooth)
 
 
+def _stiffness(problem: _Problem) -> float:
+    """Return the mean stiffness of the linear links or, if there is none, that of the stops."""
+    return float(np.trace(problem.stiffness)) / len(problem.force) or _stop_size(problem)
+
+
 def _stop_size(problem: _Problem) -> float:
     """Return a stiffness with which free masses are sought at their stops."""
     soft = problem.compliance[problem.compliance > 0.0]
@@ -345,8 +350,10 @@ def _stop_forces(problem: _Problem, u: Vector) -> tuple[Vector, Vector, Vector]:
     friction at rest any within ±F_c.
     """
     depth = problem.rows @ u - problem.gaps
-    length = float(np.abs(u).max(initial=0.0)) + float(np.abs(problem.gaps).max(initial=0.0))
-    near = 1e-12 * length
+    # Gaps may be far below the displacement that the forces would cause without stops.
+    free = float(np.abs(problem.force).max(initial=0.0)) / _stiffness(problem)
+    lengths = (np.abs(u).max(initial=0.0), np.abs(problem.gaps).max(initial=0.0), free)
+    near = 1e-12 * float(sum(lengths))
     least, most = problem.low.copy(), problem.high.copy()
     bumper = problem.compliance > 0.0
     pressed = np.maximum(depth, 0.0) / np.where(bumper, problem.compliance, 1.0)
@@ -365,8 +372,7 @@ def _residual(problem: _Problem, u: Vector) -> float:
     least, most, beyond = _stop_forces(problem, u)
     fixed = most <= least
     push = push - problem.rows[fixed].T @ least[fixed]
-    stiff = float(np.trace(problem.stiffness)) / len(u) or _stop_size(problem)
-    penalty = stiff * float(beyond.max(initial=0.0))
+    penalty = _stiffness(problem) * float(beyond.max(initial=0.0))
     if fixed.all():
         return float(np.abs(push).max(initial=0.0)) + penalty
     from scipy.optimize import lsq_linear

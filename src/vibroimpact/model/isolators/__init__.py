@@ -1,6 +1,6 @@
 """Isolators: laws of the restoring force and the damping between base and mass, one law per file.
 
-A new law is a class derived from `IsolatorLaw` and an entry of `ISOLATORS` and `AnyIsolator`.
+A new law is a class derived from `IsolatorLaw` and an entry of `ISOLATORS`.
 """
 
 from typing import TypeAlias
@@ -15,15 +15,7 @@ from vibroimpact.model.isolators.polynomial import PolynomialIsolator
 from vibroimpact.model.law_registry import Kinds
 from vibroimpact.model.own_law import Law
 
-AnyIsolator: TypeAlias = (
-    Isolator
-    | FrictionIsolator
-    | BilinearIsolator
-    | PolynomialIsolator
-    | BoucWenIsolator
-    | ExponentialIsolator
-    | Law
-)
+AnyIsolator: TypeAlias = IsolatorLaw | Law
 """All types of isolators."""
 
 ISOLATORS = Kinds(

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Iterator
+from typing import ClassVar, Self
 
+from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import YieldingLaw
 from vibroimpact.model.validation import constructor
 
@@ -57,6 +59,27 @@ class BilinearIsolator(YieldingLaw):
             damping=damping,
             damping_exponent=damping_exponent,
         )
+
+    @classmethod
+    def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
+        """Return such an isolator, see `IsolatorLaw.like`."""
+        return cls(1.6 * stiffness, 0.9 * stiffness, 0.18 * stiffness * displacement, 0.5 * damping)
+
+    def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:
+        """Return the numbers by which the engine follows the law."""
+        law = IsolatorNumbers(
+            hysteretic=self.hysteretic_stiffness,
+            limit=self.yield_displacement,
+            drag=self.damping_exponent,
+        )
+        return self.post_yield_stiffness, self.damping, law
+
+    def _restoring(self, displacement: list[float], sign: list[float]) -> Iterator[float]:
+        z = last = 0.0
+        for u in displacement:
+            step, last = u - last, u
+            z = max(-self.yield_displacement, min(self.yield_displacement, z + step))
+            yield self.post_yield_stiffness * u + self.hysteretic_stiffness * z
 
     def _loaded(self, displacement: float) -> float:
         limit = self.yield_displacement

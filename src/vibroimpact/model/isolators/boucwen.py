@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from numbers import Integral
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import BeforeValidator, model_validator
 
 from vibroimpact.errors import InputError, shown
+from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import YieldingLaw
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.validation import Accepts, constructor
@@ -18,6 +20,8 @@ _SETTLED = 40.0
 
 
 _DIGITS = 290.0
+_STEPS = 8
+"""Number of Runge-Kutta steps between two points of a path."""
 
 
 def _whole(value: Any) -> int:
@@ -126,6 +130,46 @@ class BoucWenIsolator(YieldingLaw):
     def hysteretic_limit(self) -> float:
         """Upper bound of ``|z|``, u_y/(β + γ)^(1/n) (m)."""
         return self.yield_displacement * float((self.beta + self.gamma) ** (-1.0 / self.exponent))
+
+    @classmethod
+    def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
+        """Return such an isolator, see `IsolatorLaw.like`."""
+        return cls(1.8 * stiffness, 0.9 * stiffness, 0.18 * stiffness * displacement, 0.5 * damping)
+
+    def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:
+        """Return the numbers by which the engine follows the law."""
+        scale = self.yield_displacement**-self.exponent
+        law = IsolatorNumbers(
+            hysteretic=self.hysteretic_stiffness,
+            turning=self.beta * scale,
+            knee=self.gamma * scale,
+            sharpness=self.exponent,
+            drag=self.damping_exponent,
+        )
+        return self.post_yield_stiffness, self.damping, law
+
+    def _restoring(self, displacement: list[float], sign: list[float]) -> Iterator[float]:
+        z = last = 0.0
+        for u in displacement:
+            step, last = u - last, u
+            z = self._moved_on(z, step)
+            yield self.post_yield_stiffness * u + self.hysteretic_stiffness * z
+
+    def _moved_on(self, z: float, step: float) -> float:
+        """Return z after a step of u, by the classical Runge-Kutta method."""
+        limit, n = self.yield_displacement, self.exponent
+        h = step / _STEPS
+
+        def slope(z: float) -> float:
+            turned = self.beta if z * step > 0.0 else -self.beta
+            return 1.0 - abs(z / limit) ** n * (self.gamma + turned)
+
+        for _ in range(_STEPS):
+            a = slope(z)
+            b = slope(z + 0.5 * h * a)
+            c = slope(z + 0.5 * h * b)
+            z += h / 6.0 * (a + 2.0 * b + 2.0 * c + slope(z + h * c))
+        return z
 
     def _loaded(self, displacement: float) -> float:
         limit = self.hysteretic_limit

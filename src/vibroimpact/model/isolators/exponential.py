@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Annotated, ClassVar, Self
 
 from pydantic import model_validator
 
 from vibroimpact.errors import InputError
+from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import IsolatorLaw
 from vibroimpact.model.quantities import DECAY, FORCE, STIFFNESS
 from vibroimpact.model.units import pretty
@@ -112,6 +113,35 @@ class ExponentialIsolator(IsolatorLaw):
     def initial_stiffness(self) -> float:
         """Tangent stiffness at the start of a motion, (k_a + k_b)/2 (N/m)."""
         return 0.5 * (self.reversal_stiffness + self.final_stiffness)
+
+    @classmethod
+    def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
+        """Return such an isolator, see `IsolatorLaw.like`."""
+        return cls(2.4 * stiffness, 0.83 * stiffness, 3.5 / displacement, 0.3 * damping)
+
+    def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:
+        """Return the numbers by which the engine follows the law.
+
+        z is the hysteretic force over k_a − k_b, with z′ = u′/2 − α |u′| z.
+        """
+        force, rate = self.hardening_force, self.hardening
+        law = IsolatorNumbers(
+            sinh=force if rate else 0.0,
+            sinh_rate=rate,
+            hysteretic=self.reversal_stiffness - self.final_stiffness,
+            slope=0.5,
+            turning=self.decay,
+            drag=self.damping_exponent,
+        )
+        return self.final_stiffness - 2.0 * force * rate, self.damping, law
+
+    def _restoring(self, displacement: list[float], sign: list[float]) -> Iterator[float]:
+        z = last = 0.0
+        for u in displacement:
+            step, last = u - last, u
+            bound = math.copysign(self.hysteretic_force, step)
+            z = bound + (z - bound) * math.exp(-self.decay * abs(step))
+            yield self.elastic_force(u) + z
 
     def elastic_force(self, displacement: float) -> float:
         """Return the elastic force Q (2 sinh βu - 2 βu) + k_b u (N) at a displacement (m)."""

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Self
 
 from vibroimpact.errors import InputError
+from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.design import design
 from vibroimpact.model.isolators.law import SpringLaw
 from vibroimpact.model.quantities import FORCE, GRAVITY
@@ -144,6 +146,25 @@ class FrictionIsolator(SpringLaw):
         m, r, mu = design(mass=mass, radius=radius, coefficient=coefficient)
         weight = m * GRAVITY
         return cls(weight / r, damping, mu * weight)
+
+    @classmethod
+    def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
+        """Return such an isolator, see `IsolatorLaw.like`."""
+        return cls(stiffness, damping, 0.1 * stiffness * displacement)
+
+    @property
+    def sticks(self) -> bool:
+        """Whether the mass can come to rest away from the equilibrium: always true."""
+        return True
+
+    def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:
+        """Return the numbers by which the engine follows the law."""
+        law = IsolatorNumbers(friction=self.friction, drag=self.damping_exponent)
+        return self.stiffness, self.damping, law
+
+    def _restoring(self, displacement: list[float], sign: list[float]) -> Iterator[float]:
+        for u, way in zip(displacement, sign, strict=True):
+            yield self.stiffness * u + way * self.friction
 
     @property
     def linear_and_bounded(self) -> tuple[float, float]:

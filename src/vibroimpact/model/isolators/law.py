@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Annotated, Any, ClassVar, Self
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from pydantic import model_validator
 
 from vibroimpact.errors import InputError
+from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.design import design, design_keys, force_of_strength
 from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, FORCE, STIFFNESS, power_damping
@@ -18,9 +22,10 @@ from vibroimpact.model.validation import Accepts, constructor
 class IsolatorLaw(Named):
     """Base class of the isolators: a restoring force plus the viscous force ``c |v|^α sgn v``.
 
-    A new law defines its `initial_stiffness` and its `static_force`. If the static force stops
-    growing, it also defines the displacement where it does (`reach`). If the force is bounded, it
-    also defines the bound (`strongest`).
+    A new law has a ``kind`` and its fields, defines its `initial_stiffness`, its `static_force` and
+    its `engine_numbers`, and is an entry of `ISOLATORS`. If the static force stops growing, it also
+    defines the displacement where it does (`reach`). If the force is bounded, it also defines the
+    bound (`strongest`). If it depends on the path, it also defines `_restoring`.
 
     Attributes
     ----------
@@ -89,6 +94,57 @@ class IsolatorLaw(Named):
     def restoring_reach(self) -> float:
         """Displacement (m) up to which the elastic force is restoring; ∞ if it always is."""
         return math.inf
+
+    def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:
+        """Return K (N/m), C (N (s/m)^α) and what the isolator does besides."""
+        raise NotImplementedError
+
+    @classmethod
+    def like(cls, stiffness: float, damping: float, displacement: float) -> Self | None:
+        """Return such an isolator, about as strong as another one, if the law has an example.
+
+        Parameters
+        ----------
+        stiffness
+            Static force over displacement (N/m) at the displacement (m).
+        damping
+            Damping coefficient (N s/m).
+        displacement
+            Displacement in m.
+        """
+        return None
+
+    @property
+    def sticks(self) -> bool:
+        """Whether the mass can come to rest away from the equilibrium."""
+        return False
+
+    def force(
+        self, displacement: ArrayLike, direction: ArrayLike, velocity: ArrayLike = 0.0
+    ) -> NDArray[np.float64]:
+        """Return the force (N) along a path that starts at rest.
+
+        It is computed step by step, independently of the engine.
+
+        Parameters
+        ----------
+        displacement
+            Displacements along the path in m, starting with 0. They must be so dense that the
+            motion reverses only at samples.
+        direction
+            Direction of the motion at each sample, of which only the sign is used.
+        velocity
+            Velocity in m/s, which determines the force of the dashpot.
+        """
+        u = np.asarray(displacement, dtype=np.float64)
+        v = np.broadcast_to(np.asarray(velocity, dtype=np.float64), u.shape)
+        viscous = self.damping * np.abs(v) ** self.damping_exponent * np.sign(v)
+        signs = np.sign(np.asarray(direction)).tolist()
+        return np.fromiter(self._restoring(u.tolist(), signs), np.float64, len(u)) + viscous
+
+    def _restoring(self, displacement: list[float], sign: list[float]) -> Iterator[float]:
+        """Yield the force (N) without the dashpot at each sample of a path."""
+        yield from map(self.static_force, displacement)
 
     def viscous_force(self, velocity: float) -> float:
         """Return ``c |v|^α sgn v`` (N) at a velocity (m/s)."""

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import ClassVar, Self
 
+from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import SpringLaw
+from vibroimpact.model.quantities import DAMPING, STIFFNESS
+from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import constructor
 
 
@@ -44,6 +47,22 @@ class Isolator(SpringLaw):
             damping=damping,
             damping_exponent=damping_exponent,
         )
+
+    @classmethod
+    def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
+        """Return such an isolator, see `IsolatorLaw.like`."""
+        return cls(stiffness, damping)
+
+    def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:
+        """Return the numbers by which the engine follows the law."""
+        return self.stiffness, self.damping, IsolatorNumbers(drag=self.damping_exponent)
+
+    def summary(self) -> str:
+        """Return the law in one line, with its numbers."""
+        if not self.linear:
+            return super().summary()
+        k, c = pretty(self.stiffness, STIFFNESS), pretty(self.damping, DAMPING)
+        return f"K = {k}, C = {c}" if self.stiffness or self.damping else "none"
 
     @property
     def linear_and_bounded(self) -> tuple[float, float]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Self
 
+from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import SpringLaw
 from vibroimpact.model.quantities import power_stiffness
 from vibroimpact.model.validation import Accepts, constructor
@@ -57,6 +58,16 @@ class PolynomialIsolator(SpringLaw):
             quintic=quintic,
             damping_exponent=damping_exponent,
         )
+
+    @classmethod
+    def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
+        """Return such an isolator, see `IsolatorLaw.like`."""
+        return cls(stiffness, damping, 0.3 * stiffness / displacement**2, 0.0)
+
+    def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:
+        """Return the numbers by which the engine follows the law."""
+        law = IsolatorNumbers(self.cubic, self.quintic, drag=self.damping_exponent)
+        return self.stiffness, self.damping, law
 
     def static_force(self, displacement: float) -> float:
         """Return K u + k₃ u³ + k₅ u⁵ (N) at a displacement (m)."""

@@ -4,8 +4,8 @@ A stop pushes and never pulls. Its gap is the distance from the mass at u = 0 to
 = gap on the right, u = -gap on the left. A stop with a negative gap presses the mass away from u =
 0.
 
-A new law is a class derived from `Named` and an entry of `STOPS` and `Stop`. It has a gap, states
-whether it is `linear` and, unless it is rigid, defines its `static_force`.
+A new law is a class derived from `StopLaw`, or from `FormulaStop` if a formula gives its force, and
+an entry of `STOPS`.
 """
 
 from typing import TypeAlias
@@ -14,12 +14,23 @@ from vibroimpact.model.law_registry import Kinds
 from vibroimpact.model.own_law import Law
 from vibroimpact.model.stops.bumper import Bumper
 from vibroimpact.model.stops.jankowski import JankowskiBumper
+from vibroimpact.model.stops.law import FormulaStop, StopLaw
 from vibroimpact.model.stops.power import PowerBumper
 from vibroimpact.model.stops.rigid import RigidStop
 
-Stop: TypeAlias = Bumper | RigidStop | PowerBumper | JankowskiBumper | Law
+Stop: TypeAlias = StopLaw | Law
 """Whatever the mass can hit."""
 
 STOPS = Kinds(Bumper, RigidStop, PowerBumper, JankowskiBumper, Law)
 
-__all__ = ["STOPS", "Bumper", "JankowskiBumper", "Law", "PowerBumper", "RigidStop", "Stop"]
+__all__ = [
+    "STOPS",
+    "Bumper",
+    "FormulaStop",
+    "JankowskiBumper",
+    "Law",
+    "PowerBumper",
+    "RigidStop",
+    "Stop",
+    "StopLaw",
+]

@@ -6,15 +6,18 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, ClassVar, Self
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from vibroimpact.errors import DependentError, InputError
-from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, LENGTH, MASS, STIFFNESS, TIME
 from vibroimpact.model.restitution import damping_ratio
+from vibroimpact.model.stops.law import StopLaw
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.validation import Accepts, constructor
 
 
-class Bumper(Named):
+class Bumper(StopLaw):
     """A massless deformable stop: a spring and a dashpot in parallel (Kelvin-Voigt).
 
     After a contact, the face keeps its deformation and relaxes with the time constant C_j/K_j.
@@ -112,6 +115,32 @@ class Bumper(Named):
     def linear(self) -> bool:
         """Whether the force is linear in the deformation d and its rate d': K_j d + C_j d'."""
         return True
+
+    @classmethod
+    def like(
+        cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
+    ) -> Self:
+        """Return such a stop, with a τ of 0.01, as the published rig; see `StopLaw.like`."""
+        return cls(force / depth, 0.01 * force / depth / omega, gap)
+
+    @property
+    def spring_and_dashpot(self) -> tuple[float, float]:
+        """The pair (K_j, C_j)."""
+        return self.stiffness, self.damping
+
+    def engine_numbers(self) -> tuple[float, float, float]:
+        """Return K_j (N/m), C_j (N s/m) and the gap (m)."""
+        return self.stiffness, self.damping, self.gap
+
+    def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
+        """Return the force (N, at least 0) along a contact, see `StopLaw.force`."""
+        d, v = np.asarray(deformation, dtype=np.float64), np.asarray(velocity, dtype=np.float64)
+        return np.maximum(self.stiffness * d + self.damping * v, 0.0)
+
+    def summary(self) -> str:
+        """Return the law in one line, with its numbers."""
+        k, c = pretty(self.stiffness, STIFFNESS), pretty(self.damping, DAMPING)
+        return f"K = {k}, C = {c}, gap {pretty(self.gap, LENGTH)}"
 
     @property
     def relaxation_time(self) -> float:

@@ -5,15 +5,18 @@ from __future__ import annotations
 import math
 from typing import Annotated, ClassVar, Self
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from pydantic import model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.law_registry import Named
+from vibroimpact.law_numbers import PowerLaw
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, MASS, power_stiffness
+from vibroimpact.model.stops.law import StopLaw
 from vibroimpact.model.validation import Accepts, constructor
 
 
-class JankowskiBumper(Named):
+class JankowskiBumper(StopLaw):
     """A massless Hertz stop that dissipates energy only during the approach.
 
     The force is F = k δ^1.5 + 2 ξ √(m k √δ) δ' during the approach (δ' > 0), and F = k δ^1.5 during
@@ -79,10 +82,25 @@ class JankowskiBumper(Named):
         lost = 4.5 * math.sqrt(5.0) * (1.0 - e) * (1.0 + e)
         return lost / below if below else math.inf
 
-    @property
-    def linear(self) -> bool:
-        """Whether the force is linear in the deformation d and its rate d': K_j d + C_j d'."""
-        return False
+    @classmethod
+    def like(
+        cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
+    ) -> Self:
+        """Return such a stop, a Hertz contact; see `StopLaw.like`."""
+        return cls(force / depth**1.5, gap, restitution, mass)
+
+    def engine_numbers(self) -> PowerLaw:
+        """Return the numbers by which the engine follows the law."""
+        assert self.mass is not None  # which an oscillator requires
+        viscous = 2.0 * self.damping_ratio * math.sqrt(self.mass * self.stiffness)
+        return PowerLaw(self.stiffness, 1.5, 0.0, viscous, self.gap)
+
+    def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
+        """Return the force (N, at least 0) along a contact, see `StopLaw.force`."""
+        d, v = np.asarray(deformation, dtype=np.float64), np.asarray(velocity, dtype=np.float64)
+        assert self.mass is not None  # which an oscillator requires
+        damping = 2.0 * self.damping_ratio * np.sqrt(self.mass * self.stiffness * np.sqrt(d))
+        return np.asarray(self.stiffness * d**1.5 + damping * np.maximum(v, 0.0))
 
     def static_force(self, deformation: float) -> float:
         """Return the force k δ^1.5 (N) of a stop that is slowly compressed by a deformation (m)."""

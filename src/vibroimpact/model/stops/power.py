@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Annotated, ClassVar, Self
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from pydantic import model_validator
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.law_registry import Named
+from vibroimpact.law_numbers import PowerLaw
 from vibroimpact.model.quantities import (
     DIMENSIONLESS,
     DISSIPATION,
@@ -17,12 +19,13 @@ from vibroimpact.model.quantities import (
     power_stiffness,
 )
 from vibroimpact.model.stops.dissipation import Relation, dissipation_number
+from vibroimpact.model.stops.law import StopLaw
 from vibroimpact.model.validation import Accepts, constructor
 
 _EXPONENT = replace(DIMENSIONLESS, example="1.5", number=1.5)
 
 
-class PowerBumper(Named):
+class PowerBumper(StopLaw):
     """A massless stop whose force is a power of its deformation (Hertz, Hunt and Crossley).
 
     The force is F = k δⁿ (1 + χ δ') for δ > 0, and never less than 0. δ is the penetration depth of
@@ -124,10 +127,28 @@ class PowerBumper(Named):
             0.0 if self.restitution is None else dissipation_number(self.restitution, self.relation)
         )
 
-    @property
-    def linear(self) -> bool:
-        """Whether the force is linear in the deformation d and its rate d': K_j d + C_j d'."""
-        return False
+    @classmethod
+    def like(
+        cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
+    ) -> Self:
+        """Return such a stop, a Hertz contact; see `StopLaw.like`."""
+        return cls(force / depth**1.5, gap, restitution=restitution)
+
+    def engine_numbers(self) -> PowerLaw:
+        """Return the numbers by which the engine follows the law."""
+        number = self.dissipation_number
+        chi = self.dissipation if number is None else -number
+        return PowerLaw(self.stiffness, self.exponent, chi or 0.0, 0.0, self.gap)
+
+    def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
+        """Return the force (N, at least 0) along a contact, see `StopLaw.force`.
+
+        The closing speed is the first velocity.
+        """
+        d, v = np.asarray(deformation, dtype=np.float64), np.asarray(velocity, dtype=np.float64)
+        number, closing = self.dissipation_number, float(v[0])
+        chi = self.dissipation if number is None else number / closing if closing else 0.0
+        return np.maximum(self.stiffness * d**self.exponent * (1.0 + (chi or 0.0) * v), 0.0)
 
     def static_force(self, deformation: float) -> float:
         """Return the force k δⁿ (N) of a stop that is slowly compressed by a deformation (m)."""

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Self
 
-from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH
+from vibroimpact.model.stops.law import StopLaw
+from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.validation import Accepts, constructor
 
 
-class RigidStop(Named):
+class RigidStop(StopLaw):
     """A rigid wall. The mass rebounds from it at once, or comes to rest on it.
 
     If the mass reaches the wall with the velocity v, it leaves the wall with the velocity -e v. If
@@ -39,7 +40,27 @@ class RigidStop(Named):
     def __init__(self, restitution: float | str, gap: float | str) -> None:
         super().__init__(restitution=restitution, gap=gap)
 
+    @classmethod
+    def like(
+        cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
+    ) -> Self:
+        """Return such a stop, see `StopLaw.like`."""
+        return cls(restitution, gap)
+
     @property
     def linear(self) -> bool:
         """Whether the motion between impacts stays linear: always true for a rigid wall."""
         return True
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the mass cannot pass the stop: always true."""
+        return True
+
+    def engine_numbers(self) -> tuple[float, float]:
+        """Return e and the gap (m)."""
+        return self.restitution, self.gap
+
+    def summary(self) -> str:
+        """Return the law in one line, with its numbers."""
+        return f"rigid, e = {plain(self.restitution, 4)}, gap {pretty(self.gap, LENGTH)}"

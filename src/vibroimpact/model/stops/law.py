@@ -1,0 +1,135 @@
+"""Base classes of the stops, which push and never pull."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import model_validator
+
+from vibroimpact.law_numbers import StopNumbers
+from vibroimpact.model.law_registry import Named
+from vibroimpact.model.own_law import Law
+from vibroimpact.model.validation import constructor
+
+
+class StopLaw(Named):
+    """Base class of the stops that a mass can hit.
+
+    A new law has a ``kind``, its fields (one of them ``gap``) with their quantities and bounds,
+    defines `engine_numbers`, `static_force` and `force`, and is an entry of `STOPS`. What it does
+    not define is that of a deformable stop without memory. A law that is given by a formula is
+    derived from `FormulaStop` instead, and needs no more than its fields and the formula.
+
+    Attributes
+    ----------
+    gap
+        Distance (m) from the mass at u = 0 to the stop at rest. A negative gap is a preload.
+    """
+
+    if TYPE_CHECKING:  # a field of each law, in its own place
+        gap: float
+
+    @constructor
+    def __init__(self, /, **values: Any) -> None:
+        super().__init__(**values)
+
+    def engine_numbers(self) -> StopNumbers:
+        """Return the numbers by which the engine follows the law."""
+        raise NotImplementedError
+
+    def static_force(self, deformation: float) -> float:
+        """Return the force (N) of the stop at a slow deformation (m)."""
+        raise NotImplementedError
+
+    def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
+        """Return the force (N, at least 0) along a contact, which starts at the first sample.
+
+        Parameters
+        ----------
+        deformation
+            Deformation in m, at least 0.
+        velocity
+            Velocity of the deformation in m/s.
+        """
+        raise NotImplementedError
+
+    @classmethod
+    def like(
+        cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
+    ) -> Self | None:
+        """Return such a stop that is about as strong as another one, if the law has an example.
+
+        Parameters
+        ----------
+        force
+            Static force in N at the deformation ``depth`` (m).
+        gap
+            Gap in m.
+        restitution
+            Coefficient of restitution, if the law has one.
+        omega
+            Natural frequency of the mass on its isolator in rad/s.
+        mass
+            Mass in kg.
+        """
+        return None
+
+    @property
+    def linear(self) -> bool:
+        """Whether the motion is linear while nothing is hit or left."""
+        return False
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the mass cannot pass the stop."""
+        return False
+
+    @property
+    def spring_and_dashpot(self) -> tuple[float, float] | None:
+        """The pair (K_j, C_j) of a stop whose face relaxes after a contact; otherwise None."""
+        return None
+
+
+class FormulaStop(StopLaw):
+    """Base class of the stops without memory whose force is given by a formula.
+
+    A new law has a ``kind``, its fields and the ``formula``, in which ``d`` is the deformation (m),
+    ``v`` its rate (m/s), and the other names are fields. For example, with the fields
+    ``stiffness``, ``drag`` and ``gap``::
+
+        formula: ClassVar[str] = "stiffness*d + drag*d**2*v"
+
+    A negative force counts as 0. What a formula may contain is described in `Law`.
+    """
+
+    formula: ClassVar[str]
+
+    @constructor
+    def __init__(self, /, **values: Any) -> None:
+        super().__init__(**values)
+
+    @model_validator(mode="after")
+    def _can_be_followed(self) -> Self:
+        _ = self.law
+        return self
+
+    @property
+    def law(self) -> Law:
+        """The law that a user would have written."""
+        fields = {name: value for name, value in self if name != "gap"}
+        return Law(f"max({self.formula}, 0)", self.gap, **fields)
+
+    def engine_numbers(self) -> StopNumbers:
+        """Return the numbers by which the engine follows the formula."""
+        made: StopNumbers = self.law.engine_numbers()
+        return made
+
+    def static_force(self, deformation: float) -> float:
+        """Return the force (N) of the stop at a slow deformation (m)."""
+        return self.law.static_force(deformation)
+
+    def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
+        """Return the force (N, at least 0) along a contact."""
+        return self.law.force(deformation, velocity)

@@ -1,0 +1,96 @@
+"""A stop whose class gives a formula: its fields and one line."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.model.law_registry import Kinds
+from vibroimpact.model.quantities import LENGTH, STIFFNESS, Quantity, Scale
+from vibroimpact.model.stops import Bumper, FormulaStop, StopLaw
+from vibroimpact.model.validation import Accepts, Model
+
+DRAG = Quantity(
+    "drag coefficient",
+    (("kilogram", 1), ("meter", -2), ("second", -1)),
+    "N s/m³",
+    "5 kN s/m^3",
+    5e3,
+    (Scale(0.0, 1.0, "N s/m³"),),
+)
+
+
+class DraggedBumper(FormulaStop):
+    """Force k d + c d² v."""
+
+    kind: ClassVar[str] = "dragged"
+    formula: ClassVar[str] = "stiffness*d + drag*d**2*v"
+
+    stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+    drag: Annotated[float, Accepts(DRAG, minimum=0.0)]
+    gap: Annotated[float, Accepts(LENGTH)]
+
+
+class Side(Model):
+    stop: Annotated[StopLaw | None, Kinds(Bumper, DraggedBumper)] = None
+
+
+TABLE: dict[str, Any] = {
+    "kind": "dragged",
+    "stiffness": "40 kN/m",
+    "drag": "5 kN s/m^3",
+    "gap": "7.5 mm",
+}
+
+
+def read(**changes: Any) -> StopLaw:
+    stop = Side.model_validate({"stop": TABLE | changes}).stop
+    assert stop is not None
+    return stop
+
+
+def test_it_is_read_from_a_table_and_written_as_one() -> None:
+    stop = read()
+    assert dict(stop) == {"stiffness": 4e4, "drag": 5e3, "gap": 7.5e-3}
+    assert Side(stop=stop).model_dump()["stop"] == {"kind": "dragged", **dict(stop)}
+    assert stop.summary() == "dragged, stiffness 40 kN/m, drag 5000 N s/m³, gap 7.5 mm"
+    with pytest.raises(vi.InputError, match=r"stop\.drag: -1\.0 is less than 0"):
+        read(drag=-1.0)
+
+
+def test_the_engine_follows_it_as_the_law_that_a_user_writes() -> None:
+    law = vi.Law("max(k*d + c*d**2*v, 0)", "7.5 mm", k="40 kN/m", c="5 kN s/m^3")
+    assert read().engine_numbers() == law.engine_numbers()
+
+
+def test_it_pushes_and_never_pulls() -> None:
+    stop = read()
+    assert stop.static_force(2e-3) == pytest.approx(80.0, rel=1e-15)
+    assert (stop.linear, stop.rigid, stop.spring_and_dashpot) == (False, False, None)
+    d, v = np.array([0.0, 2e-3, 2e-3]), np.array([1.0, 1.0, -1e4])
+    assert stop.force(d, v).tolist() == pytest.approx([0.0, 80.02, 0.0], rel=1e-14)
+
+
+def test_a_power_of_the_deformation_keeps_its_own_numbers() -> None:
+    class Cubic(FormulaStop):
+        kind: ClassVar[str] = "cubic"
+        formula: ClassVar[str] = "stiffness*d**3"
+        stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+        gap: Annotated[float, Accepts(LENGTH)]
+
+    made = Cubic(stiffness=9.0, gap=0.1).engine_numbers()
+    assert made == vi.PowerBumper(9.0, 0.1, 3.0).engine_numbers()
+
+
+def test_a_formula_with_a_name_that_is_not_a_field_is_refused() -> None:
+    class Misspelt(FormulaStop):
+        kind: ClassVar[str] = "misspelt"
+        formula: ClassVar[str] = "stifness*d"
+        stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+        gap: Annotated[float, Accepts(LENGTH)]
+
+    with pytest.raises(vi.InputError, match="stifness"):
+        Misspelt(stiffness=9.0, gap=0.1)
