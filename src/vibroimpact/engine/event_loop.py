@@ -12,6 +12,7 @@ from vibroimpact.engine import flow
 from vibroimpact.engine import state as states
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import GIVEN_UP, LIMIT, SETTLING
+from vibroimpact.engine.observers.phases import note
 from vibroimpact.engine.state import EVENT, FRESH, STEP, T, room, stretch_room
 
 
@@ -86,3 +87,5 @@ margin = observed(flow.margin)
 record = observed(flow.record)
 tangent = observed(flow.tangent)
 growth = observed(flow.growth)
+phases = observed(note)
+integrate = observed(flow.integrate)
