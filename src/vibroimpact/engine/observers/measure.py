@@ -32,6 +32,7 @@ from vibroimpact.engine.forcing.dispatch import pull_series, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, RATE, H
+from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
 from vibroimpact.engine.linear.stops import rigid
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import (
@@ -97,6 +98,40 @@ def widen_row(row: Vector, at: int, found: Range) -> None:
 
 
 @kernel
+def positive_part(series: Vector, high: float) -> float:
+    """Integral of a series over [−1/2, high], but for where it is negative."""
+    first, second, third = jet(series, -0.5)
+    leading = first if first != 0.0 else second if second != 0.0 else third
+    way = math.copysign(1.0, leading)
+    total, y = 0.0, -0.5
+    while y < high:
+        end = first_root(series, Clearance(0.0, way, 0.0, 0.0, False), y, high)
+        if end == NONE:
+            end = high
+        if way > 0.0:
+            for n in range(ORDER):
+                total += series[n] / (n + 1) * (end ** (n + 1) - y ** (n + 1))
+        y, way = end, -way
+    return total
+
+
+@kernel
+def pressed_impulse(
+    plan: Vector, cursor: Any, before: Motion, side: int, high: float, shaking: Vector
+) -> float:
+    """Impulse of a mass at rest on a rigid stop over a piece; it may be friction that holds it."""
+    series = workspace()
+    facing = -1.0 if before.mode == LEFT else 1.0
+    facing = facing if side == RIGHT else -facing
+    h, rate = plan[cursor.table + H], plan[cursor.table + RATE]
+    for n in range(ORDER):
+        series[n] = -facing * rate * rate * shaking[n]
+    series[0] += rest_level(plan, before, side)
+    impulse: float = h * positive_part(series, high)
+    return impulse
+
+
+@kernel
 def add_powers(
     plan: Vector,
     cursor: Any,
@@ -106,38 +141,23 @@ def add_powers(
     shaking: Vector,
     row: Vector,
 ) -> None:
-    """Add the impulses of touched stops on a piece `width` steps long, and work and losses.
-
-    Of the rest of a chatter, which is not followed from impact to impact, only the impulses count.
-    """
+    """Add work, losses and impulses of what deforms on a piece, `width` steps long."""
     mode = before.mode
     sign = -1.0 if mode == LEFT else 1.0
     h, rate = plan[cursor.table + H], plan[cursor.table + RATE]
-    settling = before.fresh & SETTLING
-    level_right = rest_level(plan, before, RIGHT) if mode & RIGHT and rigid(plan, RIGHT) else 0.0
-    level_left = rest_level(plan, before, LEFT) if mode & LEFT and rigid(plan, LEFT) else 0.0
     for n in range(len(WEIGHTS)):
         y = width * ABSCISSAE[n] - 0.5
         share = WEIGHTS[n] * width * h
         x, slope = horner(series, y)
         v = slope * rate
         drive, _ = horner(shaking, y)
-        drive *= rate * rate
         here = moment(plan, cursor, before, x, sign * v, y)
+        row[WORK] += share * v * (drive * rate * rate)
+        row[LOST] += share * isolator_power(plan, here)
         for side in range(1, 3):
-            if mode & side:
-                at = column(side, IMPULSE)
-                if rigid(plan, side):
-                    level = level_right if side == RIGHT else level_left
-                    facing = sign if side == RIGHT else -sign
-                    row[at] += share * max(level - facing * drive, 0.0)
-                else:
-                    row[at] += share * stop_push(plan, here, side)
-                    if not settling:
-                        row[column(side, LOSES)] += share * stop_power(plan, here, side)
-        if not settling:
-            row[WORK] += share * v * drive
-            row[LOST] += share * isolator_power(plan, here)
+            if mode & side and not rigid(plan, side):
+                row[column(side, IMPULSE)] += share * stop_push(plan, here, side)
+                row[column(side, LOSES)] += share * stop_power(plan, here, side)
 
 
 @kernel
@@ -181,6 +201,10 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
             if mode & side:
                 force = column(side, FORCE)
                 row[force] = pushed(plan, cursor, before, side, part, series, row[force])
+                if rigid(plan, side):
+                    row[column(side, IMPULSE)] += pressed_impulse(
+                        plan, cursor, before, side, high, shaking
+                    )
         cursor = following(plan, cursor)
     if plan[par.BASE] != 0.0:
         carried = Range(a_least, a_most)
@@ -200,6 +224,23 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
                 apart = plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP]
                 depth = -x_least - apart
             row[column(side, DEPTH)] = max(row[column(side, DEPTH)], depth)
+
+
+@kernel
+def measure_settling(
+    plan: Vector, before: Motion, step: float, after: Motion, row: Vector
+) -> None:
+    """Add the rest of a chatter, which is not followed from impact to impact: both its ends.
+
+    Its energy is what its last stop takes; nothing else moves meanwhile.
+    """
+    last = arrived(before.mode, before.v, after)
+    measure_pieces(plan, before, 0.0, row)
+    measure_pieces(plan, last, 0.0, row)
+    for side in range(1, 3):
+        if before.mode & side:
+            push = stop_push(plan, before, side) + stop_push(plan, last, side)
+            row[column(side, IMPULSE)] += 0.5 * step * push
 
 
 @kernel
@@ -243,7 +284,10 @@ def measure_stretch(plan: Vector, stretch: Stretch, row: Vector) -> None:
     """Add a stretch to the row of its phase; energies, forces and impulses per unit mass."""
     before, _, event, step, arrival, after = stretch
     row[TOUCHED] = before.mode
-    measure_pieces(plan, before, step, row)
+    if before.fresh & SETTLING:
+        measure_settling(plan, before, step, after, row)
+    else:
+        measure_pieces(plan, before, step, row)
     for side in range(1, 3):
         loses = column(side, LOSES)
         if before.mode & side:
