@@ -62,7 +62,7 @@ def test_they_are_those_between_the_events(motion):
 
 
 def test_more_phases_than_there_is_room_for_at_first():
-    """The room grows while the motion is followed: a section is followed again, and no row twice."""
+    """The room grows meanwhile: a section is then followed again, and no phase counts twice."""
     data = vi.simulate(vi.Rig(WALL, vi.Harmonic(2.0, 0.3)), 130, vi.State(0.05, 0.3), samples=8)
     every = phases(data, recorded(data))
     assert len(every.rows) > 1500

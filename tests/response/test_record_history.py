@@ -94,7 +94,7 @@ def test_what_the_dataset_holds() -> None:
 
 
 def test_a_sample_at_one_of_the_record_is_that_one() -> None:
-    """Three thirds of a step are rounded to more than one: at the record's end the base is not 0."""
+    """Three thirds of a step may be more than one by rounding: the base is not at rest there."""
     record = vi.Record([0.0, 1.0, -2.0, 3.0], 0.01)
     data = vi.simulate(vi.Rig(RIGS["bumpers"], record), samples=3, tail=0.02)
     assert data["time"][9] > record.duration

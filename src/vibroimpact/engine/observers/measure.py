@@ -6,6 +6,7 @@ product of two such series without error, and a law's force of one to rounding.
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -227,9 +228,7 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
 
 
 @kernel
-def measure_settling(
-    plan: Vector, before: Motion, step: float, after: Motion, row: Vector
-) -> None:
+def measure_settling(plan: Vector, before: Motion, step: float, after: Motion, row: Vector) -> None:
     """Add the rest of a chatter, which is not followed from impact to impact: both its ends.
 
     Its energy is what its last stop takes; nothing else moves meanwhile.
