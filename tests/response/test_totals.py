@@ -16,7 +16,17 @@ BUMPERS = vi.Oscillator(
 WALLS = BUMPERS.replace(right=vi.RigidStop(0.5, 0.2), left=vi.RigidStop(0.3, 0.1))
 PRESSED = BUMPERS.replace(right=vi.Bumper(60.0, 0.9, -0.05), left=vi.Bumper(40.0, 0.5, 0.02))
 LOOSE = BUMPERS.replace(isolator=vi.Isolator(0.0, 0.3), left=vi.RigidStop(0.4, 0.1))
-RIGS = {"bumpers": BUMPERS, "walls": WALLS, "pressed": PRESSED, "no spring": LOOSE}
+HELD = BUMPERS.replace(
+    isolator=vi.FrictionIsolator(5.0, 0.3, 0.5), right=vi.RigidStop(0.4, 0.1), force=3.0
+)
+"""It chatters on the wall, where friction holds it as well."""
+RIGS = {
+    "bumpers": BUMPERS,
+    "walls": WALLS,
+    "pressed": PRESSED,
+    "no spring": LOOSE,
+    "held by friction": HELD,
+}
 ROUGH = vi.Record(np.random.default_rng(7).uniform(-4.0, 4.0, 81), 0.125)
 MOTIONS = ("displacement", "acceleration")
 
@@ -60,7 +70,7 @@ def high_less_low(data: xr.Dataset, one: str) -> float:
 @pytest.mark.parametrize(
     "shaken", [ROUGH, vi.Harmonic(2.0, 0.4), vi.Harmonic(1.5, 0.3, of="force")]
 )
-@pytest.mark.parametrize("name", ["bumpers", "walls", "pressed"])
+@pytest.mark.parametrize("name", ["bumpers", "walls", "pressed", "held by friction"])
 def test_no_energy_is_lost_count_of(name: str, shaken: vi.Harmonic | vi.Record) -> None:
     rig = RIGS[name]
     how = {"tail": 1.3} if isinstance(shaken, vi.Record) else {"cycles": 6}

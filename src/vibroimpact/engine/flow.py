@@ -242,11 +242,6 @@ def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: 
 
 
 @_function(types.void, P, P, P, P)
-def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    """See `observers.demand`."""
-
-
-@_function(types.void, P, P, P, P)
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """See `observers.margin`."""
 

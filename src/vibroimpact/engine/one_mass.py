@@ -32,7 +32,6 @@ from vibroimpact.engine.motion import U as DISPLACEMENT
 from vibroimpact.engine.motion import V as VELOCITY
 from vibroimpact.engine.observers import record as recording
 from vibroimpact.engine.observers import tangent as disturbances
-from vibroimpact.engine.observers.demand import add
 from vibroimpact.engine.observers.extremes import widen
 from vibroimpact.engine.observers.fourier import integrate_stretch
 from vibroimpact.engine.observers.margin import least_margin
@@ -247,11 +246,6 @@ def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: 
 
 
 @kernel
-def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    add(plan, notes, before, ended, after, _stretch(before, ended, after))
-
-
-@kernel
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     notes[0] = least_margin(plan, notes[0], _stretch(before, ended, after))
 
@@ -346,4 +340,4 @@ MOTION = (
 """What a sweep asks for."""
 RECORDED = (record, write)
 DISTURBED = (unit_disturbances, tangent, mirror, start_growth, growth, margin)
-MEASURED = (demand, measure, integrate)
+MEASURED = (measure, integrate)

@@ -6,7 +6,6 @@ product of two such series without error, and a law's force of one to rounding.
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,7 +32,7 @@ from vibroimpact.engine.forcing.dispatch import pull_series, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, RATE, H
-from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
+from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.stops import rigid
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import (
@@ -47,6 +46,7 @@ from vibroimpact.engine.motion import (
     Stretch,
 )
 from vibroimpact.engine.observers.extremes import Part, pushed, series_extremes
+from vibroimpact.engine.observers.margin import leading_sign
 from vibroimpact.engine.observers.phases import (
     A_EVENT,
     A_LEAST,
@@ -101,10 +101,7 @@ def widen_row(row: Vector, at: int, found: Range) -> None:
 @kernel
 def positive_part(series: Vector, high: float) -> float:
     """Integral of a series over [−1/2, high], but for where it is negative."""
-    first, second, third = jet(series, -0.5)
-    leading = first if first != 0.0 else second if second != 0.0 else third
-    way = math.copysign(1.0, leading)
-    total, y = 0.0, -0.5
+    way, total, y = leading_sign(series), 0.0, -0.5
     while y < high:
         end = first_root(series, Clearance(0.0, way, 0.0, 0.0, False), y, high)
         if end == NONE:
