@@ -35,6 +35,8 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     ----------
     motion
         Dataset of `steady`, or of `simulate` with samples, including a motion through a `Record`.
+        The motion is simulated again from its initial state. It may be cut at its end, and under a
+        periodic excitation at its start, too.
     grazing
         A contact is flagged as grazing if its closing speed is below this share of the largest
         speed of the motion.

@@ -19,6 +19,7 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
     ----------
     motion
         Dataset of `steady`, or of `simulate` with samples, including a motion through a `Record`.
+        The motion is simulated again, as by `contacts`.
 
     Returns
     -------

@@ -11,6 +11,7 @@ from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers import record as written
 from vibroimpact.engine.observers.phases import ONE_MASS, begin_row
@@ -52,15 +53,18 @@ FLOWS = [*rigs(1.0)]
 AMPLITUDE, FREQUENCY, S, C = 1.0, 0.4, 0.6, 0.8
 LENGTH = 1.0 / FREQUENCY
 MOST, SAMPLES = 40, 4000
+LATER = 1.3
+"""When the cycle begins (s)."""
 
 
 @entry(
-    "void(f8[::1], f8, f8, f8[::1], f8[::1], f8[:, ::1], f8[:, ::1], f8[:, ::1])",
+    "void(f8[::1], f8, f8, f8[::1], f8[::1], f8[:, ::1], f8[:, ::1], f8[:, ::1], f8[::1],"
+    " f8[::1], f8[:, ::1])",
     "recorded",
     "measured",
 )
-def followed(given, rig, amplitude, omega, start, notes, rows, samples, events):
-    """The same cycle, measured and written down."""
+def followed(given, rig, amplitude, omega, start, notes, rows, samples, events, since, lines, out):
+    """The same cycle, measured, written down and integrated."""
     plan = planned(given, rig)
     flow.build(plan, amplitude, omega)
     state, kept = room(), written.note_room()
@@ -75,6 +79,11 @@ def followed(given, rig, amplitude, omega, start, notes, rows, samples, events):
     event_loop.record(plan, state, S, C, LENGTH, MOST, kept, pointer(samples), pointer(events))
     flow.write(plan, state, pointer(samples), columns, SAMPLES)
     notes[layout.NUMBER] = kept[written.WRITTEN]
+    copy(pointer(start), state, width(plan))
+    wind(plan, state, S, C)
+    event_loop.integrate(
+        plan, state, S, C, LENGTH, MOST, pointer(since), pointer(lines), pointer(out)
+    )
 
 
 def shaking(name, time):
@@ -95,7 +104,21 @@ def test_a_flow_measures_what_its_samples_tell(name: str, base: float) -> None:
     events = np.zeros((MOST + 1, written.EVENT))
     start = np.array([0.0, 0.0, 0.1, 1.5, 0.0, 0.0, 0.0, 0.0])
     omega = C / S if "Recorded" in name else math.tau * FREQUENCY
-    followed(rigs(base)[name], AMPLITUDE, omega, start, notes, rows, samples, events)
+    lines = math.tau * FREQUENCY * np.array([0.0, 1.0, 7.0])
+    since, out = np.array([LATER, float(len(lines))]), np.zeros((fourier.QUANTITIES, len(lines)))
+    followed(
+        rigs(base)[name],
+        AMPLITUDE,
+        omega,
+        start,
+        notes,
+        rows,
+        samples,
+        events,
+        since,
+        lines,
+        out,
+    )
     count = int(notes[layout.WRITTEN])
     assert count == int(notes[layout.NUMBER]) >= 3
     rows, events = rows[: count + 1], events[:count]
@@ -117,6 +140,11 @@ def test_a_flow_measures_what_its_samples_tell(name: str, base: float) -> None:
         inside = (time >= bounds[i]) & (time <= bounds[i + 1])
         if inside.sum() > 100:  # of a shorter one, sums over samples are too coarse
             of_phase(name, row, samples[:, inside], time[inside], base, events, i)
+    u, v, a = samples[[written.DISPLACEMENT, written.VELOCITY, written.ACCELERATION]]
+    for (real, imaginary), values in zip(out.reshape(3, 2, -1), (u, v, a), strict=True):
+        turned = values * np.exp(-1j * lines[:, np.newaxis] * (LATER + time))
+        coarse = 1e-3 * np.trapezoid(np.abs(values), time)
+        np.testing.assert_allclose(real + 1j * imaginary, np.trapezoid(turned, time), atol=coarse)
 
 
 def of_phase(name, row, seen, time, base, events, i):
