@@ -15,15 +15,18 @@ from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers import record as written
 from vibroimpact.engine.observers.phases import ONE_MASS, begin_row
-from vibroimpact.engine.parameters import Drive, Law, rig_vector
+from vibroimpact.engine.parameters import Drive, Law, PowerLaw, rig_vector
 from vibroimpact.engine.state import copy, room, width, wind
 
 STIFFNESS, DAMPING, GAP = 20.0, 2.0, 0.3
 BUMPER = (STIFFNESS, DAMPING, GAP)
 OVERLAPPING = (STIFFNESS, DAMPING, -0.35)
 """Pressed together with the other one."""
+EXPONENT, DISSIPATION = 1.5, 1.5
+CURVED = PowerLaw(STIFFNESS, EXPONENT, DISSIPATION, 0.0, GAP)
 WALL = (0.7, GAP)
 YIELDS = Law(hysteretic=1.5, limit=0.3)
+FRICTION = 0.2
 WEIGHTS = ((1.0, 0.0), (0.0, 0.3))
 
 
@@ -39,7 +42,10 @@ def rigs(base):
         "Recorded": (BUMPER, BUMPER, line, None),
         "Curved": (BUMPER, BUMPER, one, Law(cubic=1.0)),
         "Curved, both pressed": (BUMPER, OVERLAPPING, one, Law(cubic=1.0)),
+        "Curved, friction": (BUMPER, BUMPER, one, Law(cubic=1.0, friction=FRICTION)),
+        "Curved, powers": (CURVED, CURVED, one, None),
         "Yielding": (BUMPER, BUMPER, one, YIELDS),
+        "Yielding, friction": (BUMPER, BUMPER, one, Law(friction=FRICTION)),
         "YieldingSeveral": (BUMPER, BUMPER, several, YIELDS),
         "YieldingRecorded": (BUMPER, BUMPER, line, YIELDS),
     }
@@ -176,7 +182,9 @@ def of_phase(name, row, seen, time, base, events, i):
     there = np.interp(sharpest, time, np.abs(a))
     assert there == pytest.approx(largest, abs=1e-6 + coarse * np.ptp(a))
     near(row[layout.WORK], v * pull)
-    if not name.startswith("Yielding"):
+    if "friction" in name:
+        near(row[layout.LOST], 0.1 * v**2 + FRICTION * np.abs(v))
+    elif not name.startswith("Yielding"):
         near(row[layout.LOST], 0.1 * v**2)
     for number, (sign, face) in enumerate(((1.0, written.RIGHT_FACE), (-1.0, written.LEFT_FACE))):
         depth = sign * seen[face]
@@ -189,9 +197,14 @@ def of_phase(name, row, seen, time, base, events, i):
             continue
         assert stop[layout.HIT] == 0.0
         if int(row[layout.TOUCHED]) >> number & 1:
-            push = STIFFNESS * depth + DAMPING * sign * v
+            spring, dashpot = STIFFNESS * depth, DAMPING * sign * v
+            if "powers" in name:
+                spring = STIFFNESS * np.maximum(depth, 0.0) ** EXPONENT
+                # It does not pull: what its spring holds is lost then.
+                dashpot = np.maximum(DISSIPATION * spring * sign * v, -spring)
+            push = spring + dashpot
             near(stop[layout.IMPULSE], push)
-            near(stop[layout.LOSES], DAMPING * v**2)
+            near(stop[layout.LOSES], dashpot * sign * v)
             assert push.max() <= stop[layout.FORCE] + 1e-12
             assert stop[layout.FORCE] <= push.max() + coarse * np.ptp(push)
             assert depth.max() <= stop[layout.DEPTH] + 1e-12
@@ -200,7 +213,7 @@ def of_phase(name, row, seen, time, base, events, i):
             assert stop[layout.IMPULSE] == stop[layout.FORCE] == stop[layout.DEPTH] == 0.0
             held = 0.5 * STIFFNESS * (depth[0] ** 2 - depth[-1] ** 2)
             assert stop[layout.LOSES] == pytest.approx(held, abs=coarse * abs(held) + 1e-9)
-            rate = STIFFNESS / DAMPING
+            rate = 0.0 if "powers" in name else STIFFNESS / DAMPING
             closing = sign * v[-1] + rate * depth[-1]
             size = abs(v[-1]) + rate * abs(depth[-1])
             assert stop[layout.CLOSING] == pytest.approx(closing, abs=coarse * size)
