@@ -117,6 +117,27 @@ def test_rebound_of_a_damped_stop():
     assert row.contact_dissipated_relaxing > 0.0
 
 
+def test_the_impulse_of_a_rest_that_friction_shares():
+    """Friction holds first: the wall is pressed by what is more than that, ∫ max(F − R, 0) dt."""
+    isolator = vi.FrictionIsolator(5.0, 0.3, 0.5)
+    rig = vi.Oscillator(
+        2.0, isolator, vi.RigidStop(0.4, 0.1), vi.Bumper(40.0, 0.5, 0.02), force=3.0
+    )
+    shaken = vi.Harmonic(2.0, 0.3)
+    log = vi.contacts(vi.simulate(vi.Rig(rig, shaken), 9, vi.State(0.05, 0.3), samples=8))
+    rests = (log["contact_side"] == 1) & (log["contact_duration"] > 1.0)
+    assert rests.sum() > 3
+    level = 3.0 - 5.0 * 0.1 - 0.5
+    for i in np.flatnonzero(rests.values):
+        begin = float(log["contact_start_phase"][i])
+        end = 2.0 * math.pi + math.asin(level / 4.0)  # behind it friction alone holds the mass
+        assert begin > math.pi
+        assert float(log["contact_end_phase"][i]) + 2.0 * math.pi > end
+        turned = level * (end - begin) + 4.0 * (math.cos(end) - math.cos(begin))
+        expected = turned / shaken.angular_frequency
+        assert float(log["contact_impulse"][i]) == pytest.approx(expected, rel=1e-12)
+
+
 def test_contacts_at_the_ends_of_the_record_are_left_out():
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.0)

@@ -93,6 +93,20 @@ def test_what_the_dataset_holds() -> None:
     np.testing.assert_array_equal(data["final_state"], often["final_state"])
 
 
+def test_a_sample_at_one_of_the_record_is_that_one() -> None:
+    """Three thirds of a step may be more than one by rounding: the base is not at rest there."""
+    record = vi.Record([0.0, 1.0, -2.0, 3.0], 0.01)
+    data = vi.simulate(vi.Rig(RIGS["bumpers"], record), samples=3, tail=0.02)
+    assert data["time"][9] > record.duration
+    np.testing.assert_array_equal(data["base_acceleration"][:10:3], record.acceleration)
+    np.testing.assert_array_equal(data["base_acceleration"][10:], 0.0)
+    log, whole = (
+        vi.totals(vi.simulate(vi.Rig(RIGS["bumpers"], record), samples=n, tail=0.02))
+        for n in (3, 1)
+    )
+    assert log.identical(whole)
+
+
 def test_an_event_lies_between_its_samples() -> None:
     """At its time the mass is where it meets the face of the bumper."""
     data = vi.simulate(vi.Rig(RIGS["walls"], ROUGH), samples=200)

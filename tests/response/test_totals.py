@@ -9,7 +9,6 @@ from scipy.integrate import simpson
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.response.phase_measures import measured
 
 BUMPERS = vi.Oscillator(
     2.0, vi.Isolator(5.0, 0.3), vi.Bumper(60.0, 0.9, 0.1), vi.Bumper(40.0, 0.5, 0.15), force=0.3
@@ -17,7 +16,17 @@ BUMPERS = vi.Oscillator(
 WALLS = BUMPERS.replace(right=vi.RigidStop(0.5, 0.2), left=vi.RigidStop(0.3, 0.1))
 PRESSED = BUMPERS.replace(right=vi.Bumper(60.0, 0.9, -0.05), left=vi.Bumper(40.0, 0.5, 0.02))
 LOOSE = BUMPERS.replace(isolator=vi.Isolator(0.0, 0.3), left=vi.RigidStop(0.4, 0.1))
-RIGS = {"bumpers": BUMPERS, "walls": WALLS, "pressed": PRESSED, "no spring": LOOSE}
+HELD = BUMPERS.replace(
+    isolator=vi.FrictionIsolator(5.0, 0.3, 0.5), right=vi.RigidStop(0.4, 0.1), force=3.0
+)
+"""It chatters on the wall, where friction holds it as well."""
+RIGS = {
+    "bumpers": BUMPERS,
+    "walls": WALLS,
+    "pressed": PRESSED,
+    "no spring": LOOSE,
+    "held by friction": HELD,
+}
 ROUGH = vi.Record(np.random.default_rng(7).uniform(-4.0, 4.0, 81), 0.125)
 MOTIONS = ("displacement", "acceleration")
 
@@ -61,7 +70,7 @@ def high_less_low(data: xr.Dataset, one: str) -> float:
 @pytest.mark.parametrize(
     "shaken", [ROUGH, vi.Harmonic(2.0, 0.4), vi.Harmonic(1.5, 0.3, of="force")]
 )
-@pytest.mark.parametrize("name", ["bumpers", "walls", "pressed"])
+@pytest.mark.parametrize("name", ["bumpers", "walls", "pressed", "held by friction"])
 def test_no_energy_is_lost_count_of(name: str, shaken: vi.Harmonic | vi.Record) -> None:
     rig = RIGS[name]
     how = {"tail": 1.3} if isinstance(shaken, vi.Record) else {"cycles": 6}
@@ -191,18 +200,55 @@ def test_the_totals_of_a_chaotic_flight_are_those_of_the_motion_recorded():
     )
 
 
-def test_a_phase_that_cannot_be_measured_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("shaken", [vi.Harmonic(3.0, 0.4, of="force"), ROUGH])
+@pytest.mark.parametrize("end", [0.3, 0.77])
+def test_those_of_a_motion_that_is_cut_at_its_end(shaken: vi.Harmonic | vi.Record, end: float):
+    """A record goes on behind the last sample, which may lie on none of its own."""
+    how = {} if isinstance(shaken, vi.Record) else {"cycles": 5}
+    motion = vi.simulate(vi.Rig(BUMPERS, shaken), samples=48, **how)
+    count = int(end * motion.sizes["time"])
+    part = motion.isel(time=slice(count))
+    found = vi.totals(part)
+    for one in MOTIONS:
+        high, low = (float(found[f"{one}_{name}"]) for name in ("max", "min"))
+        assert high == pytest.approx(float(part[one].max()), abs=3e-2 * (high - low))
+        assert low == pytest.approx(float(part[one].min()), abs=3e-2 * (high - low))
+    balance = found["total_supplied"] - found["total_isolator"] - found["total_bumpers"]
+    change = stored(BUMPERS, part, -1) - stored(BUMPERS, part, 0)
+    assert float(balance) == pytest.approx(change, abs=1e-11)
+    log = vi.contacts(part)
+    assert (log["contact_end"] <= part["time"][-1]).all()
+    assert "notes" not in log.attrs
+
+
+@pytest.mark.parametrize("first", [3 * 48, 2 * 48 + 17])
+def test_those_of_what_is_left_without_the_first_samples(first: int):
+    shaken = vi.Harmonic(3.0, 0.4, 1.1)
+    motion = vi.simulate(vi.Rig(BUMPERS, shaken), 6, samples=48)
+    part = motion.isel(time=slice(first, None))
+    found = vi.totals(part)
+    balance = found["total_supplied"] - found["total_isolator"] - found["total_bumpers"]
+    change = stored(BUMPERS, part, -1) - stored(BUMPERS, part, 0)
+    assert float(balance) == pytest.approx(change, abs=1e-11)
+    every, log = vi.contacts(motion), vi.contacts(part)
+    later = every.isel(contact_number=every["contact_start"].values >= float(part["time"][0]))
+    assert 2 < log.sizes["contact_number"] < every.sizes["contact_number"]
+    for name in set(log) - {"contact_grazing"}:
+        np.testing.assert_allclose(log[name], later[name], rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("kept", [slice(10, None), slice(None, None, 3)])
+def test_samples_without_the_whole_record_are_refused(kept: slice):
+    motion = vi.simulate(vi.Rig(BUMPERS, ROUGH), samples=2)
+    with pytest.raises(vi.InputError, match=r"^motion: its samples .* may be cut at its end only$"):
+        vi.totals(motion.isel(time=kept))
+
+
+@pytest.mark.parametrize("function", [vi.totals, vi.contacts])
+def test_a_motion_that_goes_another_way_is_reported(function):
+    """As one that is sensitive to rounding and was computed elsewhere: its end is another one."""
     motion = vi.simulate(vi.Rig(BUMPERS, vi.Harmonic(2.0, 0.4)), 3.0, samples=16)
-
-    def failing(*asked):
-        rows = measured(*asked)
-        rows[1] = np.nan
-        return rows
-
-    monkeypatch.setattr("vibroimpact.response.totals.measured", failing)
-    found = vi.totals(motion)
-    assert all(np.isnan(found[name]) for name in found)
-    told = (
-        "the extremes and energies are unknown, because the velocity changes sign too often in 1 of"
-    )
-    assert found.attrs["notes"].startswith(f"{told} ")
+    motion["displacement"][-1] += 1e-3
+    with pytest.warns(RuntimeWarning, match=r"the motion ends 0\.001 m away from the recorded one"):
+        found = function(motion)
+    assert "the motion ends 0.001 m away" in found.attrs["notes"]

@@ -13,7 +13,6 @@ that is not said there to the Taylor flow. Each is a folder whose modules have t
     glance(plan, cursor, before, seen, room)  look ahead over a window of pieces
     enclosed(plan, cursor, room)            between which bounds a piece lies, then
     expanded(plan, cursor, series), expanded_force(…), accelerated(…), moment(…)
-    smooth(plan, motion, limit)             one analytic piece of a motion, stops left out
     look(plan, cursor, before, t, step, …)  the motion at instants of a stretch, for samples
     coordinate(plan, motion)                the mode's own
     displacement(plan, mode, x), acceleration(plan, motion)
@@ -84,7 +83,6 @@ expanded = _by_flow("expanded")
 expanded_force = _by_flow("expanded_force")
 accelerated = _by_flow("accelerated")
 moment = _by_flow("moment")
-smooth = _by_flow("smooth")
 look = _by_flow("look")
 displacement = _by_flow("displacement")
 acceleration = _by_flow("acceleration")

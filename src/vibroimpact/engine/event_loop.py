@@ -12,6 +12,8 @@ from vibroimpact.engine import flow
 from vibroimpact.engine import state as states
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import GIVEN_UP, LIMIT, SETTLING
+from vibroimpact.engine.observers.demand import add
+from vibroimpact.engine.observers.phases import note
 from vibroimpact.engine.state import EVENT, FRESH, STEP, T, room, stretch_room
 
 
@@ -81,8 +83,10 @@ def observed(observe: Any) -> Any:
 
 
 extremes = observed(flow.extremes)
-demand = observed(flow.demand)
+demand = observed(add)
 margin = observed(flow.margin)
 record = observed(flow.record)
 tangent = observed(flow.tangent)
 growth = observed(flow.growth)
+phases = observed(note)
+integrate = observed(flow.integrate)

@@ -242,11 +242,6 @@ def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: 
 
 
 @_function(types.void, P, P, P, P)
-def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    """See `observers.demand`."""
-
-
-@_function(types.void, P, P, P, P)
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """See `observers.margin`."""
 
@@ -298,19 +293,19 @@ def growth(
     """See `observers.growth`."""
 
 
-@_function(types.void, P, _X, _N, P)
-def measure_phase(plan: Vector, state: Vector, length: float, side: int, out: Vector) -> None:
-    """Measure the phase that begins with a state, see `measure`."""
+@_function(types.void, P, P, P, P)
+def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
+    """Add a stretch to the row of its phase, see `observers.phases`."""
 
 
-@_function(types.void, P, _X, _X, P, _N, P)
-def integrate_phase(
+@_function(types.void, P, P, P, P, P, P)
+def integrate(
     plan: Vector,
-    state: Vector,
-    length: float,
-    begins: float,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
     lines: Vector,
-    count: int,
     out: Vector,
 ) -> None:
-    """Add the Fourier integrals of a phase, see `fourier`."""
+    """Add the Fourier integrals of a stretch, see `observers.fourier`."""

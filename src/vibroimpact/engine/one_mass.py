@@ -10,7 +10,7 @@ from typing import Any
 
 from numba.extending import overload
 
-from vibroimpact.engine import dispatch, event_loop, flow, flow_dispatch, fourier, measure
+from vibroimpact.engine import dispatch, event_loop, flow, flow_dispatch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing import dispatch as forcing
 from vibroimpact.engine.jit import CHOSEN, Vector, kernel
@@ -32,9 +32,10 @@ from vibroimpact.engine.motion import U as DISPLACEMENT
 from vibroimpact.engine.motion import V as VELOCITY
 from vibroimpact.engine.observers import record as recording
 from vibroimpact.engine.observers import tangent as disturbances
-from vibroimpact.engine.observers.demand import add
 from vibroimpact.engine.observers.extremes import widen
+from vibroimpact.engine.observers.fourier import integrate_stretch
 from vibroimpact.engine.observers.margin import least_margin
+from vibroimpact.engine.observers.measure import measure_stretch
 from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.state import ARRIVAL, EVENT, FIRST, STEP, T, copy
 
@@ -245,11 +246,6 @@ def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: 
 
 
 @kernel
-def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    add(plan, notes, before, _stretch(before, ended, after))
-
-
-@kernel
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     notes[0] = least_margin(plan, notes[0], _stretch(before, ended, after))
 
@@ -307,21 +303,21 @@ def growth(
 
 
 @kernel
-def measure_phase(plan: Vector, state: Vector, length: float, side: int, out: Vector) -> None:
-    measure.measure_phase(plan, unpacked(state), length, side, out)
+def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
+    measure_stretch(plan, _stretch(before, ended, after), row)
 
 
 @kernel
-def integrate_phase(
+def integrate(
     plan: Vector,
-    state: Vector,
-    length: float,
-    begins: float,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
     lines: Vector,
-    count: int,
     out: Vector,
 ) -> None:
-    fourier.integrate_phase(plan, unpacked(state), length, begins, lines, count, out)
+    integrate_stretch(plan, _stretch(before, ended, after), notes, lines, out)
 
 
 MOTION = (
@@ -344,4 +340,4 @@ MOTION = (
 """What a sweep asks for."""
 RECORDED = (record, write)
 DISTURBED = (unit_disturbances, tangent, mirror, start_growth, growth, margin)
-MEASURED = (demand, measure_phase, integrate_phase)
+MEASURED = (measure, integrate)

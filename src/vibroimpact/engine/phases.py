@@ -1,75 +1,190 @@
-"""Phases of a motion, each begun from its state: measured, and integrated against sines."""
+"""A motion followed through its sections and measured: its phases, or its Fourier integrals."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
-from vibroimpact.engine import flow
+from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
-from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.measure import P_C, P_LENGTH, P_S, P_SIDE
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.state import load, room
+from vibroimpact.engine.observers.fourier import BEGINS
+from vibroimpact.engine.observers.phases import (
+    MASSES,
+    NUMBER,
+    WIDTH,
+    WRITTEN,
+    begin_row,
+    full,
+    keep,
+    put_back,
+)
+from vibroimpact.engine.sections import FULL, C, Leg, S, Schedule, follow, watcher
+from vibroimpact.engine.state import copy, load, put, room, width
 
 
-@entry("void(f8[::1], f8, f8, f8[:, ::1], f8[:, ::1])", "measured")
-def measure_phases(
-    given: Any, rig: Vector, amplitude: float, frequency: float, phases: Vector, out: Vector
-) -> None:
-    """Measure phases of a motion.
+class Log(NamedTuple):
+    """What is noted of phases, see `observers.phases`."""
 
-    Parameters
-    ----------
-    rig, amplitude, frequency
-        As in `batch.trajectory`.
-    phases : ndarray, shape (phase, measure.PHASE)
-        The phases.
-    out : ndarray, shape (phase, measure.MEASURES)
-        Written.
-    """
-    plan = planned(given, rig)
-    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
-    here = room()
-    for i in range(len(phases)):
-        phase = phases[i]
-        load(plan, pointer(phase), here, phase[P_S], phase[P_C])
-        flow.measure_phase(plan, here, phase[P_LENGTH], int(phase[P_SIDE]), pointer(out[i]))
+    notes: Vector
+    rows: Vector
 
 
-@entry("void(f8[::1], f8, f8, f8[:, ::1], f8[::1], f8[::1], f8[:, ::1])", "measured")
-def integrate(
+@watcher(Log)
+def _measured(plan: Vector, state: Vector, section: Vector, leg: Leg, log: Log) -> int:
+    """Measure a leg, or nothing of it."""
+    number, s, c, length, max_events = leg
+    notes, rows = log.notes, log.rows
+    if full(notes):
+        return FULL
+    written = notes[WRITTEN]
+    notes[NUMBER] = number
+    keep(notes, rows)
+    events: int = event_loop.phases(plan, state, s, c, length, max_events, notes, rows)
+    if full(notes):
+        put_back(notes, rows, written)
+        put(plan, section, state)
+        return FULL
+    if events > max_events:
+        put_back(notes, rows, written)
+    return events
+
+
+class Integrals(NamedTuple):
+    """What is noted for a spectrum, see `observers.fourier`."""
+
+    notes: Vector
+    interval: float
+    """Between sections (s)."""
+    lines: Vector
+    out: Vector
+
+
+@watcher(Integrals)
+def _integrated(plan: Vector, state: Vector, section: Vector, leg: Leg, found: Integrals) -> int:
+    number, s, c, length, max_events = leg
+    found.notes[BEGINS] = number * found.interval
+    events: int = event_loop.integrate(
+        plan, state, s, c, length, max_events, found.notes, found.lines, found.out
+    )
+    return events
+
+
+@kernel
+def _scheduled(phase: float, sections: Vector, count: int, changes: int) -> Schedule:
+    """The schedule of a table; the clock of a periodic forcing is that of a phase."""
+    if not changes:
+        sections[S], sections[C] = math.sin(phase), math.cos(phase)
+    return Schedule(sections, count, changes != 0)
+
+
+@entry(
+    "UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[:, ::1], i8, f8[::1], i8, f8, i8, f8[::1],"
+    " f8[:, ::1])",
+    "measured",
+)
+def measure_motion(
     given: Any,
     rig: Vector,
     amplitude: float,
-    frequency: float,
-    phases: Vector,
-    begins: Vector,
-    lines: Vector,
-    out: Vector,
-) -> None:
-    """Integrate a motion times exp(−iνt).
+    omega: float,
+    phase: float,
+    sections: Vector,
+    changes: int,
+    state: Vector,
+    first: int,
+    last: float,
+    max_events: int,
+    notes: Vector,
+    rows: Vector,
+) -> tuple[int, int]:
+    """Follow a motion and measure its phases, until the end or until `rows` may overflow.
 
     Parameters
     ----------
-    rig, amplitude, frequency
-        As in `batch.trajectory`.
-    phases : ndarray, shape (phase, measure.PHASE)
-        The phases.
-    begins : ndarray, shape (phase,)
-        When each begins (s).
+    rig : ndarray
+        From `parameters.rig_vector`.
+    amplitude, omega : float
+        As `flow.build` takes them.
+    phase : float
+        Of a periodic forcing at its sections (rad).
+    sections : ndarray, shape (section, sections.ROW)
+        As in `sections.Schedule`.
+    changes : int
+        Whether the forcing changes at each section; else it is periodic.
+    state : ndarray, shape (motion.STATE,)
+        Where the motion starts; carried on in place.
+    first, last : int, float
+        As in `sections.follow`.
+    max_events : int
+        Events after a section at which the motion is given up.
+    notes : ndarray, shape (observers.phases.NOTES,)
+        Kept between calls.
+    rows : ndarray, shape (capacity, observers.phases.Layout.width)
+        The phases: the one that goes on is in the row behind those that are complete.
+
+    Returns
+    -------
+    next, outcome
+        The section to go on with, and a `Status`.
+    """
+    plan = planned(given, rig)
+    flow.build(plan, amplitude, omega)
+    here, log = room(), Log(pointer(notes), pointer(rows))
+    load(plan, pointer(state), here, 0.0, 0.0)
+    if first == 0 and notes[WRITTEN] == 0.0:
+        begin_row(log.rows, int(notes[MASSES]), int(notes[WIDTH]))
+    schedule = _scheduled(phase, pointer(sections), len(sections), changes)
+    found = follow(plan, here, schedule, first, last, max_events, log, None)
+    copy(here, pointer(state), width(plan))
+    return found
+
+
+@entry(
+    "UniTuple(i8, 2)(f8[::1], f8, f8, f8, f8[:, ::1], i8, f8[::1], i8, f8, i8, f8[::1], f8,"
+    " f8[::1], f8[:, ::1])",
+    "measured",
+)
+def integrate_motion(
+    given: Any,
+    rig: Vector,
+    amplitude: float,
+    omega: float,
+    phase: float,
+    sections: Vector,
+    changes: int,
+    state: Vector,
+    first: int,
+    last: float,
+    max_events: int,
+    notes: Vector,
+    interval: float,
+    lines: Vector,
+    out: Vector,
+) -> tuple[int, int]:
+    """Follow a motion and integrate it times exp(−iνt).
+
+    Parameters
+    ----------
+    notes : ndarray, shape (2,)
+        See `observers.fourier`.
+    interval : float
+        Between sections (s).
     lines : ndarray, shape (line,)
         ν in rad/s, rising.
     out : ndarray, shape (fourier.QUANTITIES, line)
         Added to.
+    rig, amplitude, omega, phase, sections, changes, state, first, last, max_events
+        As in `measure_motion`, and what is returned, too.
     """
     plan = planned(given, rig)
-    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
+    flow.build(plan, amplitude, omega)
     here = room()
-    for i in range(len(phases)):
-        phase = phases[i]
-        load(plan, pointer(phase), here, phase[P_S], phase[P_C])
-        flow.integrate_phase(
-            plan, here, phase[P_LENGTH], begins[i], pointer(lines), len(lines), pointer(out)
-        )
+    load(plan, pointer(state), here, 0.0, 0.0)
+    found = Integrals(pointer(notes), interval, pointer(lines), pointer(out))
+    schedule = _scheduled(phase, pointer(sections), len(sections), changes)
+    ended = follow(plan, here, schedule, first, last, max_events, found, None)
+    copy(here, pointer(state), width(plan))
+    return ended

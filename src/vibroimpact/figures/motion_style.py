@@ -24,7 +24,12 @@ from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, TIME, Scale
 from vibroimpact.model.units import pretty
 from vibroimpact.response.contacts import contacts
-from vibroimpact.response.motion_phases import any_recorded, phases, recorded, touches
+from vibroimpact.response.motion_phases import (
+    any_recorded,
+    contact_intervals,
+    parting_velocity,
+    recorded,
+)
 from vibroimpact.response.sine_fit import forcing_sine, slope
 
 _Array = NDArray[np.float64]
@@ -231,10 +236,7 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         parts = [motion[name].values, motion[before].values, motion[behind].values]
         return np.asarray(np.concatenate(parts)[order], dtype=float)
 
-    every = phases(motion)
-    arrival = motion["event_velocity"].values
-    parting, begins = arrival.copy(), every.event >= 0
-    parting[every.event[begins]] = every.first[begins, 1]  # an impact turns it round
+    arrival, parting = motion["event_velocity"].values, parting_velocity(motion, origin.oscillator)
     values = {
         "displacement": merged("displacement", "event_displacement", "event_displacement"),
         "velocity": np.concatenate([motion["velocity"].values, arrival, parting])[order],
@@ -258,16 +260,11 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         clearance = np.where(mine, 0.0, bumper.gap + side * distance)
         parts = [motion[f"{name}_clearance"].values, clearance, clearance]
         values[f"{name}_clearance"] = np.concatenate(parts)[order]
-    # A contact begins and ends at the very times that its events have on the curve.
-    bounds = np.append(every.begin, every.begin[-1] + every.length[-1]) * frequency
-    bounds[:-1][begins] = events[every.event[begins]]
     touching = [
-        (side, float(bounds[i]), float(bounds[i + 1]))
+        (side, float(begin), float(end))
         for side in (1, -1)
-        for i in np.flatnonzero(touches(every.contact, side))
+        for begin, end in contact_intervals(motion, side, events, float(at[-1]))
     ]
-    if isinstance(shaken, Record):  # cut at each of its lines
-        touching = _joined(touching)
     log = motion if "contact_peak_time" in motion else contacts(motion)
     peak_at = log["contact_peak_time"].values * frequency
     peak = _signed(

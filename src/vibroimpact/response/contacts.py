@@ -9,20 +9,11 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.engine import measure
+from vibroimpact.engine.observers import phases as layout
+from vibroimpact.engine.observers.record import IMPACT
 from vibroimpact.model import Record, Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.response.motion_phases import (
-    SIDES,
-    Phases,
-    Recorded,
-    any_recorded,
-    cut,
-    impact_loss,
-    relaxation_loss,
-    touches,
-)
-from vibroimpact.response.phase_measures import measured
+from vibroimpact.response.motion_phases import SIDES, Phases, Recorded, any_recorded, phases
 
 _Array = NDArray[np.float64]
 _Numbers = NDArray[np.int64]
@@ -44,6 +35,8 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     ----------
     motion
         Dataset of `steady`, or of `simulate` with samples, including a motion through a `Record`.
+        The motion is simulated again from its initial state. It may be cut at its end, and under a
+        periodic excitation at its start, too.
     grazing
         A contact is flagged as grazing if its closing speed is below this share of the largest
         speed of the motion.
@@ -67,48 +60,34 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
     """
     share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
     origin = any_recorded(motion)
-    data = contact_log(motion, origin, cut(motion, origin), None, share)
-    return describe(data, "vibroimpact.contacts", motion_parameters(motion), noted(motion))
+    every = phases(motion, origin)
+    data = contact_log(motion, origin, every, share)
+    notes = [*noted(motion), *every.notes]
+    return describe(data, "vibroimpact.contacts", motion_parameters(motion), notes)
 
 
 def contact_log(
-    motion: xr.Dataset,
-    origin: Recorded[Any],
-    every: Phases,
-    rows: NDArray[np.float64] | None,
-    share: float = GRAZING,
+    motion: xr.Dataset, origin: Recorded[Any], every: Phases, share: float = GRAZING
 ) -> xr.Dataset:
-    """List the contacts of a motion that is already cut into phases, and perhaps measured.
+    """List the contacts of a motion whose phases were measured.
 
     Parameters
     ----------
     motion, origin, every
         The motion, its origin, and its phases.
-    rows
-        Results of `phases.measured` for each phase; None if they were not computed.
     share
         As ``grazing`` of `contacts`.
     """
-    lasting = [_lasting(every, origin, side, rows) for side in SIDES]
-    every_kind = zip(*lasting, _impacts(motion, every, origin), strict=True)
-    chosen = _Contacts(*map(np.concatenate, every_kind))
+    every_kind = [_lasting(every, origin, number) for number in range(len(SIDES))]
+    chosen = _Contacts(*map(np.concatenate, zip(*every_kind, _impacts(every), strict=True)))
     chosen = chosen.take(np.argsort(chosen.order, kind="stable"))
     mass = origin.oscillator.mass
-    side, begin = chosen.side, chosen.begin
-    damping = origin.of_side(side, "damping")
-    closing, parting = chosen.first[:, 1], chosen.last[:, 1]
-    # The bumper may still be relaxing towards the mass: u̇_j = −u_j K_j / C_j.
-    deformation = np.where(side == 1, chosen.first[:, 2], -chosen.first[:, 3])
-    damped = damping > 0.0
-    rate = np.divide(
-        origin.of_side(side, "stiffness"), damping, out=np.zeros(len(side)), where=damped
-    )
-    approach = side * closing + rate * deformation
+    begin, closing, parting = chosen.begin, chosen.arrival, chosen.parting
     fastest = np.abs(
         np.concatenate([motion["velocity"].values, motion["event_velocity"].values])
     ).max()
     values = {
-        "side": side,
+        "side": chosen.side,
         "start": begin,
         "end": begin + chosen.length,
         **_in_the_cycle(chosen, origin.excitation),
@@ -118,16 +97,16 @@ def contact_log(
         "peak_force": mass * chosen.force,
         "impulse": mass * chosen.impulse,
         "penetration": chosen.penetration,
-        "dissipated": chosen.dissipated,
-        "dissipated_relaxing": chosen.relaxing,
+        "dissipated": mass * chosen.dissipated,
+        "dissipated_relaxing": mass * chosen.relaxing,
         "peak_acceleration": chosen.peak,
         "peak_time": begin + chosen.peak_time,
-        "closing_speed": approach,
+        "closing_speed": chosen.closing,
         # Of a mass that recedes as the bumper catches up with it there is none.
         "restitution": np.divide(
-            -parting, closing, out=np.full(len(closing), np.nan), where=side * closing > 0.0
+            -parting, closing, out=np.full(len(closing), np.nan), where=chosen.side * closing > 0.0
         ),
-        "grazing": approach < share * fastest,
+        "grazing": chosen.closing < share * fastest,
     }
     return xr.Dataset(
         {f"contact_{name}": ("contact_number", value) for name, value in values.items()}
@@ -147,16 +126,19 @@ def _in_the_cycle(chosen: _Contacts, shaken: Repeated | Record) -> dict[str, _Ar
 
 
 class _Contacts(NamedTuple):
-    """Arrays with one value per contact, or one row of a state; force and impulse per unit mass."""
+    """Arrays with one value per contact; force, impulse and energies per unit mass."""
 
-    order: NDArray[np.int64]
+    order: _Numbers
     """Index of the phase in which the contact begins."""
-    side: NDArray[np.int64]
+    side: _Numbers
     begin: _Array
     angle: _Array
     length: _Array
-    first: _Array
-    last: _Array
+    arrival: _Array
+    """Velocity at the start."""
+    parting: _Array
+    """Velocity at the end."""
+    closing: _Array
     force: _Array
     impulse: _Array
     penetration: _Array
@@ -167,119 +149,115 @@ class _Contacts(NamedTuple):
     peak_time: _Array
     """Time since the start of the contact."""
 
-    def take(self, chosen: NDArray[np.int64]) -> _Contacts:
+    def take(self, chosen: _Numbers) -> _Contacts:
         """Return the chosen contacts."""
         parts = {name: values[chosen] for name, values in self._asdict().items()}
         return _Contacts(**parts)
 
 
-def _lasting(
-    every: Phases, origin: Recorded[Any], side: int, rows: NDArray[np.float64] | None
-) -> _Contacts:
+def _lasting(every: Phases, origin: Recorded[Any], number: int) -> _Contacts:
     """Find the contacts with a bumper, or rests on a rigid stop, of one side."""
-    runs = _runs(every, origin, side)
+    runs = _runs(every, origin, number)
     count = len(runs)
     part = np.array([i for run in runs for i in run], dtype=np.int64)
     owner = np.repeat(np.arange(count), [len(run) for run in runs])
     first, last = (np.array([run[i] for run in runs], dtype=np.int64) for i in (0, -1))
-    chosen = every.take(part)
-    seen = np.full(len(part), side)
-    # Of phases in contact with both stops the rows tell what the right one sees.
-    if rows is None or (side == -1 and (chosen.contact == 2).any()):
-        found = measured(origin, chosen, seen)
-    else:
-        found = rows[part]
 
     def most(values: _Array) -> _Array:
         out = np.full(count, -np.inf)
-        np.maximum.at(out, owner, values)
+        np.maximum.at(out, owner, values[part])
         return out
 
     def total(values: _Array) -> _Array:
-        return np.bincount(owner, values, count).astype(np.float64)
+        return np.bincount(owner, values[part], count).astype(np.float64)
 
-    peaks = np.maximum(np.abs(found[:, measure.A_LEAST]), np.abs(found[:, measure.A_MOST]))
+    length = every.rows[:, layout.LENGTH]
+    peaks = np.maximum(-every.of_mass(layout.A_LEAST), every.of_mass(layout.A_MOST))
     peak = most(peaks)
     # The first phase of each contact that reaches its peak.
-    reaches = np.flatnonzero(~(peaks < peak[owner]))
+    reaches = np.flatnonzero(~(peaks[part] < peak[owner]))
     at = np.full(count, len(part))
     np.minimum.at(at, owner[reaches], reaches)
-    before = total(np.where(np.arange(len(part)) < at[owner], chosen.length, 0.0))
-    peak_time = before + found[at, measure.A_TIME]
-    lost = measure.LOST_RIGHT if side == 1 else measure.LOST_LEFT
+    earlier = np.arange(len(part)) < at[owner]
+    before = np.bincount(owner, np.where(earlier, length[part], 0.0), count)
     return _Contacts(
         first,
-        np.full(count, side),
-        every.begin[first],
+        np.full(count, SIDES[number]),
+        every.bounds[first],
         every.angle[first],
-        total(chosen.length),
-        every.first[first],
-        every.last[last],
-        most(found[:, measure.FORCE]),
-        total(found[:, measure.IMPULSE]),
-        most(found[:, measure.X_MOST]),
-        origin.oscillator.mass * total(found[:, lost]),
-        _relaxing(every, origin, side, runs),
+        total(length),
+        # The event with which it begins ends the phase before it.
+        every.of_mass(layout.PARTING)[first - 1],
+        every.of_mass(layout.ARRIVAL)[last],
+        every.of_stop(layout.CLOSING, number)[first - 1],
+        most(every.of_stop(layout.FORCE, number)),
+        total(every.of_stop(layout.IMPULSE, number)),
+        most(every.of_stop(layout.DEPTH, number)),
+        total(every.of_stop(layout.LOSES, number)),
+        _relaxing(every, origin, number, runs),
         peak,
-        peak_time,
+        before + every.of_mass(layout.A_TIME)[part[at]],
     )
 
 
-def _runs(every: Phases, origin: Recorded[Any], side: int) -> list[_Numbers]:
-    """Find the phases of each complete contact of a side."""
-    touched = touches(every.contact, side)
-    end = len(touched) - 1
+def _runs(every: Phases, origin: Recorded[Any], number: int) -> list[_Numbers]:
+    """Find the phases of each complete contact with a stop."""
+    touched = every.touched(number)
     begins = np.flatnonzero(touched & ~np.append(False, touched[:-1]))
     ends = np.flatnonzero(touched & ~np.append(touched[1:], False))
     runs = [np.arange(i, j + 1) for i, j in zip(begins, ends, strict=True)]
-    if touched[0] and touched[end]:
-        # One contact, cut in two by the section: the end of the record is its beginning.
-        joined = [np.append(runs[-1], runs[0])] if origin.periodic and len(runs) > 1 else []
+    if not origin.periodic:
+        # The end of the motion may lie exactly at an event.
+        cut = every.rows[-1, layout.KIND] == layout.NOTHING
+        return [run for run in runs if run[0] > 0 and not (cut and run[-1] == len(touched) - 1)]
+    if touched[0] and touched[-1]:
+        # One contact, cut in two by the section: the end of the motion is its beginning.
+        joined = [np.append(runs[-1], runs[0])] if len(runs) > 1 else []
         runs = [*runs[1:-1], *joined]
-    elif not origin.periodic:
-        # Else, between a contact and a flight the section lies exactly at the event.
-        runs = [run for run in runs if run[0] > 0 and run[-1] < end]
+    # Else, between a contact and a flight the section lies exactly at the event.
     return runs
 
 
-def _impacts(motion: xr.Dataset, every: Phases, origin: Recorded[Any]) -> _Contacts:
+def _impacts(every: Phases) -> _Contacts:
     """Find the impacts on rigid stops: contacts of no duration, whose force has no finite peak."""
-    at = np.flatnonzero(every.struck)
-    before, behind, event = every.last[at - 1], every.first[at], every.event[at]
-    sharp = np.maximum(
-        np.abs(motion["event_acceleration_before"].values[event]),
-        np.abs(motion["event_acceleration_after"].values[event]),
+    at = np.flatnonzero(every.rows[:, layout.KIND] == IMPACT)
+    number = every.rows[at, layout.AT_STOP].astype(np.int64)
+    before, behind = every.of_mass(layout.ARRIVAL)[at], every.of_mass(layout.PARTING)[at]
+    lost, closing = (
+        np.choose(number, [every.of_stop(column, stop)[at] for stop in range(len(SIDES))])
+        for column in (layout.HIT, layout.CLOSING)
     )
     none = np.zeros(len(at))
     return _Contacts(
-        at,
-        every.struck[at],
-        every.begin[at],
-        every.angle[at],
+        at + 1,
+        np.take(SIDES, number),
+        every.bounds[at + 1],
+        every.angle[at + 1],
         none,
         before,
         behind,
+        closing,
         np.full(len(at), np.nan),
-        np.abs(before[:, 1] - behind[:, 1]),
+        np.abs(before - behind),
         none,
-        impact_loss(origin, every)[at],
+        lost,
         none,
-        sharp,
+        every.of_mass(layout.A_EVENT)[at],
         none,
     )
 
 
-def _relaxing(every: Phases, origin: Recorded[Any], side: int, runs: list[_Numbers]) -> _Array:
+def _relaxing(every: Phases, origin: Recorded[Any], number: int, runs: list[_Numbers]) -> _Array:
     """Compute the energy that the free bumper loses after each contact, until the next one."""
     lost = np.zeros(len(runs))
-    touched = touches(every.contact, side)
-    number = np.full(len(touched), -1)
+    touched = every.touched(number)
+    owners = np.full(len(touched), -1)
     for n, run in enumerate(runs):
-        number[run] = n
+        owners[run] = n
     before = np.maximum.accumulate(np.where(touched, np.arange(len(touched)), -1))
     if origin.periodic and touched.any():
         before[before < 0] = np.flatnonzero(touched)[-1]
-    owner = np.where(before < 0, -1, number[before])
-    told = owner >= 0  # others are of a contact before the record
-    np.add.at(lost, owner[told], relaxation_loss(origin, every)[told, SIDES.index(side)])
+    owner = np.where(before < 0, -1, owners[before])
+    known = (owner >= 0) & ~touched  # others are of a contact before the motion
+    np.add.at(lost, owner[known], every.of_stop(layout.LOSES, number)[known])
     return lost

@@ -1,9 +1,15 @@
-"""The phases of a recorded motion: flights and contacts, each from its exact beginning."""
+"""The phases of a recorded motion: flights and contacts, measured while the engine follows it.
+
+It is followed once more from its initial state, with an observer. Where the engine is the same, so
+is the motion, to the last bit.
+"""
 
 from __future__ import annotations
 
 import json
 import math
+import warnings
+from collections.abc import Callable
 from typing import Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
@@ -11,20 +17,35 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import excitation_from
-from vibroimpact.engine.motion import LEFT, RELEASED, RIGHT
+from vibroimpact.engine import sections
+from vibroimpact.engine.motion import U
+from vibroimpact.engine.observers import fourier
+from vibroimpact.engine.observers import phases as layout
+from vibroimpact.engine.observers.phases import ONE_MASS
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
-from vibroimpact.errors import InputError
-from vibroimpact.model import Bumper, Oscillator, Record, Repeated, RigidStop, State, validate
-from vibroimpact.response.engine_input import as_state
+from vibroimpact.engine.phases import integrate_motion, measure_motion
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError, outside
+from vibroimpact.model import Oscillator, Record, Repeated, RigidStop, State, validate
+from vibroimpact.model.count_checks import MOST_EVENTS
+from vibroimpact.model.rig import Rig
+from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
+from vibroimpact.response.record_history import straight
+from vibroimpact.tasks.interruptible import Calls
 
 _Shaking = TypeVar("_Shaking", bound=Repeated | Record, covariant=True)
 
 _Array = NDArray[np.float64]
 
 SIDES = (1, -1)
+"""Of the stops, in the order of their numbers: right, left."""
 
-_COMPONENTS = ("displacement", "velocity", "right_bumper", "left_bumper", "isolator_memory")
-MEMORY = 4
+_INSTANT = 1e-300
+"""Cycles of a motion of a single sample."""
+_DEPARTED = 1e-6
+"""Share of the largest displacement by which the end of a motion may differ from its record."""
+_ON_GRID = 1e-6
+"""Share of a record's step by which a sample may lie off its grid."""
 
 
 class Recorded(NamedTuple, Generic[_Shaking]):
@@ -32,69 +53,43 @@ class Recorded(NamedTuple, Generic[_Shaking]):
 
     oscillator: Oscillator
     excitation: _Shaking
-    """Its phase is that at the beginning of the record."""
+    """Its phase is that at the beginning of the motion."""
     cycles: float
-    """Length of the record; NaN of a motion through a `Record`, which has none."""
+    """Length of the motion; NaN through a `Record`, which has no cycles."""
     periodic: bool
-    """Whether the record is one period of a periodic motion: its end is its beginning."""
-
-    def of_side(self, side: NDArray[np.int64], name: str) -> _Array:
-        """A stop's number for each phase by the stop touched, 0 where it has none.
-
-        Of both stops it is the sum, the gap that of the right one.
-        """
-        right, left = (
-            getattr(stop, name, 0.0) for stop in (self.oscillator.right, self.oscillator.left)
-        )
-        both = right if name == "gap" else right + left
-        return np.select([side == 1, side == -1, side == 2], [right, left, both], 0.0)
-
-    def resting(self, contact: NDArray[np.int64]) -> NDArray[np.bool_]:
-        """Whether the mass rests on a rigid stop in each phase."""
-        rests = np.zeros(len(contact), dtype=bool)
-        for side, stop in zip(SIDES, (self.oscillator.right, self.oscillator.left), strict=True):
-            if isinstance(stop, RigidStop):
-                rests |= touches(contact, side)
-        return rests
+    """Whether the motion is one period of a periodic one: its end is its beginning."""
 
 
-def touches(contact: NDArray[np.int64], side: int | NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Whether the stop of a side, or of each phase's own side, is touched."""
+def touches(contact: NDArray[np.int64], side: int) -> NDArray[np.bool_]:
+    """Whether the stop of a side is touched."""
     touched: NDArray[np.bool_] = (contact == side) | (contact == 2)
     return touched
 
 
 class Phases(NamedTuple):
-    """Phases of a motion, in the order of time: one value each, or one row of a state each."""
+    """Phases of a motion, in the order of time."""
 
-    contact: NDArray[np.int64]
-    """Stop touched: -1 left, 0 none, 1 right, 2 both."""
-    struck: NDArray[np.int64]
-    """Side of the impact on a rigid stop with which the phase begins, or 0."""
-    event: NDArray[np.int64]
-    """Number of the event with which it begins, or -1."""
-    begin: _Array
-    """s, from the beginning of the record."""
+    rows: _Array
+    """What the engine measured of them (`observers.phases`), per unit mass."""
+    bounds: _Array
+    """When they begin, and when the last one ends (s), shape (phase + 1,)."""
     angle: _Array
-    """The forcing's phase at the beginning, rad; not reduced over the cycles of one record. NaN
-    through a `Record`."""
-    clock: _Array
-    """The two numbers of the forcing's clock at the beginning, shape (phase, 2)."""
-    length: _Array
-    """s."""
-    first: _Array
-    """State at the beginning: u, u̇, u_R, u_L, z, shape (phase, 5)."""
-    last: _Array
-    """State at the end, shape (phase, 5); an impact there is still to come."""
-    fresh: NDArray[np.int64]
-    """What has happened at its beginning, as the engine says it (`motion.Motion`)."""
-    met: _Array
-    """Speeds at which the right and left stop that is touched was met, shape (phase, 2)."""
+    """The forcing's phase there (rad), counted in each cycle anew; NaN through a `Record`."""
+    notes: list[str]
+    """Doubt about whether they are those of the recorded motion."""
 
-    def take(self, chosen: NDArray[np.int64]) -> Phases:
-        """The chosen phases."""
-        parts = {name: values[chosen] for name, values in self._asdict().items()}
-        return Phases(**parts)
+    def of_mass(self, column: int) -> _Array:
+        """Return a column of the mass."""
+        return self.rows[:, ONE_MASS.mass(column)]
+
+    def of_stop(self, column: int, number: int) -> _Array:
+        """Return a column of a stop."""
+        return self.rows[:, ONE_MASS.stop(column, number)]
+
+    def touched(self, number: int) -> NDArray[np.bool_]:
+        """Return whether a stop is touched."""
+        touched: NDArray[np.bool_] = self.rows[:, layout.TOUCHED].astype(np.int64) >> number & 1 > 0
+        return touched
 
 
 def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
@@ -120,17 +115,11 @@ def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
     oscillator = validate(Oscillator, parameters["oscillator"], "motion.oscillator")
     assert isinstance(oscillator, Oscillator)
     if "record" in parameters:
-        given = parameters["record"]
-        known = motion["base_acceleration"].values[_lines(motion, given["step"])]
-        return Recorded(
-            oscillator, Record(known[: given["samples"]], given["step"]), math.nan, False
-        )
-    return Recorded(
-        oscillator,
-        excitation_from(parameters),
-        float(motion["cycle"].values[-1]),
-        "period" in motion and int(motion["period"]) > 0,
-    )
+        return Recorded(oscillator, _shaken_by(motion, parameters["record"]), math.nan, False)
+    first, cycles = (float(motion["cycle"].values[end]) for end in (0, -1))
+    # What was cut out of one period is no period.
+    periodic = "period" in motion and first == 0.0 and cycles == int(motion["period"])
+    return Recorded(oscillator, excitation_from(parameters), cycles, periodic)
 
 
 def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
@@ -152,252 +141,194 @@ def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
     return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
 
 
-def _lines(motion: xr.Dataset, step: float) -> NDArray[np.int64]:
-    """The samples at which a straight line of the record begins, and the last one."""
-    time = motion["time"].values
-    each = max(1, round(step / time[1]))
-    return np.unique(np.append(np.arange(0, len(time), each), len(time) - 1))
-
-
-def beginning(motion: xr.Dataset) -> State:
-    """The state at the beginning of a record, with the forcing's phase."""
-    return as_state(motion["initial_state"])
-
-
-def phases(motion: xr.Dataset) -> Phases:
-    """Cut a recorded motion at its contacts and detachments.
+def _shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
+    """Return the record as far as the motion shows it: its last line may go on behind the motion.
 
     Raises
     ------
     InputError
-        If it is not the dataset of a motion with samples and events.
+        If samples are missing from which the record is known.
     """
-    return cut(motion, any_recorded(motion))
+    time, values = motion["time"].values, motion["base_acceleration"].values
+    step = float(given["step"])
+    each = max(1, round(step / time[1])) if time[1] > 0.0 else 1
+    if abs(time[0]) > _ON_GRID * step or (
+        len(time) > each and abs(time[each] - step) > _ON_GRID * step
+    ):
+        raise InputError(
+            f"motion: its samples from {time[0]:g} s on do not contain the whole record of its "
+            "base; pass the result of simulate, which may be cut at its end only"
+        )
+    known = values[::each]
+    if (len(time) - 1) % each and len(known) < given["samples"]:
+        rest = time[-1] - time[(len(known) - 1) * each]
+        known = np.append(known, known[-1] + (values[-1] - known[-1]) * (step / rest))
+    return Record(known[: given["samples"]], step)
 
 
-def cut(motion: xr.Dataset, origin: Recorded[Repeated | Record]) -> Phases:
-    """As `phases`, of a motion whose origin is known."""
-    shaken = origin.excitation
-    # A motion that was given up has events behind its last sample.
-    if isinstance(shaken, Record):
-        kept = motion["event_time"].values <= motion["time"].values[-1]
-    else:
-        at = motion["event_cycle"].values + motion["event_cycle_time"].values / shaken.period
-        kept = at <= origin.cycles * (1.0 + 1e-12)
-    motion = motion.isel(event=kept)
-    at_events = _states(motion, "event_")
-    kinds, sides = motion["event_contact"].values, motion["event_side"].values
-    struck = np.where(kinds == IMPACT, sides, 0)
-    behind = at_events.copy()
-    stops = origin.oscillator.right, origin.oscillator.left
-    for side, stop in zip(SIDES, stops, strict=True):
-        if isinstance(stop, RigidStop):
-            behind[struck == side, 1] *= -stop.restitution
-            behind[(kinds == CONTACT_BEGINS) & (sides == side), 1] = 0.0
-    right, left = (_touched(side, kinds, sides, int(motion["contact"].values[0])) for side in SIDES)
-    contact = np.where(right & left, 2, right.astype(np.int64) - left)
-    begun = np.append(0, np.where(kinds == CONTACT_BEGINS, sides, 0))
-    met = np.column_stack(
-        [_met(motion, origin.oscillator, side, begun, at_events[:, 1]) for side in SIDES]
-    )
-    walls = [side for side, stop in zip(SIDES, stops, strict=True) if isinstance(stop, RigidStop)]
-    # What rests for no time at all is pulled off, not let go of where the force has fallen to zero.
-    rested = np.diff(motion["event_time"].values, prepend=motion["time"].values[0]) > 0.0
-    released = (kinds == DETACHMENT) & np.isin(sides, walls) & rested
-    fresh = np.where(sides == 1, RIGHT, LEFT) | np.where(released, RELEASED, 0)
-    events = _Events(
-        at_events,
-        behind,
-        np.append(0, struck).astype(np.int64),
-        contact,
-        np.append(0, fresh).astype(np.int64),
-        met,
-    )
-    if isinstance(shaken, Record):
-        return _along_lines(motion, shaken, events)
-    found = _along_cycles(motion, shaken, origin.cycles, events)
-    if origin.oscillator.isolator.linear:
-        return found
-    return _flights_by_cycles(found, motion, shaken)
+def beginning(motion: xr.Dataset) -> State:
+    """The state at the beginning of a motion, with the forcing's phase."""
+    return as_state(motion["initial_state"])
 
 
-class _Events(NamedTuple):
-    """Contacts, detachments and impacts, a row each."""
+class _Course(NamedTuple):
+    """A motion as the engine follows it (`engine.phases`)."""
 
-    before: _Array
-    behind: _Array
-    struck: NDArray[np.int64]
-    """Of what begins with each of them, and first of what begins with none."""
-    contact: NDArray[np.int64]
-    """The same."""
-    fresh: NDArray[np.int64]
-    """The same."""
-    met: _Array
-    """The same."""
+    rig: _Array
+    size: float
+    omega: float
+    phase: float
+    sections: _Array
+    changes: bool
+    state: _Array
+    last: float
+    """Where it ends, in sections."""
 
+    def follow(self, call: Callable[[int, float], tuple[int, int]]) -> Status:
+        """Follow it by calls of the engine, each from a section to another."""
+        at, outcome = 0, int(Status.DONE)
+        calls = Calls(self.last)
+        while at < self.last and outcome == Status.DONE:
+            at, outcome = call(at, calls.end(at))
+        return Status(outcome)
 
-def _states(motion: xr.Dataset, of: str) -> _Array:
-    """The states at the samples, or at the events, a row each."""
-    still = np.zeros(motion.sizes["event" if of else "time"])
-    return np.stack(
-        [motion[of + name].values if of + name in motion else still for name in _COMPONENTS],
-        axis=-1,
-    )
+    def measured(self) -> tuple[Status, _Array]:
+        """Return the rows of its phases; the state is carried on."""
+        notes, rows = np.zeros(layout.NOTES), np.empty((1024, ONE_MASS.width))
+        notes[layout.WIDTH], notes[layout.MASSES] = ONE_MASS.width, ONE_MASS.masses
 
-
-def _met(
-    motion: xr.Dataset,
-    oscillator: Oscillator,
-    side: int,
-    begun: NDArray[np.int64],
-    velocity: _Array,
-) -> _Array:
-    """The speed at which a stop without memory was met last, before the first event and behind."""
-    stop, name = (
-        (oscillator.right, "right_bumper") if side == 1 else (oscillator.left, "left_bumper")
-    )
-    if stop is None or isinstance(stop, Bumper | RigidStop):
-        return np.zeros(len(begun))
-    speeds = np.append(abs(float(motion["initial_state"].sel(component=name))), np.abs(velocity))
-    known = (begun == side) | (np.arange(len(begun)) == 0)
-    last = np.maximum.accumulate(np.where(known, np.arange(len(begun)), 0))
-    return np.asarray(speeds[last])
-
-
-def _along_cycles(motion: xr.Dataset, shaken: Repeated, cycles: float, events: _Events) -> Phases:
-    """The phases from event to event."""
-    period = shaken.period
-    ends = list(_states(motion, "")[[0, -1]])
-    if len(events.before) and not motion["event_cycle"][0] and not motion["event_cycle_time"][0]:
-        ends[0] = events.before[0]  # the first sample lies behind an event at once
-    # Differences within cycles keep digits that absolute times lose.
-    cycle = np.concatenate([[0], motion["event_cycle"].values, [np.floor(cycles)]])
-    within = np.concatenate([[0.0], motion["event_cycle_time"].values, [(cycles % 1.0) * period]])
-    angle = shaken.phase + 2.0 * np.pi * within[:-1] / period
-    return Phases(
-        events.contact,
-        events.struck,
-        np.arange(len(angle)) - 1,
-        cycle[:-1] * period + within[:-1],
-        angle,
-        np.column_stack([np.sin(angle), np.cos(angle)]),
-        np.maximum(np.diff(cycle) * period + np.diff(within), 0.0),
-        np.vstack([ends[0], events.behind]),
-        np.vstack([events.before, ends[1]]),
-        events.fresh,
-        events.met,
-    )
-
-
-def _flights_by_cycles(found: Phases, motion: xr.Dataset, shaken: Repeated) -> Phases:
-    """The same, long flights cut at whole cycles, where the motion was recorded.
-
-    A flight that is not in closed form is followed again to be measured, and a chaotic one would
-    go another way.
-    """
-    cycle = motion["cycle"].values
-    whole = np.flatnonzero(cycle == np.floor(cycle))
-    period = shaken.period
-    end = found.begin + found.length
-    first = np.floor(found.begin / period).astype(np.int64)
-    count = np.ceil(end / period - 1e-9).astype(np.int64) - first
-    count = np.where((found.contact == 0) & (found.length > period), count, 1)
-    if count.max() == 1:
-        return found
-    owner = np.repeat(np.arange(len(count)), count)
-    part = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    parts = found.take(owner)
-    later = part > 0
-    states = _states(motion, "")[whole]
-    at = (first[owner] + part)[later]
-    parts.first[later], parts.last[:-1][later[1:]] = states[at], states[at]
-    parts.begin[later] = at * period
-    parts.angle[later] = shaken.phase
-    parts.clock[later] = [np.sin(shaken.phase), np.cos(shaken.phase)]
-    parts.struck[later], parts.event[later], parts.fresh[later] = 0, -1, 0
-    ends = np.where(np.append(later[1:], False), np.append(parts.begin[1:], 0.0), end[owner])
-    # A piece of several; a flight that is whole keeps the digits of its length.
-    parts.length[:] = np.where(count[owner] > 1, ends - parts.begin, parts.length)
-    return parts
-
-
-def _along_lines(motion: xr.Dataset, record: Record, events: _Events) -> Phases:
-    """The phases from event to event, and cut where a straight line of the record ends."""
-    nodes = _lines(motion, record.step)
-    time = motion["time"].values[nodes]
-    pull = motion["base_acceleration"].values[nodes]
-    slope = np.append(np.diff(pull) / np.diff(time), 0.0)
-    # The base stands still behind the record, at whose end it may stop at once.
-    pull, slope = (
-        np.where(np.arange(len(time)) < len(record.time) - 1, x, 0.0) for x in (pull, slope)
-    )
-    states = _states(motion, "")[nodes]
-    count = len(events.before)
-    moments = np.concatenate([time[:-1], motion["event_time"].values, time[-1:]])
-    order = np.argsort(moments, kind="stable")
-    event = np.concatenate([np.full(len(time) - 1, -1), np.arange(count), [-1]])[order]
-    behind = np.vstack([states[:-1], events.behind, states[-1:]])[order]
-    before = np.vstack([states[:-1], events.before, states[-1:]])[order]
-    begin = moments[order]
-    line = np.clip(np.cumsum(event < 0) - 1, 0, len(time) - 1)
-    passed = np.cumsum(event >= 0)
-    clock = np.column_stack([pull[line] + slope[line] * (begin - time[line]), slope[line]])
-    return Phases(
-        events.contact[passed][:-1],
-        np.where(event >= 0, events.struck[passed], 0)[:-1],
-        event[:-1],
-        begin[:-1],
-        np.full(len(begin) - 1, np.nan),
-        clock[:-1],
-        np.diff(begin),
-        behind[:-1],
-        before[1:],
-        np.where(event >= 0, events.fresh[passed], 0)[:-1],
-        events.met[passed][:-1],
-    )
-
-
-def _touched(
-    side: int, kinds: NDArray[np.int64], sides: NDArray[np.int64], sampled: int
-) -> NDArray[np.bool_]:
-    """Whether a side is touched before the first event and after each.
-
-    Its first contact or detachment shows the earlier state; the first sample may lie after it.
-    """
-    change = np.where(sides == side, (kinds == CONTACT_BEGINS) * 1 - (kinds == DETACHMENT), 0)
-    events = change[change != 0]
-    first = events[0] < 0 if len(events) else sampled in (side, 2)
-    return np.append(0, np.cumsum(change)) + first > 0
-
-
-def relaxation_loss(origin: Recorded[Any], parts: Phases) -> _Array:
-    """Energy (J) that each free bumper loses in each phase, shape (phase, 2): right, left.
-
-    What its spring no longer holds at the end.
-    """
-    lost = np.zeros((len(parts.contact), 2))
-    bumpers = (origin.oscillator.right, origin.oscillator.left)
-    for i, (side, bumper) in enumerate(zip((1, -1), bumpers, strict=True)):
-        if isinstance(bumper, Bumper):
-            squares = parts.first[:, 2 + i] ** 2 - parts.last[:, 2 + i] ** 2
-            lost[:, i] = np.where(
-                touches(parts.contact, side), 0.0, 0.5 * bumper.stiffness * squares
+        def call(at: int, end: float) -> tuple[int, int]:
+            nonlocal rows
+            notes[layout.CAPACITY] = len(rows)
+            next_one, outcome = measure_motion(
+                *self[:5], int(self.changes), self.state, at, end, MOST_EVENTS, notes, rows
             )
-    return lost
+            if next_one < end:
+                rows = np.concatenate([rows, np.empty_like(rows)])
+            return next_one, outcome
+
+        outcome = self.follow(call)
+        count = int(notes[layout.WRITTEN])
+        # Behind an event at the very end there is nothing.
+        seen = np.isfinite(rows[count, ONE_MASS.mass(layout.U_LEAST)])
+        return outcome, rows[: count + int(seen)]
 
 
-def chattered(parts: Phases) -> NDArray[np.bool_]:
-    """Which phases are the rest of a chatter: from an impact to rest on the same wall.
+def _course(motion: xr.Dataset, origin: Recorded[Any]) -> _Course:
+    """How the engine follows the motion of a dataset, as `simulate` has done."""
+    oscillator, shaken = origin.oscillator, origin.excitation
+    rig = engine_rig(Rig(oscillator, shaken))
+    state = engine_state(oscillator, beginning(motion))
+    if not isinstance(shaken, Record):
+        row = np.array([[math.nan, math.nan, shaken.period]])
+        turns = 2.0 * math.pi * shaken.frequency
+        cycles = max(origin.cycles, _INSTANT)
+        return _Course(rig, shaken.amplitude, turns, shaken.phase, row, False, state, cycles)
+    tail = float(json.loads(motion.attrs["parameters"])["tail"])
+    lines = straight(shaken, tail)
+    peak, steepest = shaken.peak, float(np.abs(lines[:, sections.C]).max())
+    ends = float(motion["time"].values[-1])
+    last = float(len(lines))
+    if ends < shaken.duration + tail:
+        whole = min(int(ends / shaken.step + 1e-9), len(lines) - 1)
+        rest = (ends - whole * shaken.step) / lines[whole, sections.LASTS]
+        last = whole + (rest if rest > 1e-9 else 0.0)
+    turns = steepest / peak if peak > 0.0 else 0.0
+    return _Course(rig, peak, turns, 0.0, lines, True, state, last)
 
-    The engine completes it at once, so that the phase is not a flight.
+
+def phases(motion: xr.Dataset, origin: Recorded[Any]) -> Phases:
+    """Follow a recorded motion, and measure its phases.
+
+    Of a motion whose first samples were cut off, the phases begin with what is left of the first.
     """
-    rests = (parts.struck[1:] == 0) & touches(parts.contact[1:], parts.struck[:-1])
-    ends = rests & (parts.struck[:-1] != 0) & (parts.last[:-1, 1] == 0.0)
-    return np.append(ends, False)
+    course, shaken = _course(motion, origin), origin.excitation
+    begins = float(motion["time"].values[0])
+    if begins > 0.0:  # under a repeated forcing
+        first = float(motion["cycle"].values[0])
+        course._replace(last=first).measured()
+        phase = shaken.phase + 2.0 * math.pi * (first % 1.0)
+        course = course._replace(phase=phase, last=max(course.last - first, _INSTANT))
+    outcome, rows = course.measured()
+    interval = shaken.step if isinstance(shaken, Record) else shaken.period
+    turns = math.nan if isinstance(shaken, Record) else 2.0 * math.pi / interval
+    since = np.append(0.0, rows[:, layout.SINCE])
+    bounds = begins + np.append(0.0, rows[:, layout.SECTION]) * interval + since
+    if rows[-1, layout.KIND] == layout.NOTHING:
+        bounds[-1] = bounds[-2] + rows[-1, layout.LENGTH]
+        since[-1] = since[-2] + rows[-1, layout.LENGTH]
+    doubts = _doubts(motion, outcome, course.state[U])
+    return Phases(rows, bounds, course.phase + turns * since, doubts)
 
 
-def impact_loss(origin: Recorded[Any], parts: Phases) -> _Array:
-    """Energy (J) lost in the impact, or the rest of a chatter, with which each phase begins."""
-    arrival = np.where(chattered(parts), parts.first[:, 1], parts.last[:, 1])
-    arrival = np.append(parts.first[0, 1], arrival[:-1])
-    return 0.5 * origin.oscillator.mass * (arrival**2 - parts.first[:, 1] ** 2)
+def fourier_integrals(motion: xr.Dataset, origin: Recorded[Repeated], lines: _Array) -> _Array:
+    """Return the integrals of a motion times exp(−iνt), as `observers.fourier` writes them."""
+    course = _course(motion, origin)
+    notes, out = np.array([0.0, float(len(lines))]), np.zeros((fourier.QUANTITIES, len(lines)))
+
+    def call(at: int, end: float) -> tuple[int, int]:
+        reached: tuple[int, int] = integrate_motion(
+            *course[:5],
+            int(course.changes),
+            course.state,
+            at,
+            end,
+            MOST_EVENTS,
+            notes,
+            origin.excitation.period,
+            lines,
+            out,
+        )
+        return reached
+
+    course.follow(call)
+    return out
+
+
+def _doubts(motion: xr.Dataset, outcome: Status, end: float) -> list[str]:
+    """Describe in words that the motion followed is not the recorded one, if so, and warn."""
+    held = motion["displacement"].values
+    apart, size = abs(end - float(held[-1])), float(np.abs(held).max())
+    if outcome is Status.DONE and apart <= _DEPARTED * size:
+        return []
+    told = (
+        f"followed again from its initial state, the motion ends {apart:.3g} m away from the "
+        "recorded one, because it is sensitive to rounding and was computed by another version or "
+        "on another processor: the result is that of the motion followed now"
+    )
+    warnings.warn(told, RuntimeWarning, stacklevel=outside())
+    return [told]
+
+
+def parting_velocity(motion: xr.Dataset, oscillator: Oscillator) -> _Array:
+    """Return the velocity just after each event of a motion, which an impact changes."""
+    kinds, sides = motion["event_contact"].values, motion["event_side"].values
+    velocity: _Array = motion["event_velocity"].values.copy()
+    for side, stop in zip(SIDES, (oscillator.right, oscillator.left), strict=True):
+        if isinstance(stop, RigidStop):
+            velocity[(kinds == IMPACT) & (sides == side)] *= -stop.restitution
+            velocity[(kinds == CONTACT_BEGINS) & (sides == side)] = 0.0
+    return velocity
+
+
+def contact_intervals(motion: xr.Dataset, side: int, at: _Array, end: float) -> _Array:
+    """Return when the stop of a side is touched, shape (contact, 2).
+
+    Parameters
+    ----------
+    at
+        When each event is.
+    end
+        When the motion ends; the first contact may last since 0, and the last one until then.
+    """
+    kinds = motion["event_contact"].values
+    mine = (motion["event_side"].values == side) & (kinds != IMPACT) & (at <= end)
+    begins, ends = at[mine & (kinds == CONTACT_BEGINS)], at[mine & (kinds == DETACHMENT)]
+    # The first event shows the earlier state; the first sample may lie after it.
+    if mine.any():
+        touched = kinds[mine][0] == DETACHMENT
+    else:
+        touched = bool(touches(motion["contact"].values[:1], side)[0])
+    begins = np.append(np.zeros(int(touched)), begins)
+    ends = np.append(ends, np.full(len(begins) - len(ends), end))
+    return np.column_stack([begins, ends])

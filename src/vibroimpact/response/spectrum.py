@@ -9,13 +9,10 @@ from scipy.interpolate import CubicSpline
 
 from vibroimpact.arguments import check_variables
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.engine import fourier
-from vibroimpact.engine.phases import integrate
 from vibroimpact.errors import InputError
 from vibroimpact.model import Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.response.motion_phases import Phases, Recorded, phases, recorded
-from vibroimpact.response.phase_measures import asked, table
+from vibroimpact.response.motion_phases import Recorded, fourier_integrals, recorded
 from vibroimpact.response.sine_fit import forcing_sine
 
 _Complex = NDArray[np.complex128]
@@ -69,7 +66,7 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
             most = MOST_LINES / n
             raise InputError(f"highest: {limit:g} is too large; pass at most {most:g}")
         order = np.arange(int(limit * n + 1e-9) + 1) / n
-        lines = _exact(origin, phases(motion), order)
+        lines = _exact(motion, origin, order)
         method = f"exact Fourier coefficients over one period of {n} forcing cycles"
     else:
         order, lines, cycles = _windowed(motion, origin, limit)
@@ -83,13 +80,11 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     return describe(data, "vibroimpact.fourier_spectrum", motion_parameters(motion), noted(motion))
 
 
-def _exact(origin: Recorded[Repeated], parts: Phases, order: NDArray[np.float64]) -> list[_Complex]:
+def _exact(
+    motion: xr.Dataset, origin: Recorded[Repeated], order: NDArray[np.float64]
+) -> list[_Complex]:
     """Compute complex amplitudes of u, u̇ and ü + A_t at the given orders."""
-    found = np.zeros((fourier.QUANTITIES, len(order)))
-    rig, size, frequency = asked(origin)
-    rows = table(origin, parts, np.zeros(len(parts.contact), dtype=np.int64))
-    lines = order * origin.excitation.angular_frequency
-    integrate(rig, size, frequency, rows, parts.begin, lines, found)
+    found = fourier_integrals(motion, origin, order * origin.excitation.angular_frequency)
     scale = np.where(order == 0.0, 1.0, 2.0) / (origin.cycles * origin.excitation.period)
     return [(real + 1j * imaginary) * scale for real, imaginary in found.reshape(3, 2, -1)]
 

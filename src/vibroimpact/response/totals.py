@@ -6,20 +6,10 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.engine import measure
-from vibroimpact.response.motion_phases import (
-    Phases,
-    Recorded,
-    any_recorded,
-    chattered,
-    cut,
-    impact_loss,
-    relaxation_loss,
-)
-from vibroimpact.response.phase_measures import measured, transmitted_extremes, view
+from vibroimpact.engine.observers import phases as layout
+from vibroimpact.response.motion_phases import SIDES, Phases, Recorded, any_recorded, phases
 
 
 def totals(motion: xr.Dataset) -> xr.Dataset:
@@ -29,6 +19,7 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
     ----------
     motion
         Dataset of `steady`, or of `simulate` with samples, including a motion through a `Record`.
+        The motion is simulated again, as by `contacts`.
 
     Returns
     -------
@@ -48,28 +39,16 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
         If the dataset does not hold a motion with samples.
     """
     origin = any_recorded(motion)
-    every = cut(motion, origin)
-    rows = measured(origin, every)
-    supplied, isolator, bumpers = energies(origin, every, rows)
+    every = phases(motion, origin)
+    supplied, isolator, bumpers = energies(origin, every)
     values = {
-        **extremes(origin, every, rows),
+        **extremes(origin, every),
         "total_supplied": supplied,
         "total_isolator": isolator,
         "total_bumpers": bumpers,
     }
-    notes = [*noted(motion), *_begins_with_an_impact(motion), *_unmeasured(rows)]
+    notes = [*noted(motion), *_begins_with_an_impact(motion), *every.notes]
     return describe(xr.Dataset(values), "vibroimpact.totals", motion_parameters(motion), notes)
-
-
-def _unmeasured(rows: NDArray[np.float64]) -> list[str]:
-    """Describe in words that some phases could not be measured, if so."""
-    unknown = int(np.isnan(rows).any(axis=1).sum())
-    if not unknown:
-        return []
-    return [
-        "the extremes and energies are unknown, because the velocity changes sign too often in "
-        f"{unknown} of {len(rows)} intervals between contacts and detachments"
-    ]
 
 
 def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
@@ -86,16 +65,24 @@ def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
     ]
 
 
-def extremes(origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]) -> dict[str, float]:
-    """Return extremes and excursions of a motion whose phases were measured."""
-    side = view(every)
-    face = side * origin.of_side(side, "gap")
-    # A left contact is measured towards the bumper.
-    least = np.where(side == -1, -rows[:, measure.X_MOST], rows[:, measure.X_LEAST]) + face
-    most = np.where(side == -1, -rows[:, measure.X_LEAST], rows[:, measure.X_MOST]) + face
-    high, low = float(most.max()), float(least.min())
-    top, bottom = float(rows[:, measure.A_MOST].max()), float(rows[:, measure.A_LEAST].min())
-    least_force, most_force = transmitted_extremes(origin, every, rows)
+def extremes(origin: Recorded[Any], every: Phases) -> dict[str, float]:
+    """Return extremes and excursions of a motion.
+
+    The force on the base is F_0 − M (ü + A_t), F_0 the constant force and A_t the acceleration of
+    the base, or what stands for a force on the mass.
+    """
+    low, high, bottom, top = (
+        float(end(every.of_mass(column)))
+        for column, end in (
+            (layout.U_LEAST, np.min),
+            (layout.U_MOST, np.max),
+            (layout.A_LEAST, np.min),
+            (layout.A_MOST, np.max),
+        )
+    )
+    mass, load = origin.oscillator.mass, origin.oscillator.force
+    least_force = load - mass * float(every.rows[:, layout.CARRIED_MOST].max())
+    most_force = load - mass * float(every.rows[:, layout.CARRIED_LEAST].min())
     return {
         "displacement_max": high,
         "displacement_min": low,
@@ -110,16 +97,16 @@ def extremes(origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]) ->
     }
 
 
-def energies(
-    origin: Recorded[Any], every: Phases, rows: NDArray[np.float64]
-) -> tuple[float, float, float]:
+def energies(origin: Recorded[Any], every: Phases) -> tuple[float, float, float]:
     """Return the energy (J) supplied, lost in the isolator and lost in the stops."""
     mass = origin.oscillator.mass
-    rows = rows[~chattered(every)]
-    stops = rows[:, [measure.LOST_RIGHT, measure.LOST_LEFT]].sum()
-    lost = relaxation_loss(origin, every).sum() + impact_loss(origin, every).sum()
+    stops = sum(
+        float(every.of_stop(column, number).sum())
+        for number in range(len(SIDES))
+        for column in (layout.LOSES, layout.HIT)
+    )
     return (
-        -mass * float(rows[:, measure.WORK].sum()),
-        mass * float(rows[:, measure.LOST].sum()),
-        mass * float(stops) + float(lost),
+        -mass * float(every.rows[:, layout.WORK].sum()),
+        mass * float(every.rows[:, layout.LOST].sum()),
+        mass * stops,
     )

@@ -21,8 +21,7 @@ from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.response.analytic_free_response import exciting_excursion
 from vibroimpact.response.contacts import contact_log
 from vibroimpact.response.engine_input import as_state, state_from
-from vibroimpact.response.motion_phases import Recorded, cut
-from vibroimpact.response.phase_measures import measured
+from vibroimpact.response.motion_phases import Recorded, phases
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.totals import energies, extremes
@@ -259,12 +258,11 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     """Add the scalars, the contact log, the exact extremes, and quantities derived from them."""
     periodic = scalars["period"] > 0
     origin = Recorded(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
-    every = cut(data, origin)
-    rows = measured(origin, every)
-    log = contact_log(data, origin, every, rows)
+    every = phases(data, origin)
+    log = contact_log(data, origin, every)
     cycles = max(origin.cycles, 1.0)
-    supplied, isolator, bumpers = energies(origin, every, rows)
-    sizes = extremes(origin, every, rows)
+    supplied, isolator, bumpers = energies(origin, every)
+    sizes = extremes(origin, every)
     exciting = found.oscillator.mass * float(
         exciting_excursion(found.rig, np.array([found.excitation.frequency]))[0]
     )
@@ -280,7 +278,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"
     ends = [values["displacement_max"], values["displacement_min"]]
-    notes = [*doubt_stops(found.rig, ends), *noted(data)]
+    notes = [*doubt_stops(found.rig, ends), *noted(data), *every.notes]
     return describe(data, "vibroimpact.steady", notes=notes)
 
 

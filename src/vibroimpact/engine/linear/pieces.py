@@ -161,12 +161,6 @@ def moment(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, y: 
 
 
 @kernel
-def smooth(plan: Vector, motion: Motion, limit: float) -> tuple[float, Motion]:
-    """How long a motion follows one piece of its laws: between linear laws, to the end."""
-    return limit, motion
-
-
-@kernel
 def accelerated(plan: Vector, cursor: Cursor, s: float, c: float, series: Vector) -> float:
     """Turn the series of x into that of the absolute acceleration; return its unit, 1/step².
 

@@ -1,39 +1,15 @@
-"""What earthquake engineers ask of a motion: its peaks, the contact forces, and where energy went.
-
-Of a flight only what may exceed the peaks so far is searched: a series is bounded by the sum of its
-terms' sizes, and few pieces of a long motion pass that.
-"""
+"""What engineers ask of an earthquake: peaks, contact forces, and where the energy went."""
 
 from __future__ import annotations
 
-import math
-
-from vibroimpact.engine import flow, measure
-from vibroimpact.engine import parameters as par
-from vibroimpact.engine.dispatch import accelerated, begin, displacement, expanded, following, more
+from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.layout import ORDER
-from vibroimpact.engine.linear.stops import rigid
-from vibroimpact.engine.memory import stack, workspace
-from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, Motion, Stretch
-from vibroimpact.engine.observers.extremes import (
-    A_LEAST,
-    A_MOST,
-    FORCE_LEFT,
-    FORCE_RIGHT,
-    HITS_LEFT,
-    HITS_RIGHT,
-    IMPULSE_LEFT,
-    IMPULSE_RIGHT,
-    NOTES,
-    U_LEAST,
-    U_MOST,
-    nothing,
-    series_extremes,
-)
-
-_measures = stack(measure.MEASURES)
-
+from vibroimpact.engine.memory import stack
+from vibroimpact.engine.motion import FLIGHT
+from vibroimpact.engine.observers import phases
+from vibroimpact.engine.observers.extremes import IMPULSE_LEFT, IMPULSE_RIGHT, NOTES, nothing
+from vibroimpact.engine.observers.phases import ONE_MASS, begin_row
+from vibroimpact.engine.state import MODE
 
 # Of the notes: first those of `extremes`, impulses summed up; then, if `EVERYTHING` is not 0, the
 # work of the shaking and what is lost in the isolator and in the stops, per unit mass.
@@ -41,6 +17,15 @@ WORK, LOST, LOST_STOPS, EVERYTHING = range(NOTES, NOTES + 4)
 
 note_room = stack(NOTES + 4)
 """Room for them."""
+
+_MASSES, _ROW = ONE_MASS.masses, ONE_MASS.width
+_row = stack(_ROW)
+_PUSHED = tuple(ONE_MASS.stop(phases.IMPULSE, stop) for stop in range(ONE_MASS.stops))
+_LOST = tuple(
+    ONE_MASS.stop(column, stop)
+    for stop in range(ONE_MASS.stops)
+    for column in (phases.LOSES, phases.HIT)
+)
 
 
 @kernel
@@ -53,102 +38,20 @@ def start_notes(notes: Vector, everything: int) -> None:
 
 
 @kernel
-def _widened(series: Vector, high: float, least: float, most: float) -> tuple[float, float]:
-    """A range widened by a series on [−1/2, high]; not searched where its terms keep within it."""
-    reach = 0.0
-    power = 0.5
-    for n in range(1, ORDER):
-        reach += power * abs(series[n])
-        power *= 0.5
-    if series[0] + reach <= most and series[0] - reach >= least:
-        return least, most
-    least, most, _, _ = series_extremes(series, -0.5, high, least, most)
-    return least, most
-
-
-@kernel
-def _relaxed(plan: Vector, side: int, before: float, after: float) -> float:
-    """What a free bumper loses that relaxes from one deformation to the other."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
-    if plan[at + par.KIND] != par.KELVIN_VOIGT:
-        return 0.0
-    stiffness: float = plan[at + par.BUMPER_STIFFNESS]
-    return 0.5 * stiffness * (before * before - after * after)
-
-
-@kernel
-def _losses(plan: Vector, before: Motion, after: Motion, rows: Vector) -> float:
-    """What the stops lose in a stretch, pressed and relaxing."""
-    lost: float = rows[measure.LOST_RIGHT] + rows[measure.LOST_LEFT]
-    if not before.mode & RIGHT:
-        lost += _relaxed(plan, RIGHT, before.right, after.right)
-    if not before.mode & LEFT:
-        lost += _relaxed(plan, LEFT, before.left, after.left)
-    return lost
-
-
-@kernel
-def _unknown(notes: Vector) -> None:
-    """Note that the motion cannot be measured: the impacts alone are known."""
-    for i in range(EVERYTHING):
-        if i not in (HITS_RIGHT, HITS_LEFT):
-            notes[i] = math.nan
-
-
-@kernel
-def add(plan: Vector, notes: Vector, state: Vector, stretch: Stretch) -> None:
-    """Add one stretch, which begins with this state. One-sided values at both its ends count.
-
-    All is NaN from a stretch on that cannot be measured.
-    """
-    if math.isnan(notes[U_LEAST]):
-        return
-    before, _, event, step, arrival, after = stretch
-    u_least, u_most = notes[U_LEAST], notes[U_MOST]
-    a_least, a_most = notes[A_LEAST], notes[A_MOST]
-    mode = before.mode
-    if mode == FLIGHT and notes[EVERYTHING] == 0.0:
-        series = workspace()
-        cursor = begin(plan, before, step)
-        while more(plan, cursor):
-            high, s, c = expanded(plan, cursor, series)
-            u_least, u_most = _widened(series, high, u_least, u_most)
-            unit = accelerated(plan, cursor, s, c, series)
-            least, most = _widened(series, high, a_least / unit, a_most / unit)
-            a_least, a_most = min(a_least, least * unit), max(a_most, most * unit)
-            cursor = following(plan, cursor)
-    else:
-        rows = _measures()
-        side = RIGHT if mode & RIGHT else mode & LEFT
-        flow.measure_phase(plan, state, step, side, rows)
-        if math.isnan(rows[measure.WORK]):
-            _unknown(notes)
-            return
-        low, top = (
-            displacement(plan, mode, rows[measure.X_LEAST]),
-            displacement(plan, mode, rows[measure.X_MOST]),
-        )
-        u_least, u_most = min(u_least, low, top), max(u_most, low, top)
-        a_least, a_most = min(a_least, rows[measure.A_LEAST]), max(a_most, rows[measure.A_MOST])
-        if notes[EVERYTHING]:
-            notes[WORK] -= rows[measure.WORK]
-            notes[LOST] += rows[measure.LOST]
-            notes[LOST_STOPS] += _losses(plan, before, after, rows)
-        if mode & RIGHT:
-            notes[FORCE_RIGHT] = max(notes[FORCE_RIGHT], rows[measure.FORCE])
-            notes[IMPULSE_RIGHT] += rows[measure.IMPULSE]
-        if mode == BOTH:
-            flow.measure_phase(plan, state, step, LEFT, rows)
-        if mode & LEFT:
-            notes[FORCE_LEFT] = max(notes[FORCE_LEFT], rows[measure.FORCE])
-            notes[IMPULSE_LEFT] += rows[measure.IMPULSE]
-    notes[U_LEAST], notes[U_MOST] = u_least, u_most
-    notes[A_LEAST], notes[A_MOST] = a_least, a_most
-    if event not in (RIGHT, LEFT):
-        return
-    right = event == RIGHT
-    notes[HITS_RIGHT if right else HITS_LEFT] += 1.0
-    if rigid(plan, event) and arrival != after.v:
-        notes[LOST_STOPS] += 0.5 * (arrival * arrival - after.v * after.v)
-        notes[FORCE_RIGHT if right else FORCE_LEFT] = math.inf
-        notes[IMPULSE_RIGHT if right else IMPULSE_LEFT] += abs(arrival - after.v)
+def add(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """Add one stretch."""
+    right, left = notes[IMPULSE_RIGHT], notes[IMPULSE_LEFT]
+    notes[IMPULSE_RIGHT], notes[IMPULSE_LEFT] = 0.0, 0.0
+    flow.extremes(plan, before, ended, after, notes)
+    if before[MODE] != FLIGHT or notes[EVERYTHING] != 0.0:
+        row = _row()
+        begin_row(row, _MASSES, _ROW)
+        flow.measure(plan, before, ended, after, row)
+        right, left = right + row[_PUSHED[0]], left + row[_PUSHED[1]]
+        if notes[EVERYTHING] != 0.0:
+            notes[WORK] -= row[phases.WORK]
+            notes[LOST] += row[phases.LOST]
+            for i in range(len(_LOST)):
+                notes[LOST_STOPS] += row[_LOST[i]]
+    notes[IMPULSE_RIGHT] += right
+    notes[IMPULSE_LEFT] += left

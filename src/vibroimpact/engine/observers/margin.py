@@ -19,14 +19,20 @@ from vibroimpact.engine.motion import BOTH, FLIGHT, LIMIT, RIGHT, Motion, Stretc
 
 
 @kernel
+def leading_sign(series: Vector) -> float:
+    """The sign that a series has on the first of [−1/2, 1/2]."""
+    first, second, third = jet(series, -0.5)
+    leading = first if first != 0.0 else second if second != 0.0 else third
+    return math.copysign(1.0, leading)
+
+
+@kernel
 def slope_series(series: Vector, slope: Vector) -> float:
     """Write the derivative of a series; return the sign that it has on the first of [−1/2, 1/2]."""
     for n in range(ORDER - 1):
         slope[n] = (n + 1) * series[n + 1]
     slope[ORDER - 1] = 0.0
-    first, second, third = jet(slope, -0.5)
-    leading = first if first != 0.0 else second if second != 0.0 else third
-    return math.copysign(1.0, leading)
+    return leading_sign(slope)
 
 
 @kernel

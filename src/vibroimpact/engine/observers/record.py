@@ -186,6 +186,22 @@ def sample(
 
 
 @kernel
+def kind_of(event: int, after: Motion) -> tuple[float, int]:
+    """What happens at the end of a stretch, and at the stop of which side."""
+    side = after.fresh & BOTH
+    if event == DETACHED:
+        return DETACHMENT, side
+    return (CONTACT_BEGINS if after.mode & side else IMPACT), side
+
+
+@kernel
+def arrived(mode: int, arrival: float, after: Motion) -> Motion:
+    """The motion just before an event, from that just after it."""
+    _, fresh, u, _, right, left, z, age, clock = after
+    return Motion(mode, fresh, u, arrival, right, left, z, age, clock)
+
+
+@kernel
 def write_down(
     plan: Vector, notes: Vector, samples: Vector, events: Vector, stretch: Stretch
 ) -> None:
@@ -196,16 +212,12 @@ def write_down(
     if event not in (LIMIT, TURNED) and notes[WRITTEN] < notes[LAST]:
         row = beyond(events, EVENT * int(notes[WRITTEN]))
         row[E_CYCLE], row[E_TIME] = notes[NUMBER], t + step
-        side = after.fresh & BOTH
-        row[E_KIND] = DETACHMENT
-        if event != DETACHED:
-            row[E_KIND] = CONTACT_BEGINS if after.mode & side else IMPACT
+        kind, side = kind_of(event, after)
+        row[E_KIND] = kind
         row[E_SIDE] = 1.0 if side == RIGHT else -1.0
         row[E_U], row[E_V] = after.u, arrival
         row[E_RIGHT], row[E_LEFT] = face(plan, after, RIGHT), -face(plan, after, LEFT)
-        _, fresh, u, _, right, left, z, age, clock = after
-        arrived = Motion(before.mode, fresh, u, arrival, right, left, z, age, clock)
-        row[E_BEFORE] = acceleration(plan, arrived)
+        row[E_BEFORE] = acceleration(plan, arrived(before.mode, arrival, after))
         row[E_BEHIND] = acceleration(plan, after)
         row[E_MEMORY] = after.z
         notes[WRITTEN] += 1.0

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine import flow
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import change_rate, let_go, stepped, turned, value
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -26,13 +25,10 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     TURNED,
     Motion,
-    pack,
-    unpacked,
 )
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
 from vibroimpact.engine.series.march import headed
-from vibroimpact.engine.state import STEP, room, stretch_room
 from vibroimpact.engine.taylor.ahead import NOT_YET, ahead_of, branched, stepped_on, varies
 from vibroimpact.engine.taylor.frame import (
     creeps,
@@ -45,7 +41,7 @@ from vibroimpact.engine.taylor.frame import (
     stuck,
     without_friction,
 )
-from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, placed
+from vibroimpact.engine.taylor.pieces import coordinate, placed
 from vibroimpact.engine.taylor.press import MOST, pressed_for, root_of
 from vibroimpact.engine.taylor.watch import (
     CENTRED,
@@ -59,9 +55,6 @@ from vibroimpact.engine.taylor.watch import (
 
 _LACKS, _TOO_MANY = -2, -3
 """Why a stretch is given up: kernels, or an end after any number of steps."""
-
-_AT_ONCE = 1e-6
-"""Of a phase whose length is known: what ends it sooner is rounding."""
 
 
 @apart
@@ -263,22 +256,3 @@ def stretch_end(
     if event in (RIGHT, LEFT) and rigid(plan, event):
         return impact(plan, event, t, arrival, after)
     return event, t, arrival, after
-
-
-@kernel
-def smooth(plan: Vector, motion: Motion, limit: float) -> tuple[float, Motion]:
-    """How long a motion follows one piece of its laws, without stops, and what comes after it.
-
-    The flow's own function is called: merged, it would be compiled once more for each measure.
-    """
-    before, ended, behind = room(), stretch_room(), room()
-    pack(motion, before)
-    event = flow.advance(plan, before, limit, ended, behind)
-    t, after = ended[STEP], unpacked(behind)
-    if event == TURNED:
-        return t, after
-    if event != LIMIT and t < _AT_ONCE * limit:
-        # It begins without a force, and the rounding of its time has it part at once.
-        frame, length = begun(plan, motion, _AT_ONCE * limit)
-        return length, motion_at(plan, motion, frame, 1.0)
-    return limit, after

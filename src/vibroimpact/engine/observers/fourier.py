@@ -1,4 +1,4 @@
-"""The Fourier integrals of a motion, phase by phase, by the quadrature of its pieces."""
+"""The Fourier integrals of a motion, stretch by stretch, by the quadrature of its pieces."""
 
 from __future__ import annotations
 
@@ -11,18 +11,20 @@ from vibroimpact.engine.dispatch import (
     expanded,
     following,
     more,
-    smooth,
 )
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, RATE, H
-from vibroimpact.engine.measure import ABSCISSAE, WEIGHTS
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import LEFT, Motion
+from vibroimpact.engine.motion import LEFT, Stretch
+from vibroimpact.engine.observers.measure import ABSCISSAE, WEIGHTS
 
 _TURN = 8.0
 """What a line may turn (rad) over the points of one quadrature, for 12 points to be exact to
 rounding."""
+
+BEGINS, COUNT = range(2)
+"""Of the notes: when the section is (s), since the motion's beginning, and the number of lines."""
 
 # Rows of what is found, a row a real number for each line: the integrals of u, u̇ and the absolute
 # acceleration times cos and −sin νt.
@@ -30,20 +32,15 @@ QUANTITIES = 6
 
 
 @kernel
-def _stretch(
-    plan: Vector,
-    before: Motion,
-    length: float,
-    begun: float,
-    lines: Vector,
-    count: int,
-    out: Vector,
+def integrate_stretch(
+    plan: Vector, stretch: Stretch, notes: Vector, lines: Vector, out: Vector
 ) -> None:
-    """Add a stretch that begins `begun` seconds behind the motion's beginning."""
+    """Add the integrals of a stretch; `out` has QUANTITIES rows of a number for each line."""
+    before, begun, count = stretch.before, notes[BEGINS] + stretch.t, int(notes[COUNT])
     series, forces = workspace(), workspace()
     sign = -1.0 if before.mode == LEFT else 1.0
     fastest = lines[count - 1]
-    cursor = begin(plan, before, length)
+    cursor = begin(plan, before, stretch.step)
     while more(plan, cursor):
         h = plan[cursor.table + H]
         rate = plan[cursor.table + RATE]
@@ -72,21 +69,3 @@ def _stretch(
                     out[4 * count + k] += a * cosine
                     out[5 * count + k] -= a * sine
         cursor = following(plan, cursor)
-
-
-@kernel
-def integrate_phase(
-    plan: Vector, here: Motion, length: float, begins: float, lines: Vector, count: int, out: Vector
-) -> None:
-    """Add the integrals of a phase that begins so long behind the motion's beginning (s).
-
-    `out` has QUANTITIES rows of `count` numbers.
-    """
-    t = 0.0
-    while t < length:
-        step, behind = smooth(plan, here, length - t)
-        _stretch(plan, here, step, begins + t, lines, count, out)
-        if step >= length - t:
-            break  # what comes behind may be in another mode (as in `measure`)
-        here = behind
-        t += step

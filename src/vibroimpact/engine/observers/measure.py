@@ -1,0 +1,299 @@
+"""A stretch of one mass measured: extremes, forces, impulses, work and losses, exact to rounding.
+
+On a piece the motion is a series of 12 terms; Gauss–Legendre quadrature with 12 points integrates a
+product of two such series without error, and a law's force of one to rounding.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.dispatch import (
+    accelerated,
+    acceleration,
+    begin,
+    coordinate,
+    displacement,
+    expanded,
+    face,
+    following,
+    isolator_power,
+    moment,
+    more,
+    rest_level,
+    stop_power,
+    stop_push,
+    unkept,
+)
+from vibroimpact.engine.forcing.dispatch import pull_series, value
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.evaluate import horner
+from vibroimpact.engine.linear.layout import ORDER, RATE, H
+from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
+from vibroimpact.engine.linear.stops import rigid
+from vibroimpact.engine.memory import workspace
+from vibroimpact.engine.motion import (
+    BOTH,
+    LEFT,
+    LIMIT,
+    RIGHT,
+    SETTLING,
+    TURNED,
+    Motion,
+    Stretch,
+)
+from vibroimpact.engine.observers.extremes import Part, pushed, series_extremes
+from vibroimpact.engine.observers.margin import leading_sign
+from vibroimpact.engine.observers.phases import (
+    A_EVENT,
+    A_LEAST,
+    A_MOST,
+    A_TIME,
+    ARRIVAL,
+    AT_STOP,
+    CARRIED_LEAST,
+    CLOSING,
+    DEPTH,
+    FORCE,
+    HIT,
+    IMPULSE,
+    KIND,
+    LENGTH,
+    LOSES,
+    LOST,
+    MASS,
+    PARTING,
+    STOP,
+    SYSTEM,
+    TOUCHED,
+    U_LEAST,
+    WORK,
+)
+from vibroimpact.engine.observers.record import arrived, kind_of
+
+_X, _W = np.polynomial.legendre.leggauss(12)
+ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
+WEIGHTS = tuple(float(w) for w in 0.5 * _W)
+
+
+class Range(NamedTuple):
+    """Between which values a quantity lies."""
+
+    least: float
+    most: float
+
+
+@kernel
+def column(side: int, name: int) -> int:
+    """Where in a row the stop of a side has a column."""
+    return SYSTEM + MASS + STOP * (side - 1) + name
+
+
+@kernel
+def widen_row(row: Vector, at: int, found: Range) -> None:
+    """Widen a range of a row, whose columns follow each other."""
+    row[at], row[at + 1] = min(row[at], found.least), max(row[at + 1], found.most)
+
+
+@kernel
+def positive_part(series: Vector, high: float) -> float:
+    """Integral of a series over [−1/2, high], but for where it is negative."""
+    way, total, y = leading_sign(series), 0.0, -0.5
+    while y < high:
+        end = first_root(series, Clearance(0.0, way, 0.0, 0.0, False), y, high)
+        if end == NONE:
+            end = high
+        if way > 0.0:
+            for n in range(ORDER):
+                total += series[n] / (n + 1) * (end ** (n + 1) - y ** (n + 1))
+        y, way = end, -way
+    return total
+
+
+@kernel
+def pressed_impulse(
+    plan: Vector, cursor: Any, before: Motion, side: int, high: float, shaking: Vector
+) -> float:
+    """Impulse of a mass at rest on a rigid stop over a piece; it may be friction that holds it."""
+    series = workspace()
+    facing = -1.0 if before.mode == LEFT else 1.0
+    facing = facing if side == RIGHT else -facing
+    h, rate = plan[cursor.table + H], plan[cursor.table + RATE]
+    for n in range(ORDER):
+        series[n] = -facing * rate * rate * shaking[n]
+    series[0] += rest_level(plan, before, side)
+    impulse: float = h * positive_part(series, high)
+    return impulse
+
+
+@kernel
+def add_powers(
+    plan: Vector,
+    cursor: Any,
+    before: Motion,
+    width: float,
+    series: Vector,
+    shaking: Vector,
+    row: Vector,
+) -> None:
+    """Add work, losses and impulses of what deforms on a piece, `width` steps long."""
+    mode = before.mode
+    sign = -1.0 if mode == LEFT else 1.0
+    h, rate = plan[cursor.table + H], plan[cursor.table + RATE]
+    for n in range(len(WEIGHTS)):
+        y = width * ABSCISSAE[n] - 0.5
+        share = WEIGHTS[n] * width * h
+        x, slope = horner(series, y)
+        v = slope * rate
+        drive, _ = horner(shaking, y)
+        here = moment(plan, cursor, before, x, sign * v, y)
+        row[WORK] += share * v * (drive * rate * rate)
+        row[LOST] += share * isolator_power(plan, here)
+        for side in range(1, 3):
+            if mode & side and not rigid(plan, side):
+                row[column(side, IMPULSE)] += share * stop_push(plan, here, side)
+                row[column(side, LOSES)] += share * stop_power(plan, here, side)
+
+
+@kernel
+def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> None:
+    """Add what happens between the ends of a stretch."""
+    series, shaking = workspace(), workspace()
+    mode = before.mode
+    sign = -1.0 if mode == LEFT else 1.0
+    x_least = x_most = coordinate(plan, before)
+    a_least = a_most = sign * acceleration(plan, before)
+    carried = Range(a_least, a_least)
+    if plan[par.BASE] == 0.0:
+        s, c = before.clock
+        first = a_least + sign * value(plan, s, c)
+        carried = Range(first, first)
+    begun, at = row[LENGTH], 0.0
+    cursor = begin(plan, before, step)
+    while more(plan, cursor):
+        rate = plan[cursor.table + RATE]
+        h = plan[cursor.table + H]
+        high, s, c = expanded(plan, cursor, series)
+        pull_series(plan, cursor.table, s, c, shaking)
+        add_powers(plan, cursor, before, high + 0.5, series, shaking, row)
+        x_least, x_most, _, _ = series_extremes(series, -0.5, high, x_least, x_most)
+        unit = accelerated(plan, cursor, s, c, series)
+        least_was, most_was = a_least / unit, a_most / unit
+        least, most, at_least, at_most = series_extremes(series, -0.5, high, least_was, most_was)
+        a_least, a_most = least * unit, most * unit
+        since = cursor.t + (cursor.i + 0.5) * h
+        if least < least_was and -least > most:
+            at = since + at_least * h
+        if most > most_was and most >= -least:
+            at = since + at_most * h
+        if plan[par.BASE] == 0.0:
+            for n in range(ORDER):
+                series[n] = series[n] * unit + shaking[n] * rate * rate
+            least, most, _, _ = series_extremes(series, -0.5, high, carried.least, carried.most)
+            carried = Range(least, most)
+        part = Part(high, s, c)
+        for side in range(1, 3):
+            if mode & side:
+                force = column(side, FORCE)
+                row[force] = pushed(plan, cursor, before, side, part, series, row[force])
+                if rigid(plan, side):
+                    row[column(side, IMPULSE)] += pressed_impulse(
+                        plan, cursor, before, side, high, shaking
+                    )
+        cursor = following(plan, cursor)
+    if plan[par.BASE] != 0.0:
+        carried = Range(a_least, a_most)
+    if max(-a_least, a_most) > max(-row[SYSTEM + A_LEAST], row[SYSTEM + A_MOST]):
+        row[SYSTEM + A_TIME] = begun + at
+    if sign < 0.0:
+        a_least, a_most = -a_most, -a_least
+        carried = Range(-carried.most, -carried.least)
+    widen_row(row, SYSTEM + A_LEAST, Range(a_least, a_most))
+    widen_row(row, CARRIED_LEAST, carried)
+    low, top = displacement(plan, mode, x_least), displacement(plan, mode, x_most)
+    widen_row(row, SYSTEM + U_LEAST, Range(min(low, top), max(low, top)))
+    for side in range(1, 3):
+        if mode & side:
+            depth = x_most
+            if mode == BOTH and side == LEFT:
+                apart = plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP]
+                depth = -x_least - apart
+            row[column(side, DEPTH)] = max(row[column(side, DEPTH)], depth)
+
+
+@kernel
+def measure_settling(plan: Vector, before: Motion, step: float, after: Motion, row: Vector) -> None:
+    """Add the rest of a chatter, which is not followed from impact to impact: both its ends.
+
+    Its energy is what its last stop takes; nothing else moves meanwhile.
+    """
+    last = arrived(before.mode, before.v, after)
+    measure_pieces(plan, before, 0.0, row)
+    measure_pieces(plan, last, 0.0, row)
+    for side in range(1, 3):
+        if before.mode & side:
+            push = stop_push(plan, before, side) + stop_push(plan, last, side)
+            row[column(side, IMPULSE)] += 0.5 * step * push
+
+
+@kernel
+def relaxed_loss(plan: Vector, side: int, before: float, after: float) -> float:
+    """What a free bumper loses that relaxes from one deformation to the other."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    if plan[at + par.KIND] != par.KELVIN_VOIGT:
+        return 0.0
+    stiffness: float = plan[at + par.BUMPER_STIFFNESS]
+    return 0.5 * stiffness * (before * before - after * after)
+
+
+@kernel
+def closing_speed(plan: Vector, side: int, velocity: float, after: Motion) -> float:
+    """How fast a stop and the mass approach each other; a free bumper relaxes towards the mass."""
+    at = par.BUMPER + par.WIDTH * (side - 1)
+    closing = velocity if side == RIGHT else -velocity
+    if plan[at + par.KIND] == par.KELVIN_VOIGT and plan[at + par.BUMPER_DAMPING] > 0.0:
+        rate = plan[at + par.BUMPER_STIFFNESS] / plan[at + par.BUMPER_DAMPING]
+        closing += rate * face(plan, after, side)
+    return closing
+
+
+@kernel
+def measure_event(plan: Vector, stretch: Stretch, row: Vector) -> None:
+    """Write what the event is that ends a phase, and what the stop that it is at loses."""
+    before, _, event, _, arrival, after = stretch
+    kind, side = kind_of(event, after)
+    row[KIND], row[AT_STOP] = kind, side - 1.0
+    behind = acceleration(plan, after)
+    sharp = acceleration(plan, arrived(before.mode, arrival, after))
+    row[SYSTEM + A_EVENT] = max(abs(sharp), abs(behind))
+    if event in (RIGHT, LEFT) and rigid(plan, event):
+        # The rest of a chatter ends without velocity.
+        last = before.v if before.fresh & SETTLING else arrival
+        row[column(side, HIT)] = 0.5 * (last * last - after.v * after.v)
+
+
+@kernel
+def measure_stretch(plan: Vector, stretch: Stretch, row: Vector) -> None:
+    """Add a stretch to the row of its phase; energies, forces and impulses per unit mass."""
+    before, _, event, step, arrival, after = stretch
+    row[TOUCHED] = before.mode
+    if before.fresh & SETTLING:
+        measure_settling(plan, before, step, after, row)
+    else:
+        measure_pieces(plan, before, step, row)
+    for side in range(1, 3):
+        loses = column(side, LOSES)
+        if before.mode & side:
+            row[loses] += unkept(plan, before, after, side)
+        else:
+            freed, kept = (
+                (before.right, after.right) if side == RIGHT else (before.left, after.left)
+            )
+            row[loses] += relaxed_loss(plan, side, freed, kept)
+        row[column(side, CLOSING)] = closing_speed(plan, side, arrival, after)
+    row[SYSTEM + ARRIVAL], row[SYSTEM + PARTING] = arrival, after.v
+    if event not in (LIMIT, TURNED):
+        measure_event(plan, stretch, row)
