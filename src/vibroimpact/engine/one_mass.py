@@ -295,18 +295,6 @@ def mirror(plan: Vector, state: Vector, q: Vector) -> None:
 
 
 @kernel
-def start_growth(plan: Vector, state: Vector, q: Vector, w: Vector) -> None:
-    dispatch.start_growth(plan, q, w, dispatch.stiff_rate(plan), int(state[MODE]))
-
-
-@kernel
-def growth(
-    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector, w: Vector
-) -> None:
-    dispatch.grow(plan, notes, q, w, _stretch(before, ended, after))
-
-
-@kernel
 def measure_phase(plan: Vector, state: Vector, length: float, side: int, out: Vector) -> None:
     measure.measure_phase(plan, unpacked(state), length, side, out)
 
@@ -343,5 +331,5 @@ MOTION = (
 )
 """What a sweep asks for."""
 RECORDED = (record, write)
-DISTURBED = (unit_disturbances, tangent, mirror, start_growth, growth, margin)
+DISTURBED = (unit_disturbances, tangent, mirror, margin)
 MEASURED = (demand, measure_phase, integrate_phase)
