@@ -11,7 +11,7 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import beyond, pointer
 from vibroimpact.engine.observers import growth as observers
-from vibroimpact.engine.state import copy, finite, load, parts_room, put, room, width
+from vibroimpact.engine.state import MODE, copy, finite, load, parts_room, put, room, width
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
@@ -83,10 +83,11 @@ def growth(
     weights, of_section, logarithms = parts_room(), parts_room(), parts_room()
     observers.weigh(plan, weights)
     q, shares = pointer(disturbances), observers.rows_room()
+    mode = here[MODE]
+    observers.weigh_section(plan, here, of_section)
     if anew:
         for i in range(parts * parts):
             q[i] = 0.0
-        observers.weigh_section(plan, here, of_section)
         observers.begin(plan, here, q, 0, count, of_section)
     outcome = DONE
     number = first
@@ -102,7 +103,9 @@ def growth(
             events = _carried(
                 plan, here, s, c, period, max_events, notes, q, count, weights, logarithms
             )
-            observers.weigh_section(plan, here, of_section)
+            if here[MODE] != mode:
+                mode = here[MODE]
+                observers.weigh_section(plan, here, of_section)
             observers.orthonormalise(q, count, of_section, parts, shares, 0.0, 0.0)
             observers.add_up(plan, here, q, count, of_section, shares, logarithms)
             if number >= 0 and events <= max_events:

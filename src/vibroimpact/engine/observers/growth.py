@@ -1,15 +1,16 @@
 """How disturbances of a motion grow: carried on by `flow.tangent`, and kept orthogonal.
 
-The rows of q are carried through a stretch between two events and then made orthonormal, each with
-those before it (modified Gram–Schmidt; G. Benettin et al., Meccanica 15 (1980) 9). What is left of
-a row is the factor by which it grows beside those before it.
+The rows of q are carried through a cycle and then made orthonormal, each with those before it
+(modified Gram–Schmidt; G. Benettin et al., Meccanica 15 (1980) 9). What is left of a row is the
+factor by which it grows beside those before it.
 
-A row that has become nearly a combination of those before it has lost its digits to them. Then the
-stretch is carried in pieces, each so short that enough is left of every row. An event takes no
-time: an impact of little restitution or little speed makes all rows nearly parallel at once. There
-the combinations of rows whose images are orthogonal are carried through the event again, so that
-nothing cancels. A row of which that leaves nothing has vanished: its logarithm is −∞, and a new
-direction takes its place, after those that are left.
+A row that has become nearly a combination of those before it has lost its digits to them. Where a
+stretch between two events would do that, the rows are made orthonormal before it and after it. If
+that is not enough, it is carried in pieces, each so short that enough is left of every row. An
+event takes no time: an impact of little restitution or little speed makes all rows nearly parallel
+at once. There the combinations of rows whose images are orthogonal are carried through the event
+again, so that nothing cancels. A row of which that leaves nothing has vanished: its logarithm is
+−∞, and a new direction takes its place, after those that are left.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ rows_room = stack(LARGEST * LARGEST)
 
 LEAST = 1e-4
 """Share of a row that must be left of it: rounding enters its logarithm by 2e-12."""
+_APART, _TINY = 1.0 - LEAST**2, 1e-200
+"""Square of the cosine between two rows of which as much is left; and of numbers near underflow."""
 NOTHING = 1e-13
 """Share of a row that is no more than rounding."""
 _CLEAN, _AGAIN = 0.5, 5
@@ -187,15 +190,56 @@ def grow(
     notes
         Those of `observers.tangent`.
     q
-        Orthonormal rows, one for each part; those from `count` on are 0.
+        Rows, one for each part; those from `count` on are 0. They are orthonormal at the section,
+        and left as they are carried for as long as they do not lose digits.
     weights
         Of the squares of the parts, in the norm.
     logarithms
-        Of how much each row has grown beside those before it since the section: added to.
+        Of how much each row has grown beside those before it since the section, where rows have
+        been made orthonormal: added to.
     """
     parts = flow.parts(plan)
-    start, shares = rows_room(), rows_room()
+    start = rows_room()
     copy(q, start, count * parts)
+    flow.tangent(plan, before, ended, after, notes, q)
+    if not _are_apart(q, count, weights, parts) and _vanished(count, logarithms) < count:
+        _grow_apart(plan, before, ended, after, start, q, count, weights, logarithms)
+
+
+@kernel
+def _are_apart(q: Vector, count: int, weights: Vector, parts: int) -> bool:
+    """Whether more than the share `LEAST` is left of each of one or two rows, seen at a glance."""
+    one, other, common = 0.0, 0.0, 0.0
+    for k in range(parts):
+        one += weights[k] * q[k] * q[k]
+        if count > 1:
+            other += weights[k] * q[parts + k] * q[parts + k]
+            common += weights[k] * q[k] * q[parts + k]
+    if count == 1:
+        return _TINY < one < 1.0 / _TINY
+    return count == 2 and one * other > _TINY and common * common < _APART * one * other < math.inf
+
+
+@apart
+def _grow_apart(
+    plan: Vector,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    start: Vector,
+    q: Vector,
+    count: int,
+    weights: Vector,
+    logarithms: Vector,
+) -> None:
+    """As `grow`, from the rows `start`: made orthonormal before the stretch and after it."""
+    parts = flow.parts(plan)
+    shares, notes = rows_room(), parts_room()
+    for i in range(count, parts):
+        _clear(start, i, parts)
+    orthonormalise(start, count, weights, parts, shares, 0.0, 0.0)
+    add_up(plan, before, start, count, weights, shares, logarithms)
+    copy(start, q, parts * parts)
     flow.tangent(plan, before, ended, after, notes, q)
     unsure = orthonormalise(q, count, weights, parts, shares, LEAST, NOTHING)
     if unsure > _vanished(count, logarithms):
@@ -256,8 +300,6 @@ def _grow_in_pieces(
     """As `grow`, from the rows `start`; q and `shares` are what the whole stretch leaves."""
     parts = flow.parts(plan)
     here, sums = room(), parts_room()
-    for i in range(count, parts):
-        _clear(start, i, parts)
     put(plan, before, here)
     copy(logarithms, sums, count)
     event, length = int(ended[EVENT]), ended[STEP]

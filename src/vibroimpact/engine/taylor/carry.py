@@ -46,6 +46,9 @@ from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, slope
 _SLOPES_LAST = 2.0**-47
 """What the last term of the slopes' series may be; it enters a disturbance by a 20th."""
 
+_OWN_REACH = 1.6
+"""Of a disturbance's own rate times the step; of exp(1.6) the series leaves out 5e-15."""
+
 _CUT, _LEAST_SHARE = 100, 2.0**-10
 """How often a step is shortened at most, and to which share at once."""
 
@@ -205,6 +208,11 @@ def _sloped_step(plan: Vector, here: Motion, longest: float) -> tuple[Frame, flo
     """
     frame, h = begun(plan, here, longest)
     sloped(plan, h)
+    # A motion may be slow where a disturbance of it is not: its steps reach too far for that.
+    own = max(abs(plan[BY_V]), math.sqrt(abs(plan[BY_X])))
+    if _OWN_REACH < own < math.inf:
+        frame, h = begun(plan, here, h * max(_OWN_REACH / own, _LEAST_SHARE))
+        sloped(plan, h)
     if not varies(plan, here.mode):
         return frame, h
     for _ in range(_CUT):
