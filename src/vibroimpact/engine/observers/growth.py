@@ -109,8 +109,9 @@ def orthonormalise(
         Of the squares of the parts, in the norm.
     shares
         Written, a row of `parts` for each of q: of what it was made of the new rows, up to itself.
-        The last of these is what is left of it: negative if that is less than the share `least`,
-        and −inf if it is no number or at most the share `nothing`. Then the row becomes 0.
+        The last of these is what is left of it: negative if that is less than the share `least`.
+        It is −inf if that is at most the share `nothing`, and inf if it is no number; then the row
+        becomes 0.
 
     Returns
     -------
@@ -132,8 +133,8 @@ def orthonormalise(
                 size = -size
         else:
             _clear(q, i, parts)
-            size = -math.inf
-        if not size > 0.0:
+            size = -math.inf if left < math.inf else math.inf
+        if not 0.0 < size < math.inf:
             unsure += 1
         shares[i * parts + i] = size
     return unsure
@@ -250,7 +251,7 @@ def _grow_apart(
 
 @kernel
 def _vanished(count: int, logarithms: Vector) -> int:
-    """How many rows have vanished since the section; no more is asked of as many."""
+    """How many rows have vanished since the section; as many are not looked at more closely."""
     gone = 0
     for i in range(count):
         if logarithms[i] == -math.inf:
@@ -272,10 +273,12 @@ def add_up(
     parts = flow.parts(plan)
     at = 0
     for i in range(count):
-        size = abs(shares[i * parts + i])
-        if size < math.inf:
-            logarithms[at] += math.log(size)
-            if at < i:
+        size = shares[i * parts + i]
+        if size > -math.inf:
+            logarithms[at] += math.log(abs(size))
+            if size == math.inf:  # a rigid stop is met without speed
+                begin(plan, after, q, at, at + 1, weights)
+            elif at < i:
                 copy(beyond(q, i * parts), beyond(q, at * parts), parts)
             at += 1
     if at < count:
@@ -391,7 +394,7 @@ def _extrapolate(
 ) -> None:
     """What many pieces do that do alike; what they leave too little of, by the last one."""
     for i in range(count):
-        if shares[i * parts + i] > 0.0:
+        if 0.0 < shares[i * parts + i] < math.inf:
             logarithms[i] += math.log(shares[i * parts + i])
         else:
             logarithms[i] += number * last[i]
@@ -436,7 +439,7 @@ def _pass_event(
         whole = 0.0
         for j in range(i + 1):
             whole += shares[i * parts + j] ** 2
-        if shares[i * parts + i] ** 2 <= LEAST * LEAST * whole:
+        if whole < math.inf and shares[i * parts + i] ** 2 <= LEAST * LEAST * whole:
             shares[i * parts + i] = -math.inf
     add_up(plan, there, q, count, weights, shares, logarithms)
     copy(q, rows, count * parts)
