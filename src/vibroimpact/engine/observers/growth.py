@@ -251,7 +251,7 @@ def _grow_apart(
 
 @kernel
 def _vanished(count: int, logarithms: Vector) -> int:
-    """How many rows have vanished since the section; as many are not looked at more closely."""
+    """How many rows have vanished since the section; as many others are taken as vanished, too."""
     gone = 0
     for i in range(count):
         if logarithms[i] == -math.inf:
