@@ -90,8 +90,9 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
             q[:] = 0.0
             growth.begin(plan, state, pointer(q), 0, 2, pointer(w))
             count = grown(
-                plan, state, S, C, period, MOST, found, pointer(q), 2, pointer(w), beyond(found, 3)
-            )
+                plan, state, S, C, period, MOST, found,
+                pointer(q), growth.work_room(), 2, pointer(w), beyond(found, 3),
+            )  # fmt: skip
         rows[which, EVENTS] = count
         rows[which, U], rows[which, V] = state[FIRST], state[FIRST + 1]
 

@@ -82,7 +82,7 @@ def growth(
     count = out.shape[1] - 1 - parts
     weights, of_section, logarithms = parts_room(), parts_room(), parts_room()
     observers.weigh(plan, weights)
-    q, shares = pointer(disturbances), observers.rows_room()
+    q, work = pointer(disturbances), observers.work_room()
     mode = here[MODE]
     observers.weigh_section(plan, here, of_section)
     if anew:
@@ -101,13 +101,13 @@ def growth(
             for i in range(count):
                 logarithms[i] = 0.0
             events = _carried(
-                plan, here, s, c, period, max_events, notes, q, count, weights, logarithms
+                plan, here, s, c, period, max_events, notes, q, work, count, weights, logarithms
             )
             if here[MODE] != mode:
                 mode = here[MODE]
                 observers.weigh_section(plan, here, of_section)
-            observers.orthonormalise(q, count, of_section, parts, shares, 0.0, 0.0)
-            observers.add_up(plan, here, q, count, of_section, shares, logarithms)
+            observers.orthonormalise(q, count, of_section, parts, work, 0.0, 0.0)
+            observers.add_up(plan, here, q, count, of_section, work, logarithms)
             if number >= 0 and events <= max_events:
                 row = pointer(out[number - max(first, 0)])
                 copy(logarithms, row, count)

@@ -63,6 +63,18 @@ def test_how_little_is_left_of_a_row_is_marked(apart, left):
     assert bool(q[1].any()) == (left > -math.inf)
 
 
+def test_a_row_without_bound_is_not_one_that_vanished():
+    q, shares = np.zeros((2, DISTURBANCE)), np.zeros((2, DISTURBANCE))
+    q[0, 0], q[1, 1] = math.inf, math.nan
+    with np.errstate(invalid="ignore"):
+        unsure = orthonormalise(
+            q.ravel(), 2, np.ones(DISTURBANCE), DISTURBANCE, shares.ravel(), LEAST, NOTHING
+        )
+    assert unsure == 2
+    assert shares[0, 0] == shares[1, 1] == math.inf
+    assert not q.any()
+
+
 @pytest.mark.parametrize("damping", [2.5, 8.0, 40.0])
 @pytest.mark.parametrize("cubic", [0.0, 1e-9])
 def test_overdamped_flight_has_its_two_real_exponents(damping, cubic):

@@ -24,8 +24,10 @@ from vibroimpact.engine.motion import LIMIT
 from vibroimpact.engine.state import EVENT, LARGEST, STEP, T, copy, parts_room, put, room
 from vibroimpact.engine.state import stretch_room as ended_room
 
-rows_room = stack(LARGEST * LARGEST)
-"""Room for a row for each part."""
+_rows_room = stack(LARGEST * LARGEST)
+work_room = stack(4 * LARGEST * LARGEST)
+"""Room for `grow`: for the rows that a stretch begins with, for what is left of them, and for both
+of a piece of it. It is filled with zeros wherever a function asks for it, and so is made once."""
 
 LEAST = 1e-4
 """Share of a row that must be left of it: rounding enters its logarithm by 2e-12."""
@@ -53,11 +55,11 @@ def weigh(plan: Vector, weights: Vector) -> None:
         weights[i] *= weights[i]
 
 
-@kernel
+@apart
 def weigh_section(plan: Vector, state: Vector, weights: Vector) -> None:
     """The same of a section: what only follows others, as a pressed bumper does, counts nothing."""
     parts = flow.parts(plan)
-    units = rows_room()
+    units = _rows_room()
     weigh(plan, weights)
     flow.unit_disturbances(plan, state, units)
     for i in range(parts):
@@ -140,11 +142,11 @@ def orthonormalise(
     return unsure
 
 
-@kernel
+@apart
 def begin(plan: Vector, state: Vector, q: Vector, first: int, count: int, weights: Vector) -> None:
     """Let rows begin, from number `first` on: each in a direction that those before it leave."""
     parts = flow.parts(plan)
-    units = rows_room()
+    units = _rows_room()
     flow.unit_disturbances(plan, state, units)
     for i in range(first, count):
         size = 0.0
@@ -180,6 +182,7 @@ def grow(
     after: Vector,
     notes: Vector,
     q: Vector,
+    work: Vector,
     count: int,
     weights: Vector,
     logarithms: Vector,
@@ -193,6 +196,8 @@ def grow(
     q
         Rows, one for each part; those from `count` on are 0. They are orthonormal at the section,
         and left as they are carried for as long as they do not lose digits.
+    work
+        See `work_room`.
     weights
         Of the squares of the parts, in the norm.
     logarithms
@@ -200,11 +205,10 @@ def grow(
         been made orthonormal: added to.
     """
     parts = flow.parts(plan)
-    start = rows_room()
-    copy(q, start, count * parts)
+    copy(q, work, count * parts)
     flow.tangent(plan, before, ended, after, notes, q)
     if not _are_apart(q, count, weights, parts) and _vanished(count, logarithms) < count:
-        _grow_apart(plan, before, ended, after, start, q, count, weights, logarithms)
+        _grow_apart(plan, before, ended, after, q, work, count, weights, logarithms)
 
 
 @kernel
@@ -227,15 +231,15 @@ def _grow_apart(
     before: Vector,
     ended: Vector,
     after: Vector,
-    start: Vector,
     q: Vector,
+    work: Vector,
     count: int,
     weights: Vector,
     logarithms: Vector,
 ) -> None:
-    """As `grow`, from the rows `start`: made orthonormal before the stretch and after it."""
+    """As `grow`, with rows that are made orthonormal before the stretch and after it."""
     parts = flow.parts(plan)
-    shares, notes = rows_room(), parts_room()
+    start, shares, notes = work, beyond(work, parts * parts), parts_room()
     for i in range(count, parts):
         _clear(start, i, parts)
     orthonormalise(start, count, weights, parts, shares, 0.0, 0.0)
@@ -244,7 +248,7 @@ def _grow_apart(
     flow.tangent(plan, before, ended, after, notes, q)
     unsure = orthonormalise(q, count, weights, parts, shares, LEAST, NOTHING)
     if unsure > _vanished(count, logarithms):
-        _grow_in_pieces(plan, before, ended, after, start, q, count, weights, shares, logarithms)
+        _grow_in_pieces(plan, before, ended, after, q, work, count, weights, logarithms)
     else:
         add_up(plan, after, q, count, weights, shares, logarithms)
 
@@ -293,23 +297,24 @@ def _grow_in_pieces(
     before: Vector,
     ended: Vector,
     after: Vector,
-    start: Vector,
     q: Vector,
+    work: Vector,
     count: int,
     weights: Vector,
-    shares: Vector,
     logarithms: Vector,
 ) -> None:
-    """As `grow`, from the rows `start`; q and `shares` are what the whole stretch leaves."""
+    """As `grow`; q and what `work` has of it are what the whole stretch leaves."""
     parts = flow.parts(plan)
+    start, shares, rest = work, beyond(work, parts * parts), beyond(work, 2 * parts * parts)
     here, sums = room(), parts_room()
     put(plan, before, here)
     copy(logarithms, sums, count)
     event, length = int(ended[EVENT]), ended[STEP]
     span = length if event == LIMIT else _BEFORE_EVENT * length
-    done = _pass_time(plan, here, span, start, count, weights, sums)
+    done = _pass_time(plan, here, span, start, rest, count, weights, sums)
     if done and event != LIMIT:
-        done = _pass_event(plan, here, event, 2.0 * (length - span), start, count, weights, sums)
+        limit = 2.0 * (length - span)
+        done = _pass_event(plan, here, event, limit, start, rest, count, weights, sums)
     if done:
         copy(start, q, count * parts)
         copy(sums, logarithms, count)
@@ -323,14 +328,15 @@ def _pass_time(
     here: Vector,
     span: float,
     rows: Vector,
+    work: Vector,
     count: int,
     weights: Vector,
     logarithms: Vector,
 ) -> bool:
     """Carry a state and rows over a time without events; return whether there was none."""
     parts = flow.parts(plan)
-    there, ended, notes = room(), ended_room(), parts_room()
-    q, shares, last = rows_room(), rows_room(), parts_room()
+    there, ended, notes, last = room(), ended_room(), parts_room(), parts_room()
+    q, shares = work, beyond(work, parts * parts)
     for i in range(count):
         last[i] = math.nan
     done, pieces = 0.0, 0
@@ -409,6 +415,7 @@ def _pass_event(
     event: int,
     limit: float,
     rows: Vector,
+    work: Vector,
     count: int,
     weights: Vector,
     logarithms: Vector,
@@ -416,7 +423,7 @@ def _pass_event(
     """Carry rows through an event that comes at once; return whether it does."""
     parts = flow.parts(plan)
     there, ended, notes = room(), ended_room(), parts_room()
-    q, shares = rows_room(), rows_room()
+    q, shares = work, beyond(work, parts * parts)
     if flow.advance(plan, here, limit, ended, there) != event:
         return False
     ended[EVENT], ended[T] = event, 0.0
