@@ -36,6 +36,8 @@ AMPLITUDE, FREQUENCY, S, C = 1.0, 0.4, 0.6, 0.8
 MOST = 100
 SAMPLES = 50
 
+grown = event_loop.observed(growth.grow)
+
 EVENTS, U, V = range(3)
 ROW = 3
 CYCLE, EXTREMES, RECORDED, DEMAND, MARGIN, TANGENT, GROWTH = range(7)
@@ -84,11 +86,14 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
             flow.unit_disturbances(plan, state, pointer(q))
             count = event_loop.tangent(plan, state, S, C, period, MOST, found, pointer(q))
         else:
-            flow.start_growth(plan, state, pointer(q), pointer(w))
-            growth.start_notes(found, period)
-            count = event_loop.growth(
-                plan, state, S, C, period, MOST, found, pointer(q), pointer(w)
-            )
+            found[0], found[1], found[2], found[3], found[4] = 0.0, 0.0, 0.0, 0.0, 0.0
+            flow.units(plan, pointer(w))
+            q[:] = 0.0
+            growth.begin(plan, state, pointer(q), 0, 2, pointer(w))
+            count = grown(
+                plan, state, S, C, period, MOST, found,
+                pointer(q), growth.work_room(), 2, pointer(w), beyond(found, 3),
+            )  # fmt: skip
         rows[which, EVENTS] = count
         rows[which, U], rows[which, V] = state[FIRST], state[FIRST + 1]
 

@@ -27,7 +27,6 @@ that is not said there to the Taylor flow. Each is a folder whose modules have t
     rest_level(plan, motion, side)          what presses a resting mass on its rigid stop
 
     carry(plan, stretch, q, rows)           disturbances through a stretch, and what is lost
-    start_growth(…), grow(plan, notes, …)   two of them, for the exponents
 """
 
 from __future__ import annotations
@@ -97,5 +96,3 @@ unkept = _by_flow("unkept")
 rest_level = _by_flow("rest_level")
 coordinate = _by_flow("coordinate")
 carry = _by_flow("carry")
-grow = _by_flow("grow")
-start_growth = _by_flow("start_growth")

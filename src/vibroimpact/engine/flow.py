@@ -273,24 +273,15 @@ def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
 def tangent(
     plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
 ) -> None:
-    """Carry disturbances, the rows of q, through a stretch; see `observers.tangent`."""
+    """Carry disturbances, the rows of q, through the last stretch that `advance` went.
+
+    Rows of 0 stay so. See `observers.tangent`.
+    """
 
 
 @_function(types.void, P, P)
 def mirror(plan: Vector, state: Vector, q: Vector) -> None:
     """Turn a state and its disturbances, a row each, into their mirror image."""
-
-
-@_function(types.void, P, P, P)
-def start_growth(plan: Vector, state: Vector, q: Vector, w: Vector) -> None:
-    """Begin two disturbances, of unit size."""
-
-
-@_function(types.void, P, P, P, P, P, P)
-def growth(
-    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector, w: Vector
-) -> None:
-    """See `observers.growth`."""
 
 
 @_function(types.void, P, P, P, P)

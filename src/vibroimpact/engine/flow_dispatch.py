@@ -25,7 +25,6 @@ from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.linear import advance as linear_advance
 from vibroimpact.engine.linear import carry as linear_carry
 from vibroimpact.engine.linear import chord_bounds, contact_free, forces, pieces, tables
-from vibroimpact.engine.linear import growth as linear_growth
 from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
@@ -35,7 +34,6 @@ from vibroimpact.engine.series import kernels
 from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
 from vibroimpact.engine.taylor import frame, power
-from vibroimpact.engine.taylor import growth as taylor_growth
 from vibroimpact.engine.taylor import laws as taylor_laws
 from vibroimpact.engine.taylor import pieces as taylor_pieces
 from vibroimpact.engine.taylor import plan as taylor_plan
@@ -127,7 +125,6 @@ _TAYLOR = (
     taylor_pieces,
     taylor_advance,
     taylor_carry,
-    taylor_growth,
 )
 answer(
     par.LINEAR,
@@ -138,7 +135,6 @@ answer(
     pieces,
     chord_bounds,
     linear_carry,
-    linear_growth,
 )
 answer(par.BENT, *_TAYLOR)
 answer(par.YIELDING, yielding_plan, *_TAYLOR)

@@ -9,15 +9,17 @@ from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.memory import TERMS, beyond, pointer, workspace
-from vibroimpact.engine.observers.growth import start_notes
-from vibroimpact.engine.state import copy, finite, load, parts_room, put, room, width
+from vibroimpact.engine.memory import beyond, pointer
+from vibroimpact.engine.observers import growth as observers
+from vibroimpact.engine.state import MODE, copy, finite, load, parts_room, put, room, width
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
 # the damping, and the state at the section behind the cycle.
 FIRST, SECOND, DISSIPATION, SECTION = range(4)
 GROWTH = SECTION + 5
+
+_carried = event_loop.observed(observers.grow)
 
 
 @entry(
@@ -40,7 +42,7 @@ def growth(
     max_events: int,
     out: Vector,
 ) -> tuple[int, int]:
-    """Follow a motion and the growth of its two fastest disturbances, cycle by cycle.
+    """Follow a motion and the growth of its fastest disturbances, cycle by cycle.
 
     Many short calls give the same rows as a long one, to the last bit.
 
@@ -48,8 +50,8 @@ def growth(
     ----------
     rig, amplitude, frequency, phase, state, max_events
         As in `batch.trajectory`; the state is carried on.
-    disturbances : ndarray, shape (2, memory.TERMS)
-        Carried on in place.
+    disturbances : ndarray, shape (part, part)
+        Orthonormal rows, carried on in place.
     anew : bool
         Whether the disturbances begin here, so that what they hold is not used.
     first, last : int
@@ -58,8 +60,10 @@ def growth(
     discard : int
         Cycles before cycle 0 in which the disturbances turn into their directions. Before those
         nothing is watched.
-    out : ndarray, shape (row, GROWTH)
-        Written, a row a cycle from cycle `first`, or from cycle 0.
+    out : ndarray, shape (row, count + 1 + part)
+        Written, a row a cycle from cycle `first`, or from cycle 0: the logarithm of how much each
+        of `count` disturbances has grown beside those before it, the integral of the damping, and
+        the state as a point of the section. A state has as many exponents as parts.
 
     Returns
     -------
@@ -74,12 +78,17 @@ def growth(
     s, c = math.sin(phase), math.cos(phase)
     here, section, notes = room(), room(), parts_room()
     load(plan, pointer(state), here, s, c)
-    q = workspace()
-    w = workspace()
-    for i in range(TERMS):
-        q[i], w[i] = disturbances[0, i], disturbances[1, i]
+    parts = flow.parts(plan)
+    count = out.shape[1] - 1 - parts
+    weights, of_section, logarithms = parts_room(), parts_room(), parts_room()
+    observers.weigh(plan, weights)
+    q, work = pointer(disturbances), observers.work_room()
+    mode = here[MODE]
+    observers.weigh_section(plan, here, of_section)
     if anew:
-        flow.start_growth(plan, here, q, w)
+        for i in range(parts * parts):
+            q[i] = 0.0
+        observers.begin(plan, here, q, 0, count, of_section)
     outcome = DONE
     number = first
     while outcome == DONE and number < last:
@@ -88,15 +97,22 @@ def growth(
         if number < -discard:
             events = flow.cycle(plan, here, s, c, period, max_events)
         else:
-            start_notes(notes, period)
-            events = event_loop.growth(plan, here, s, c, period, max_events, notes, q, w)
+            notes[0], notes[1], notes[2] = 0.0, 0.0, 0.0
+            for i in range(count):
+                logarithms[i] = 0.0
+            events = _carried(
+                plan, here, s, c, period, max_events, notes, q, work, count, weights, logarithms
+            )
+            if here[MODE] != mode:
+                mode = here[MODE]
+                observers.weigh_section(plan, here, of_section)
+            observers.orthonormalise(q, count, of_section, parts, work, 0.0, 0.0)
+            observers.add_up(plan, here, q, count, of_section, work, logarithms)
             if number >= 0 and events <= max_events:
-                row = out[number - max(first, 0)]
-                row[FIRST] = notes[0]
-                # A rest on a wall leaves nothing of either: the difference would be no number.
-                row[SECOND] = -math.inf if notes[1] == -math.inf else notes[1] - notes[0]
-                row[DISSIPATION] = notes[2]
-                flow.point(plan, here, beyond(pointer(row), SECTION))
+                row = pointer(out[number - max(first, 0)])
+                copy(logarithms, row, count)
+                row[count] = notes[0]
+                flow.point(plan, here, beyond(row, count + 1))
         if events > max_events:
             outcome = TOO_MANY_EVENTS
         elif not finite(plan, here):
@@ -106,8 +122,6 @@ def growth(
             break
         number += 1
     copy(here, pointer(state), width(plan))
-    for i in range(TERMS):
-        disturbances[0, i], disturbances[1, i] = q[i], w[i]
     return outcome, number
 
 

@@ -291,18 +291,6 @@ def mirror(plan: Vector, state: Vector, q: Vector) -> None:
 
 
 @kernel
-def start_growth(plan: Vector, state: Vector, q: Vector, w: Vector) -> None:
-    dispatch.start_growth(plan, q, w, dispatch.stiff_rate(plan), int(state[MODE]))
-
-
-@kernel
-def growth(
-    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector, w: Vector
-) -> None:
-    dispatch.grow(plan, notes, q, w, _stretch(before, ended, after))
-
-
-@kernel
 def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
     measure_stretch(plan, _stretch(before, ended, after), row)
 
@@ -339,5 +327,5 @@ MOTION = (
 )
 """What a sweep asks for."""
 RECORDED = (record, write)
-DISTURBED = (unit_disturbances, tangent, mirror, start_growth, growth, margin)
+DISTURBED = (unit_disturbances, tangent, mirror, margin)
 MEASURED = (measure, integrate)

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, lyapunov
-from vibroimpact.engine.memory import TERMS
 from vibroimpact.engine.observers import record
+from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Repeated, Rig, State, equilibrium
 from vibroimpact.response.engine_input import engine_rig, engine_state
@@ -171,7 +171,7 @@ class PreparedRig(NamedTuple):
             Called with the next rows, which are overwritten afterwards.
         """
         rows = np.empty((min(cycles, _ROWS), lyapunov.GROWTH))
-        perturbations, shaking = np.zeros((2, TERMS)), self.shaking
+        perturbations, shaking = np.zeros((DISTURBANCE, DISTURBANCE)), self.shaking
         first = -transient - discard
         calls = Calls(cycles - first, progress, _ROWS)
         at, outcome = first, int(Status.DONE)

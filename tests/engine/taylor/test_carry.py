@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.linalg import expm
 
 import vibroimpact as vi
 from engine.taylor.rigs import HYSTERETIC, ISOLATORS, SHAKEN, STOPS, between, followed, started
@@ -107,6 +108,18 @@ def test_derivative_through_a_power_of_the_velocity(exponent: float) -> None:
         assert np.log(np.linalg.det(matrix)) + damping == pytest.approx(0.0, abs=1e-12)
         if drag == 0.2 and exponent in KNOWN:
             np.testing.assert_allclose(matrix, KNOWN[exponent], atol=2e-14, rtol=0.0)
+
+
+@pytest.mark.parametrize("damping", [0.2, 3.0, 20.0])
+@pytest.mark.parametrize("ratio", [0.03, 0.2])
+def test_a_slow_motion_carries_a_fast_disturbance(ratio: float, damping: float) -> None:
+    """The steps are as short as the disturbance wants, which has a rate of its own."""
+    shaken = vi.Harmonic(1e-3, ratio / np.pi / 2.0)
+    rig = vi.Oscillator(1.0, vi.PolynomialIsolator(1.0, damping, 1e-9))
+    _, _, steady = carried(rig, started(rig, 0.0, 0.0), 20, shaken)
+    rows, _, _ = carried(rig, steady, 1, shaken)
+    known = expm(shaken.period * np.array([[0.0, 1.0], [-1.0, -damping]])).T
+    np.testing.assert_allclose(rows[:2, :2], known, rtol=0.0, atol=1e-12)
 
 
 @pytest.mark.parametrize("isolator", ["linear", "duffing", "drag", "exponential"])

@@ -1,15 +1,9 @@
 """What becomes of a small disturbance of a motion: the exact tangent flow.
 
-A disturbance is (δu, δu̇, δu_R, δu_L) at a fixed forcing phase. Within a phase it obeys the
-homogeneous equation of motion. At a contact with side j the saltation matrix
-I + (f⁺ − f⁻) nᵀ / (nᵀ f⁻) of the clearance reduces to
-
-    δu̇⁺ = δu̇ − (C_j/M) (δu − δu_j),    δu_j⁺ = δu:
-
-the closing speed cancels, so that grazing needs no special case. At a detachment the contact force
-is zero and the bumper's own rate is that of the mass: both vector fields agree and nothing
-happens. A free bumper's δu_j fades as the bumper relaxes, at once without a dashpot. In contact
-δu_j = δu, so that every contact loses the bumper's own direction (docs/theory.md, section 6).
+A disturbance is (δu, δu̇, δu_R, δu_L, δz) at a fixed forcing phase. Within a phase it obeys the
+homogeneous equation of motion; at an event it jumps (see `saltation`). A free bumper's δu_j fades
+as the bumper relaxes, at once without a dashpot. In contact δu_j = δu, so that every contact loses
+the bumper's own direction (docs/theory.md, section 6).
 """
 
 from __future__ import annotations
@@ -17,6 +11,7 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine import saltation
 from vibroimpact.engine.dispatch import acceleration_of, carry
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Stretch
@@ -29,31 +24,33 @@ MEMORY = 4
 
 
 @kernel
-def impact_slope(plan: Vector, event: int, arrival: float, after: Motion) -> float:
-    """κ = (ü⁺ + e ü⁻) / u̇⁻ of an impact on a rigid stop."""
-    mode, fresh, u, _, right, left, z, age, clock = after
-    before = Motion(mode, fresh, u, arrival, right, left, z, age, clock)
-    restitution = plan[par.BUMPER + par.WIDTH * (event - 1) + par.RESTITUTION]
-    slope: float = acceleration_of(plan, after) + restitution * acceleration_of(plan, before)
-    return slope / arrival
-
-
-@kernel
-def rebound(plan: Vector, event: int, arrival: float, after: Motion) -> tuple[float, float]:
-    """E and κ of an event at a rigid stop; where the mass stays there, nothing is left: 0 and 0."""
-    if after.mode & event:
-        return 0.0, 0.0
-    e: float = plan[par.BUMPER + par.WIDTH * (event - 1) + par.RESTITUTION]
-    return e, impact_slope(plan, event, arrival, after)
-
-
-@kernel
 def tie(mode: int, q: Vector, at: int) -> None:
     """A pressed bumper's disturbance is that of the displacement."""
     if mode & RIGHT:
         q[at + 2] = q[at]
     if mode & LEFT:
         q[at + 3] = q[at]
+
+
+@kernel
+def meet(plan: Vector, event: int, arrival: float, after: Motion, q: Vector, rows: int) -> None:
+    """Let disturbances (rows of q) meet a rigid stop, or one of a spring and a dashpot."""
+    stop = par.BUMPER + par.WIDTH * (event - 1)
+    if plan[stop + par.KIND] != par.RIGID:
+        for i in range(rows):
+            at = i * DISTURBANCE
+            saltation.contact(q, at, at + 1 + event, plan[stop + par.BUMPER_DAMPING])
+        return
+    mode, fresh, u, _, right, left, z, age, clock = after
+    arriving = Motion(mode, fresh, u, arrival, right, left, z, age, clock)
+    before, behind = acceleration_of(plan, arriving), acceleration_of(plan, after)
+    for i in range(rows):
+        at = i * DISTURBANCE
+        if mode & event:
+            saltation.rest(q, at)
+        else:
+            saltation.impact(q, at, plan[stop + par.RESTITUTION], arrival, before, behind)
+        tie(mode, q, at)
 
 
 @kernel

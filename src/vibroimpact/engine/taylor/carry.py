@@ -2,8 +2,7 @@
 
 Along a motion a disturbance (δu, δu̇, δz) obeys the linear equation whose coefficients are the
 slopes of the laws there. These are series as the motion is, and so is the disturbance. At events
-see `observers.tangent`; besides, z′ may jump at an impact or where a spring yields, and friction
-takes the velocity of whatever comes to rest.
+it jumps (see `saltation`).
 """
 
 from __future__ import annotations
@@ -11,10 +10,11 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine import saltation
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import DETACHED, LEFT, RIGHT, SETTLING, TURNED, Motion, Stretch
-from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY, contraction, rebound, tie
+from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY, contraction, meet
 from vibroimpact.engine.series.layout import (
     BY_CHI,
     BY_V,
@@ -45,6 +45,9 @@ from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, slope
 
 _SLOPES_LAST = 2.0**-47
 """What the last term of the slopes' series may be; it enters a disturbance by a 20th."""
+
+_OWN_REACH = 1.6
+"""Of a disturbance's own rate times the step; of exp(1.6) the series leaves out 5e-15."""
 
 _CUT, _LEAST_SHARE = 100, 2.0**-10
 """How often a step is shortened at most, and to which share at once."""
@@ -103,6 +106,14 @@ def _moved(plan: Vector, q: Vector, at: int, h: float, speeds: tuple[float, floa
 
 
 @kernel
+def _is_disturbed(q: Vector, at: int) -> bool:
+    found = False
+    for i in range(at, at + DISTURBANCE):
+        found = found or q[i] != 0.0
+    return found
+
+
+@kernel
 def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
     """Carry disturbances (rows of q) through a stretch and the event that ends it.
 
@@ -118,7 +129,7 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
         _settled(plan, before, q, rows)
     elif resting(plan, mode):
         for i in range(rows):
-            q[i * DISTURBANCE], q[i * DISTURBANCE + 1] = 0.0, 0.0
+            saltation.rest(q, i * DISTURBANCE)
     elif stuck(plan, before):
         for i in range(rows):
             q[i * DISTURBANCE + 1] = 0.0
@@ -134,8 +145,7 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
                 q[at] = q[i * DISTURBANCE]
             elif not kept:
                 q[at] *= fading
-    for i in range(rows):
-        _event(plan, before, event, arrival, after, q, i * DISTURBANCE)
+    _event(plan, before, event, arrival, after, q, rows)
     return lost + contraction(plan, event, after)
 
 
@@ -154,7 +164,7 @@ def _settled(plan: Vector, before: Motion, q: Vector, rows: int) -> None:
     for i in range(rows):
         at = i * DISTURBANCE
         q[at + MEMORY] = 0.0 if yielded else q[at + MEMORY] - rate * q[at]
-        q[at], q[at + 1] = 0.0, 0.0
+        saltation.rest(q, at)
 
 
 @kernel
@@ -174,6 +184,8 @@ def _along(plan: Vector, before: Motion, length: float, q: Vector, rows: int) ->
         dragged = _drag_left_out(plan, here, there, laws)
         for i in range(rows):
             at = i * DISTURBANCE
+            if not _is_disturbed(q, at):
+                continue
             mine = q[at + 3] if here.mode == LEFT else q[at + 2]
             _moved(plan, q, at, h, (primary * mine, other * q[at + 3]))
             q[at + 1] = q[at + 1] * math.exp(-dragged) - pressed * q[at]
@@ -196,6 +208,11 @@ def _sloped_step(plan: Vector, here: Motion, longest: float) -> tuple[Frame, flo
     """
     frame, h = begun(plan, here, longest)
     sloped(plan, h)
+    # A motion may be slow where a disturbance of it is not: its steps reach too far for that.
+    own = max(abs(plan[BY_V]), math.sqrt(abs(plan[BY_X])))
+    if _OWN_REACH < own < math.inf:
+        frame, h = begun(plan, here, h * max(_OWN_REACH / own, _LEAST_SHARE))
+        sloped(plan, h)
     if not varies(plan, here.mode):
         return frame, h
     for _ in range(_CUT):
@@ -265,46 +282,69 @@ def _drag_left_out(plan: Vector, here: Motion, there: Motion, laws: Laws) -> flo
 
 @kernel
 def _event(
-    plan: Vector, before: Motion, event: int, arrival: float, after: Motion, q: Vector, at: int
+    plan: Vector,
+    before: Motion,
+    event: int,
+    arrival: float,
+    after: Motion,
+    q: Vector,
+    rows: int,
 ) -> None:
-    """What an event does to one disturbance."""
+    """What an event does to disturbances."""
     if event in (RIGHT, LEFT):
-        stop = par.BUMPER + par.WIDTH * (event - 1)
-        u, v = q[at], q[at + 1]
-        if plan[stop + par.KIND] == par.RIGID:
-            e, slope = rebound(plan, event, arrival, after)
-            q[at], q[at + 1] = -e * u, -e * v + slope * u
-            if plan[par.HYSTERETIC] != 0.0 and arrival != 0.0:
-                # A spring that has not yielded before follows u up to the impact, also if it
-                # would yield there.
-                met = _rate(plan, before, arrival, after.z)
-                q[at + MEMORY] -= (met + e * _rate(plan, after, after.v, after.z)) * u
-            tie(after.mode, q, at)
-        elif curved_stop(plan, event):
-            # Of its speed where it meets the stop, which it does sooner by δu/u̇.
-            q[at + 1 + event] = 0.0
-            if plan[stop + par.KIND] == par.FORMULA and arrival != 0.0:
-                # A dashpot's force begins with a jump, sooner by δu/u̇.
-                q[at + 1] -= stop_push(plan, after, event) / abs(arrival) * u
-            if plan[stop + par.DISSIPATION] < 0.0 and arrival != 0.0:
-                q[at + 1 + event] = v - acceleration_of(plan, after) / arrival * u
-        else:
-            q[at + 1] -= plan[stop + par.BUMPER_DAMPING] * (u - q[at + 1 + event])
-            q[at + 1 + event] = u
+        if curved_stop(plan, event):
+            _meet_curved(plan, event, arrival, after, q, rows)
+            return
+        rigid = plan[par.BUMPER + par.WIDTH * (event - 1) + par.KIND] == par.RIGID
+        if rigid and plan[par.HYSTERETIC] != 0.0 and arrival != 0.0:
+            # A spring that has not yielded before follows u up to the impact, also if it
+            # would yield there.
+            met = _rate(plan, before, arrival, after.z) * arrival
+            left = _rate(plan, after, after.v, after.z) * after.v
+            for i in range(rows):
+                at = i * DISTURBANCE
+                saltation.jump(q, at + MEMORY, -q[at] / arrival, met, left)
+        meet(plan, event, arrival, after, q, rows)
     elif event == DETACHED:
         side = after.fresh & (RIGHT | LEFT)
         if curved_stop(plan, side):
-            q[at + 1 + side] = 0.0
+            for i in range(rows):
+                saltation.detachment(q, i * DISTURBANCE + 1 + side)
     elif event == TURNED:
         if after.v == 0.0 and not stuck(plan, before):
+            here, gone = 1.0, 1.0
             if stuck(plan, after):
-                q[at + 1] = 0.0
+                gone = 0.0
             elif plan[par.FRICTION] != 0.0:
                 a = without_friction(plan, after)
                 way = math.copysign(plan[par.FRICTION], a)
-                q[at + 1] *= (a - way) / (a + way)
+                here, gone = a + way, a - way
+            for i in range(rows):
+                saltation.turn(q, i * DISTURBANCE, here, gone)
         if abs(after.z) >= plan[par.YIELD]:
-            q[at + MEMORY] = 0.0
+            for i in range(rows):
+                saltation.yielding(q, i * DISTURBANCE + MEMORY)
+
+
+@kernel
+def _meet_curved(
+    plan: Vector, event: int, arrival: float, after: Motion, q: Vector, rows: int
+) -> None:
+    """Let disturbances meet a stop of a curved law; its own part is how fast it is met."""
+    stop = par.BUMPER + par.WIDTH * (event - 1)
+    jumps = plan[stop + par.KIND] == par.FORMULA and arrival != 0.0
+    remembers = plan[stop + par.DISSIPATION] < 0.0 and arrival != 0.0
+    force = stop_push(plan, after, event) if jumps else 0.0
+    acceleration = acceleration_of(plan, after) if remembers else 0.0
+    for i in range(rows):
+        at = i * DISTURBANCE
+        own = at + 1 + event
+        q[own] = 0.0
+        if jumps:
+            saltation.force_jump(q, at, arrival, force)
+        if remembers:
+            q[own] = q[at + 1]
+            saltation.jump(q, own, -q[at] / arrival, acceleration, 0.0)
 
 
 @kernel
