@@ -20,7 +20,7 @@ from paper.item import Item, Table
 from paper.study import PublishedStudy
 from vibroimpact.model import GRAVITY, Harmonic, Oscillator, laboratory
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.numerical_free_response import largest_flight, resonance
+from vibroimpact.response.free_response import largest_flight, resonance
 
 
 def equivalent(isolator: str, acceleration: str) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from vibroimpact.engine import flow
 from vibroimpact.engine.flow_tables import plan_of
 from vibroimpact.engine.jit import kernel
 from vibroimpact.engine.parameters import free_rig
-from vibroimpact.engine.sections import FULL, ROW, Schedule, follow, watcher
+from vibroimpact.engine.sections import FULL, ROW, Schedule, loop
 from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS
 
 U, V, AGE = 2, 3, 7
@@ -25,7 +25,7 @@ class Diary(NamedTuple):
     events: int
 
 
-@watcher(Diary)
+@kernel
 def _keep(plan, state, section, leg, diary):
     number, s, c, length, max_events = leg
     if number >= diary.room:
@@ -33,6 +33,9 @@ def _keep(plan, state, section, leg, diary):
     diary.notes[number] = length
     flow.cycle(plan, state, s, c, length, max_events)
     return diary.events
+
+
+follow = loop(_keep)
 
 
 @kernel

@@ -15,7 +15,7 @@ from paper.claims import CLAIMS, LINEAR
 from paper.study import PublishedStudy
 from vibroimpact.model import laboratory
 from vibroimpact.response.analytic_free_response import reference_excursions
-from vibroimpact.response.numerical_free_response import largest_flight, resonance
+from vibroimpact.response.free_response import largest_flight, resonance
 from vibroimpact.response.resonance import features
 
 FULL_ONLY = pytest.mark.skipif(not samples.full, reason="sweeps the campaign again; --full")

@@ -1,13 +1,13 @@
 """The demand of records on a rig: its peaks at many scales of one record, without its history.
 
-Each record is followed line by line (`sections.follow`), and the base stands still after it.
+Each record is followed line by line (`sections`), and the base stands still after it.
 Nothing is allocated: a call is as good for one scale as for many.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from numpy.typing import NDArray
 
@@ -25,7 +25,7 @@ from vibroimpact.engine.observers.demand import (
     start_notes,
 )
 from vibroimpact.engine.observers.extremes import U_LEAST, U_MOST
-from vibroimpact.engine.sections import LASTS, C, Leg, S, Schedule, follow, row_room, watcher
+from vibroimpact.engine.sections import LASTS, C, S, Schedule, observed, row_room
 from vibroimpact.engine.state import load, room
 from vibroimpact.engine.status import DONE, STOPPED, TOO_MUCH_WORK
 
@@ -42,17 +42,7 @@ _SAME = 1e-9
 """Relative change of the swing from block to block below which it does not die out."""
 
 
-class Demand(NamedTuple):
-    """What is noted of a motion, see `observers.demand`."""
-
-    notes: Vector
-
-
-@watcher(Demand)
-def _demand(plan: Vector, state: Vector, section: Vector, leg: Leg, seen: Demand) -> int:
-    _, s, c, length, max_events = leg
-    events: int = event_loop.demand(plan, state, s, c, length, max_events, seen.notes)
-    return events
+follow = observed(event_loop.demand)
 
 
 @kernel
@@ -72,9 +62,7 @@ def _shaken(
     while number < count and outcome == DONE:
         counter[0] = begun + number
         last = min(float(number + _REPORTED), float(count))
-        number, outcome = follow(
-            plan, state, record, number, last, max_events, Demand(notes), counter
-        )
+        number, outcome = follow(plan, state, record, number, last, max_events, notes, counter)
     return outcome
 
 
@@ -95,10 +83,10 @@ def _freely(
     whole = int(length / step)
     rest = length - whole * step
     last = float(whole)
-    _, outcome = follow(plan, state, still, 0, last, max_events, Demand(notes), counter)
+    _, outcome = follow(plan, state, still, 0, last, max_events, notes, counter)
     if outcome == DONE and rest > _SHORT * step:
         row[LASTS] = rest
-        _, outcome = follow(plan, state, still, 0, 1.0, max_events, Demand(notes), counter)
+        _, outcome = follow(plan, state, still, 0, 1.0, max_events, notes, counter)
     return outcome
 
 

@@ -7,7 +7,7 @@ motion settles first (`settling`).
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.fixed_point import DYING
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.observers.extremes import notes_room, nothing
-from vibroimpact.engine.sections import Leg, follow, repeated, row_room, watcher
+from vibroimpact.engine.sections import observed, repeated, row_room
 from vibroimpact.engine.settling import settle
 from vibroimpact.engine.state import begin_again, copy, parts_room, put, room, wind
 from vibroimpact.engine.status import DONE, NOT_SETTLED, TOO_MUCH_WORK
@@ -28,17 +28,7 @@ FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT, T_LEAST, T_MOST = range(9,
 RESULTS = 15
 
 
-class Extremes(NamedTuple):
-    """What is noted of a motion while it is measured, see `observers.extremes`."""
-
-    notes: Vector
-
-
-@watcher(Extremes)
-def _extremes(plan: Vector, state: Vector, section: Vector, leg: Leg, seen: Extremes) -> int:
-    _, s, c, length, max_events = leg
-    events: int = event_loop.extremes(plan, state, s, c, length, max_events, seen.notes)
-    return events
+follow = observed(event_loop.extremes)
 
 
 @kernel
@@ -55,14 +45,14 @@ def measure(
 ) -> int:
     """Follow `cycles` forcing cycles and write their exact extremes and contact counts.
 
-    Forces and impulses are those per unit mass. `progress` as in `sections.follow`.
+    Forces and impulses are those per unit mass. `progress` as in `sections.loop`.
     """
     start, notes, carried, row = room(), notes_room(), notes_room(), row_room()
     cycle = repeated(row, s, c, period)
     nothing(notes)
     put(plan, state, start)
     last = float(cycles)
-    done, outcome = follow(plan, state, cycle, 0, last, max_events, Extremes(notes), progress)
+    done, outcome = follow(plan, state, cycle, 0, last, max_events, notes, progress)
     copy(notes, carried, 4)
     if plan[par.BASE] == 0.0:
         # The force on the base is that of ü + A_t, A_t what stands for the force on the mass: the
@@ -70,7 +60,7 @@ def measure(
         plan[par.BASE] = 1.0
         nothing(carried)
         last = float(done)
-        _, outcome = follow(plan, start, cycle, 0, last, max_events, Extremes(carried), progress)
+        _, outcome = follow(plan, start, cycle, 0, last, max_events, carried, progress)
         plan[par.BASE] = 0.0
     result[T_LEAST], result[T_MOST] = plan[par.LOAD] - carried[3], plan[par.LOAD] - carried[2]
     result[U_LEAST], result[U_MOST] = notes[0], notes[1]

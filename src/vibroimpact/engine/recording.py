@@ -8,7 +8,7 @@ from typing import NamedTuple
 from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.observers.record import WRITTEN, note_room, start_notes
-from vibroimpact.engine.sections import FULL, Leg, Schedule, follow, watcher
+from vibroimpact.engine.sections import FULL, Leg, Schedule, loop
 from vibroimpact.engine.state import put
 from vibroimpact.engine.status import DONE
 
@@ -35,7 +35,7 @@ class Book(NamedTuple):
     down, and the state at a section itself is a sample."""
 
 
-@watcher(Book)
+@kernel
 def _write(plan: Vector, state: Vector, section: Vector, leg: Leg, book: Book) -> int:
     """Write a motion down along a leg."""
     number, s, c, length, max_events = leg
@@ -57,6 +57,9 @@ def _write(plan: Vector, state: Vector, section: Vector, leg: Leg, book: Book) -
         plan, state, s, c, length, max_events, book.notes, book.out, book.events
     )
     return count
+
+
+follow = loop(_write)
 
 
 @kernel

@@ -4,7 +4,7 @@ A schedule is a table with a row for each section: the clock that the forcing ha
 time to the next section. After its last row it begins anew: a periodic forcing has a single row, a
 record one for each of its straight lines, at which the clock is A_t and its slope.
 
-Who looks on is found by the type of what he notes (`watcher`).
+What is done along each is a function of the loop (`loop`, `observed`).
 """
 
 from __future__ import annotations
@@ -12,10 +12,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from numba.extending import overload
-
 from vibroimpact.engine import flow
-from vibroimpact.engine.jit import CHOSEN, Vector, kernel
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond, stack
 from vibroimpact.engine.state import begin_again, finite, put, room, wind
 from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS
@@ -63,33 +61,6 @@ class Leg(NamedTuple):
     """Contacts and detachments at which it is given up."""
 
 
-_WATCHERS: dict[type, Any] = {}
-
-
-def watcher(notes: type) -> Callable[[Callable[..., Any]], Any]:
-    """Make of a function the kernel that follows a motion for what keeps such notes.
-
-    `watch(plan, state, section, leg, notes)` carries the state on along a leg, and returns the
-    number of events, or `FULL`; `section` is a copy of the state.
-    """
-
-    def register(function: Callable[..., Any]) -> Any:
-        _WATCHERS[notes] = kernel(function)
-        return _WATCHERS[notes]
-
-    return register
-
-
-def watch(plan: Vector, state: Vector, section: Vector, leg: Leg, notes: Any) -> Any:
-    """Follow one leg while what keeps these notes looks on."""
-    return _WATCHERS[type(notes)](plan, state, section, leg, notes)
-
-
-@overload(watch, jit_options=CHOSEN, strict=False)  # type: ignore[arg-type]
-def _watch(plan: Any, state: Any, section: Any, leg: Any, notes: Any) -> Any:
-    return _WATCHERS[notes.instance_class].py_func
-
-
 @kernel
 def advance(
     plan: Vector, state: Vector, section: Vector, s: float, c: float, length: float, max_events: int
@@ -111,18 +82,47 @@ def _ended(plan: Vector, state: Vector, section: Vector, events: int, max_events
     return DONE if finite(plan, state) else NOT_FINITE
 
 
-@kernel
-def follow(
-    plan: Vector,
-    state: Vector,
-    schedule: Schedule,
-    first: int,
-    last: float,
-    max_events: int,
-    notes: Any,
-    progress: Any,
-) -> tuple[int, int]:
-    """Follow a motion through sections.
+def loop(watch: Any) -> Callable[..., tuple[int, int]]:
+    """Make the loop over a kernel `watch(plan, state, section, leg, notes)`.
+
+    It carries the state on along a leg, and returns the number of events, or `FULL`; `section` is a
+    copy of the state.
+    """
+
+    def follow(
+        plan: Vector,
+        state: Vector,
+        schedule: Schedule,
+        first: int,
+        last: float,
+        max_events: int,
+        notes: Any,
+        progress: Any,
+    ) -> tuple[int, int]:
+        section = room()
+        number, outcome = first, DONE
+        i = first % schedule.size
+        while number < last and outcome == DONE:
+            row = beyond(schedule.rows, ROW * i)
+            if schedule.changes:
+                begin_again(plan, state)
+                wind(plan, state, row[S], row[C])
+            put(plan, state, section)
+            length = min(1.0, last - number) * row[LASTS]
+            events = watch(
+                plan, state, section, Leg(number, row[S], row[C], length, max_events), notes
+            )
+            if events == FULL:
+                break
+            outcome = _ended(plan, state, section, events, max_events)
+            number += 1
+            i = i + 1 if i + 1 < schedule.size else 0
+            if progress is not None:  # noqa: SIM102 - the compiler leaves out what None makes needless
+                if progress[1] != 0:
+                    outcome = STOPPED
+        return number, outcome
+
+    follow.__doc__ = """Follow a motion through sections.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def follow(
     max_events
         Contacts and detachments after a section at which the motion is given up.
     notes
-        What is noted; its type tells who looks on (`watcher`).
+        What is noted, passed on.
     progress : ndarray or None
         It stops when [1] becomes nonzero; None if it cannot take long.
 
@@ -140,24 +140,15 @@ def follow(
     next, outcome
         The section to go on with, and a `Status`.
     """
-    section = room()
-    number, outcome = first, DONE
-    i = first % schedule.size
-    while number < last and outcome == DONE:
-        row = beyond(schedule.rows, ROW * i)
-        if schedule.changes:
-            begin_again(plan, state)
-            wind(plan, state, row[S], row[C])
-        put(plan, state, section)
-        length = min(1.0, last - number) * row[LASTS]
-        leg = Leg(number, row[S], row[C], length, max_events)
-        events = watch(plan, state, section, leg, notes)
-        if events == FULL:
-            break
-        outcome = _ended(plan, state, section, events, max_events)
-        number += 1
-        i = i + 1 if i + 1 < schedule.size else 0
-        if progress is not None:  # noqa: SIM102 - the compiler leaves out what None makes needless
-            if progress[1] != 0:
-                outcome = STOPPED
-    return number, outcome
+    return kernel(follow)
+
+
+def observed(cycle: Any) -> Callable[..., tuple[int, int]]:
+    """Make the loop of an observer (`event_loop.observed`) whose notes are one vector."""
+
+    @kernel
+    def watch(plan: Vector, state: Vector, section: Vector, leg: Leg, notes: Vector) -> Any:
+        _, s, c, length, max_events = leg
+        return cycle(plan, state, s, c, length, max_events, notes)
+
+    return loop(watch)

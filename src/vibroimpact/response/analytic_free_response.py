@@ -14,7 +14,7 @@ from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated
 from vibroimpact.model.largest_free_response import largest_free_flight
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import grows, has_no_bound, undamped_frequency
-from vibroimpact.response.numerical_free_response import largest_flight, resonance
+from vibroimpact.response.free_response import largest_flight, resonance
 
 _RESONANT = 1e-14
 _AT_RESONANCE = 1e-9

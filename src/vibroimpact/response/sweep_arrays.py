@@ -17,8 +17,8 @@ from vibroimpact.response.analytic_free_response import (
     reference_excursions,
 )
 from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.free_response import swept_flight
 from vibroimpact.response.hold_rows import Settling, sweep_holds
-from vibroimpact.response.numerical_free_response import swept_flight
 from vibroimpact.tasks.threads import Tally
 
 _Array = NDArray[np.float64]

@@ -56,6 +56,26 @@ def test_derivative_agrees_with_central_differences(isolator: str, stop: str) ->
         assert np.abs(difference - rows[row]).max() < 1e-6 * scale
 
 
+@pytest.mark.parametrize("exponent", [1.0, 2.0])
+def test_a_spring_that_has_all_but_yielded_forgets(exponent: float) -> None:
+    """A swing of 80 yield displacements: z stands still, a disturbance dies out by e^−80."""
+    shaken = vi.Harmonic(0.3, 0.16)
+    rig = vi.Oscillator(1.0, vi.BoucWenIsolator(5.0, 1.0, 0.1, 0.1, exponent, 0.5, 0.5))
+    start = started(rig, 1.7, 0.9)
+    start[ISOLATOR] = 0.005  # not 0, at which |z| has a corner
+    rows, damping, _ = carried(rig, start, 1, shaken)
+    for at, row in ((U, 0), (V, 1), (ISOLATOR, MEMORY)):
+        ends = []
+        for step in (STEP, -STEP):
+            moved = start.copy()
+            moved[at] += step
+            ends.append(followed(rig, shaken, 1, moved))
+        difference = SIGNS * (ends[0] - ends[1])[ORDER] / (2.0 * STEP)
+        np.testing.assert_allclose(rows[row], difference, atol=1e-7)
+    assert abs(rows[MEMORY][MEMORY]) < 1e-15
+    assert damping > 50.0
+
+
 def differentiated(exponent: float, drag: float) -> np.ndarray:
     """The monodromy matrix of a dashpot drag |v|^α, by its equation from turn to turn: DOP853."""
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import expand, pull
+from vibroimpact.engine.forcing.dispatch import expand
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import travel
+from vibroimpact.engine.linear.evaluate import gained, travel
 from vibroimpact.engine.linear.layout import (
     FORCE,
     FORCE_0,
@@ -18,9 +18,6 @@ from vibroimpact.engine.linear.layout import (
     NODES,
     RATE,
     REST,
-    SCALED_C,
-    SCALED_D,
-    SCALED_K,
     SIZE,
     TABLES,
     TAYLOR_F,
@@ -82,7 +79,7 @@ def contact(
     while True:
         table = late if age + t >= plan[late + VALID_FROM] else early
         h = plan[table + H]
-        x, v, s, c = row
+        x, v, _, _ = row
         band = (
             plan[table + FORCE_X] * abs(x - plan[table + REST])
             + plan[table + FORCE_V] * abs(v)
@@ -94,12 +91,7 @@ def contact(
         f = stiffness * x + damping * v
         if fresh and plan[table + LATE] == 0.0:
             # F(t) ≥ F + F′ t − second t²/2 keeps the first steps positive.
-            push = (
-                (plan[table + SCALED_D] - pull(plan, table, s, c))
-                - plan[table + SCALED_K] * x
-                - plan[table + SCALED_C] * (v * h)
-            )
-            slope = stiffness * (v * h) + damping * plan[table + RATE] * push
+            slope = stiffness * (v * h) + damping * plan[table + RATE] * gained(plan, table, row)
             clear = 2.0 * slope / second
             if not clear >= 1.0:
                 # Slow landing: search about the contact point itself, where the force is not

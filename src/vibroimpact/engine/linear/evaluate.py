@@ -6,7 +6,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand, product, pull, short_series, spun, turn
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import (
     BAND_0,
     BAND_V,
@@ -48,6 +48,12 @@ def relaxed(deformation: float, rate: float, t: float) -> float:
 
 
 @kernel
+def comes_back(deformation: float, depth: float, rate: float) -> float:
+    """When a free bumper has relaxed to a depth above 0, and meets the mass that stands there."""
+    return math.log(deformation / depth) / rate if deformation > depth else 0.0
+
+
+@kernel
 def moved(plan: Vector, at: int, row: Row) -> Row:
     """The state at a node or fine point from the state at its origin."""
     s, c = spun(plan, at, row.s, row.c)
@@ -73,6 +79,16 @@ def band(plan: Vector, table: int, x: float, v: float) -> float:
     """A bound on |x″| h²/8 for a window from the state at its start (theory, section 3)."""
     displaced = plan[table + BAND_X] * abs(x - plan[table + REST])
     return displaced + plan[table + BAND_V] * abs(v) + plan[table + BAND_0]  # type: ignore[no-any-return]
+
+
+@inlined
+def gained(plan: Vector, table: int, row: Row) -> float:
+    """x″ h² of a state."""
+    x, v, s, c = row
+    total: float = (
+        (plan[table + SCALED_D] - pull(plan, table, s, c)) - plan[table + SCALED_K] * x
+    ) - plan[table + SCALED_C] * (v * plan[table + H])
+    return total
 
 
 @kernel

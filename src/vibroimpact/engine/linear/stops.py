@@ -13,7 +13,7 @@ from vibroimpact.engine.dispatch import acceleration_of, isolator_force, springs
 from vibroimpact.engine.forcing.dispatch import let_go, pace, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers, fly, press
-from vibroimpact.engine.linear.evaluate import relaxed
+from vibroimpact.engine.linear.evaluate import comes_back, relaxed
 from vibroimpact.engine.linear.flight import flight
 from vibroimpact.engine.linear.layout import STEEPEST
 from vibroimpact.engine.linear.table_search import BELOW, WITHIN, Bounds
@@ -131,7 +131,7 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
         deformation = left if side == RIGHT else right
         rate = rate_l if side == RIGHT else rate_r
         pressed = -(gap_r + gap_l)
-        meets = math.log(deformation / pressed) / rate if deformation > pressed else 0.0
+        meets = comes_back(deformation, pressed, rate)
         if meets < t:
             event, t = other, meets
     clock = (s, c) if event == DETACHED else turned(plan, clock[0], clock[1], t)

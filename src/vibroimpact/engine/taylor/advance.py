@@ -11,7 +11,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import change_rate, let_go, stepped, turned, value
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.linear.advance import Ended, bumpers
-from vibroimpact.engine.linear.evaluate import relaxed
+from vibroimpact.engine.linear.evaluate import comes_back, relaxed
 from vibroimpact.engine.linear.stops import impact, rest, rigid, settle
 from vibroimpact.engine.motion import (
     DETACHED,
@@ -91,7 +91,7 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
         gap, reach = (gap_r, u) if side == RIGHT else (gap_l, -u)
         depth = reach - gap
         if not mode & side and memory > 0.0 and depth > 0.0 and rate < math.inf:
-            meets = math.log(memory / depth) / rate if memory > depth else 0.0
+            meets = comes_back(memory, depth, rate)
             if meets < t:
                 event, t, after = side, meets, turned(plan, s, c, meets)
     if not mode & RIGHT:

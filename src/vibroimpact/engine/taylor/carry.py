@@ -204,7 +204,9 @@ def _sloped_step(plan: Vector, here: Motion, longest: float) -> tuple[Frame, flo
     """Write a step that begins with this motion, and the slopes of its forces; its frame, length.
 
     A force that is a power of a small velocity or deformation may be nothing beside the others and
-    its slope not: the step is as short as the series of the slopes want.
+    its slope not: the step is as short as the series of the slopes want. Where a spring has all but
+    yielded, its memory stands still, and the step is as short as a disturbance of it wants, which
+    dies out.
     """
     frame, h = begun(plan, here, longest)
     sloped(plan, h)
@@ -213,10 +215,13 @@ def _sloped_step(plan: Vector, here: Motion, longest: float) -> tuple[Frame, flo
     if _OWN_REACH < own < math.inf:
         frame, h = begun(plan, here, h * max(_OWN_REACH / own, _LEAST_SHARE))
         sloped(plan, h)
-    if not varies(plan, here.mode):
+    powers, remembers = varies(plan, here.mode), plan[par.HYSTERETIC] != 0.0
+    if not (powers or remembers):
         return frame, h
     for _ in range(_CUT):
-        excess = _last_slopes(plan, h)
+        excess = _last_slopes(plan, h) if powers else 0.0
+        if remembers:
+            excess = max(excess, _last_memory(plan))
         if excess <= 1.0:
             break
         share = _LEAST_SHARE
@@ -234,6 +239,17 @@ def _last_slopes(plan: Vector, h: float) -> float:
     by_v = max(abs(plan[BY_V + last]), 0.5 * abs(plan[BY_V + last - 1]))
     by_x = max(abs(plan[BY_X + last]), 0.5 * abs(plan[BY_X + last - 1]))
     return (by_v + by_x / (motion_rate(plan) * h)) / _SLOPES_LAST  # type: ignore[no-any-return]
+
+
+@kernel
+def _last_memory(plan: Vector) -> float:
+    """The last term of a disturbance of the memory that dies out, over what it may be."""
+    rate, term = 0.0, 1.0
+    for n in range(DEGREE):
+        rate += abs(plan[BY_Z_OF_Z + n])
+    for n in range(1, DEGREE):
+        term *= rate / n
+    return term / _SLOPES_LAST
 
 
 @kernel

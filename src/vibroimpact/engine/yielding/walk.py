@@ -10,21 +10,12 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.forcing.dispatch import product, pull
-from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.forcing.dispatch import product
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
-from vibroimpact.engine.linear.evaluate import node, relaxed, travel
-from vibroimpact.engine.linear.layout import (
-    NODE,
-    NODES,
-    RATE,
-    ROW_V,
-    SCALED_C,
-    SCALED_D,
-    SCALED_K,
-    WIDTH,
-    H,
-)
+from vibroimpact.engine.linear.evaluate import gained, node, relaxed, travel
+from vibroimpact.engine.linear.flight import parted
+from vibroimpact.engine.linear.layout import NODE, NODES, RATE, ROW_V, WIDTH, H
 from vibroimpact.engine.linear.roots import NONE
 from vibroimpact.engine.linear.table_search import ended, next_window
 from vibroimpact.engine.motion import Row
@@ -41,18 +32,6 @@ from vibroimpact.engine.yielding.leg import (
     YIELDS,
     Leg,
 )
-
-_WEAK_PULL = 0.45  # theory, section 3.3
-
-
-@inlined
-def gained(plan: Vector, table: int, row: Row) -> float:
-    """x″ h² of a state."""
-    x, v, s, c = row
-    total: float = (
-        (plan[table + SCALED_D] - pull(plan, table, s, c)) - plan[table + SCALED_K] * x
-    ) - plan[table + SCALED_C] * (v * plan[table + H])
-    return total
 
 
 @kernel
@@ -96,10 +75,7 @@ def go(
             bottom = behind
             if start & FROM_BEHIND:
                 second = (size + plan[table + BEND_0]) * (h * h)
-                fading = behind_rate * h
-                q = second / (fading * fading * behind_memory)
-                if q <= _WEAK_PULL:
-                    clear_behind = 2.0 * fading * behind_memory * (1.0 - q) / second
+                clear_behind = parted(behind_memory, behind_rate * h, 0.0, second)
         span = (limit - t) * per_second
         earlier_x = before_x = xs
         earlier_v = before_v = vs

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Self
@@ -19,7 +18,7 @@ from pydantic import ConfigDict, SerializerFunctionWrapHandler, model_serializer
 
 from vibroimpact.arguments import check_path
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.assembly.damping import DAMPINGS, AnyDamping
+from vibroimpact.model.assembly.damping import DAMPINGS, AnyDamping, Modes
 from vibroimpact.model.assembly.link import Link, read_link
 from vibroimpact.model.assembly.matrices import Matrices
 from vibroimpact.model.assembly.names import GROUND, check_body, check_known, check_part_name
@@ -37,19 +36,6 @@ _FORCE = Accepts(FORCE)
 _ZERO = 1e-14
 """Squared natural frequency, relative to the largest one and per mode, that counts as 0."""
 _MATRIX_KEYS = ("names", "mass", "damping", "stiffness", "influence")
-
-
-@dataclass(frozen=True, eq=False)
-class Modes:
-    """Undamped modes without stops.
-
-    Modes are compared by identity, so that equal assemblies stay equal once one has them.
-    """
-
-    omega: NDArray[np.float64]
-    """Angular frequencies (rad/s), ascending. 0 for a free motion."""
-    shapes: NDArray[np.float64]
-    """Modes in columns, with Φᵀ M Φ = 1."""
 
 
 class Assembly(Model):
@@ -331,10 +317,7 @@ class Assembly(Model):
         """The part of the damping matrix that modal or Rayleigh damping contributes (N s/m)."""
         if self.damping is None:
             return np.zeros((len(self.names), len(self.names)))
-        modes = self._modes
-        return self.damping.matrix(
-            self.mass_matrix, self.stiffness_matrix, modes.omega, modes.shapes
-        )
+        return self.damping.matrix(self.mass_matrix, self.stiffness_matrix, self._modes)
 
     @property
     def influence(self) -> NDArray[np.float64]:

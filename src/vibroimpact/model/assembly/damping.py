@@ -5,6 +5,7 @@ It is added to the dashpots of the links.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self, TypeAlias
 
 import numpy as np
@@ -17,11 +18,43 @@ from vibroimpact.model.law_registry import Kinds, Named
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME, Quantity, Scale
 from vibroimpact.model.validation import Accepts, constructor
 
+Matrix: TypeAlias = NDArray[np.float64]
+
 _RATE = Quantity("rate", (("second", -1),), "1/s", "0.3 1/s", 0.3, (Scale(0.0, 1.0, "1/s"),))
 _RATIO = Accepts(DIMENSIONLESS, minimum=0.0)
 
 
-class ModalDamping(Named):
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """Undamped modes without stops.
+
+    Modes are compared by identity, so that equal assemblies stay equal once one has them.
+    """
+
+    omega: NDArray[np.float64]
+    """Angular frequencies (rad/s), ascending. 0 for a free motion."""
+    shapes: NDArray[np.float64]
+    """Modes in columns, with Φᵀ M Φ = 1."""
+
+
+class Damping(Named):
+    """Damping that the modes determine; derive from it, and provide `matrix`."""
+
+    def check_modes(self, count: int) -> None:
+        """Raise an error unless it can damp so many modes; by default it damps any number.
+
+        Raises
+        ------
+        InputError
+            If it cannot.
+        """
+
+    def matrix(self, mass: Matrix, stiffness: Matrix, modes: Modes) -> Matrix:
+        """Return C (N s/m) for the mass matrix, the stiffness matrix and the modes."""
+        raise NotImplementedError
+
+
+class ModalDamping(Damping):
     """Viscous damping with a damping ratio of each mode.
 
     The damping matrix is C = M Φ diag(2 ζ_j ω_j) Φᵀ M, with the modes Φ (Φᵀ M Φ = 1) of the masses
@@ -62,33 +95,21 @@ class ModalDamping(Named):
         return tuple(found)
 
     def check_modes(self, count: int) -> None:
-        """Raise an error unless there is one ratio, or one per mode.
-
-        Raises
-        ------
-        InputError
-            If there are as many ratios as there are not modes.
-        """
+        """Raise an error unless there is one ratio, or one per mode."""
         if isinstance(self.ratio, tuple) and len(self.ratio) != count:
             raise InputError(
                 f"damping.ratio: {len(self.ratio)} ratios for {count} modes; pass one ratio, or "
                 f"{count}"
             )
 
-    def matrix(
-        self,
-        mass: NDArray[np.float64],
-        stiffness: NDArray[np.float64],
-        omega: NDArray[np.float64],
-        shapes: NDArray[np.float64],
-    ) -> NDArray[np.float64]:
-        """Return C (N s/m) for M, K, angular frequencies, and modes (columns, Φᵀ M Φ = 1)."""
-        weighted = mass @ shapes
-        ratios = np.broadcast_to(np.asarray(self.ratio, dtype=float), omega.shape)
-        return np.asarray((weighted * (2.0 * ratios * omega)) @ weighted.T)
+    def matrix(self, mass: Matrix, stiffness: Matrix, modes: Modes) -> Matrix:
+        """Return C = M Φ diag(2 ζ_j ω_j) Φᵀ M (N s/m)."""
+        weighted = mass @ modes.shapes
+        ratios = np.broadcast_to(np.asarray(self.ratio, dtype=float), modes.omega.shape)
+        return np.asarray((weighted * (2.0 * ratios * modes.omega)) @ weighted.T)
 
 
-class RayleighDamping(Named):
+class RayleighDamping(Damping):
     """Viscous damping proportional to the masses and the stiffness, C = α M + β K.
 
     K is the initial stiffness of all links. A mode of the angular frequency ω has the damping ratio
@@ -125,17 +146,8 @@ class RayleighDamping(Named):
         total = first + second
         return cls(2.0 * ratio * first * second / total, 2.0 * ratio / total)
 
-    def check_modes(self, count: int) -> None:
-        """Accept any number of modes."""
-
-    def matrix(
-        self,
-        mass: NDArray[np.float64],
-        stiffness: NDArray[np.float64],
-        omega: NDArray[np.float64],
-        shapes: NDArray[np.float64],
-    ) -> NDArray[np.float64]:
-        """Return C (N s/m) for M and K."""
+    def matrix(self, mass: Matrix, stiffness: Matrix, modes: Modes) -> Matrix:
+        """Return C = α M + β K (N s/m)."""
         return self.mass_factor * mass + self.stiffness_factor * stiffness
 
 

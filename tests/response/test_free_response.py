@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.response.numerical_free_response import largest_flight, swept_flight
+from vibroimpact.response.free_response import largest_flight, swept_flight
 
 SHAKEN = vi.Harmonic(0.3, 0.2)
 

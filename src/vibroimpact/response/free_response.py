@@ -1,0 +1,404 @@
+"""Free flight of isolators that have no closed form: swept backward, as the paper says.
+
+What an isolator does by itself then depends on the amplitude and, where its resonance folds, on the
+direction of the sweep. `continuation.arclength` follows the motions: each begins where the last
+ones lead, and settles within a few cycles, or Newton's method finds it: a lightly damped isolator
+would need 100,000 cycles. Where it is lost, at a fold or where orbits are not isolated, the next
+motion is that which the sweep itself settles on.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.continuation.arclength import distance, follow, predicted, strays
+from vibroimpact.engine import hold, orbit, section_map
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.status import Status
+from vibroimpact.model.equilibrium import equilibrium
+from vibroimpact.model.rig import Rig
+from vibroimpact.response.engine_input import engine_state, system_vector
+from vibroimpact.response.hold_rows import MAX_EVENTS, HoldRows, Settling, sweep_holds
+
+_Array = NDArray[np.float64]
+
+_LEAST, _MOST = 0.02, 4.0  # of the natural frequency, where resonance is looked for at first
+_WIDEST = 64.0
+_PARTS = np.array([layout.U, layout.V, layout.ISOLATOR])
+"""Of a state without stops, and where a point of the section's map holds them."""
+_POINT = np.array([0, 1, 4])
+_HELD = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+"""Normal of the plane on which the frequency does not change."""
+_STABLE, _ISOLATED = 1.0 + 1e-9, 1.0 - 1e-9
+"""Largest multiplier of an orbit on which a motion stays, and of one that has no others beside it.
+"""
+_ASIDE = 1e-6
+"""Relative change of the frequency from which the curve's first direction is taken."""
+_CALLED = 64
+"""Points after which sizes are taken anew: at a resonance the motion grows without measure."""
+_LONGEST, _SHORTEST = 0.1, 1e-6
+"""Steps of the sweep itself, over the natural frequency; over the shortest a motion may jump."""
+_JUMPS, _WANTED = 0.1, 0.03
+"""Relative change of the excursion over a longer step that may be a jump, and the one aimed at."""
+_LITTLE = 1e-6
+"""The least such change that counts."""
+_PATIENTLY, _SOON = Settling(1e-9, 2000, 64), Settling(1e-9, 32, 32)
+"""How long a motion is waited for by itself, and where it is expected."""
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+_SAME = 1e-8
+"""Width, over the frequency, down to which the place of the largest motion is narrowed."""
+
+
+class Held(NamedTuple):
+    """The motion at one frequency."""
+
+    frequency: float
+    row: HoldRows
+    """What was measured of it."""
+    state: _Array
+    """Of the engine, at the section."""
+
+    @property
+    def is_single(self) -> bool:
+        """Whether it repeats after one cycle."""
+        return bool(self.row.status == Status.DONE and self.row.period == 1)
+
+    @property
+    def y(self) -> _Array:
+        """u, u̇, what the isolator remembers, and the frequency."""
+        return np.append(self.state[_PARTS], self.frequency)
+
+    @property
+    def size(self) -> float:
+        """Of the displacement (m)."""
+        u, v = abs(float(self.state[layout.U])), abs(float(self.state[layout.V]))
+        return max(u, v / (math.tau * self.frequency))
+
+
+class Flight(NamedTuple):
+    """What flies, and how hard it is shaken at a frequency."""
+
+    rig: Rig
+    """Without stops."""
+    system: _Array
+    level: Callable[[float], float]
+
+    @property
+    def rest(self) -> _Array:
+        """The state at rest."""
+        oscillator = self.rig.oscillator
+        return engine_state(oscillator, equilibrium(oscillator))
+
+    def swept(
+        self, begin: _Array, frequencies: Sequence[float], settling: Settling = _SOON
+    ) -> list[Held]:
+        """One motion after the other, each waited for, from a state."""
+        levels = np.array([self.level(frequency) for frequency in frequencies])
+        rows, states = sweep_holds(self.system, levels, np.array(frequencies), 0.0, begin, settling)
+        return [Held(frequencies[k], rows[k], states[k]) for k in range(len(rows))]
+
+    def beside(self, near: _Array, frequency: float) -> Held | None:
+        """The stable orbit near a state, if any."""
+        (held,) = self.swept(near, [frequency])
+        return held if held.is_single else self.orbit(near, frequency)
+
+    def settled(self, begin: _Array, frequency: float) -> Held:
+        """What a motion settles on by itself; where it is slow, the stable orbit nearby, if any.
+
+        A free isolator whose damping vanishes with the motion takes longer than any patience.
+        """
+        (held,) = self.swept(begin, [frequency], _PATIENTLY)
+        if held.row.status != Status.NOT_SETTLED:
+            return held
+        return self.orbit(held.state, frequency) or held
+
+    def orbit(self, near: _Array, frequency: float, most: float = _STABLE) -> Held | None:
+        """The orbit that Newton's method finds from a state, if its multipliers are no larger."""
+        system = self.system.copy()
+        system[section_map.AMPLITUDE] = self.level(frequency)
+        system[section_map.FREQUENCY] = frequency
+        size = Held(frequency, HoldRows.empty(), near).size
+        scale = np.array([size, size * math.tau * frequency, size, size, size, 1.0])
+        point, facts = np.zeros(section_map.POINT), np.zeros(section_map.FACTS)
+        point[_POINT] = near[_PARTS]
+        carried = np.zeros((section_map.PARAMETER, section_map.PARAMETER))
+        outcome = orbit.correct(
+            system,
+            system,
+            np.zeros_like(system),
+            0.0,
+            1,
+            False,
+            MAX_EVENTS,
+            scale,
+            _HELD,
+            point,
+            facts,
+            carried,
+            np.zeros(section_map.PARAMETER),
+        )
+        if outcome != Status.DONE:
+            return None
+        parts = _POINT if system[par.HYSTERETIC] else _POINT[:2]
+        if np.abs(np.linalg.eigvals(carried[np.ix_(parts, parts)])).max() > most:
+            return None
+        results = np.full(hold.RESULTS, np.nan)
+        outcome = orbit.measure_orbit(system, 0.0, point, facts, 1, MAX_EVENTS, results)
+        if outcome != Status.DONE:
+            return None
+        results[hold.PERIOD], results[hold.CYCLES], results[hold.OUTCOME] = 1, 0, Status.DONE
+        state = np.zeros(layout.STATE)
+        state[_PARTS] = point[_POINT]
+        return Held(frequency, HoldRows(results), state)
+
+    def orbits(self, last: Held, low: float) -> Iterator[Held]:
+        """The stable orbits that continue a motion as the frequency falls, as far as they do."""
+        while last.is_single and last.frequency > low and last.size > 0.0:
+            curve = Curve.beginning(self, last, low)
+            first = curve.first(last)
+            if first is None:
+                return
+            trace = follow(curve, first, _CALLED)
+            for station in trace.points[1:]:
+                yield station.held
+            if trace.is_complete:
+                return
+            last = trace.points[-1].held
+
+    def backward(self, last: Held, low: float) -> Iterator[Held]:
+        """The motions at falling frequencies, down to the one at `low` (Hz), which is the last."""
+        unit = self.rig.oscillator.natural_frequency
+        step = _LONGEST * unit
+        while last.frequency > low:
+            for held in self.orbits(last, low):
+                last = held
+                yield held
+            if last.frequency <= low:
+                return
+            while True:
+                held = self.settled(last.state, max(low, last.frequency - step))
+                change = max(_changed(held, last), _LITTLE)
+                if change <= _JUMPS or step <= _SHORTEST * unit or not last.is_single:
+                    break
+                step = max(step / 4.0, _SHORTEST * unit)
+            last = held
+            yield last
+            step *= min(2.0, math.sqrt(_WANTED / change))
+            step = min(max(step, _SHORTEST * unit), _LONGEST * unit)
+
+
+@dataclass(frozen=True, eq=False)
+class Station:
+    """An orbit on the curve (see `continuation.arclength.Point`)."""
+
+    held: Held
+    tangent: _Array
+    arclength: float
+
+    @property
+    def y(self) -> _Array:
+        """See `Point`."""
+        return self.held.y
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """Orbits along the falling frequency (see `continuation.arclength.Path`)."""
+
+    flight: Flight
+    scale: _Array
+    low: float
+    """Frequency (Hz) at which it ends."""
+    seen = np.array([1.0, 1.0, 0.0, 1.0])
+
+    @classmethod
+    def beginning(cls, flight: Flight, last: Held, low: float) -> Curve:
+        """The curve from a motion on, by whose size lengths are measured."""
+        size, rate = last.size, math.tau * last.frequency
+        unit = flight.rig.oscillator.natural_frequency
+        return cls(flight, np.array([size, size * rate, size, unit]), low)
+
+    def first(self, last: Held) -> Station | None:
+        """The first point, if the motion is an isolated orbit."""
+        if self.flight.orbit(last.state, last.frequency, _ISOLATED) is None:
+            return None
+        beside = self.flight.beside(last.state, last.frequency * (1.0 - _ASIDE))
+        return None if beside is None else Station(last, self.direction(last, beside), 0.0)
+
+    def direction(self, here: Held, there: Held) -> _Array:
+        """Unit tangent of the chord between two points."""
+        way = (there.y - here.y) / self.scale
+        found: _Array = way / np.linalg.norm(way * self.seen)
+        return found
+
+    def step(self, here: Station, length: float) -> tuple[Station | None, bool]:
+        """See `Path`: on the plane on which the frequency is the predicted one, or the last."""
+        aim = predicted(self, here, length)
+        if aim[-1] < self.low:
+            length *= (self.low - here.y[-1]) / (aim[-1] - here.y[-1])
+            aim = predicted(self, here, length)
+            aim[-1] = self.low
+        near = np.zeros(layout.STATE)
+        near[_PARTS] = aim[:-1]
+        held = self.flight.beside(near, float(aim[-1]))
+        if held is None or strays(self, held.y, aim, length):
+            return None, False
+        arclength = here.arclength + distance(self, held.y, here.y)
+        return Station(held, self.direction(here.held, held), arclength), False
+
+    def corner(self, here: Station, length: float) -> list[Station]:
+        """See `Path`: what lies beyond a corner, the sweep itself finds."""
+        return []
+
+    def elsewhere(self, here: Station) -> Station | None:
+        """See `Path`."""
+        return None
+
+    def end(self, here: Station, there: Station) -> tuple[list[Station], str] | None:
+        """See `Path`."""
+        return ([there], "the range ends") if there.held.frequency <= self.low else None
+
+    def lost(self, here: Station) -> str:
+        """See `Path`."""
+        return "no orbit is found"
+
+
+def flight(rig: Rig, level: Callable[[float], float]) -> Flight:
+    """Prepare a rig, whose stops are left out, shaken from phase 0."""
+    free, shaken = rig.oscillator.without_bumpers(), rig.periodic
+    return Flight(Rig(free, shaken), system_vector(Rig(free, shaken.replace(phase=0.0))), level)
+
+
+def _changed(found: Held, last: Held) -> float:
+    """How much the swing has changed, over the larger one."""
+    before, after = (float(one.row.displacement_excursion) for one in (last, found))
+    return abs(after - before) / max(after, before) if max(after, before) > 0.0 else 0.0
+
+
+def swept_flight(rig: Rig, frequencies: _Array, levels: _Array) -> _Array:
+    """Excursions in free flight, as in `sweep_arrays.SweepPlan`.
+
+    Parameters
+    ----------
+    frequencies, levels
+        Rising frequencies (Hz), and the amplitude at each.
+
+    Returns
+    -------
+    ndarray, shape (3, frequency)
+        Of a backward sweep; NaN where the motion does not settle.
+    """
+
+    def level(frequency: float) -> float:
+        return float(np.interp(frequency, frequencies, levels))
+
+    one = flight(rig, level)
+    falling = [float(frequency) for frequency in frequencies[::-1]]
+    found = one.swept(one.rest, falling)
+    if not all(held.row.status == Status.DONE for held in found):
+        # What settles slowly is not waited for.
+        found = [one.settled(one.rest, falling[0])]
+        for frequency in falling[1:]:
+            *_, last = one.backward(found[-1], frequency)
+            found.append(last)
+    return _excursions(found[::-1])
+
+
+def _excursions(found: list[Held]) -> _Array:
+    rows = HoldRows(np.array([one.row.array for one in found]))
+    excursions = np.array(
+        [rows.displacement_excursion, rows.acceleration_excursion, rows.transmitted_excursion]
+    )
+    excursions[:, rows.status != Status.DONE] = np.nan
+    return excursions
+
+
+def largest_flight(rig: Rig) -> tuple[float, float]:
+    """Excursions (m, m/s²) of the largest free flight of a backward sweep, each at its own place.
+
+    Where the excitation grows as ω², the acceleration does too: it is that of the largest
+    displacement. Both are NaN where no free flight settles, or none moves.
+    """
+    swing, acceleration, _ = _peaks(rig)
+    return swing, acceleration
+
+
+def resonance(rig: Rig) -> float:
+    """Frequency (Hz) at which the displacement of that free flight is largest; or NaN."""
+    return _peaks(rig)[2]
+
+
+def _peaks(rig: Rig) -> tuple[float, float, float]:
+    oscillator, shaken = rig.oscillator, rig.periodic
+    key = shaken.replace(frequency=oscillator.natural_frequency, phase=0.0)
+    return _largest(Rig(oscillator.without_bumpers(), key))
+
+
+@lru_cache(maxsize=256)
+def _largest(rig: Rig) -> tuple[float, float, float]:
+    shaken, unit = rig.periodic, rig.oscillator.natural_frequency
+    one = flight(rig, lambda _: shaken.amplitude)
+    high = _MOST
+    while True:
+        found = [one.settled(one.rest, high * unit)]
+        found.extend(one.backward(found[0], _LEAST * unit))
+        curves = _excursions(found)
+        if np.all(np.isnan(curves)):
+            return math.nan, math.nan, math.nan
+        top = found[int(np.nanargmax(curves[0]))].frequency
+        if top < 0.98 * high * unit or high >= _WIDEST:
+            break
+        high *= 2.0
+    largest = _top(one, found, curves, 0)
+    fastest = largest if shaken.grows_with_frequency else _top(one, found, curves, 1)
+    swing, acceleration = (
+        float(_excursions([top])[which, 0]) for which, top in enumerate((largest, fastest))
+    )
+    if not swing > 0.0:
+        return math.nan, math.nan, math.nan
+    return swing, acceleration, largest.frequency
+
+
+def _top(one: Flight, found: list[Held], curves: _Array, which: int) -> Held:
+    """The motion of the largest excursion, between the motions beside the largest that was found.
+
+    The frequencies fall. Narrowed by golden sections; where the largest stands at a fold there is
+    no orbit on its far side, and the near one is closed in on.
+    """
+    k = int(np.nanargmax(curves[which]))
+    best, most = found[k], float(curves[which, k])
+    if not best.is_single:
+        return best
+    low = found[min(k + 1, len(found) - 1)].frequency
+    high = found[max(k - 1, 0)].frequency
+
+    def at(frequency: float) -> float:
+        nonlocal best, most
+        reached = one.beside(best.state, frequency)
+        if reached is None or _changed(reached, best) > _JUMPS:
+            return -math.inf
+        value = float(_excursions([reached])[which, 0])
+        if value > most:
+            best, most = reached, value
+        return value
+
+    left, right = high - _GOLDEN * (high - low), low + _GOLDEN * (high - low)
+    values = at(left), at(right)
+    while high - low > _SAME * best.frequency:
+        if values[0] > values[1]:
+            high, right = right, left
+            left = high - _GOLDEN * (high - low)
+            values = at(left), values[0]
+        else:
+            low, left = left, right
+            right = low + _GOLDEN * (high - low)
+            values = values[1], at(right)
+    return best
