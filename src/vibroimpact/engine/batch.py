@@ -52,11 +52,11 @@ def sweep(
         From `parameters.rig_vector`.
     amplitudes, frequencies, phase : ndarray, ndarray, float
         m/s² or what the rig's vector says, Hz in the order of the sweep, rad at the section.
-    state : ndarray, shape (motion.STATE,)
+    state : ndarray, shape (`state.width`,)
         Where the sweep starts; carried on in place.
     tolerance, max_cycles, window, max_events, transient
         See `settling.settle`.
-    results, states : ndarray, shape (frequency, hold.RESULTS), (frequency, motion.STATE)
+    results, states : ndarray, shape (frequency, hold.MEASURED + measures), (frequency, state.width)
         Written: the measurements, and the state at the end of each hold.
     progress : ndarray, shape (2,) or (3,)
         [0] is raised by one after each hold; the sweep stops when [1] becomes nonzero; [2] is how

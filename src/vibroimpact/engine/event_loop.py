@@ -11,7 +11,7 @@ from typing import Any
 from vibroimpact.engine import flow
 from vibroimpact.engine import state as states
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import GIVEN_UP, LIMIT, SETTLING
+from vibroimpact.engine.motion import GIVEN_UP, LIMIT, PASSED, SETTLING
 from vibroimpact.engine.state import EVENT, FRESH, STEP, T, room, stretch_room
 
 
@@ -47,6 +47,9 @@ def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
             if event == LIMIT:
                 break
             t += ended[STEP]
+            if event == PASSED:
+                put(plan, there, here)
+                continue
             events += 1
             if events > max_events:
                 break

@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine.assembly import layout
+from vibroimpact.engine.assembly.events import KEPT, LEVELS
 from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, AssemblyState, Bumper, RigidStop, State
@@ -19,8 +20,6 @@ _Array = NDArray[np.float64]
 
 _AT_REST = 1e-14
 """A closing speed below this share of the bodies' speeds is rounding."""
-_KEPT = 6
-"""Known zeros that fit into an engine's state."""
 _PARTS = ("displacement", "velocity", "deformation", "touching")
 
 
@@ -196,6 +195,6 @@ def _parting(law: Bumper | RigidStop, d: float, closing: float, speeds: float) -
 def _packed(zeros: dict[int, int]) -> float:
     """Return known zeros as the engine keeps them; see `engine.assembly.events.pack_fresh`."""
     packed = 0
-    for f, order in list(zeros.items())[:_KEPT]:
+    for f, order in list(zeros.items())[:KEPT]:
         packed = packed * 256 + 4 * (f + 1) + order
-    return float(packed)
+    return float(LEVELS * packed)
