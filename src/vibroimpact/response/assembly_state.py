@@ -41,6 +41,22 @@ def state_components(assembly: Assembly, vector: _Array, phase: float) -> _Array
     return np.array(found) + 0.0  # no negative zeros
 
 
+def assembly_state_from(assembly: Assembly, vector: _Array, phase: float) -> AssemblyState:
+    """Return an engine's state at a forcing phase as a state by names."""
+    n, stops = len(assembly.names), list(assembly.stops)
+    u = vector[layout.PARTS : layout.PARTS + n]
+    v = vector[layout.PARTS + n : layout.PARTS + 2 * n]
+    d = np.maximum(vector[layout.PARTS + 2 * n :][: len(stops)], 0.0)
+    mode = int(vector[layout.STATE_MODE])
+    return AssemblyState(
+        displacement=dict(zip(assembly.names, u.tolist(), strict=True)),
+        velocity=dict(zip(assembly.names, v.tolist(), strict=True)),
+        deformation=dict(zip(stops, d.tolist(), strict=True)),
+        touching=[name for f, name in enumerate(stops) if mode >> f & 1],
+        phase=phase,
+    )
+
+
 def as_assembly_state(start: Any, assembly: Assembly) -> AssemblyState:
     """Accept a `State` by names, a dataset of `simulate`, or its ``final_state``.
 

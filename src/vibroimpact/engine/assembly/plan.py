@@ -217,7 +217,11 @@ def write_plan(vector: Vector, plan: Vector) -> None:
 
 def make_plan(*args: Any, **kwargs: Any) -> Vector:
     """Make a plan; the arguments are those of `make_vector`."""
-    vector = make_vector(*args, **kwargs)
+    return plan_of(make_vector(*args, **kwargs))
+
+
+def plan_of(vector: Vector) -> Vector:
+    """Make the plan of a rig's vector."""
     plan = np.zeros(int(vector[at.LENGTH_OF_PLAN]))
     write_plan(vector, plan)
     return plan
