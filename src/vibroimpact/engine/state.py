@@ -22,7 +22,7 @@ DAMPING, HITS = range(2)
 """Of the notes of `flow.tangent`: the integral of the damping, then the contacts begun at each
 stop."""
 
-MEASURES = 200
+MEASURES = 3 * LARGEST + 8
 """Largest number of notes of `flow.extremes`, and of what `flow.measured` writes."""
 
 stretch_room = stack(4)

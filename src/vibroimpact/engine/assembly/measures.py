@@ -25,8 +25,10 @@ from vibroimpact.engine.memory import beyond, stack
 U_LEAST, U_MOST, A_LEAST, A_MOST = range(4)
 OF_MASS = 4
 """Of the notes first those of each mass: displacement (m), absolute acceleration (m/s²)."""
-OF_BASE = 2
-"""Then the least and the largest force on the base (N)."""
+T_LEAST, T_MOST, ORDERED, UNDECIDED = range(4)
+OF_BASE = 4
+"""Then the least and the largest force on the base (N), and how many impacts were ordered by a rule
+and how many searches were given up."""
 HITS, PUSHED, STRUCK = range(3)
 OF_STOP = 3
 """Then of each stop: contacts begun, the largest force (N; infinite of a rigid one that is hit),
@@ -52,8 +54,9 @@ def count(masses: int, stops: int) -> int:
 def start(plan: Vector, notes: Vector) -> None:
     """Before anything is seen."""
     base = OF_MASS * int(plan[at.MASSES])
-    for i in range(0, base + OF_BASE, 2):
+    for i in range(0, base + 2, 2):
         notes[i], notes[i + 1] = math.inf, -math.inf
+    notes[base + ORDERED], notes[base + UNDECIDED] = plan[at.ORDERED], plan[at.UNDECIDED]
     for i in range(OF_STOP * int(plan[at.STOPS])):
         notes[base + OF_BASE + i] = 0.0
 
@@ -215,6 +218,9 @@ def write(plan: Vector, notes: Vector, cycles: int, result: Vector) -> None:
     total = OF_MASS * n + OF_BASE
     for i in range(total):
         result[i] = notes[i]
+    base = OF_MASS * n
+    result[base + ORDERED] = plan[at.ORDERED] - notes[base + ORDERED]
+    result[base + UNDECIDED] = plan[at.UNDECIDED] - notes[base + UNDECIDED]
     for f in range(stops):
         for i in range(OF_STOP):
             result[total + OF_STOP * f + i] = notes[total + OF_STOP * f + i]
