@@ -225,7 +225,7 @@ def forcing(name: str) -> tuple[Read, Vary]:
     return (
         lambda rig: float(getattr(rig.periodic, name)),
         lambda rig, value: rig.with_parts(
-            rig.oscillator, rig.periodic.replace(**{name: value}), keep_open=name != "frequency"
+            rig.system, rig.periodic.replace(**{name: value}), keep_open=name != "frequency"
         ),
     )
 

@@ -13,6 +13,7 @@ from vibroimpact.engine.assembly.plan import (
     Stop,
     base_motion,
     make_vector,
+    partners,
     record_motion,
 )
 from vibroimpact.engine.state import LARGEST
@@ -76,7 +77,15 @@ def assembly_numbers(
     """
     check_laws(assembly)
     of = numbers(assembly)
-    stops = [
+    stops = _stops(assembly)
+    forcing = _forcing(assembly, shaking, of.mass, of.influence)
+    return make_vector(
+        of.mass, of.damping, of.stiffness, stops, forcing, of.force, tables, of.influence
+    )
+
+
+def _stops(assembly: Assembly) -> list[Stop]:
+    return [
         Stop(
             part.left,
             part.right,
@@ -85,12 +94,13 @@ def assembly_numbers(
             part.values.get("damping", 0.0),
             part.values.get("restitution") if part.kind == RigidStop.kind else None,
         )
-        for part in of.stops
+        for part in numbers(assembly).stops
     ]
-    forcing = _forcing(assembly, shaking, of.mass, of.influence)
-    return make_vector(
-        of.mass, of.damping, of.stiffness, stops, forcing, of.force, tables, of.influence
-    )
+
+
+def assembly_partners(assembly: Assembly) -> list[int]:
+    """Return of each stop the one that is its mirror image, −1 if there is none."""
+    return [int(other) for other in partners(_stops(assembly))]
 
 
 def _forcing(

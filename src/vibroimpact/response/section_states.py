@@ -13,8 +13,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.state import BEHIND, FIRST, FRESH, MODE
-from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, equilibrium
+from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, Stop, equilibrium
+from vibroimpact.response.assembly_rig import assembly_partners
 from vibroimpact.response.assembly_state import (
     as_assembly_state,
     assembly_state_from,
@@ -43,6 +45,13 @@ class SectionStates(NamedTuple):
         return len(self.system.stops) if isinstance(self.system, Assembly) else 2
 
     @property
+    def partners(self) -> list[int]:
+        """Of each stop the one that is its mirror image, if the system is its own."""
+        if isinstance(self.system, Assembly):
+            return assembly_partners(self.system)
+        return [1, 0]
+
+    @property
     def parts(self) -> int:
         """Number of parts: displacements, velocities, deformations, an isolator's memory."""
         return 2 * self.masses + self.stops + (not isinstance(self.system, Assembly))
@@ -58,6 +67,22 @@ class SectionStates(NamedTuple):
         if isinstance(self.system, Oscillator):
             signs[3] = -1.0
         return signs
+
+    @property
+    def laws(self) -> list[Stop]:
+        """The laws of the stops that there are."""
+        if isinstance(self.system, Assembly):
+            return [one.stop for one in self.system.stops.values()]
+        return list(self.system.stops)
+
+    def near(self, state: State | AssemblyState) -> tuple[_Array, float]:
+        """Return a point and a mode near a state that need not be possible."""
+        if isinstance(state, AssemblyState):
+            vector = self.vector_of(state)
+            return self.point(vector), float(vector[MODE])
+        bumpers = (state.right_bumper or 0.0, state.left_bumper or 0.0)
+        parts = np.array([state.displacement, state.velocity, *bumpers, state.isolator])
+        return parts, float(record.TOUCHING.index(state.contact or 0))
 
     def point(self, vector: _Array) -> _Array:
         """Return the parts of a vector."""

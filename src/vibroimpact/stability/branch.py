@@ -15,7 +15,7 @@ from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest, in_units_of_
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
-from vibroimpact.stability.fixed_points import HELD, Orbit
+from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.folds import FREE, InContact, bounded_by_flight, turns_into_flight
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.orbit_curve import CLOSED, Branch, Station
@@ -149,7 +149,7 @@ def _first_orbit(
     period: int | None,
 ) -> tuple[Family, tuple[float, float], Orbit]:
     """Return the varied parameter, its range, and the first orbit."""
-    fam = family(rig.with_parts(rig.oscillator, rig.harmonic), parameter)
+    fam = family(rig.with_parts(rig.system, rig.harmonic), parameter)
     ends = read_span(fam.parameter, span)
     if not ends[0] <= fam.value <= ends[1]:
         low, high, own = (fam.written(value) for value in (*ends, fam.value))
@@ -179,7 +179,7 @@ def _both_ways(
     """Return the orbits of a branch in order, why it ends, and whether it is closed."""
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
-        start = Station(first, first.tangent(sense * HELD), 0.0, 0)
+        start = Station(first, first.tangent(sense * first.section.held), 0.0, 0)
         trace = arclength.follow(path(start, *span), start, most_points, told)
         traces.append(trace)
         if trace.ended == CLOSED:
@@ -196,7 +196,8 @@ def _why(trace: arclength.Trace[Station]) -> str:
         return trace.ended
     chosen = (trace.points[0], trace.points[len(trace.points) // 2], trace.points[-1])
     first, middle, last = (
-        float(np.hypot(*(one.y[:2] / one.orbit.section.scale[:2]))) for one in chosen
+        float(np.linalg.norm((one.y / one.orbit.section.scale * one.orbit.section.seen)[:-1]))
+        for one in chosen
     )
     if last > _GROWN * first and last > middle:
         times = last / first

@@ -157,11 +157,11 @@ def make_vector(
     response = closing @ inverse
     block(at.RESPONSE, response)
     block(at.COUPLING, response @ closing.T)
-    partners = _partners(stops)
-    of_stops = zip(stops, _ranges(response != 0.0), partners, strict=True)
+    images = partners(stops)
+    of_stops = zip(stops, _ranges(response != 0.0), images, strict=True)
     block(at.STOP, np.array([_stop(stop, n, acts, other) for stop, acts, other in of_stops]))
     block(at.ROW_SUMS, np.stack([abs(k).sum(1), abs(c).sum(1)]))
-    header[at.SYMMETRIC] = -1.0 not in partners and not constant.any()
+    header[at.SYMMETRIC] = -1.0 not in images and not constant.any()
     header[at.NUMBERS] = end
 
     # What follows is only in a plan.
@@ -258,7 +258,7 @@ def _rules() -> Vector:
     return rules()  # type: ignore[no-any-return]
 
 
-def _partners(stops: Sequence[Stop]) -> list[float]:
+def partners(stops: Sequence[Stop]) -> list[float]:
     """Of each stop the number of the one that is its mirror image, −1 if there is none.
 
     Alike ones are paired in their order.
