@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import hold
+from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.assembly import measures
+from vibroimpact.engine.state import MODE
+from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly
+from vibroimpact.response.hold_rows import MAX_EVENTS, results_of
+
+if TYPE_CHECKING:
+    from vibroimpact.response.prepared_rig import PreparedRig
 
 _Array = NDArray[np.float64]
 
@@ -59,6 +65,20 @@ def measured_variables(
     ):
         values[name] = ((*dims, "stop"), of_stops[..., column])
     return {f"{prefix}{name}": value for name, value in values.items()}
+
+
+def measured_over(engine: PreparedRig, state: _Array, cycles: int) -> _Array:
+    """Return the row that the engine measures of a motion of an assembly over some cycles."""
+    states, shaking = engine.states, engine.shaking
+    system = np.append(engine.vector, [shaking.amplitude, shaking.frequency])
+    row = np.full(results_of(engine.vector), np.nan)
+    facts = np.zeros(section_map.CONTACTS + states.stops)
+    facts[section_map.MODE] = state[MODE]
+    point, limit = np.append(states.point(state), 0.0), MAX_EVENTS
+    outcome = orbit.measure_orbit(system, shaking.phase, point, facts, cycles, limit, row)
+    if outcome != Status.DONE:
+        row[:] = np.nan
+    return row
 
 
 def notes_on(assembly: Assembly, rows: _Array, what: str) -> list[str]:

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.memory import TERMS
 from vibroimpact.engine.status import Status
-from vibroimpact.model import AssemblyState, Repeated, Rig, State
+from vibroimpact.model import Assembly, AssemblyState, Repeated, Rig, State
+from vibroimpact.response.assembly_growth import grow_several
 from vibroimpact.response.engine_input import engine_rig
 from vibroimpact.response.hold_rows import MAX_EVENTS, HoldRows, Settling, sweep_holds
 from vibroimpact.response.section_states import SectionStates
@@ -133,7 +134,7 @@ class PreparedRig(NamedTuple):
         status, rows
             Rows of `engine.lyapunov.growth`: fewer than requested unless `Status.DONE`.
         """
-        rows = np.empty((cycles, lyapunov.GROWTH))
+        rows = np.empty((cycles, lyapunov.SECTION + self.states.parts))
         done = 0
 
         def keep(some: _Array) -> None:
@@ -170,6 +171,10 @@ class PreparedRig(NamedTuple):
         keep
             Called with the next rows, which are overwritten afterwards.
         """
+        if isinstance(self.rig.system, Assembly):
+            return grow_several(
+                self, state, cycles, keep, max_events, transient, discard, progress
+            )
         rows = np.empty((min(cycles, _ROWS), lyapunov.GROWTH))
         perturbations, shaking = np.zeros((2, TERMS)), self.shaking
         first = -transient - discard

@@ -13,6 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS
+from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.state import BEHIND, FIRST, FRESH, MODE
 from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, Stop, equilibrium
@@ -97,6 +98,19 @@ class SectionStates(NamedTuple):
             vector[FRESH] = mode
         vector[FIRST : FIRST + self.parts] = parts * self._signs
         return vector
+
+    def mirror_image(self, vector: _Array) -> _Array | None:
+        """Return the mirror image of a vector; None if a stop has no partner."""
+        if isinstance(self.system, Oscillator):
+            return mirror_image(vector)
+        partners = self.partners
+        if -1 in partners:
+            return None
+        image, n, mode = np.zeros(self.width), self.masses, int(vector[MODE])
+        image[MODE] = sum(1 << partners[f] for f in range(self.stops) if mode >> f & 1)
+        image[FIRST : FIRST + 2 * n] = -vector[FIRST : FIRST + 2 * n]
+        image[FIRST + 2 * n :][: self.stops] = vector[FIRST + 2 * n :][partners]
+        return image
 
     @property
     def moving(self) -> _Array:
