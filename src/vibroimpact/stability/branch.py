@@ -8,10 +8,10 @@ import xarray as xr
 from vibroimpact.arguments import check_progress
 from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
-from vibroimpact.model import Rig, State
+from vibroimpact.model import Assembly, Rig, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
 from vibroimpact.model.parameters import read_span
-from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest, in_units_of_rig
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
@@ -100,6 +100,9 @@ def branch(
           the largest first), and ``stable``;
         - ``section``, the state of the orbit at the stroboscopic section.
 
+        Of an assembly, the sizes have the dims ``mass`` and ``stop`` as in `sweep`. The parameter
+        is "frequency" or "amplitude".
+
         The dim ``bifurcation`` counts the bifurcations, with the kind, the parameter, the state and
         the multipliers of each. The attributes ``ended_low`` and ``ended_high`` state why the
         branch ends at either end.
@@ -110,10 +113,15 @@ def branch(
         If a value is invalid, or if Newton's method finds no orbit near the start.
     """
     check_progress(progress)
-    rig = from_lowest(as_rig(rig, frequency), parameter, span)
+    rig = from_lowest(as_rig_of_any_masses(rig, frequency=frequency), parameter, span)
+    if outputs is not None and isinstance(rig.system, Assembly):
+        raise InputError(
+            "outputs: own outputs are not computed for an Assembly of several masses so far; "
+            "remove outputs"
+        )
     fam, ends, first = _first_orbit(rig, start, parameter, span, period)
     most_points = whole(most_points, "most_points")
-    own = read_outputs(outputs, rig)
+    own = () if outputs is None else read_outputs(outputs, rig)
     followed = follow_both_ways(first, ends, most_points, progress)
     data = as_dataset([followed], fam, ends, own=own)
     if progress is not None:
