@@ -26,7 +26,7 @@ from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
 
 _STIFFNESSES = {
-    "bumper_stiffness",
+    "stops.stiffness",
     "proportional_stiffness",
     "stiffness_at_restitution",
     "stiffness_ratio",
@@ -58,10 +58,11 @@ def design_chart(
         response of the motion from rest is reported.
     vary
         Parameters that are varied, as a mapping from names to values. All combinations of the
-        values are computed. Names are, for example, ``"gap"``, ``"bumper_stiffness"``,
-        ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` and ``"yield_force"``. A
-        parameter of stops is set on both sides, if the stop there has this parameter. If
-        ``"bumper_stiffness"`` is varied, the damping of the bumpers stays constant. If
+        values are computed. Names are, for example, ``"gap"``, ``"stops.stiffness"``,
+        ``"stops.damping"``, ``"isolator_period"``, ``"damping_ratio"`` and
+        ``"isolator.yield_force"``. A parameter of stops is set on both sides, if the stop there has
+        this parameter. If ``"stops.stiffness"`` is varied, the damping of the bumpers stays
+        constant. If
         ``"stiffness_at_restitution"`` is varied, the damping changes so that the coefficient of
         restitution stays constant.
     records
@@ -111,7 +112,7 @@ def design_chart(
           less acceleration without more displacement. Among designs with equal responses, such as
           designs without contact, only the first one is marked;
         - ``within_limits``, if there are limits: whether the design keeps all of them;
-        - ``bumper_damping`` (N s/m), if a stiffness of both bumpers is varied;
+        - ``stops.damping`` (N s/m), if a stiffness of both bumpers is varied;
         - ``status``: 0 for a completed design. If the computation of a design was given up, its
           values are NaN. If a motion is unbounded, the values are infinite.
 
@@ -164,12 +165,12 @@ def _designs(oscillator: Oscillator, vary: Any) -> Runs:
 def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
     """Return the damping of both bumpers along the varied stiffness, if they share one."""
     names = {one.name for one in plan.varied}
-    if "bumper_damping" in names or not names & _STIFFNESSES:
+    if "stops.damping" in names or not names & _STIFFNESSES:
         return {}
     every = [{stop.damping for stop in rig.stops if isinstance(stop, Bumper)} for rig in rigs]
     if any(len(one) != 1 for one in every):
         return {}
-    return {"bumper_damping": np.array([one.pop() for one in every])}
+    return {"stops.damping": np.array([one.pop() for one in every])}
 
 
 def _dataset(

@@ -20,7 +20,7 @@ import math
 from typing import Annotated, ClassVar, TypeAlias
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.access import scale_of
+from vibroimpact.model.derived_parameters import scale_of
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.largest_free_response import peak_displacement, peak_of
 from vibroimpact.model.law_registry import Kinds, Named

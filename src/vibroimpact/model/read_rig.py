@@ -194,6 +194,6 @@ def from_lowest(rig: Rig, parameter: str, span: Any) -> Rig:
     InputError
         If the frequency is open, and no parameter has this name.
     """
-    if rig.frequency is None and registered(parameter).name == "frequency" and is_pair(span):
+    if rig.frequency is None and registered(parameter, rig).name == "frequency" and is_pair(span):
         return rig.at(next(iter(span)))
     return rig

@@ -18,7 +18,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
 from vibroimpact.model import Rig, State, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import parameter
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.varied import Varied, varied, vary_all
@@ -239,7 +239,7 @@ def _rig_at(
     values: Iterable[tuple[Varied, int]],
 ) -> Rig:
     """Return the rig at one of the frequencies and one value of each parameter."""
-    numbers = [(PARAMETERS[one.name], float(one.values[k])) for one, k in values]
+    numbers = [(parameter(one.name, rig), float(one.values[k])) for one, k in values]
     size = float(rig.levels(len(grid))[i])
     here = rig.hardest.periodic.replace(amplitude=size, frequency=float(grid[i]), phase=phase)
     moved = vary_all(Rig(rig.oscillator, here), numbers)

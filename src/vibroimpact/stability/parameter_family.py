@@ -17,7 +17,7 @@ from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.section_map import AMPLITUDE, FREQUENCY, PARAMETER
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, Oscillator, Repeated
-from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.parameters import Parameter, parameter, usual
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
@@ -132,7 +132,7 @@ class Family(NamedTuple):
             alike = self.base[layout.SYMMETRIC] == 1.0 and not self.direction[layout.SYMMETRIC]
             return bool(alike and self.rig.periodic.half_wave)
         here = self.rig.oscillator.symmetric and self.rig.periodic.half_wave
-        return here and not self.parameter.name.startswith(("right_", "left_", "force"))
+        return here and not (self.parameter.sides or self.parameter.name == "force")
 
     def at(self, value: float) -> Rig:
         """The rig at a value of the parameter."""
@@ -176,7 +176,7 @@ def family(rig: Rig, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    shaking, _ = as_periodic(rig.shaking, "shaking")
+    as_periodic(rig.shaking, "shaking")  # refuses a record
     if isinstance(rig.system, Assembly):
         check_size(rig.system)
         if name not in ("frequency", "amplitude"):
@@ -184,15 +184,14 @@ def family(rig: Rig, name: str) -> Family:
                 f"parameter: {shown(name)}; orbits of an Assembly are followed along 'frequency' or "
                 "'amplitude' so far; pass one of the two"
             )
-        varied = parameter(name, of=shaking.of)
+        varied = usual(name, rig.periodic.of)
     else:
-        varied = parameter(name, of=shaking.of).of(rig.oscillator)
+        varied = parameter(name, rig)
     value = varied.read(rig)
     step = varied.beside(value) - value
     here = system_vector(rig)
     there = system_vector(varied.vary(rig, value + step))
-    several = isinstance(rig.system, Assembly)
-    if not several:
+    if not isinstance(rig.system, Assembly):
         # A rate follows from stiffness and damping, and is infinite without damping.
         here[RATES] = there[RATES] = np.inf
     same = here == there
@@ -200,8 +199,7 @@ def family(rig: Rig, name: str) -> Family:
     direction = difference / step
     base = np.subtract(here, value * direction, out=here.copy(), where=~same)
     made = Family(varied, rig, value, base, direction)
-    straight = varied.straight and (several or not here[par.CURVED] or _straight(made, step))
-    return made._replace(straight=straight)
+    return made._replace(straight=_straight(made, step))
 
 
 def _straight(made: Family, step: float) -> bool:
@@ -213,5 +211,6 @@ def _straight(made: Family, step: float) -> bool:
 def _vector(made: Family, value: float) -> _Array:
     """The engine's vector; rates follow from stiffness and damping, and move along no line."""
     vector = system_vector(made.at(value))
-    vector[RATES] = made.base[RATES]
+    if not made.of_several_masses:
+        vector[RATES] = made.base[RATES]
     return vector
