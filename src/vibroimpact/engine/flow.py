@@ -121,9 +121,7 @@ def _indirect(names: str, declared: Any, index: int) -> Any:
     return intrinsic(scope["call"])
 
 
-def filling(
-    plan_type: Callable[[Any], Any], one: tuple[Any, ...], several: tuple[Any, ...]
-) -> Any:
+def filling(plan_type: Callable[[Any], Any], one: tuple[Any, ...], several: tuple[Any, ...]) -> Any:
     """Make an intrinsic that writes the addresses of a flow's functions into its table.
 
     It is called with a flow, whose type is that of the kernels' plans, and the table. The functions

@@ -109,14 +109,14 @@ def _newton(
     facts[RESIDUAL] = min(best, residual)
     _slope(plan, line, point, facts, image, columns, slope)
     return (
-        DONE if facts[RESIDUAL] <= 1e-12 + _rounding(parts, point, columns, slope, scale) else NOT_SETTLED
+        DONE
+        if facts[RESIDUAL] <= 1e-12 + _rounding(parts, point, columns, slope, scale)
+        else NOT_SETTLED
     )
 
 
 @kernel
-def _rounding(
-    parts: int, point: Vector, columns: Vector, slope: Vector, scale: Vector
-) -> float:
+def _rounding(parts: int, point: Vector, columns: Vector, slope: Vector, scale: Vector) -> float:
     """What rounding a point and the events on its way makes of P, over the scale.
 
     Behind the grazing of a very stiff stop P is so steep that no point comes closer to its image.

@@ -41,9 +41,7 @@ point_room = stack(LARGEST + 1)
 
 
 @kernel
-def system_plan(
-    base: Vector, direction: Vector, p: float, plan: Vector
-) -> tuple[float, float]:
+def system_plan(base: Vector, direction: Vector, p: float, plan: Vector) -> tuple[float, float]:
     """Put the system at a parameter into the plan, with its tables: its amplitude and frequency."""
     n = flow.numbers(plan)
     for i in range(n):

@@ -48,7 +48,7 @@ def grow_several(
     calls = Calls(cycles - first, progress, _ROWS)
     number, status = first, Status.DONE
     while number < cycles and status is Status.DONE:
-        for number in range(number, first + int(calls.end(number - first))):  # noqa: B020, PLR1704
+        for number in range(number, first + int(calls.end(number - first))):  # noqa: B020
             before = state.copy()
             if number < -discard:
                 status, state[:] = engine.propagate(state, 1.0, max_events)

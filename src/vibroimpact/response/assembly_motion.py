@@ -21,8 +21,8 @@ from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.assembly.entries import follow_sections
 from vibroimpact.engine.assembly.plan import plan_of
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
-from vibroimpact.model import Assembly, Bumper, Periodic, Record, Repeated, RigidStop, equilibrium
+from vibroimpact.errors import outside
+from vibroimpact.model import Assembly, Bumper, Periodic, Record, Repeated, equilibrium
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.count_checks import check_samples
 from vibroimpact.model.rig import Rig

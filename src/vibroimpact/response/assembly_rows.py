@@ -45,11 +45,11 @@ def measured_variables(
         *seen.shape[:-1], stops, measures.OF_STOP
     )
     values: dict[str, tuple[tuple[str, ...], _Array]] = {}
-    for name, least, most in (
+    for name, low, high in (
         ("displacement", measures.U_LEAST, measures.U_MOST),
         ("acceleration", measures.A_LEAST, measures.A_MOST),
     ):
-        values |= _range(name, masses[..., least], masses[..., most], (*dims, "mass"))
+        values |= _range(name, masses[..., low], masses[..., high], (*dims, "mass"))
     least, most = carried[..., measures.T_LEAST], carried[..., measures.T_MOST]
     values |= _range("transmitted_force", least, most, dims)
     ordered = np.nan_to_num(carried[..., measures.ORDERED])
@@ -87,9 +87,9 @@ def notes_on(assembly: Assembly, rows: _Array, what: str) -> list[str]:
     notes = []
     if count := int((rows[..., base + measures.ORDERED] > 0.0).sum()):
         notes.append(
-            f"{count} {what} with impacts at the same instant as another impact or rest of the same "
-            "mass (simultaneous_impacts); their order is that of the stops in the assembly, because "
-            "restitution alone does not determine the result"
+            f"{count} {what} with impacts at the same instant as another impact or rest of the "
+            "same mass (simultaneous_impacts); their order is that of the stops in the assembly, "
+            "because restitution alone does not determine the result"
         )
     if count := int(np.nansum(rows[..., base + measures.UNDECIDED])):
         notes.append(

@@ -172,9 +172,7 @@ class PreparedRig(NamedTuple):
             Called with the next rows, which are overwritten afterwards.
         """
         if isinstance(self.rig.system, Assembly):
-            return grow_several(
-                self, state, cycles, keep, max_events, transient, discard, progress
-            )
+            return grow_several(self, state, cycles, keep, max_events, transient, discard, progress)
         rows = np.empty((min(cycles, _ROWS), lyapunov.GROWTH))
         perturbations, shaking = np.zeros((2, TERMS)), self.shaking
         first = -transient - discard

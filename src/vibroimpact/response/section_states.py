@@ -156,7 +156,9 @@ class SectionStates(NamedTuple):
             If it is not a state of this system.
         """
         if isinstance(self.system, Assembly):
-            return equilibrium(self.system) if start is None else as_assembly_state(start, self.system)
+            return (
+                equilibrium(self.system) if start is None else as_assembly_state(start, self.system)
+            )
         return equilibrium(self.system) if start is None else as_state(start)
 
     def vector_of(self, state: State | AssemblyState) -> _Array:

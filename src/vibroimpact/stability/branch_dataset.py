@@ -205,7 +205,8 @@ def _contacts(found: Bifurcation) -> str:
         if isinstance(system, Assembly):
             names = zip(contacts, system.stops, strict=True)
             return ", ".join(f"{count} {name}" for count, name in names)
-        return contact_counts(*contacts, (system.right, system.left))
+        right, left = contacts
+        return contact_counts(right, left, (system.right, system.left))
 
     before = counted(found.orbit.contacts)
     if found.contacts_behind == found.orbit.contacts:

@@ -185,11 +185,7 @@ class Branch:
         near = there.orbit.section.family.equation(value + left)
         damped = is_damped(there.orbit.rig.system)
         beyond = f"beyond {times:.1g} times the first orbit" if damped else "without bound"
-        limit = (
-            "damping may limit it"
-            if damped
-            else f"{times:.1g} times the first orbit"
-        )
+        limit = "damping may limit it" if damped else f"{times:.1g} times the first orbit"
         return f"the motion grows {beyond} near {near} ({limit})"
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:
@@ -247,9 +243,7 @@ class Branch:
             found = at_phase(here.orbit, here.orbit.section.family.phase + PHASES[number])
             if found is None or found.contacts != here.orbit.contacts:
                 continue
-            tangent = found.tangent(
-                found.section.held * math.copysign(1.0, here.tangent[VALUE])
-            )
+            tangent = found.tangent(found.section.held * math.copysign(1.0, here.tangent[VALUE]))
             return Station(found, tangent, here.arclength, here.piece, phases_tried=number + 1)
         return None
 

@@ -181,8 +181,8 @@ def family(rig: Rig, name: str) -> Family:
         check_size(rig.system)
         if name not in ("frequency", "amplitude"):
             raise InputError(
-                f"parameter: {shown(name)}; orbits of an Assembly are followed along 'frequency' or "
-                "'amplitude' so far; pass one of the two"
+                f"parameter: {shown(name)}; orbits of an Assembly are followed along 'frequency' "
+                "or 'amplitude' so far; pass one of the two"
             )
         varied = usual(name, rig.periodic.of)
     else:

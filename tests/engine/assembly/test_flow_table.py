@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 
-from engine.assembly.systems import System, neighbours, row
-from vibroimpact.engine import batch, flow, lyapunov, orbit, section_map
+from engine.assembly.systems import System
+from vibroimpact.engine import batch, lyapunov, orbit, section_map
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly import measures, table
+from vibroimpact.engine.assembly import measures
 from vibroimpact.engine.assembly.plan import GROUND, Stop, base_motion, make_vector
-from vibroimpact.engine.hold import CYCLES, MEASURED, OUTCOME, PERIOD, RESULTS
-from vibroimpact.engine.parameters import FORCING, rig_vector
+from vibroimpact.engine.hold import MEASURED, OUTCOME, PERIOD, RESULTS
+from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.settling import PATIENT
 from vibroimpact.engine.status import DONE
 
@@ -61,7 +59,7 @@ def swept(vector, frequencies, width, measured, amplitude=3.0):
 
 
 FREQUENCIES = [0.9, 1.2, 1.6, 2.3, 6.0]
-"""At lower ones the mass comes to rest on the wall, where the flows complete a chatter otherwise."""
+"""At lower ones the mass rests on the wall, and the flows complete a chatter in different ways."""
 
 
 @pytest.mark.parametrize("rigid", [False, True])
@@ -106,10 +104,26 @@ def test_one_mass_has_the_same_orbit_and_multipliers(rigid: bool) -> None:
         point[:2], point[-1] = ends[0, 2:4] * 1.001, frequency
         scale = np.append(np.full(parts, 0.02), 1.0)
         scale[1] = 0.2
-        facts, columns, slope = np.zeros(5 + max(stops, 2)), np.zeros((parts, parts)), np.zeros(parts)
+        facts, columns, slope = (
+            np.zeros(5 + max(stops, 2)),
+            np.zeros((parts, parts)),
+            np.zeros(parts),
+        )
         normal = np.append(np.zeros(parts), 1.0)
         outcome = orbit.correct(
-            vector, base, direction, phase, 1, False, 1000, scale, normal, point, facts, columns, slope
+            vector,
+            base,
+            direction,
+            phase,
+            1,
+            False,
+            1000,
+            scale,
+            normal,
+            point,
+            facts,
+            columns,
+            slope,
         )
         assert outcome == DONE
         damping, again = np.zeros(1), np.zeros((parts, parts))

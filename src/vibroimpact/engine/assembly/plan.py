@@ -126,10 +126,10 @@ def make_vector(
     blocks: list[tuple[int, Vector]] = []
     end = at.HEADER
 
-    def room(index: int, size: int) -> None:
+    def room(index: int, count: int) -> None:
         nonlocal end
         header[index] = end
-        end += -(-size // 8) * 8
+        end += -(-count // 8) * 8
 
     def block(index: int, content: Vector) -> None:
         blocks.append((end, np.ravel(content)))
@@ -171,11 +171,11 @@ def make_vector(
     room(at.PRESSED_LIST, count)
     room(at.RESTING_LIST, count)
     room(at.FACTOR, count * count)
-    for vector in (at.Y, at.START, at.END, at.PIECE_Y):
-        room(vector, width + count + 8)
+    for index in (at.Y, at.START, at.END, at.PIECE_Y):
+        room(index, width + count + 8)
     deformations = (at.DEFORMATION, at.START_DEFORMATION, at.END_DEFORMATION)
-    for vector in (*deformations, at.PIECE_DEFORMATION, at.ZEROS):
-        room(vector, count)
+    for index in (*deformations, at.PIECE_DEFORMATION, at.ZEROS):
+        room(index, count)
     room(at.SERIES, at.TERMS * row)
     room(at.WAVE_SERIES, at.TERMS * waves)
     room(at.FORCE_SERIES, at.TERMS * count)

@@ -25,21 +25,25 @@ mirror = section.mirror
 
 @kernel
 def coordinates(plan: Vector) -> int:
+    """See `flow.coordinates`."""
     return 2 * int(plan[at.MASSES])
 
 
 @kernel
 def stops(plan: Vector) -> int:
+    """See `flow.stops`."""
     return int(plan[at.STOPS])
 
 
 @kernel
 def numbers(plan: Vector) -> int:
+    """See `flow.numbers`."""
     return int(plan[at.NUMBERS])
 
 
 @kernel
 def complete(plan: Vector) -> None:
+    """See `flow.complete`."""
     n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
     for i in range(n):
         for block, sums in ((at.STIFFNESS, 0), (at.DAMPING, n)):
@@ -58,31 +62,37 @@ def complete(plan: Vector) -> None:
 
 @kernel
 def undisturbed(plan: Vector, state: Vector, dying: float, measured: Vector) -> int:
-    return in_closed_form(plan, state, dying)  # type: ignore[no-any-return]
+    """See `flow.undisturbed`."""
+    return in_closed_form(plan, state, dying)
 
 
 @kernel
 def nothing(plan: Vector, notes: Vector) -> None:
+    """See `flow.nothing`."""
     measures.start(plan, notes)
 
 
 @kernel
 def look_again(plan: Vector, again: int) -> int:
+    """See `flow.look_again`."""
     return 0
 
 
 @kernel
 def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `flow.extremes`."""
     measures.extremes(plan, notes)
 
 
 @kernel
 def measured(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Vector) -> None:
+    """See `flow.measured`."""
     measures.write(plan, notes, cycles, result)
 
 
 @kernel
 def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
+    """See `flow.unit_disturbances`."""
     disturbances.unit_disturbances(plan, int(state[at.STATE_MODE]), q)
 
 
@@ -90,16 +100,19 @@ def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
 def tangent(
     plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
 ) -> None:
+    """See `flow.tangent`."""
     disturbances.carry_all(plan, notes, q)
 
 
 @kernel
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `flow.margin`; it is not known."""
     notes[0] = math.nan
 
 
 @kernel
 def start_growth(plan: Vector, state: Vector, q: Vector, w: Vector) -> None:
+    """See `flow.start_growth`; `monodromy` tells the growth instead."""
     q[0], w[0] = math.nan, math.nan
 
 
@@ -107,6 +120,7 @@ def start_growth(plan: Vector, state: Vector, q: Vector, w: Vector) -> None:
 def growth(
     plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector, w: Vector
 ) -> None:
+    """See `flow.growth`; it is not known."""
     for i in range(3):
         notes[i] = math.nan
 
