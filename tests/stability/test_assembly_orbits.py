@@ -200,3 +200,65 @@ def test_amplitudes_are_followed_and_other_parameters_refused() -> None:
         vi.branch(rig, parameter="gap", span=(0.01, 0.02))
     with pytest.raises(vi.InputError, match="outputs: own outputs are not computed"):
         vi.branch(rig, span=(0.5, 1.0), outputs={"top": "max(velocity)"})
+
+
+def damper(*, zeta: float, mass: float, e: float, clearance: float) -> vi.Rig:
+    """An oscillator with a loose ball between two walls of it, shaken at its resonance."""
+    wall = vi.RigidStop(e, 0.5 * clearance)
+    assembly = vi.Assembly(
+        masses={"host": 1.0, "ball": mass},
+        links={"spring": vi.Link("ground", "host", vi.Isolator(1.0, 2.0 * zeta))},
+        stops={"right": vi.Link("ball", "host", wall), "left": vi.Link("host", "ball", wall)},
+        units="none",
+    )
+    force = vi.Harmonic(1.0, 1.0 / (2.0 * math.pi), of="force", on="host")
+    return vi.Rig(assembly, force)
+
+
+def test_an_impact_damper_is_that_of_its_formula() -> None:
+    """Two impacts a period, each half a period after the other one: in closed form."""
+    zeta, mu, e, d = 0.01, 0.05, 0.75, 30.0
+    h, omega = math.pi, math.sqrt(1.0 - zeta**2)
+    decay, turn = math.exp(-zeta * h), omega * h
+    q = 1.0 + 2.0 * decay * math.cos(turn) + decay**2
+    g0 = -decay * math.sin(turn) / (omega * q)
+    g1 = (1.0 + decay * math.cos(turn) + zeta / omega * decay * math.sin(turn)) / q
+    size = 1.0 / (2.0 * zeta)
+    a = math.pi / 2.0 - 2.0 * mu * g0
+    b = (1.0 - e * (1.0 + 2.0 * mu)) / (1.0 + e) + 2.0 * mu * g1
+    # (a V − d/2)² + (b V)² = X²
+    p = a * a + b * b
+    speed = (a * d / 2 + math.sqrt((a * d / 2) ** 2 - p * (d * d / 4 - size**2))) / p
+    assert speed == pytest.approx(14.78340654, rel=1e-9)
+    found = vi.orbit(damper(zeta=zeta, mass=mu, e=e, clearance=d))
+    assert found.attrs["contacts"].split() in (["left", "right"], ["right", "left"])
+    assert int(found["stable"]) == 1
+    right = found["event_stop"].values == "right"
+    at = found.isel(event=np.flatnonzero(right)[0])
+    host = (a * speed - d / 2) + 2.0 * mu * speed * g0
+    assert float(at["event_displacement"].sel(mass="host")) == pytest.approx(host, rel=1e-11)
+    assert float(at["event_displacement"].sel(mass="ball")) == pytest.approx(
+        host + d / 2, rel=1e-11
+    )
+    assert float(at["event_velocity"].sel(mass="ball")) == pytest.approx(speed, rel=1e-11)
+
+
+def test_a_pair_of_multipliers_leaves_the_unit_circle() -> None:
+    """Beyond Neimark–Sacker the motion beside the orbit spirals away from it, as told."""
+    rig = damper(zeta=0.01, mass=0.05, e=0.75, clearance=30.0)
+    found = vi.branch(rig, span=(0.157, 0.182))
+    kinds = found["bifurcation_kind"].values
+    assert "Neimark-Sacker" in kinds
+    place = list(kinds).index("Neimark-Sacker")
+    critical = found.isel(bifurcation=place)
+    pair = (
+        critical["bifurcation_multiplier_real"] + 1j * critical["bifurcation_multiplier_imag"]
+    ).values
+    pair = pair[np.abs(np.abs(pair) - 1.0) < 1e-7]
+    assert len(pair) == 2
+    assert abs(pair[0] - pair[1].conj()) < 1e-9
+    assert abs(pair[0].imag) > 1e-3
+    value = float(critical["bifurcation_value"])
+    start = critical["bifurcation_section"]
+    for frequency, stable in ((0.998 * value, 1), (1.002 * value, 0)):
+        assert int(vi.orbit(rig, start, 1, frequency=frequency)["stable"]) == stable
