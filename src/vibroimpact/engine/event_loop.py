@@ -77,12 +77,15 @@ def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
 def observed(observe: Any) -> Any:
     """Make the loop, for all flows, of an observer: a kernel (plan, before, ended, after, *notes).
 
+    None if there is none.
+
     It is called for each stretch between two events. `before` and `after` are the states at its
     ends, `ended` what is in `state.stretch_room`; it adds what it sees to its notes.
     """
     return loop(flow.advance, states.load, states.put, states.finite, observe)
 
 
+unobserved = observed(None)
 extremes = observed(flow.extremes)
 demand = observed(flow.demand)
 margin = observed(flow.margin)

@@ -24,10 +24,10 @@ from vibroimpact.engine.assembly.tables import (
     travel_by_tables,
 )
 from vibroimpact.engine.assembly.tables import is_clear as is_clear_on_leap
-from vibroimpact.engine.event_loop import loop
+from vibroimpact.engine.event_loop import unobserved
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.state import ARRIVAL, STEP, copy
+from vibroimpact.engine.state import ARRIVAL, STEP
 
 _SAME = 1e-12
 """Share of a step within which events are simultaneous, so that the stop's number decides."""
@@ -312,7 +312,7 @@ def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int
 @kernel
 def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
     """See `flow.advance`; a step ends a stretch, too, which is kept in the plan."""
-    clock = width(plan)
+    clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
     load_motion(plan, before, before[clock], before[clock + 1])
     event = next_stretch(plan, limit)
     ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
@@ -323,37 +323,7 @@ def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Ve
 
 
 @kernel
-def width(plan: Vector) -> int:
-    """Of a state, its clock left out."""
-    return at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
-
-
-@kernel
-def _load(plan: Vector, kept: Vector, state: Vector, s: float, c: float) -> None:
-    n = width(plan)
-    copy(kept, state, n)
-    state[n], state[n + 1] = s, c
-
-
-@kernel
-def _put(plan: Vector, source: Vector, target: Vector) -> None:
-    copy(source, target, width(plan) + 2)
-
-
-@kernel
-def _finite(plan: Vector, state: Vector) -> bool:
-    total = 0.0
-    for i in range(2 * int(plan[at.MASSES])):
-        total += abs(state[at.PARTS + i])
-    found: bool = total < 1e200  # and no NaN
-    return found
-
-
-_cycle = loop(advance, _load, _put, _finite, None)
-
-
-@kernel
 def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
-    """See `flow.cycle`."""
-    events: int = _cycle(plan, state, s, c, length, max_events)
+    """See `flow.cycle`; a stretch takes so long that `advance` is not merged into the loop."""
+    events: int = unobserved(plan, state, s, c, length, max_events)
     return events

@@ -19,6 +19,12 @@ from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.state import LARGEST, parts_room, square_room
 
 
+@apart
+def _solved(a: Vector, b: Vector, n: int) -> bool:
+    found: bool = solve(a, b, n)
+    return found
+
+
 @kernel
 def _response(plan: Vector, omega: float, sine: Vector, cosine: Vector) -> bool:
     """Replace accelerations by the displacements that they force at ω; False if unbounded."""
@@ -33,7 +39,7 @@ def _response(plan: Vector, omega: float, sine: Vector, cosine: Vector) -> bool:
             a[i * m + j], a[i * m + n + j] = stiff, -turn
             a[(n + i) * m + j], a[(n + i) * m + n + j] = turn, stiff
         b[i], b[n + i] = sine[i], cosine[i]
-    if not solve(a, b, m):
+    if not _solved(a, b, m):
         return False
     for i in range(n):
         sine[i], cosine[i] = b[i], b[n + i]
@@ -47,7 +53,7 @@ def _statics(plan: Vector, load: Vector) -> bool:
     a = square_room()
     for i in range(n * n):
         a[i] = plan[k + i]
-    return solve(a, load, n)
+    return _solved(a, load, n)
 
 
 @apart
