@@ -81,6 +81,24 @@ def pair(orbit: Orbit) -> float:
     return float(np.log(np.abs(orbit.map_multipliers[:2]) + 1e-300).mean())
 
 
+def pairs(orbit: Orbit) -> float:
+    """∏ (λ_i λ_j − 1) over all pairs of multipliers: zero where a complex pair is on the circle.
+
+    Of several masses, whose pairs may pass the unit circle one after the other. It is zero as well
+    where two real multipliers are each other's inverse.
+    """
+    values = orbit.map_multipliers
+    first, second = np.triu_indices(len(values), 1)
+    return float(np.prod(values[first] * values[second] - 1.0).real)
+
+
+def _turns_on_circle(orbit: Orbit) -> bool:
+    """Whether a complex pair lies on the unit circle, near enough to be the one that passes."""
+    values = orbit.map_multipliers
+    turning = np.abs(values[np.abs(values.imag) > 1e-9 * np.abs(values)])
+    return bool(turning.size and np.abs(np.log(turning)).min() <= _SMALL)
+
+
 def _growing(orbit: Orbit) -> int:
     """How many multipliers lie outside the unit circle."""
     return int((np.abs(orbit.map_multipliers) > 1.0).sum())
@@ -100,7 +118,7 @@ def remembers(orbit: Orbit) -> bool:
     the product of the other two multipliers is that of the damping, at most 1, and no pair passes
     the unit circle (docs/theory.md, 6.5).
     """
-    return bool(np.abs(orbit.map_multipliers[2]) > _MEMORY)
+    return bool((np.abs(orbit.map_multipliers[2:3]) > _MEMORY).any())
 
 
 def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcation]:
@@ -132,7 +150,8 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
             turns = kind == FOLD and met is not None
             if not (turns or first * second < 0.0 or (first == 0.0 and second != 0.0)):
                 continue
-            if kind == NEIMARK and -1.0 in (first, second):
+            several = here.orbit.section.family.of_several_masses
+            if kind == NEIMARK and not several and -1.0 in (first, second):
                 continue  # a pair became complex; see `_pair_beside_real_ones`
             rounded = min(abs(first), abs(second)) <= _CERTAIN and not remembers(here.orbit)
             if kind == NEIMARK and rounded:
@@ -143,6 +162,8 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
                 arclength = 0.5 * (here.arclength + there.arclength)
             else:
                 orbit, arclength = _locate(here, there, function)
+            if kind == NEIMARK and several and not _turns_on_circle(orbit):
+                continue  # two real multipliers, one on each side of the circle
             yield Bifurcation(kind, orbit, arclength, turns or kind == FOLD, orbit.contacts)
         if not turning and (crossed := _pair_beside_real_ones(here, there)) is not None:
             yield crossed
@@ -152,6 +173,8 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
 
 def _pair_beside_real_ones(here: Station, there: Station) -> Bifurcation | None:
     """Where a complex pair passes the unit circle in a step at an end of which it is real."""
+    if here.orbit.section.family.of_several_masses:
+        return None  # `pairs` finds it
     if -1.0 not in (spiral(here.orbit), spiral(there.orbit)):
         return None
     if abs(_growing(here.orbit) - _growing(there.orbit)) != 2:
@@ -256,7 +279,7 @@ def _tests(here: Station) -> list[tuple[str, Callable[[Orbit], float]]]:
     return [
         (FOLD, lambda orbit: float(orbit.tangent(along)[VALUE])),
         (doubling, half_plus),
-        (NEIMARK, spiral),
+        (NEIMARK, pairs if here.orbit.section.family.of_several_masses else spiral),
     ]
 
 

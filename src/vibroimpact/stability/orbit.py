@@ -6,7 +6,7 @@ import xarray as xr
 
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine import section_map
-from vibroimpact.model import State
+from vibroimpact.model import Assembly, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.stability.fixed_points import MAX_EVENTS
@@ -81,7 +81,12 @@ def orbit(
     )
     data.attrs["contacts"] = _sequence(data)
     data.attrs["created_by"] = "vibroimpact.orbit"
-    return describe(data, "vibroimpact.orbit")
+    data = describe(data, "vibroimpact.orbit")
+    if isinstance(rig.system, Assembly):
+        data["monodromy"].attrs["comment"] = (
+            "of the displacements and velocities of the masses and the deformations of the stops"
+        )
+    return data
 
 
 def _sequence(data: xr.Dataset) -> str:
