@@ -16,9 +16,9 @@ from vibroimpact.engine.motion import STATE
 from vibroimpact.engine.observers import growth
 from vibroimpact.engine.observers import record as written
 from vibroimpact.engine.observers.demand import note_room, start_notes
-from vibroimpact.engine.observers.extremes import notes_room, nothing
+from vibroimpact.engine.observers.extremes import A_MOST, T_MOST, U_MOST
 from vibroimpact.engine.parameters import Drive, rig_vector
-from vibroimpact.engine.state import FIRST, copy, parts_room, room, width, wind
+from vibroimpact.engine.state import FIRST, copy, measures_room, parts_room, room, width, wind
 from vibroimpact.law_numbers import IsolatorNumbers
 
 BUMPER = (20.0, 2.0, 0.3)
@@ -54,7 +54,7 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
     plan = planned(given, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     period = 1.0 / frequency
-    state, notes, found = room(), notes_room(), note_room()
+    state, notes, found = room(), measures_room(), note_room()
     kept, q, w = written.note_room(), np.zeros(25), np.zeros(25)
     for which in range(7):
         copy(pointer(start), state, width(plan))
@@ -62,7 +62,7 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
         if which == CYCLE:
             count = flow.cycle(plan, state, S, C, period, MOST)
         elif which == EXTREMES:
-            nothing(notes)
+            flow.nothing(plan, notes)
             count = event_loop.extremes(plan, state, S, C, period, MOST, notes)
             low_high[0], low_high[1] = notes[0], notes[1]
             low_high[2], low_high[3] = notes[2], notes[3]
@@ -175,11 +175,11 @@ def test_what_is_said_of_a_state(name: str) -> None:
 def freely(given, rig, amplitude, frequency, start, out):
     plan = planned(given, rig)
     flow.begin(plan, amplitude, 2.0 * math.pi * frequency)
-    state, found = room(), parts_room()
+    state, found = room(), measures_room()
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
     free = flow.undisturbed(plan, state, 0.999, found)
-    copy(found, pointer(out), 3)
+    out[0], out[1], out[2] = found[U_MOST], found[A_MOST], found[T_MOST]
     out[3], out[4] = state[FIRST], state[FIRST + 1]
     return free
 

@@ -22,6 +22,8 @@ ASSEMBLIES: dict[str, Variable] = {
         "number of impacts whose order was decided by the order of the stops",
         "impacts at the same instant as another impact or rest of the same mass",
     ),
+    "impacts": Variable("1", "contacts at the stop per forcing cycle"),
+    "peak_impulse": Variable("N s", "largest impulse of an impact at the rigid stop"),
     "mode": Variable("1", "number of the mode", "from 1, in the order of the natural frequencies"),
     "natural_frequency": Variable(
         "Hz", "undamped natural frequency without stops", "0 for a free motion"

@@ -12,7 +12,7 @@ from vibroimpact._version import __version__
 from vibroimpact.datasets.variable import Described, Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, Rig, State
+from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig, State
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
 from vibroimpact.model.parameters import written_units
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
@@ -165,6 +165,8 @@ def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
         numbers["amplitude"] = list(rig.amplitudes)
     if rig.published:
         numbers["published"] = True
+    if isinstance(rig.system, Assembly):
+        return {"assembly": rig.system.model_dump(), **numbers}
     return {"oscillator": oscillator_parameters(rig.oscillator), **numbers}
 
 

@@ -19,9 +19,9 @@ from vibroimpact.engine.hold import OUTCOME, hold
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.recording import write_down
-from vibroimpact.engine.sections import repeated, row_room
+from vibroimpact.engine.sections import advance, repeated, row_room
 from vibroimpact.engine.state import copy, load, room, width
-from vibroimpact.engine.status import NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
+from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 
 @entry(
@@ -52,11 +52,11 @@ def sweep(
         From `parameters.rig_vector`.
     amplitudes, frequencies, phase : ndarray, ndarray, float
         m/s² or what the rig's vector says, Hz in the order of the sweep, rad at the section.
-    state : ndarray, shape (motion.STATE,)
+    state : ndarray, shape (`state.width`,)
         Where the sweep starts; carried on in place.
     tolerance, max_cycles, window, max_events, transient
         See `settling.settle`.
-    results, states : ndarray, shape (frequency, hold.RESULTS), (frequency, motion.STATE)
+    results, states : ndarray, shape (frequency, hold.MEASURED + measures), (frequency, state.width)
         Written: the measurements, and the state at the end of each hold.
     progress : ndarray, shape (2,) or (3,)
         [0] is raised by one after each hold; the sweep stops when [1] becomes nonzero; [2] is how
@@ -144,3 +144,35 @@ def trajectory(
     )
     copy(here, pointer(state), width(plan))
     return found
+
+
+@entry("i8(f8[::1], f8, f8, f8, f8[::1], f8, i8)")
+def propagate(
+    given: Any,
+    rig: Vector,
+    amplitude: float,
+    frequency: float,
+    phase: float,
+    state: Vector,
+    cycles: float,
+    max_events: int,
+) -> int:
+    """Carry a state on over some cycles, of which the last may be incomplete: a `Status`.
+
+    The arguments are those of `trajectory`; a cycle that is given up leaves its section.
+    """
+    plan = planned(given, rig)
+    period = 1.0 / frequency
+    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
+    if flow.too_much_work(plan, period) != 0:
+        return TOO_MUCH_WORK
+    here, section = room(), room()
+    s, c = math.sin(phase), math.cos(phase)
+    load(plan, pointer(state), here, s, c)
+    number, outcome = 0.0, DONE
+    while number < cycles and outcome == DONE:
+        length = min(1.0, cycles - number) * period
+        _, outcome = advance(plan, here, section, s, c, length, max_events)
+        number += 1.0
+    copy(here, pointer(state), width(plan))
+    return outcome

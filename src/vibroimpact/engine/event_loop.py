@@ -11,7 +11,7 @@ from typing import Any
 from vibroimpact.engine import flow
 from vibroimpact.engine import state as states
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import GIVEN_UP, LIMIT, SETTLING
+from vibroimpact.engine.motion import GIVEN_UP, LIMIT, PASSED, SETTLING
 from vibroimpact.engine.observers.demand import add
 from vibroimpact.engine.observers.phases import note
 from vibroimpact.engine.state import EVENT, FRESH, STEP, T, room, stretch_room
@@ -49,6 +49,9 @@ def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
             if event == LIMIT:
                 break
             t += ended[STEP]
+            if event == PASSED:
+                put(plan, there, here)
+                continue
             events += 1
             if events > max_events:
                 break
@@ -76,12 +79,15 @@ def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
 def observed(observe: Any) -> Any:
     """Make the loop, for all flows, of an observer: a kernel (plan, before, ended, after, *notes).
 
+    None if there is none.
+
     It is called for each stretch between two events. `before` and `after` are the states at its
     ends, `ended` what is in `state.stretch_room`; it adds what it sees to its notes.
     """
     return loop(flow.advance, states.load, states.put, states.finite, observe)
 
 
+unobserved = observed(None)
 extremes = observed(flow.extremes)
 demand = observed(add)
 margin = observed(flow.margin)

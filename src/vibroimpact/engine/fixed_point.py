@@ -11,8 +11,7 @@ import math
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.matrix import radius, solve
-from vibroimpact.engine.memory import stack
-from vibroimpact.engine.state import FIRST, LARGEST, parts_room, put, room
+from vibroimpact.engine.state import FIRST, parts_room, put, room, square_room
 
 DYING = 0.999
 """A disturbance that dies out more slowly in a cycle may be one that lives on: it is followed."""
@@ -26,8 +25,6 @@ _FINE = 1e-10
 """Of the motion's size: behind a step as short as this nothing but rounding is left."""
 _ROUGH = 1e-11
 """Of the motion's size: where rounding keeps a step from becoming shorter, this will do."""
-
-matrix_room = stack(LARGEST * LARGEST)
 
 
 @kernel
@@ -52,7 +49,7 @@ def close_in(
         The derivative is that of small disturbances, and is kept from step to step.
     """
     parts = flow.parts(plan)
-    matrix, other, image = matrix_room(), matrix_room(), parts_room()
+    matrix, other, image = square_room(), square_room(), parts_room()
     after, begun = room(), room()
     put(plan, state, after)
     if flow.cycle(plan, after, s, c, period, max_events) > max_events:

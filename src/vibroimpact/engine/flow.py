@@ -10,7 +10,8 @@ A state is a vector: the mode, what has just happened, the *parts* that make a d
 displacement and velocity), the age of the mode (s), and the clock of the forcing, two numbers. It
 is carried on in place.
 
-To add a flow, write these functions for it, with the arguments that are declared here.
+A plan begins with the rig's vector, of which these may vary: so many `numbers`. To add a flow,
+write these functions for it, with the arguments that are declared here.
 """
 
 from __future__ import annotations
@@ -26,10 +27,17 @@ from numba.core.callconv import excinfo_t
 from numba.extending import intrinsic, overload
 
 from vibroimpact.engine.jit import CHOSEN, Vector
+from vibroimpact.engine.parameters import FORCING, MASSES
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 P = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
+
+
+class OneMass(types.CPointer):
+    """The memory of a plan of a flow of one mass."""
+
+
 _WORD = ir.IntType(64)
 
 SIGNATURES: dict[str, Any] = {}
@@ -38,8 +46,9 @@ SIGNATURES: dict[str, Any] = {}
 _compiled_code = attrgetter("library", "fndesc")
 """Of a compiled kernel: its machine code, and what its function is called."""
 
-_KERNELS: dict[str, Any] = {}
-"""The kernels by name, for Python without the compiler, where a plan itself tells its flow."""
+_KERNELS: dict[bool, dict[str, Any]] = {False: {}, True: {}}
+"""The kernels by name, for Python without the compiler, where a plan itself tells its flow: those
+of one mass and, if True, of several."""
 
 
 def _function(returns: Any, *arguments: Any) -> Callable[[F], F]:
@@ -52,7 +61,7 @@ def _function(returns: Any, *arguments: Any) -> Callable[[F], F]:
         names = ", ".join(inspect.signature(described).parameters)
 
         def plain(plan: Any, *args: Any) -> Any:
-            return _KERNELS[name](plan, *args)
+            return _KERNELS[plan[FORCING] == MASSES][name](plan, *args)
 
         call = _indirect(names, declared, index)
         scope: dict[str, Any] = {"call": call}
@@ -112,16 +121,19 @@ def _indirect(names: str, declared: Any, index: int) -> Any:
     return intrinsic(scope["call"])
 
 
-def filling(plan_type: Callable[[Any], Any], kernels: tuple[Any, ...]) -> Any:
+def filling(plan_type: Callable[[Any], Any], one: tuple[Any, ...], several: tuple[Any, ...]) -> Any:
     """Make an intrinsic that writes the addresses of a flow's functions into its table.
 
-    It is called with a flow, whose type is that of the kernels' plans, and the table.
+    It is called with a flow, whose type is that of the kernels' plans, and the table. The functions
+    are those of the flows of one mass, and of that of several masses, which may lack some.
     """
-    _KERNELS.update({kernel.__name__: kernel for kernel in kernels})
+    for masses, kernels in ((False, one), (True, several)):
+        _KERNELS[masses].update({kernel.__name__: kernel for kernel in kernels})
 
     @intrinsic
     def fill(typing: Any, given: Any, table: Any) -> Any:
         found = {}
+        kernels = one if isinstance(plan_type(given), OneMass) else several
         for kernel in kernels:
             name = kernel.__name__
             declared = SIGNATURES[name]
@@ -134,8 +146,8 @@ def filling(plan_type: Callable[[Any], Any], kernels: tuple[Any, ...]) -> Any:
 
         def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
             array = context.make_array(signature.args[1])(context, builder, args[1])
-            for name, one in found.items():
-                code, described = _compiled_code(one)
+            for name, kernel in found.items():
+                code, described = _compiled_code(kernel)
                 context.active_code_library.add_linking_library(code)
                 function = context.declare_function(builder.module, described)
                 index = ir.Constant(_WORD, list(SIGNATURES).index(name))
@@ -178,6 +190,26 @@ def parts(plan: Vector) -> int:
     """How many parts a state has."""
 
 
+@_function(_N)
+def coordinates(plan: Vector) -> int:
+    """How many of them, the first ones, are displacements and velocities of masses."""
+
+
+@_function(_N)
+def stops(plan: Vector) -> int:
+    """How many stops there are, contacts with which are counted."""
+
+
+@_function(_N)
+def numbers(plan: Vector) -> int:
+    """How many numbers of the rig's vector a system may vary; the plan begins with them."""
+
+
+@_function(types.void)
+def complete(plan: Vector) -> None:
+    """Put right what follows from the numbers of a rig that have been varied."""
+
+
 @_function(types.void, P)
 def units(plan: Vector, units: Vector) -> None:
     """Write what makes a velocity of each part: 1 for a velocity itself."""
@@ -212,10 +244,11 @@ def at_point(plan: Vector, state: Vector, point: Vector) -> None:
 
 
 @_function(_N, P, _X, P)
-def undisturbed(plan: Vector, state: Vector, dying: float, found: Vector) -> int:
+def undisturbed(plan: Vector, state: Vector, dying: float, result: Vector) -> int:
     """Whether a state flies freely and touches nothing any more; then go on to what is left of it.
 
-    `found`: half the widths of the displacement, of the acceleration and of that with the force.
+    Returns 0 if not; 1 if so, and what `measured` writes is written; 2 if it is still to be
+    measured.
     """
 
 
@@ -239,6 +272,24 @@ def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_ev
 @_function(types.void, P, P, P, P)
 def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """See `observers.extremes`."""
+
+
+@_function(types.void, P)
+def nothing(plan: Vector, notes: Vector) -> None:
+    """Begin the notes of `extremes`, before anything is seen."""
+
+
+@_function(_N, _N)
+def look_again(plan: Vector, again: int) -> int:
+    """Whether `extremes` must see a motion a second time, for the force on the base.
+
+    If so, the second look begins (1) or ends (0).
+    """
+
+
+@_function(types.void, P, P, _N, P)
+def measured(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Vector) -> None:
+    """Write what the notes of `extremes` say, and those of a second look, of so many cycles."""
 
 
 @_function(types.void, P, P, P, P)
@@ -273,9 +324,10 @@ def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
 def tangent(
     plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
 ) -> None:
-    """Carry disturbances, the rows of q, through the last stretch that `advance` went.
+    """Carry disturbances, one for each part, through the last stretch that `advance` went.
 
-    Rows of 0 stay so. See `observers.tangent`.
+    They are the rows of q; rows of 0 stay so. Of the notes (see `state`) the damping and the
+    contacts begun are raised.
     """
 
 

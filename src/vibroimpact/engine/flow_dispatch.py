@@ -19,7 +19,10 @@ from numba.core.datamodel import models
 from numba.extending import intrinsic, overload, register_model
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.assembly import layout as assembly
+from vibroimpact.engine.assembly.plan import write_plan
 from vibroimpact.engine.dispatch import answer
+from vibroimpact.engine.flow import OneMass
 from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.linear import advance as linear_advance
@@ -91,6 +94,12 @@ class YieldingRecorded(NamedTuple):
     memory: Vector
 
 
+class Masses(NamedTuple):
+    """Several masses with linear links between linear stops, under any shaking."""
+
+    memory: Vector
+
+
 _ADVANCE: dict[type, Callable[..., Any]] = {
     Apart: advance_apart,
     AnyStops: advance_any,
@@ -141,6 +150,8 @@ answer(par.YIELDING, yielding_plan, *_TAYLOR)
 
 
 def _flow(rig: Vector) -> type:
+    if rig[par.FORCING] == par.MASSES:
+        return Masses
     laws = par.laws(rig)
     if laws != par.LINEAR:
         return Curved if laws == par.BENT else _YIELDING[rig[par.FORCING]]
@@ -167,6 +178,10 @@ def _room(size: int) -> Vector:
 def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
     flow = _flow(rig)
+    if flow is Masses:
+        memory = _room(int(rig[assembly.LENGTH_OF_PLAN]))
+        write_plan(rig, memory)
+        return flow(memory)
     if rig[par.FORCING] != par.SEVERAL:
         memory = _room(YIELDING_PLAN if flow in _YIELDING.values() else PLAN)
     else:
@@ -180,6 +195,8 @@ def flow_of(rig: Vector) -> Any:
 
 def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
+    if par.MASSES in (rig[par.FORCING], other[par.FORCING]):
+        return bool(rig[par.FORCING] == other[par.FORCING])
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
     if rig[par.CURVED]:
         same = same and kernels.covers(kernels.laws_code(rig), kernels.laws_code(other))
@@ -187,8 +204,8 @@ def carries(rig: Vector, other: Vector) -> bool:
     return bool(same and _flow(rig) in (AnyStops, Curved, _flow(other)))
 
 
-class PlanType(types.CPointer):
-    """The memory of a plan, told apart by its flow."""
+class PlanType(OneMass):
+    """The memory of a plan of one mass, told apart by its flow."""
 
     def __init__(self, flow: type) -> None:
         self.flow = flow

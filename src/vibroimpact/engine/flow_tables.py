@@ -10,19 +10,20 @@ from numba.core import config
 from numpy.typing import NDArray
 
 from vibroimpact.engine import flow, one_mass
+from vibroimpact.engine.assembly import table as several_masses
 from vibroimpact.engine.compilation import Compiled
-from vibroimpact.engine.flow_dispatch import PlanType, flow_of
+from vibroimpact.engine.flow_dispatch import Masses, PlanType, flow_of
 from vibroimpact.engine.jit import Vector
 
 
-def _plan_type(given: Any) -> PlanType:
-    return PlanType(given.instance_class)
+def _plan_type(given: Any) -> Any:
+    return flow.P if given.instance_class is Masses else PlanType(given.instance_class)
 
 
-_fill_motion = flow.filling(_plan_type, one_mass.MOTION)
-_fill_recorded = flow.filling(_plan_type, one_mass.RECORDED)
-_fill_disturbed = flow.filling(_plan_type, one_mass.DISTURBED)
-_fill_measured = flow.filling(_plan_type, one_mass.MEASURED)
+_fill_motion = flow.filling(_plan_type, one_mass.MOTION, several_masses.MOTION)
+_fill_recorded = flow.filling(_plan_type, one_mass.RECORDED, ())
+_fill_disturbed = flow.filling(_plan_type, one_mass.DISTURBED, several_masses.DISTURBED)
+_fill_measured = flow.filling(_plan_type, one_mass.MEASURED, ())
 
 
 def _motion(given: Any, table: Any) -> None:
@@ -46,6 +47,8 @@ GROUPS = {
     for function in (_motion, _recorded, _disturbed, _measured)
 }
 """What fills a part of a table with the addresses of compiled functions."""
+LACKING = {Masses: ("recorded", "measured")}
+"""Groups of functions that a flow has not: an entry that asks for one of them refuses its rigs."""
 
 _tables: dict[type, NDArray[np.int64]] = {}
 _filled: set[tuple[type, str]] = set()
@@ -55,9 +58,11 @@ def plan_of(rig: Vector, groups: tuple[str, ...]) -> Vector:
     """Memory for the plan of a rig, whose flow has these groups of functions."""
     given = flow_of(rig)
     memory: Vector = given.memory
+    kind = type(given)
+    if lacking := set(groups).intersection(LACKING.get(kind, ())):
+        raise NotImplementedError(f"{kind.__name__} has no functions {sorted(lacking)}")
     if config.DISABLE_JIT:  # type: ignore[attr-defined]
         return memory
-    kind = type(given)
     table = _tables.setdefault(kind, np.zeros(len(flow.SIGNATURES), np.int64))
     for group in groups:
         if (kind, group) not in _filled:

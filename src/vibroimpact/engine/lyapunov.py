@@ -11,7 +11,19 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import beyond, pointer
 from vibroimpact.engine.observers import growth as observers
-from vibroimpact.engine.state import MODE, copy, finite, load, parts_room, put, room, width
+from vibroimpact.engine.section_map import start_notes
+from vibroimpact.engine.state import (
+    DAMPING,
+    MODE,
+    copy,
+    finite,
+    load,
+    notes_room,
+    parts_room,
+    put,
+    room,
+    width,
+)
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
@@ -76,7 +88,7 @@ def growth(
     if flow.too_much_work(plan, period) != 0:
         return TOO_MUCH_WORK, first
     s, c = math.sin(phase), math.cos(phase)
-    here, section, notes = room(), room(), parts_room()
+    here, section, notes = room(), room(), notes_room()
     load(plan, pointer(state), here, s, c)
     parts = flow.parts(plan)
     count = out.shape[1] - 1 - parts
@@ -97,7 +109,7 @@ def growth(
         if number < -discard:
             events = flow.cycle(plan, here, s, c, period, max_events)
         else:
-            notes[0], notes[1], notes[2] = 0.0, 0.0, 0.0
+            start_notes(plan, notes)
             for i in range(count):
                 logarithms[i] = 0.0
             events = _carried(
@@ -111,7 +123,7 @@ def growth(
             if number >= 0 and events <= max_events:
                 row = pointer(out[number - max(first, 0)])
                 copy(logarithms, row, count)
-                row[count] = notes[0]
+                row[count] = notes[DAMPING]
                 flow.point(plan, here, beyond(row, count + 1))
         if events > max_events:
             outcome = TOO_MANY_EVENTS
@@ -142,7 +154,7 @@ def monodromy(
 
     Parameters
     ----------
-    columns : ndarray, shape (DISTURBANCE, DISTURBANCE)
+    columns : ndarray, shape (parts, parts)
         Written: row i is what becomes of a unit disturbance of component i. Where the section
         lies in a contact, the pressed bumper has no disturbance of its own: its row is zero,
         and that of the displacement moves it along.
@@ -163,16 +175,16 @@ def monodromy(
     if flow.too_much_work(plan, period) != 0:
         outcome = TOO_MUCH_WORK
     s, c = math.sin(phase), math.cos(phase)
-    here, notes = room(), parts_room()
+    here, notes = room(), notes_room()
     load(plan, pointer(state), here, s, c)
     q = pointer(columns)
     flow.unit_disturbances(plan, here, q)
     damping[0] = 0.0
     done = 0
     while outcome == DONE and done < cycles:
-        notes[0], notes[1], notes[2] = 0.0, 0.0, 0.0
+        start_notes(plan, notes)
         events = event_loop.tangent(plan, here, s, c, period, max_events, notes, q)
-        damping[0] += notes[0]
+        damping[0] += notes[DAMPING]
         done += 1
         if events > max_events:
             outcome = TOO_MANY_EVENTS

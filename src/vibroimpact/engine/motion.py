@@ -16,9 +16,10 @@ FLIGHT, RIGHT, LEFT, BOTH = 0, 1, 2, 3
 SEEN_LEFT = 4
 """The table of BOTH in the left bumper's coordinates; that of the right one is BOTH itself."""
 
-LIMIT, DETACHED, TURNED, GIVEN_UP = 0, 3, 7, 9
+LIMIT, DETACHED, TURNED, PASSED, GIVEN_UP = 0, 3, 7, 8, 9
 """What ends a stretch: the time limit, a contact or an impact (RIGHT or LEFT), a detachment, a
-branch of the isolator's law (TURNED), which no stop knows of, or more steps than can be counted."""
+branch of the isolator's law (TURNED), which no stop knows of, the end of a step at which nothing
+happens (PASSED), or more steps than can be counted."""
 
 RELEASED = 4
 """Added to the side that has just been left if the mass was at rest there."""

@@ -32,7 +32,20 @@ from vibroimpact.engine.motion import U as DISPLACEMENT
 from vibroimpact.engine.motion import V as VELOCITY
 from vibroimpact.engine.observers import record as recording
 from vibroimpact.engine.observers import tangent as disturbances
-from vibroimpact.engine.observers.extremes import widen
+from vibroimpact.engine.observers.extremes import (
+    A_LEAST,
+    A_MOST,
+    HITS_LEFT,
+    HITS_RIGHT,
+    MEASURES,
+    NOTES,
+    T_LEAST,
+    T_MOST,
+    U_LEAST,
+    U_MOST,
+    widen,
+)
+from vibroimpact.engine.observers.extremes import nothing as unseen
 from vibroimpact.engine.observers.fourier import integrate_stretch
 from vibroimpact.engine.observers.margin import least_margin
 from vibroimpact.engine.observers.measure import measure_stretch
@@ -69,6 +82,31 @@ def stiff_rate(plan: Vector) -> float:
 @kernel
 def parts(plan: Vector) -> int:
     return PARTS
+
+
+@kernel
+def coordinates(plan: Vector) -> int:
+    return 2
+
+
+@kernel
+def stops(plan: Vector) -> int:
+    return 2
+
+
+@kernel
+def numbers(plan: Vector) -> int:
+    return par.SIZE
+
+
+@kernel
+def complete(plan: Vector) -> None:
+    for side in range(2):
+        at = par.BUMPER + par.WIDTH * side
+        if plan[at + par.KIND] == par.KELVIN_VOIGT and plan[at + par.BUMPER_DAMPING] > 0.0:
+            plan[at + par.RATE] = plan[at + par.BUMPER_STIFFNESS] / plan[at + par.BUMPER_DAMPING]
+        # Newton's method may look beyond what can be; above 1 the mass bounces all the same.
+        plan[at + par.RESTITUTION] = max(plan[at + par.RESTITUTION], 0.0)
 
 
 @kernel
@@ -170,13 +208,18 @@ def at_point(plan: Vector, state: Vector, point: Vector) -> None:
 
 
 @kernel
-def undisturbed(plan: Vector, state: Vector, dying: float, found: Vector) -> int:
+def undisturbed(plan: Vector, state: Vector, dying: float, result: Vector) -> int:
     motion = unpacked(state)
     free, swing, felt, carried, motion = dispatch.undisturbed(plan, motion, motion.clock, dying)
     if not free:
         return 0
-    found[0], found[1], found[2] = swing, felt, carried
     pack(motion, state)
+    rest, load = plan[par.LOAD] / plan[par.STIFFNESS], plan[par.LOAD]
+    for i in range(MEASURES):
+        result[i] = 0.0
+    result[U_LEAST], result[U_MOST] = rest - swing, rest + swing
+    result[A_LEAST], result[A_MOST] = -felt, felt
+    result[T_LEAST], result[T_MOST] = load - carried, load + carried
     return 1
 
 
@@ -238,6 +281,32 @@ def _stretch(before: Vector, ended: Vector, after: Vector) -> Stretch:
         ended[ARRIVAL],
         unpacked(after),
     )
+
+
+@kernel
+def nothing(plan: Vector, notes: Vector) -> None:
+    unseen(notes)
+
+
+@kernel
+def look_again(plan: Vector, again: int) -> int:
+    # The force on the base is that of ü + A_t, A_t what stands for the force on the mass: the
+    # absolute acceleration of the same motion if the base moved.
+    if again:
+        if plan[par.BASE] != 0.0:
+            return 0
+        plan[par.BASE] = 1.0
+    else:
+        plan[par.BASE] = 0.0
+    return 1
+
+
+@kernel
+def measured(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Vector) -> None:
+    copy(notes, result, NOTES)
+    result[HITS_RIGHT], result[HITS_LEFT] = notes[HITS_RIGHT] / cycles, notes[HITS_LEFT] / cycles
+    result[T_LEAST] = plan[par.LOAD] - other[A_MOST]
+    result[T_MOST] = plan[par.LOAD] - other[A_LEAST]
 
 
 @kernel
@@ -314,6 +383,10 @@ MOTION = (
     too_much_work,
     stiff_rate,
     parts,
+    coordinates,
+    stops,
+    numbers,
+    complete,
     units,
     size,
     disturb,
@@ -323,7 +396,10 @@ MOTION = (
     undisturbed,
     advance,
     cycle,
+    nothing,
+    look_again,
     extremes,
+    measured,
 )
 """What a sweep asks for."""
 RECORDED = (record, write)

@@ -11,25 +11,19 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.hold import measure
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.matrix import solve
-from vibroimpact.engine.memory import pointer, stack, workspace
-from vibroimpact.engine.observers.tangent import DISTURBANCE
+from vibroimpact.engine.memory import pointer, stack
 from vibroimpact.engine.section_map import (
-    AMPLITUDE,
-    CONTACTS_LEFT,
-    CONTACTS_RIGHT,
-    FACTS,
-    FREQUENCY,
+    CONTACTS,
     MODE,
-    PARAMETER,
-    POINT,
     RESIDUAL,
     STEPS,
-    SYSTEM,
     begin_at,
+    facts_room,
+    point_room,
     section_map,
     system_plan,
 )
-from vibroimpact.engine.state import copy, parts_room, room
+from vibroimpact.engine.state import LARGEST, copy, notes_room, room, square_room
 from vibroimpact.engine.status import DONE, NOT_FINITE, NOT_SETTLED
 
 _NEWTON_STEPS = 16
@@ -38,8 +32,7 @@ _ROUNDING = 2.0**-51
 _DIFFERENCE = 1e-7  # of the parameter's scale; less where impacts make the map steep
 _FARTHEST = 0.5  # scaled length of a Newton step
 
-system_memory = stack(SYSTEM)
-matrix_memory = stack(POINT * POINT)
+matrix_room = stack((LARGEST + 1) * (LARGEST + 1))
 
 
 Line = tuple[Vector, Vector, float, int, bool, int, Vector]
@@ -57,78 +50,82 @@ def _newton(
     slope: Vector,
 ) -> int:
     base, direction, phase, count, mirror, max_events, scale = line
-    system, matrix = system_memory(), matrix_memory()
-    image, right = workspace(), workspace()
-    aim, found = workspace(), workspace()
-    copy(point, aim, POINT)
+    matrix = matrix_room()
+    image, right = point_room(), point_room()
+    aim, found = point_room(), point_room()
+    parts = flow.parts(plan)  # behind which a point has its parameter
+    size = parts + 1
+    copy(point, aim, size)
     best = math.inf
     facts[STEPS] = 0.0
     last = False
     while True:
-        system_plan(base, direction, point[PARAMETER], plan, system)
-        if not (system[FREQUENCY] > 0.0 and system[AMPLITUDE] > 0.0):
+        amplitude, frequency = system_plan(base, direction, point[parts], plan)
+        if not (frequency > 0.0 and amplitude > 0.0):
             return NOT_FINITE
         outcome = section_map(
-            plan, system, phase, count, mirror, max_events, point, facts, image, columns
+            plan, frequency, phase, count, mirror, max_events, point, facts, image, columns
         )
         if outcome != DONE:
             return outcome
         residual = 0.0
-        for i in range(DISTURBANCE):
+        for i in range(parts):
             residual = max(residual, abs(image[i] - point[i]) / scale[i])
         if residual < best:
             best = residual
-            copy(point, found, POINT)
+            copy(point, found, size)
         elif last:
             # Rounding lets it come no closer.
-            copy(found, point, POINT)
+            copy(found, point, size)
         if last or residual <= _GOOD:
             break
         idle = facts[STEPS] >= 4 and residual > 0.25 * best and best < 1e-12
         if idle or facts[STEPS] >= _NEWTON_STEPS:
             last = True
-            copy(found, point, POINT)
+            copy(found, point, size)
             continue
         _slope(plan, line, point, facts, image, columns, slope)
-        for i in range(DISTURBANCE):
-            for j in range(DISTURBANCE):
-                matrix[i * POINT + j] = columns[j * DISTURBANCE + i] * scale[j] / scale[i]
-            matrix[i * POINT + i] -= 1.0
-            matrix[i * POINT + PARAMETER] = slope[i] * scale[PARAMETER] / scale[i]
+        for i in range(parts):
+            for j in range(parts):
+                matrix[i * size + j] = columns[j * parts + i] * scale[j] / scale[i]
+            matrix[i * size + i] -= 1.0
+            matrix[i * size + parts] = slope[i] * scale[parts] / scale[i]
             right[i] = -(image[i] - point[i]) / scale[i]
-        right[PARAMETER] = 0.0
-        for j in range(POINT):
-            matrix[PARAMETER * POINT + j] = tangent[j]
-            right[PARAMETER] -= tangent[j] * (point[j] - aim[j]) / scale[j]
-        if not solve(matrix, right, POINT):
+        right[parts] = 0.0
+        for j in range(size):
+            matrix[parts * size + j] = tangent[j]
+            right[parts] -= tangent[j] * (point[j] - aim[j]) / scale[j]
+        if not solve(matrix, right, size):
             return NOT_SETTLED
         longest = 0.0
-        for j in range(POINT):
+        for j in range(size):
             longest = max(longest, abs(right[j]))
         if not longest < math.inf:
             return NOT_FINITE
         share = min(1.0, _FARTHEST / longest) if longest > 0.0 else 1.0
-        for j in range(POINT):
+        for j in range(size):
             point[j] += share * right[j] * scale[j]
         facts[STEPS] += 1.0
     facts[RESIDUAL] = min(best, residual)
     _slope(plan, line, point, facts, image, columns, slope)
     return (
-        DONE if facts[RESIDUAL] <= 1e-12 + _rounding(point, columns, slope, scale) else NOT_SETTLED
+        DONE
+        if facts[RESIDUAL] <= 1e-12 + _rounding(parts, point, columns, slope, scale)
+        else NOT_SETTLED
     )
 
 
 @kernel
-def _rounding(point: Vector, columns: Vector, slope: Vector, scale: Vector) -> float:
+def _rounding(parts: int, point: Vector, columns: Vector, slope: Vector, scale: Vector) -> float:
     """What rounding a point and the events on its way makes of P, over the scale.
 
     Behind the grazing of a very stiff stop P is so steep that no point comes closer to its image.
     """
     most = 0.0
-    for i in range(DISTURBANCE):
-        change = abs(slope[i] * point[PARAMETER])
-        for j in range(DISTURBANCE):
-            change += abs(columns[j * DISTURBANCE + i] * point[j])
+    for i in range(parts):
+        change = abs(slope[i] * point[parts])
+        for j in range(parts):
+            change += abs(columns[j * parts + i] * point[j])
         most = max(most, _ROUNDING * change / scale[i])
     return most
 
@@ -151,24 +148,25 @@ def _slope(
     """
     base, direction, phase, count, mirror, max_events, scale = line
     # Of its derivative's elements those that no section within a contact makes large.
-    steep = max(1.0, abs(columns[0]), abs(columns[DISTURBANCE + 1]))
-    system, ignored = system_memory(), matrix_memory()
-    other, trial, seen = workspace(), workspace(), workspace()
+    parts, steep = flow.parts(plan), 1.0
+    for i in range(flow.coordinates(plan)):
+        steep = max(steep, abs(columns[i * parts + i]))
+    size, shown = parts + 1, CONTACTS + flow.stops(plan)
+    ignored = square_room()
+    other, trial, seen = point_room(), point_room(), facts_room()
     for sign in range(2):
-        copy(point, trial, POINT)
-        copy(facts, seen, FACTS)
-        step = (1.0 if sign == 0 else -1.0) * _DIFFERENCE * scale[PARAMETER] / steep
-        system_plan(base, direction, point[PARAMETER] + step, plan, system)
+        copy(point, trial, size)
+        copy(facts, seen, shown)
+        step = (1.0 if sign == 0 else -1.0) * _DIFFERENCE * scale[parts] / steep
+        _, frequency = system_plan(base, direction, point[parts] + step, plan)
         outcome = section_map(
-            plan, system, phase, count, mirror, max_events, trial, seen, other, ignored
+            plan, frequency, phase, count, mirror, max_events, trial, seen, other, ignored
         )
-        same = (
-            outcome == DONE
-            and seen[CONTACTS_RIGHT] == facts[CONTACTS_RIGHT]
-            and seen[CONTACTS_LEFT] == facts[CONTACTS_LEFT]
-        )
+        same = outcome == DONE
+        for f in range(CONTACTS, shown):
+            same = same and seen[f] == facts[f]
         if sign == 0 or same:
-            for i in range(DISTURBANCE):
+            for i in range(parts):
                 slope[i] = (other[i] - image[i]) / step if outcome == DONE else 0.0
         if same:
             break
@@ -201,7 +199,7 @@ def correct(
     ----------
     rig : ndarray
         The rig near the solution, which chooses the flow.
-    base, direction : ndarray, shape (SYSTEM,)
+    base, direction : ndarray, shape (numbers of the rig + 2,)
         The system at p = 0, and how it moves with p.
     phase : float
         Forcing phase of the section, rad.
@@ -209,17 +207,17 @@ def correct(
         Cycles that P goes over; or half cycles, each followed by the mirror.
     max_events : int
         Contacts and detachments in one of them at which it gives up.
-    scale : ndarray, shape (POINT,)
+    scale : ndarray, shape (parts + 1,)
         Sizes by which the components are compared.
-    tangent : ndarray, shape (POINT,)
-        Normal of the plane, in scaled components; (0, 0, 0, 0, 0, 1) holds the parameter.
-    point : ndarray, shape (POINT,)
+    tangent : ndarray, shape (parts + 1,)
+        Normal of the plane, in scaled components; (0, …, 0, 1) holds the parameter.
+    point : ndarray, shape (parts + 1,)
         Where to begin; the solution.
-    facts : ndarray, shape (FACTS,)
+    facts : ndarray, shape (section_map.CONTACTS + stops,)
         The mode at the section, on entry; written.
-    columns : ndarray, shape (DISTURBANCE, DISTURBANCE)
+    columns : ndarray, shape (parts, parts)
         Written: row i is what becomes of a unit disturbance of component i.
-    slope : ndarray, shape (DISTURBANCE,)
+    slope : ndarray, shape (parts,)
         Written: ∂P/∂p.
 
     Returns
@@ -264,15 +262,15 @@ def evaluate(
 ) -> int:
     """P and its derivative at a point that need not be an orbit; see `correct`.
 
-    The state is moved to where it can be; `image`, shape (DISTURBANCE,), receives P.
+    The state is moved to where it can be; `image`, shape (parts,), receives P.
     """
     plan = planned(given, rig)
     line = (pointer(base), pointer(direction), phase, count, mirror, max_events, pointer(scale))
-    system = system_memory()
     at, seen, found, q = pointer(point), pointer(facts), pointer(image), pointer(columns)
-    system_plan(line[0], line[1], at[PARAMETER], plan, system)
-    outcome = section_map(plan, system, phase, count, mirror, max_events, at, seen, found, q)
-    for i in range(DISTURBANCE):
+    parts = flow.parts(plan)
+    _, frequency = system_plan(line[0], line[1], at[parts], plan)
+    outcome = section_map(plan, frequency, phase, count, mirror, max_events, at, seen, found, q)
+    for i in range(parts):
         seen[RESIDUAL] = max(seen[RESIDUAL], abs(found[i] - at[i]) / scale[i])
     if outcome == DONE:
         _slope(plan, line, at, seen, found, q, pointer(slope))
@@ -292,11 +290,12 @@ def measure_orbit(
 ) -> int:
     """Exact extremes and contact counts of an orbit, as `hold.measure` writes them."""
     plan = planned(given, system)
-    flow.build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
+    frequency = system[flow.numbers(plan) + 1]
+    flow.build(plan, system[flow.numbers(plan)], 2.0 * math.pi * frequency)
     state = room()
     begin_at(plan, state, facts[MODE], phase, pointer(point))
     s, c = math.sin(phase), math.cos(phase)
-    period = 1.0 / system[FREQUENCY]
+    period = 1.0 / frequency
     return measure(plan, state, s, c, period, cycles, max_events, pointer(result), None)
 
 
@@ -314,7 +313,7 @@ def grazing_margin(
 
     Parameters
     ----------
-    system : ndarray, shape (section_map.SYSTEM,)
+    system : ndarray, shape (numbers of the rig + 2,)
         The rig and its forcing.
     phase : float
         Of the section, rad.
@@ -333,11 +332,12 @@ def grazing_margin(
         size; NaN if given up.
     """
     plan = planned(given, system)
-    flow.build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
-    period = 1.0 / system[FREQUENCY]
+    frequency = system[flow.numbers(plan) + 1]
+    flow.build(plan, system[flow.numbers(plan)], 2.0 * math.pi * frequency)
+    period = 1.0 / frequency
     if flow.too_much_work(plan, period) != 0:
         return math.nan
-    state, notes = room(), parts_room()
+    state, notes = room(), notes_room()
     begin_at(plan, state, facts[MODE], phase, pointer(point))
     s, c = math.sin(phase), math.cos(phase)
     notes[0] = math.inf

@@ -66,6 +66,8 @@ WEIGHTS = SIZE + 2
 of a system vector come the weights of sin nθ and cos nθ, two for each n from 1 on."""
 
 HARMONIC, SEVERAL, RAMP = 0.0, 1.0, 2.0
+MASSES = 3.0
+"""In the place of FORCING: the vector is that of several masses (`assembly.layout`)."""
 
 ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI, FORMULA = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
 CURVED_STOPS = (POWER_LAW, JANKOWSKI, FORMULA)

@@ -21,7 +21,7 @@ from vibroimpact.engine.observers.phases import (
     keep,
     put_back,
 )
-from vibroimpact.engine.sections import FULL, C, Leg, S, Schedule, follow, watcher
+from vibroimpact.engine.sections import FULL, C, Leg, S, Schedule, loop
 from vibroimpact.engine.state import copy, load, put, room, width
 
 
@@ -32,7 +32,7 @@ class Log(NamedTuple):
     rows: Vector
 
 
-@watcher(Log)
+@kernel
 def _measured(plan: Vector, state: Vector, section: Vector, leg: Leg, log: Log) -> int:
     """Measure a leg, or nothing of it."""
     number, s, c, length, max_events = leg
@@ -62,7 +62,7 @@ class Integrals(NamedTuple):
     out: Vector
 
 
-@watcher(Integrals)
+@kernel
 def _integrated(plan: Vector, state: Vector, section: Vector, leg: Leg, found: Integrals) -> int:
     number, s, c, length, max_events = leg
     found.notes[BEGINS] = number * found.interval
@@ -70,6 +70,10 @@ def _integrated(plan: Vector, state: Vector, section: Vector, leg: Leg, found: I
         plan, state, s, c, length, max_events, found.notes, found.lines, found.out
     )
     return events
+
+
+_follow_measured = loop(_measured)
+_follow_integrated = loop(_integrated)
 
 
 @kernel
@@ -117,7 +121,7 @@ def measure_motion(
     state : ndarray, shape (motion.STATE,)
         Where the motion starts; carried on in place.
     first, last : int, float
-        As in `sections.follow`.
+        As in `sections.loop`.
     max_events : int
         Events after a section at which the motion is given up.
     notes : ndarray, shape (observers.phases.NOTES,)
@@ -137,7 +141,7 @@ def measure_motion(
     if first == 0 and notes[WRITTEN] == 0.0:
         begin_row(log.rows, int(notes[MASSES]), int(notes[WIDTH]))
     schedule = _scheduled(phase, pointer(sections), len(sections), changes)
-    found = follow(plan, here, schedule, first, last, max_events, log, None)
+    found = _follow_measured(plan, here, schedule, first, last, max_events, log, None)
     copy(here, pointer(state), width(plan))
     return found
 
@@ -185,6 +189,6 @@ def integrate_motion(
     load(plan, pointer(state), here, 0.0, 0.0)
     found = Integrals(pointer(notes), interval, pointer(lines), pointer(out))
     schedule = _scheduled(phase, pointer(sections), len(sections), changes)
-    ended = follow(plan, here, schedule, first, last, max_events, found, None)
+    ended = _follow_integrated(plan, here, schedule, first, last, max_events, found, None)
     copy(here, pointer(state), width(plan))
     return ended

@@ -12,45 +12,46 @@ import math
 from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import FLIGHT
 from vibroimpact.engine.observers.tangent import DISTURBANCE
+from vibroimpact.engine.state import DAMPING as NOTED_DAMPING
+from vibroimpact.engine.state import HITS, LARGEST, finite, notes_room, parts_room, room, wind
 from vibroimpact.engine.state import MODE as STATE_MODE
-from vibroimpact.engine.state import finite, parts_room, room, wind
 from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
-# The system vector: the rig (`parameters`), then the forcing.
+# The system vector: the rig's, so many `flow.numbers`, then the forcing. Here that of one mass:
 AMPLITUDE = par.SIZE
 FREQUENCY = par.SIZE + 1
 SYSTEM = par.SIZE + 2
 
-# A point: the state u, u̇, u_R, u_L (signed as in the paper), z, then the parameter.
+# A point: the parts of a state, signed as in the paper, then the parameter. Here that of one mass.
 PARAMETER = DISTURBANCE
 POINT = DISTURBANCE + 1
 
-# What an orbit shows besides: its mode at the section, contacts begun on each side, the largest
-# residual over the scale, the Newton steps taken, and the integral of the damping.
-MODE, CONTACTS_RIGHT, CONTACTS_LEFT, RESIDUAL, STEPS, DAMPING = range(6)
-FACTS = 6
+# What an orbit shows besides: its mode at the section, the largest residual over the scale, the
+# Newton steps taken, the integral of the damping, and the contacts begun at each stop.
+MODE, RESIDUAL, STEPS, DAMPING, CONTACTS = range(5)
+CONTACTS_RIGHT, CONTACTS_LEFT = CONTACTS, CONTACTS + 1
+FACTS = CONTACTS + 2
+"""Of one mass."""
+
+facts_room = stack(CONTACTS + LARGEST)
+point_room = stack(LARGEST + 1)
 
 
 @kernel
-def system_plan(base: Vector, direction: Vector, p: float, plan: Vector, system: Vector) -> None:
-    """Put the system at a parameter into `system`, and its tables into the plan."""
-    for i in range(SYSTEM):
+def system_plan(base: Vector, direction: Vector, p: float, plan: Vector) -> tuple[float, float]:
+    """Put the system at a parameter into the plan, with its tables: its amplitude and frequency."""
+    n = flow.numbers(plan)
+    for i in range(n):
         # 0 · ∞ must not make a NaN of an absent bumper.
-        system[i] = base[i] + p * direction[i] if direction[i] != 0.0 else base[i]
-    for side in range(2):
-        at = par.BUMPER + par.WIDTH * side
-        if system[at + par.KIND] == par.KELVIN_VOIGT and system[at + par.BUMPER_DAMPING] > 0.0:
-            system[at + par.RATE] = (
-                system[at + par.BUMPER_STIFFNESS] / system[at + par.BUMPER_DAMPING]
-            )
-
-        # Newton's method may look beyond what can be; above 1 the mass bounces all the same.
-        system[at + par.RESTITUTION] = max(system[at + par.RESTITUTION], 0.0)
-    for i in range(par.SIZE):
-        plan[i] = system[i]
-    flow.build(plan, system[AMPLITUDE], 2.0 * math.pi * system[FREQUENCY])
+        plan[i] = base[i] + p * direction[i] if direction[i] != 0.0 else base[i]
+    flow.complete(plan)
+    amplitude = base[n] + p * direction[n]
+    frequency = base[n + 1] + p * direction[n + 1]
+    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
+    return amplitude, frequency
 
 
 @kernel
@@ -64,7 +65,7 @@ def begin_at(plan: Vector, state: Vector, mode: float, phase: float, point: Vect
 @kernel
 def section_map(
     plan: Vector,
-    system: Vector,
+    frequency: float,
     phase: float,
     count: int,
     mirror: bool,
@@ -78,29 +79,32 @@ def section_map(
 
     `q` receives what becomes of unit disturbances, a row each; the result is a `Status`.
     """
-    for i in range(DISTURBANCE):
+    parts, stops = flow.parts(plan), flow.stops(plan)
+    for i in range(parts):
         if not abs(point[i]) < 1e200:
             return NOT_FINITE
     s, c = math.sin(phase), math.cos(phase)
-    state, notes = room(), parts_room()
+    state, here, notes = room(), parts_room(), notes_room()
     begin_at(plan, state, facts[MODE], phase, point)
     # The deformations and what the isolator remembers, where they can be.
-    flow.point(plan, state, notes)
-    for i in range(2, DISTURBANCE):
-        point[i] = notes[i]
+    flow.point(plan, state, here)
+    for i in range(flow.coordinates(plan), parts):
+        point[i] = here[i]
     facts[MODE] = state[STATE_MODE]
-    period = (0.5 if mirror else 1.0) / system[FREQUENCY]
+    period = (0.5 if mirror else 1.0) / frequency
     if flow.too_much_work(plan, period) != 0:
         return TOO_MUCH_WORK
     flow.unit_disturbances(plan, state, q)
-    facts[CONTACTS_RIGHT], facts[CONTACTS_LEFT], facts[DAMPING] = 0.0, 0.0, 0.0
+    facts[DAMPING] = 0.0
+    for f in range(stops):
+        facts[CONTACTS + f] = 0.0
     for _ in range(count):
-        notes[0], notes[1], notes[2] = 0.0, 0.0, 0.0
+        start_notes(plan, notes)
         if event_loop.tangent(plan, state, s, c, period, max_events, notes, q) > max_events:
             return TOO_MANY_EVENTS
-        facts[DAMPING] += notes[0]
-        facts[CONTACTS_RIGHT] += notes[1]
-        facts[CONTACTS_LEFT] += notes[2]
+        facts[DAMPING] += notes[NOTED_DAMPING]
+        for f in range(stops):
+            facts[CONTACTS + f] += notes[HITS + f]
         if mirror:
             flow.mirror(plan, state, q)
     if not finite(plan, state):
@@ -109,3 +113,10 @@ def section_map(
     if state[STATE_MODE] != FLIGHT:
         facts[MODE] = state[STATE_MODE]
     return DONE
+
+
+@kernel
+def start_notes(plan: Vector, notes: Vector) -> None:
+    """Begin the notes of `flow.tangent`."""
+    for i in range(HITS + flow.stops(plan)):
+        notes[i] = 0.0

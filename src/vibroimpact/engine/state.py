@@ -18,12 +18,25 @@ EVENT, T, STEP, ARRIVAL = range(4)
 """Of a stretch between two states: what ended it, the time since the section at its start (s), its
 length (s), and the velocity just before the event that ends it, which an impact changes."""
 
+DAMPING, HITS = range(2)
+"""Of the notes of `flow.tangent`: the integral of the damping, then the contacts begun at each
+stop."""
+
+MEASURES = 3 * LARGEST + 8
+"""Largest number of notes of `flow.extremes`, and of what `flow.measured` writes."""
+
 stretch_room = stack(4)
 """Room for them."""
 room = stack(FIRST + LARGEST + BEHIND)
 """Room for a state."""
 parts_room = stack(LARGEST)
 """Room for a number for each part."""
+square_room = stack(LARGEST * LARGEST)
+"""Room for as many for each."""
+notes_room = stack(LARGEST)
+"""Room for notes of `flow.tangent`."""
+measures_room = stack(MEASURES)
+"""Room for notes of `flow.extremes`."""
 
 
 @kernel

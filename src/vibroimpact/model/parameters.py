@@ -129,7 +129,7 @@ class Parameter(NamedTuple):
         if self.name in ("frequency", "amplitude"):
             changed = rig.periodic.replace(**{self.name: value})
             keep_open = self.name != "frequency"
-            return rig.with_parts(rig.oscillator, changed, keep_open=keep_open)
+            return rig.with_parts(rig.system, changed, keep_open=keep_open)
         places = _places(rig.oscillator).get(self.name, [])
         try:
             oscillator = put(rig.oscillator, {one.steps: value for one in places})

@@ -63,15 +63,20 @@ def as_rig(
     return rig if frequency is None else rig.at(frequency)
 
 
-def as_rig_of_any_masses(value: Any, where: str = "rig") -> Rig:
+def as_rig_of_any_masses(
+    value: Any, where: str = "rig", *, frequency: float | str | None = None
+) -> Rig:
     """Return the rig that an argument describes, also if its system is an assembly.
+
+    The arguments are those of `as_rig`.
 
     Raises
     ------
     InputError
         If the value is not a rig, or if the study file is invalid.
     """
-    return _read(value, where, oscillator_alone=False)
+    rig = _read(value, where, oscillator_alone=False)
+    return rig if frequency is None else rig.at(frequency)
 
 
 def as_assembly(value: Any, where: str = "rig") -> Assembly:

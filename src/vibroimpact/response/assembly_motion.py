@@ -19,13 +19,14 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import describe, excitation_parameters
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.assembly.entries import follow_sections
-from vibroimpact.engine.assembly.plan import Forcing, Stop, base_motion, make_plan, record_motion
+from vibroimpact.engine.assembly.plan import plan_of
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
-from vibroimpact.model import Assembly, Bumper, Periodic, Record, Repeated, RigidStop, equilibrium
+from vibroimpact.errors import outside
+from vibroimpact.model import Assembly, Bumper, Periodic, Record, Repeated, equilibrium
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.count_checks import check_samples
 from vibroimpact.model.rig import Rig
+from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
 from vibroimpact.response.assembly_state import (
     as_assembly_state,
     assembly_vector,
@@ -110,75 +111,6 @@ class _Event(NamedTuple):
     velocity: _Array
 
 
-def check_laws(assembly: Assembly) -> None:
-    """Raise an error if a law of the assembly is none that the flow of several masses has.
-
-    Raises
-    ------
-    InputError
-        If a link is curved, a stop is neither a `Bumper` nor a `RigidStop`, or there are too many.
-    """
-    for name, link in assembly.links.items():
-        if not link.law.linear:
-            raise InputError(
-                f"links.{name}: simulate accepts linear links of an Assembly so far, not a "
-                f"{type(link.law).__name__}; use Isolator(stiffness, damping)"
-            )
-    for name, stop in assembly.stops.items():
-        if not isinstance(stop.law, Bumper | RigidStop):
-            raise InputError(
-                f"stops.{name}: simulate accepts bumpers and rigid stops of an Assembly so far, "
-                f"not a {type(stop.law).__name__}; use Bumper(stiffness, damping, gap) or "
-                "RigidStop(restitution, gap)"
-            )
-    if len(assembly.stops) > layout.MOST_STOPS:
-        raise InputError(
-            f"stops: {len(assembly.stops)} stops; at most {layout.MOST_STOPS} are possible"
-        )
-
-
-def assembly_plan(assembly: Assembly, shaking: Repeated | Record) -> _Array:
-    """Return the plan of an assembly that is shaken, without tables."""
-    check_laws(assembly)
-    of = numbers(assembly)
-    stops = [
-        Stop(
-            part.left,
-            part.right,
-            part.gap,
-            part.values.get("stiffness", 0.0),
-            part.values.get("damping", 0.0),
-            part.values.get("restitution") if part.kind == RigidStop.kind else None,
-        )
-        for part in of.stops
-    ]
-    forcing = _forcing(assembly, shaking, of.mass, of.influence)
-    return make_plan(of.mass, of.damping, of.stiffness, stops, forcing, of.force, tables=False)
-
-
-def _forcing(
-    assembly: Assembly, shaking: Repeated | Record, mass: _Array, influence: _Array
-) -> Forcing:
-    if isinstance(shaking, Record):
-        return record_motion(mass, influence, shaking.step)
-    harmonics = [(1.0, 0.0)]
-    if isinstance(shaking, Periodic):
-        sizes = [one / shaking.amplitude for one in shaking.amplitudes]
-        harmonics = list(zip(sizes, shaking.phases, strict=True))
-    power = 2 if shaking.grows_with_frequency else 0
-    sign = -1.0 if shaking.of == "displacement" else 1.0
-    # A displacement or an unbalance of harmonic n grows as (n ω)².
-    scaled = [
-        (sign * size * float(order) ** power, turn)
-        for order, (size, turn) in enumerate(harmonics, 1)
-    ]
-    if shaking.moves_base:
-        return base_motion(mass, influence, scaled)._replace(power=power)
-    columns = [size * part for size, turn in scaled for part in (math.cos(turn), math.sin(turn))]
-    on = assembly.names.index(shaking.on or assembly.names[0])
-    return Forcing(np.outer(np.eye(len(assembly.names))[on], columns), power)
-
-
 def _fastest(assembly: Assembly, shaking: Repeated | Record) -> float:
     """A bound on the rates with all bumpers pressed (1/s), in the norm max(ρ |u|, |v|)."""
     of = numbers(assembly)
@@ -218,7 +150,7 @@ class _Run:
             if isinstance(shaking, Record)
             else (shaking.amplitude, shaking.angular_frequency)
         )
-        self.plan = assembly_plan(system, shaking)
+        self.plan = plan_of(assembly_numbers(system, shaking))
         self.sampling = self.plan.copy()
         self.max_events = max_events
         self.log = np.empty((max_events + 1, 4))

@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine.assembly import layout
+from vibroimpact.engine.assembly.events import KEPT, LEVELS
 from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, AssemblyState, Bumper, RigidStop, State
@@ -19,8 +20,6 @@ _Array = NDArray[np.float64]
 
 _AT_REST = 1e-14
 """A closing speed below this share of the bodies' speeds is rounding."""
-_KEPT = 6
-"""Known zeros that fit into an engine's state."""
 _PARTS = ("displacement", "velocity", "deformation", "touching")
 
 
@@ -40,6 +39,22 @@ def state_components(assembly: Assembly, vector: _Array, phase: float) -> _Array
     deformations = np.maximum(vector[end : end + count], 0.0)
     found = [*vector[layout.PARTS : end], *deformations, *touching, phase % (2.0 * math.pi)]
     return np.array(found) + 0.0  # no negative zeros
+
+
+def assembly_state_from(assembly: Assembly, vector: _Array, phase: float) -> AssemblyState:
+    """Return an engine's state at a forcing phase as a state by names."""
+    n, stops = len(assembly.names), list(assembly.stops)
+    u = vector[layout.PARTS : layout.PARTS + n]
+    v = vector[layout.PARTS + n : layout.PARTS + 2 * n]
+    d = np.maximum(vector[layout.PARTS + 2 * n :][: len(stops)], 0.0)
+    mode = int(vector[layout.STATE_MODE])
+    return AssemblyState(
+        displacement=dict(zip(assembly.names, u.tolist(), strict=True)),
+        velocity=dict(zip(assembly.names, v.tolist(), strict=True)),
+        deformation=dict(zip(stops, d.tolist(), strict=True)),
+        touching=[name for f, name in enumerate(stops) if mode >> f & 1],
+        phase=phase,
+    )
 
 
 def as_assembly_state(start: Any, assembly: Assembly) -> AssemblyState:
@@ -196,6 +211,6 @@ def _parting(law: Bumper | RigidStop, d: float, closing: float, speeds: float) -
 def _packed(zeros: dict[int, int]) -> float:
     """Return known zeros as the engine keeps them; see `engine.assembly.events.pack_fresh`."""
     packed = 0
-    for f, order in list(zeros.items())[:_KEPT]:
+    for f, order in list(zeros.items())[:KEPT]:
         packed = packed * 256 + 4 * (f + 1) + order
-    return float(packed)
+    return float(LEVELS * packed)

@@ -17,6 +17,7 @@ from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import (
+    Assembly,
     AssemblyState,
     Oscillator,
     Periodic,
@@ -25,6 +26,7 @@ from vibroimpact.model import (
     Stop,
 )
 from vibroimpact.model.rig import Rig
+from vibroimpact.response.assembly_rig import assembly_numbers
 
 TOUCHING = 1e-12
 """A mass this close to a bumper touches it, as a share of the gap and of the motion's size."""
@@ -50,6 +52,8 @@ _CONTACTS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
 
 def engine_rig(rig: Rig) -> NDArray[np.float64]:
     """The rig as the vector that the engine reads."""
+    if isinstance(rig.system, Assembly):
+        return assembly_numbers(rig.system, rig.periodic)
     oscillator = rig.oscillator
     stiffness, damping, law = oscillator.isolator.engine_numbers()
     right, left = (
@@ -71,6 +75,8 @@ def engine_rig(rig: Rig) -> NDArray[np.float64]:
 def system_vector(rig: Rig) -> NDArray[np.float64]:
     """The same with the size and the frequency of what shakes it: a system of the section's map."""
     excitation, numbers = rig.periodic, engine_rig(rig)
+    if isinstance(rig.system, Assembly):
+        return np.append(numbers, [excitation.amplitude, excitation.frequency])
     vector = np.resize(numbers, max(section_map.SYSTEM, len(numbers)))
     vector[section_map.AMPLITUDE] = excitation.amplitude
     vector[section_map.FREQUENCY] = excitation.frequency

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, hold
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine.assembly import layout, measures
+from vibroimpact.engine.parameters import FORCING, MASSES
 from vibroimpact.engine.settling import PATIENT
 from vibroimpact.engine.status import Status
 from vibroimpact.tasks.threads import Tally
@@ -177,6 +178,14 @@ class HoldRows:
         return found
 
 
+def results_of(vector: _Array) -> int:
+    """Return how many numbers the engine writes of a hold of a rig."""
+    if vector[FORCING] != MASSES:
+        return hold.RESULTS
+    of = vector[[layout.MASSES, layout.STOPS]].astype(int)
+    return hold.MEASURED + measures.count(*of)
+
+
 def sweep_holds(
     vector: _Array,
     amplitudes: _Array,
@@ -214,7 +223,8 @@ def sweep_holds(
         The state at the end of each hold.
     """
     count = len(frequencies)
-    rows, states = HoldRows.empty(count), np.zeros((count, layout.STATE))
+    rows = HoldRows(np.empty((count, results_of(vector))))
+    states = np.zeros((count, len(state)))
     batch.sweep(
         vector,
         np.ascontiguousarray(amplitudes),

@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import batch, lyapunov
-from vibroimpact.engine.observers import record
-from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Repeated, Rig, State, equilibrium
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.model import AssemblyState, Repeated, Rig, State
+from vibroimpact.response.engine_input import engine_rig
 from vibroimpact.response.hold_rows import MAX_EVENTS, HoldRows, Settling, sweep_holds
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import CYCLES, Progress, Tally, watched
 
@@ -39,33 +38,33 @@ class PreparedRig(NamedTuple):
         """What shakes it; the phase is that of the section."""
         return self.rig.periodic
 
-    def state(self, start: State | None = None) -> _Array:
+    @property
+    def states(self) -> SectionStates:
+        """How states stand in vectors."""
+        return SectionStates(self.rig.system)
+
+    def state(self, start: State | AssemblyState | None = None) -> _Array:
         """Return the engine's vector of a state. Default: at rest at the static equilibrium."""
-        oscillator = self.rig.oscillator
-        return engine_state(oscillator, start or equilibrium(oscillator))
+        return self.states.vector_of(start or self.states.read(None))
 
     def at_phase(self, phase: float) -> PreparedRig:
         """Return the same rig with its section at another forcing phase."""
         turned = self.shaking.replace(phase=phase)
-        return self._replace(rig=self.rig.with_parts(self.rig.oscillator, turned))
+        return self._replace(rig=self.rig.with_parts(self.rig.system, turned))
 
     def propagate(
         self, state: _Array, cycles: float, max_events: int = MAX_EVENTS
     ) -> tuple[Status, _Array]:
         """Return the state some forcing cycles later; of use only if `Status.DONE`."""
         later, shaking = state.copy(), self.shaking
-        _, _, outcome = batch.trajectory(
+        outcome = batch.propagate(
             self.vector,
             shaking.amplitude,
             shaking.frequency,
             shaking.phase,
             later,
-            0.0,
             cycles,
-            0,
             max_events,
-            np.empty((record.SAMPLE, 0)),
-            np.empty((max_events + 1, record.EVENT)),
         )
         return Status(outcome), later
 
@@ -133,7 +132,7 @@ class PreparedRig(NamedTuple):
         status, rows
             Rows of `engine.lyapunov.growth`: fewer than requested unless `Status.DONE`.
         """
-        rows = np.empty((cycles, lyapunov.GROWTH))
+        rows = np.empty((cycles, lyapunov.SECTION + self.states.parts))
         done = 0
 
         def keep(some: _Array) -> None:
@@ -170,8 +169,9 @@ class PreparedRig(NamedTuple):
         keep
             Called with the next rows, which are overwritten afterwards.
         """
-        rows = np.empty((min(cycles, _ROWS), lyapunov.GROWTH))
-        perturbations, shaking = np.zeros((DISTURBANCE, DISTURBANCE)), self.shaking
+        parts, shaking = self.states.parts, self.shaking
+        rows = np.empty((min(cycles, _ROWS), lyapunov.SECTION + parts))
+        perturbations = np.zeros((parts, parts))
         first = -transient - discard
         calls = Calls(cycles - first, progress, _ROWS)
         at, outcome = first, int(Status.DONE)

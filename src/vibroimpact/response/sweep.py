@@ -24,12 +24,13 @@ from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import State, to_si
+from vibroimpact.model import Assembly, AssemblyState, State, to_si
 from vibroimpact.model.count_checks import check_max_events, share, whole
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
-from vibroimpact.model.read_rig import AnyRig, as_rig, as_rigs
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs
 from vibroimpact.model.rig import Rig
+from vibroimpact.response.assembly_sweep import sweep_assembly
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import (
@@ -41,6 +42,7 @@ from vibroimpact.response.outputs import (
     read_outputs,
 )
 from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops, note_unbounded
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.response.sweep_dataset import sweep_dataset
@@ -113,13 +115,31 @@ def sweep(
 
         Values are NaN only where ``status`` reports that there is no value.
 
+        Of an assembly, displacements and accelerations have the additional dim ``mass``, and
+        ``impacts``, ``peak_force`` and ``peak_impulse`` the dim ``stop``;
+        ``simultaneous_impacts`` counts the impacts whose order the order of the stops decided.
+        ``eta_d``, ``eta_a`` and ``transmissibility`` are those of an oscillator alone.
+
     Raises
     ------
     InputError
         If a value is invalid.
     """
+    rig = as_rig_of_any_masses(rig)
+    if isinstance(rig.system, Assembly):
+        return _of_several_masses(
+            rig,
+            frequencies,
+            directions,
+            start,
+            phase,
+            Settling(tolerance, max_cycles, window, max_events),
+            outputs,
+            threads,
+            progress,
+        )
     data = sweeps(
-        [as_rig(rig)],
+        [rig],
         frequencies,
         directions,
         start=start,
@@ -135,6 +155,49 @@ def sweep(
     data = data.isel(rig=0, drop=True)
     data.attrs["created_by"] = "vibroimpact.sweep"
     return data
+
+
+def _of_several_masses(
+    rig: Rig,
+    frequencies: Iterable[float | str],
+    directions: Sequence[str],
+    start: Any,
+    phase: float | str,
+    settling: Settling,
+    outputs: Outputs | None,
+    threads: int | None,
+    progress: Progress | None,
+) -> xr.Dataset:
+    """Return the sweep of an assembly, the arguments read."""
+    check_progress(progress)
+    as_periodic(rig.shaking, "shaking")
+    if outputs is not None:
+        raise InputError(
+            "outputs: own outputs are not computed for an Assembly of several masses so far; "
+            "remove outputs"
+        )
+    state = SectionStates(rig.system).read(start)
+    assert isinstance(state, AssemblyState)
+    return sweep_assembly(
+        rig,
+        check_frequencies(frequencies),
+        _directions(directions),
+        state,
+        to_si(phase, ANGLE, "phase") if state.phase is None else state.phase,
+        _checked(settling),
+        placed(threads),
+        progress,
+    )
+
+
+def _checked(settling: Settling) -> Settling:
+    tolerance, max_cycles, window, max_events = settling
+    return Settling(
+        share(tolerance, "tolerance"),
+        whole(max_cycles, "max_cycles"),
+        whole(window, "window"),
+        check_max_events(max_events),
+    )
 
 
 def sweeps(
@@ -213,14 +276,12 @@ def sweeps(
     state = None if start is None else as_state(start)
     if state is not None and state.phase is not None:
         angle = state.phase
-    tolerance = share(tolerance, "tolerance")
-    max_cycles, window = whole(max_cycles, "max_cycles"), whole(window, "window")
-    max_events = check_max_events(max_events)
+    settling = _checked(Settling(tolerance, max_cycles, window, max_events))
+    tolerance, max_cycles, window, max_events = settling
     workers = placed(threads, where)
 
     own = [read_outputs(outputs, rig) for rig in pairs]
     ready = [plan_sweep(rig, grid, state) for rig in pairs]
-    settling = Settling(tolerance, max_cycles, window, max_events)
 
     batch.sweep.prepare(*(one.rig for one in ready))  # once, before the threads would queue for it
     items = [(one, direction) for one in ready for direction in directions]

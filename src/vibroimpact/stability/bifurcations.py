@@ -27,9 +27,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.continuation.zero import between_zeros, zero_within
 from vibroimpact.engine import section_map
-from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.fixed_points import SEEN, Orbit, corrected, evaluated, is_fixed
+from vibroimpact.stability.fixed_points import VALUE, Orbit, corrected, evaluated, is_fixed
 from vibroimpact.stability.orbit_curve import Station, solved
 from vibroimpact.stability.parent_branches import half_plus, parent, slid
 
@@ -63,8 +62,8 @@ class Bifurcation(NamedTuple):
     """Along the branch on which it was found."""
     turns: bool
     """Whether the branch turns back here."""
-    contacts_behind: tuple[int, int]
-    """Contacts on each side per period beyond it; the orbit's own but for a grazing."""
+    contacts_behind: tuple[int, ...]
+    """Contacts with each stop per period beyond it; the orbit's own but for a grazing."""
 
 
 def spiral(orbit: Orbit) -> float:
@@ -80,6 +79,24 @@ def pair(orbit: Orbit) -> float:
     As `spiral` where these are a complex pair; it goes on smoothly where the pair becomes real.
     """
     return float(np.log(np.abs(orbit.map_multipliers[:2]) + 1e-300).mean())
+
+
+def pairs(orbit: Orbit) -> float:
+    """∏ (λ_i λ_j − 1) over all pairs of multipliers: zero where a complex pair is on the circle.
+
+    Of several masses, whose pairs may pass the unit circle one after the other. It is zero as well
+    where two real multipliers are each other's inverse.
+    """
+    values = orbit.map_multipliers
+    first, second = np.triu_indices(len(values), 1)
+    return float(np.prod(values[first] * values[second] - 1.0).real)
+
+
+def _turns_on_circle(orbit: Orbit) -> bool:
+    """Whether a complex pair lies on the unit circle, near enough to be the one that passes."""
+    values = orbit.map_multipliers
+    turning = np.abs(values[np.abs(values.imag) > 1e-9 * np.abs(values)])
+    return bool(turning.size and np.abs(np.log(turning)).min() <= _SMALL)
 
 
 def _growing(orbit: Orbit) -> int:
@@ -101,7 +118,7 @@ def remembers(orbit: Orbit) -> bool:
     the product of the other two multipliers is that of the damping, at most 1, and no pair passes
     the unit circle (docs/theory.md, 6.5).
     """
-    return bool(np.abs(orbit.map_multipliers[2]) > _MEMORY)
+    return bool((np.abs(orbit.map_multipliers[2:3]) > _MEMORY).any())
 
 
 def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcation]:
@@ -119,21 +136,22 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
                 GRAZING,
                 exact.orbit,
                 exact.arclength,
-                bool(here.tangent[PARAMETER] * there.tangent[PARAMETER] < 0.0),
+                bool(here.tangent[VALUE] * there.tangent[VALUE] < 0.0),
                 other.orbit.contacts,
             )
             continue
         met = parent(here.orbit, there.orbit)
         for kind, function in _tests(here)[: 1 if turning else None]:
             if kind == FOLD:  # the tangents are known
-                first, second = float(here.tangent[PARAMETER]), float(there.tangent[PARAMETER])
+                first, second = float(here.tangent[VALUE]), float(there.tangent[VALUE])
             else:
                 first, second = function(here.orbit), function(there.orbit)
             # A zero at the end belongs to the next step.
             turns = kind == FOLD and met is not None
             if not (turns or first * second < 0.0 or (first == 0.0 and second != 0.0)):
                 continue
-            if kind == NEIMARK and -1.0 in (first, second):
+            several = here.orbit.section.family.of_several_masses
+            if kind == NEIMARK and not several and -1.0 in (first, second):
                 continue  # a pair became complex; see `_pair_beside_real_ones`
             rounded = min(abs(first), abs(second)) <= _CERTAIN and not remembers(here.orbit)
             if kind == NEIMARK and rounded:
@@ -144,6 +162,8 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
                 arclength = 0.5 * (here.arclength + there.arclength)
             else:
                 orbit, arclength = _locate(here, there, function)
+            if kind == NEIMARK and several and not _turns_on_circle(orbit):
+                continue  # two real multipliers, one on each side of the circle
             yield Bifurcation(kind, orbit, arclength, turns or kind == FOLD, orbit.contacts)
         if not turning and (crossed := _pair_beside_real_ones(here, there)) is not None:
             yield crossed
@@ -153,6 +173,8 @@ def find(stations: list[Station], *, turning: bool = False) -> Iterator[Bifurcat
 
 def _pair_beside_real_ones(here: Station, there: Station) -> Bifurcation | None:
     """Where a complex pair passes the unit circle in a step at an end of which it is real."""
+    if here.orbit.section.family.of_several_masses:
+        return None  # `pairs` finds it
     if -1.0 not in (spiral(here.orbit), spiral(there.orbit)):
         return None
     if abs(_growing(here.orbit) - _growing(there.orbit)) != 2:
@@ -171,7 +193,7 @@ def _branching(here: Station, there: Station) -> Bifurcation | None:
     ends = minus_one(here.orbit), minus_one(there.orbit)
     if ends[0] * ends[1] >= 0.0 or min(abs(end) for end in ends) < _CERTAIN:
         return None
-    if here.tangent[PARAMETER] * there.tangent[PARAMETER] <= 0.0:
+    if here.tangent[VALUE] * there.tangent[VALUE] <= 0.0:
         return None
     orbit, arclength = _locate(here, there, minus_one)
     own = _own_image(orbit)
@@ -185,7 +207,7 @@ def _own_image(near: Orbit) -> Orbit | None:
     As a fixed point of the map over half a period and the mirror it is regular there.
     """
     section = near.section
-    if section.mirror or section.count % 2 == 0 or near.contacts != (0, 0):
+    if section.mirror or section.count % 2 == 0 or any(near.contacts):
         return None
     if not section.family.excitation.half_wave:
         return None
@@ -193,13 +215,13 @@ def _own_image(near: Orbit) -> Orbit | None:
 
     def at(value: float) -> Orbit | None:
         point = near.point.copy()
-        point[PARAMETER] = value
+        point[VALUE] = value
         status, found = corrected(half, point, mode)
-        away = (found.point - near.point) / section.scale * SEEN
+        away = (found.point - near.point) / section.scale * section.seen
         close = np.linalg.norm(away) <= _MIRRORS
-        return found if status is Status.DONE and close and found.contacts == (0, 0) else None
+        return found if status is Status.DONE and close and not any(found.contacts) else None
 
-    step = 1e-6 * section.scale[PARAMETER]
+    step = 1e-6 * section.scale[VALUE]
     first, second = at(near.value), at(near.value + step)
     if first is None or second is None:
         return None
@@ -237,13 +259,13 @@ def _between_folds(stations: list[Station]) -> Iterator[Station]:
     for here, there in itertools.pairwise(stations):
         yield here
         ends, step = (
-            (float(here.tangent[PARAMETER]), float(there.tangent[PARAMETER])),
+            (float(here.tangent[VALUE]), float(there.tangent[VALUE])),
             there.arclength - here.arclength,
         )
         if here.piece != there.piece or ends[0] * ends[1] <= 0.0 or not step > 0.0:
             continue
         (_, fold), *_ = _tests(here)
-        mean = (there.orbit.value - here.orbit.value) / here.orbit.section.scale[PARAMETER] / step
+        mean = (there.orbit.value - here.orbit.value) / here.orbit.section.scale[VALUE] / step
         met = between_zeros(ends, mean, step, partial(solved, here), fold)
         if met is not None:
             tangent = met[0].tangent(here.tangent)
@@ -255,9 +277,9 @@ def _tests(here: Station) -> list[tuple[str, Callable[[Orbit], float]]]:
     along = here.tangent
     doubling = BREAKING if here.orbit.section.mirror else DOUBLING
     return [
-        (FOLD, lambda orbit: float(orbit.tangent(along)[PARAMETER])),
+        (FOLD, lambda orbit: float(orbit.tangent(along)[VALUE])),
         (doubling, half_plus),
-        (NEIMARK, spiral),
+        (NEIMARK, pairs if here.orbit.section.family.of_several_masses else spiral),
     ]
 
 
@@ -273,7 +295,8 @@ def _locate(
     ends = [(here, there, 1.0), (back, here, -1.0)]
     for start, end, sense in ends:
         scale = start.orbit.section.scale
-        chord = (end.orbit.point - start.orbit.point) / scale * SEEN
+        seen = start.orbit.section.seen
+        chord = (end.orbit.point - start.orbit.point) / scale * seen
         length = float(chord @ start.tangent)
         if length <= 0.0:
             continue
@@ -305,9 +328,9 @@ def born(found: Bifurcation) -> Iterator[Station]:
     else:
         return
     values, vectors = np.linalg.eig(found.orbit.carried.T)
-    vector = np.real(vectors[:, np.argmin(np.abs(values + 1.0))]) / section.scale[:PARAMETER]
+    vector = np.real(vectors[:, np.argmin(np.abs(values + 1.0))]) / section.scale[:VALUE]
     normal = np.append(vector, 0.0)
-    size = float(np.linalg.norm(normal * SEEN))
+    size = float(np.linalg.norm(normal * section.seen))
     if not size > 0.0:
         return  # only a bumper's deformation would differ
     normal /= size
@@ -316,7 +339,7 @@ def born(found: Bifurcation) -> Iterator[Station]:
         status, orbit = corrected(target, point, found.orbit.facts[section_map.MODE], normal)
         if status is not Status.DONE:
             continue
-        away = (orbit.point - found.orbit.point) / section.scale * SEEN
+        away = (orbit.point - found.orbit.point) / section.scale * section.seen
         # It must not have slid back to the orbit that was there before, nor to another such one.
         if 0.3 * distance <= np.linalg.norm(away) <= 30.0 * distance and not slid(orbit):
             yield Station(orbit, orbit.tangent(normal), 0.0, 0)
@@ -326,7 +349,7 @@ def born(found: Bifurcation) -> Iterator[Station]:
 def with_critical(stations: list[Station], found: list[Bifurcation]) -> list[Station]:
     """A branch with the orbits of its bifurcations among the others, where they belong."""
     added = [
-        Station(b.orbit, np.zeros(PARAMETER + 1), b.arclength, -1, critical=True)
+        Station(b.orbit, np.zeros(len(b.orbit.point)), b.arclength, -1, critical=True)
         for b in found
         if b.kind != GRAZING
     ]

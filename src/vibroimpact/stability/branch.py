@@ -8,14 +8,14 @@ import xarray as xr
 from vibroimpact.arguments import check_progress
 from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
-from vibroimpact.model import Rig, State
+from vibroimpact.model import Assembly, Rig, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
 from vibroimpact.model.parameters import read_span
-from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest, in_units_of_rig
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
-from vibroimpact.stability.fixed_points import HELD, Orbit
+from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.folds import FREE, InContact, bounded_by_flight, turns_into_flight
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.orbit_curve import CLOSED, Branch, Station
@@ -100,6 +100,9 @@ def branch(
           the largest first), and ``stable``;
         - ``section``, the state of the orbit at the stroboscopic section.
 
+        Of an assembly, the sizes have the dims ``mass`` and ``stop`` as in `sweep`. The parameter
+        is "frequency" or "amplitude".
+
         The dim ``bifurcation`` counts the bifurcations, with the kind, the parameter, the state and
         the multipliers of each. The attributes ``ended_low`` and ``ended_high`` state why the
         branch ends at either end.
@@ -110,10 +113,15 @@ def branch(
         If a value is invalid, or if Newton's method finds no orbit near the start.
     """
     check_progress(progress)
-    rig = from_lowest(as_rig(rig, frequency), parameter, span)
+    rig = from_lowest(as_rig_of_any_masses(rig, frequency=frequency), parameter, span)
+    if outputs is not None and isinstance(rig.system, Assembly):
+        raise InputError(
+            "outputs: own outputs are not computed for an Assembly of several masses so far; "
+            "remove outputs"
+        )
     fam, ends, first = _first_orbit(rig, start, parameter, span, period)
     most_points = whole(most_points, "most_points")
-    own = read_outputs(outputs, rig)
+    own = () if outputs is None else read_outputs(outputs, rig)
     followed = follow_both_ways(first, ends, most_points, progress)
     data = as_dataset([followed], fam, ends, own=own)
     if progress is not None:
@@ -149,7 +157,7 @@ def _first_orbit(
     period: int | None,
 ) -> tuple[Family, tuple[float, float], Orbit]:
     """Return the varied parameter, its range, and the first orbit."""
-    fam = family(rig.with_parts(rig.oscillator, rig.harmonic), parameter)
+    fam = family(rig.with_parts(rig.system, rig.harmonic), parameter)
     ends = read_span(fam.parameter, span)
     if not ends[0] <= fam.value <= ends[1]:
         low, high, own = (fam.written(value) for value in (*ends, fam.value))
@@ -179,7 +187,7 @@ def _both_ways(
     """Return the orbits of a branch in order, why it ends, and whether it is closed."""
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
-        start = Station(first, first.tangent(sense * HELD), 0.0, 0)
+        start = Station(first, first.tangent(sense * first.section.held), 0.0, 0)
         trace = arclength.follow(path(start, *span), start, most_points, told)
         traces.append(trace)
         if trace.ended == CLOSED:
@@ -196,7 +204,8 @@ def _why(trace: arclength.Trace[Station]) -> str:
         return trace.ended
     chosen = (trace.points[0], trace.points[len(trace.points) // 2], trace.points[-1])
     first, middle, last = (
-        float(np.hypot(*(one.y[:2] / one.orbit.section.scale[:2]))) for one in chosen
+        float(np.linalg.norm((one.y / one.orbit.section.scale * one.orbit.section.seen)[:-1]))
+        for one in chosen
     )
     if last > _GROWN * first and last > middle:
         times = last / first

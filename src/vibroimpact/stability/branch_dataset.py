@@ -9,16 +9,16 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import COMPONENTS, describe, rig_parameters
-from vibroimpact.engine import hold, orbit, section_map
-from vibroimpact.engine.observers import record
+from vibroimpact.datasets.description import describe, rig_parameters
+from vibroimpact.engine import hold, orbit
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.response import sweep_dataset
 from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
+from vibroimpact.response.assembly_rows import measured_variables, notes_on
 from vibroimpact.response.engine_input import state_from
-from vibroimpact.response.hold_rows import HoldRows
+from vibroimpact.response.hold_rows import HoldRows, results_of
 from vibroimpact.response.outputs import NamedOutput, about, add_outputs, computed
 from vibroimpact.response.plausibility import note_unbounded
 from vibroimpact.stability import bifurcations
@@ -29,6 +29,15 @@ from vibroimpact.stability.orbit_curve import Station
 from vibroimpact.stability.parameter_family import Family
 
 _Array = NDArray[np.float64]
+
+_OF_MASSES = (
+    "displacement_excursion",
+    "eccentricity",
+    "peak_displacement",
+    "peak_acceleration",
+    "peak_transmitted_force",
+)
+"""What a bifurcation of an assembly shows."""
 
 
 class Followed(NamedTuple):
@@ -56,7 +65,8 @@ def as_dataset(
         for s in bifurcations.with_critical(one.stations, one.bifurcations)
     ]
     orbits = [s.orbit for _, s in stations]
-    sizes = _sizes(fam.oscillator, orbits)
+    several = fam.of_several_masses
+    sizes = {} if several else _sizes(fam.oscillator, orbits)
     multipliers = np.array([one.multipliers for one in orbits])
     values = {
         "arclength": [s.arclength for _, s in stations],
@@ -76,7 +86,13 @@ def as_dataset(
         "section": (("point", "component"), np.array([state_of(one) for one in orbits])),
         **_bifurcations(followed, fam),
     }
-    coordinates = {name: ("point", [one.value for one in orbits]), "component": COMPONENTS}
+    coordinates: dict[str, Any] = {
+        name: ("point", [one.value for one in orbits]),
+        "component": fam.layout.names,
+    }
+    doubts = note_unbounded(fam.rig) if not several else []
+    if several:
+        doubts = _by_mass(fam, orbits, variables, coordinates)
     data = xr.Dataset(variables, coordinates)
     data.attrs["parameter"] = name
     add_outputs(data, own, _own(own, orbits))
@@ -109,9 +125,22 @@ def as_dataset(
             "high": span[1],
             **about(own),
         },
-        note_unbounded(fam.rig),
+        doubts,
         [fam.parameter, *own, *(one._replace(name=f"bifurcation_{one.name}") for one in own)],
     )
+
+
+def _by_mass(
+    fam: Family, orbits: list[Orbit], variables: dict[str, Any], coordinates: dict[str, Any]
+) -> list[str]:
+    """Add what orbits of an assembly measure, by mass and stop; return the doubts about it."""
+    assembly = fam.layout.system
+    assert isinstance(assembly, Assembly)
+    rows = np.array([_measured(one) for one in orbits])
+    variables |= measured_variables(assembly, rows, ("point",))
+    coordinates["mass"] = np.array(assembly.names, dtype=np.str_)
+    coordinates["stop"] = np.array(list(assembly.stops), dtype=np.str_)
+    return notes_on(assembly, rows, "orbits")
 
 
 def _own(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Array:
@@ -132,20 +161,29 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
     """The bifurcations as variables."""
     found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
     multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, fam.states)
-    sizes = _sizes(fam.oscillator, [b.orbit for _, b in found])
+    orbits = [b.orbit for _, b in found]
+    assembly = fam.layout.system
+    if isinstance(assembly, Assembly):
+        rows = np.array([_measured(one) for one in orbits])
+        rows = rows.reshape(-1, results_of(fam.base))
+        measured = measured_variables(assembly, rows, ("bifurcation",), "bifurcation_")
+        sizes = {f"bifurcation_{name}": measured[f"bifurcation_{name}"] for name in _OF_MASSES}
+    else:
+        known = _sizes(assembly, orbits)
+        sizes = {f"bifurcation_{name}": ("bifurcation", known[name]) for name in QUANTITIES}
     values: dict[str, Any] = {
         "kind": np.array([b.kind for _, b in found], dtype=str),
         "value": [b.orbit.value for _, b in found],
         "arclength": [b.arclength for _, b in found],
         "turns": np.array([int(b.turns) for _, b in found], dtype=np.int64),
         "branch": np.array([i for i, _ in found], dtype=np.int64),
-        **{name: sizes[name] for name in QUANTITIES},
         "period": np.array([b.orbit.section.period for _, b in found], dtype=np.int64),
         "antisymmetric": np.array([b.orbit.section.mirror for _, b in found], dtype=bool),
         "contacts": np.array([_contacts(b) for _, b in found], dtype=str),
     }
-    sections = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(COMPONENTS))
+    sections = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(fam.layout.names))
     return {
+        **sizes,
         **{
             f"bifurcation_{key}": ("bifurcation", np.asarray(value))
             for key, value in values.items()
@@ -157,19 +195,30 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
 
 
 def _contacts(found: Bifurcation) -> str:
-    """Contacts per period, right (R) and left (L); at a grazing on both sides of it."""
-    oscillator = found.orbit.rig.oscillator
-    stops = oscillator.right, oscillator.left
-    before = contact_counts(*found.orbit.contacts, stops)
+    """Contacts per period, right (R) and left (L); at a grazing on both sides of it.
+
+    Of an assembly with the names of the stops.
+    """
+    system = found.orbit.section.family.layout.system
+
+    def counted(contacts: tuple[int, ...]) -> str:
+        if isinstance(system, Assembly):
+            names = zip(contacts, system.stops, strict=True)
+            return ", ".join(f"{count} {name}" for count, name in names)
+        right, left = contacts
+        return contact_counts(right, left, (system.right, system.left))
+
+    before = counted(found.orbit.contacts)
     if found.contacts_behind == found.orbit.contacts:
         return before
-    return f"{before} | {contact_counts(*found.contacts_behind, stops)}"
+    return f"{before} | {counted(found.contacts_behind)}"
 
 
 def state_of(one: Orbit) -> list[float]:
     """The state at the section as the components of a dataset's state."""
-    contact = record.TOUCHING[int(one.facts[section_map.MODE])]
-    return [*one.point[:4], one.section.family.phase, contact, one.point[4]]
+    family = one.section.family
+    found: list[float] = family.layout.components(vector_of(one), family.phase).tolist()
+    return found
 
 
 def _sizes(oscillator: Oscillator, orbits: list[Orbit]) -> dict[str, _Array]:
@@ -189,9 +238,10 @@ def _sizes(oscillator: Oscillator, orbits: list[Orbit]) -> dict[str, _Array]:
 
 def _measured(one: Orbit) -> _Array:
     """Exact extremes and contacts per cycle; NaN, and a warning, where a limit is met."""
-    result = np.full(hold.RESULTS, np.nan)
+    system = one.section.family.system(one.value)
+    result = np.full(results_of(system), np.nan)
     outcome = orbit.measure_orbit(
-        one.section.family.system(one.value),
+        system,
         one.section.family.phase,
         one.point,
         one.facts,

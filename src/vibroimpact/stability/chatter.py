@@ -18,7 +18,7 @@ from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
     MAX_EVENTS,
-    SEEN,
+    VALUE,
     Orbit,
     at_phase,
     corrected,
@@ -63,12 +63,12 @@ class Rested:
         if last is None or not left:
             return False
         point = last.point.copy()
-        point[section_map.PARAMETER] = here.value
+        point[VALUE] = here.value
         status, there = corrected(last.section, point, float(last.facts[section_map.MODE]))
         seen = at_phase(there, here.section.family.phase) if status is Status.DONE else None
         if seen is None or seen.section.period != here.section.period or not rests(seen):
             return False
-        away = (seen.point - here.point) / here.section.scale * SEEN
+        away = (seen.point - here.point) / here.section.scale * here.section.seen
         return bool(np.abs(away).max() <= _FIXED)
 
 
@@ -78,7 +78,7 @@ def placed_at_rest(found: Orbit) -> Orbit:
     A state beside it, without velocity but in flight, would have a contact more.
     """
     mode = int(found.facts[section_map.MODE])
-    if not mode:
+    if not mode or found.section.family.of_several_masses:
         return found
     system = found.section.family.system(found.value)
     for side, sign in ((RIGHT, 1.0), (LEFT, -1.0)):

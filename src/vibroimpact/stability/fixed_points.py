@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.continuation.arclength import unit_tangent
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine import orbit, section_map
 from vibroimpact.engine.flow_dispatch import carries
-from vibroimpact.engine.section_map import PARAMETER
+from vibroimpact.engine.state import MODE
 from vibroimpact.engine.status import Status
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.prepared_rig import PreparedRig
@@ -31,14 +30,8 @@ _LINES = 12
 _TOUCHED = 1e-8
 """Of the parameter's size: so near to where it touches, a line is right to rounding."""
 
-HELD = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
-"""Normal of the plane on which the parameter does not change."""
-
-SEEN = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0])
-"""Components by which lengths and angles along a branch are measured. A bumper's deformation is
-left out: at a section that passes from flight into contact it begins to move with the mass, and a
-smooth branch would have a corner.
-"""
+VALUE = -1
+"""Where a point has its parameter: behind the parts of its state."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +43,23 @@ class Section:
     """Forcing cycles; or half cycles, each followed by the mirror."""
     mirror: bool
     scale: _Array
-    """Sizes of u, u̇, u_R, u_L, z and the parameter."""
+    """Sizes of the parts of a state (of one mass u, u̇, u_R, u_L, z), and of the parameter."""
+
+    @cached_property
+    def held(self) -> _Array:
+        """Normal of the plane on which the parameter does not change."""
+        found = np.zeros(len(self.scale))
+        found[VALUE] = 1.0
+        return found
+
+    @cached_property
+    def seen(self) -> _Array:
+        """Components by which lengths and angles along a branch are measured.
+
+        A bumper's deformation is left out: at a section that passes from flight into contact it
+        begins to move with the mass, and a smooth branch would have a corner.
+        """
+        return np.append(self.family.layout.moving, 1.0)
 
     @property
     def period(self) -> int:
@@ -86,16 +95,13 @@ class Section:
         return Section(self.family, self.count * factor, self.mirror, self.scale)
 
 
-_DIAGONAL = np.diag_indices(PARAMETER)
-
-
 @dataclass(frozen=True, eq=False)
 class Orbit:
     """A fixed point of a section's map."""
 
     section: Section
     point: _Array
-    """u, u̇, u_R, u_L, z and the parameter."""
+    """The parts of the state, and the parameter."""
     facts: _Array
     """See `engine.orbit`."""
     carried: _Array
@@ -106,7 +112,7 @@ class Orbit:
     @property
     def value(self) -> float:
         """The parameter."""
-        return float(self.point[section_map.PARAMETER])
+        return float(self.point[VALUE])
 
     @property
     def place(self) -> str:
@@ -114,12 +120,14 @@ class Orbit:
         return self.section.family.written(self.value, 9)
 
     @property
-    def contacts(self) -> tuple[int, int]:
-        """Contacts with the right and the left bumper in a period."""
-        right = int(self.facts[section_map.CONTACTS_RIGHT])
-        left = int(self.facts[section_map.CONTACTS_LEFT])
+    def contacts(self) -> tuple[int, ...]:
+        """Contacts with each stop in a period; of one mass with the right and the left one."""
+        found = tuple(int(count) for count in self.facts[section_map.CONTACTS :])
+        if not self.section.mirror:
+            return found
         # The other half of a motion that is its own mirror image.
-        return (right + left, right + left) if self.section.mirror else (right, left)
+        partners = self.section.family.layout.partners
+        return tuple(count + found[other] for count, other in zip(found, partners, strict=True))
 
     @property
     def own(self) -> _Array:
@@ -154,18 +162,21 @@ class Orbit:
 
     @cached_property
     def jacobian(self) -> _Array:
-        """Derivative of P(z; p) − z in scaled components, shape (5, 6)."""
+        """Derivative of P(z; p) − z in scaled components, shape (parts, parts + 1)."""
         scale = self.section.scale
-        matrix = np.empty((PARAMETER, section_map.POINT))
-        states = scale[:PARAMETER]
-        matrix[:, :PARAMETER] = self.carried.T * states / states[:, np.newaxis]
-        matrix[_DIAGONAL] -= 1.0
-        matrix[:, PARAMETER] = self.slope * scale[PARAMETER] / states
+        states = scale[:VALUE]
+        matrix = np.empty((len(states), len(scale)))
+        matrix[:, :VALUE] = self.carried.T * states / states[:, np.newaxis]
+        matrix[np.diag_indices(len(states))] -= 1.0
+        matrix[:, VALUE] = self.slope * scale[VALUE] / states
         return matrix
 
     def tangent(self, along: _Array) -> _Array:
-        """Unit tangent (by `SEEN`) of the branch in scaled components, in the sense of `along`."""
-        return unit_tangent(self.jacobian, along, SEEN)
+        """Unit tangent of the branch in scaled components, in the sense of `along`.
+
+        Its length is that of the components that `Section.seen` names.
+        """
+        return unit_tangent(self.jacobian, along, self.section.seen)
 
     @cached_property
     def missed(self) -> tuple[float, _Array] | None:
@@ -176,7 +187,7 @@ class Orbit:
         status, seen, image = evaluated(simpler, self.point, self.facts[section_map.MODE])
         if status is not Status.DONE:
             return None
-        miss = (image - seen.point) / simpler.scale * SEEN
+        miss = (image - seen.point) / simpler.scale * simpler.seen
         return float(seen.facts[section_map.RESIDUAL]), miss
 
     @property
@@ -187,19 +198,20 @@ class Orbit:
 
 def _blank(section: Section, point: _Array, mode: float) -> Orbit:
     """What the engine writes an orbit into."""
-    facts = np.zeros(section_map.FACTS)
+    states = section.family.layout
+    facts = np.zeros(section_map.CONTACTS + states.stops)
     facts[section_map.MODE] = mode
     return Orbit(
         section,
         np.array(point, dtype=np.float64),
         facts,
-        np.zeros((PARAMETER, PARAMETER)),
-        np.zeros(PARAMETER),
+        np.zeros((states.parts, states.parts)),
+        np.zeros(states.parts),
     )
 
 
 def corrected(
-    section: Section, point: _Array, mode: float, normal: _Array = HELD
+    section: Section, point: _Array, mode: float, normal: _Array | None = None
 ) -> tuple[Status, Orbit]:
     """Newton's method on the plane through a point; the orbit is of use only if `Status.DONE`.
 
@@ -212,11 +224,13 @@ def corrected(
     mode
         Phase at the section, as the engine counts.
     normal
-        Normal of the plane, scaled; of its components only those in `SEEN` count.
+        Normal of the plane, scaled; of its components only those in `Section.seen` count. Default:
+        the plane on which the parameter is held.
     """
-    rig = section.family.flow_rig(float(point[section_map.PARAMETER]))
+    normal = section.held if normal is None else normal
+    rig = section.family.flow_rig(float(point[VALUE]))
     for _ in range(_LINES):
-        fam = section.family.near(float(point[section_map.PARAMETER]))
+        fam = section.family.near(float(point[VALUE]))
         found = _blank(section, point, mode)
         outcome = orbit.correct(
             rig,
@@ -227,7 +241,7 @@ def corrected(
             section.mirror,
             MAX_EVENTS,
             section.scale,
-            normal * SEEN,
+            normal * section.seen,
             found.point,
             found.facts,
             found.carried,
@@ -239,8 +253,8 @@ def corrected(
         there = fam.flow_rig(found.value)
         # From bumpers that are apart to such that overlap, it begins again from where it was.
         carried = carries(rig, there)
-        moved = abs(found.value - float(point[section_map.PARAMETER]))
-        touches = fam.straight or moved <= _TOUCHED * section.scale[section_map.PARAMETER]
+        moved = abs(found.value - float(point[VALUE]))
+        touches = fam.straight or moved <= _TOUCHED * section.scale[VALUE]
         if carried and touches:
             break
         if carried:
@@ -310,36 +324,29 @@ def beyond(found: Orbit, what: str, where: str) -> str:
 def vector_of(found: Orbit) -> _Array:
     """The state at the section as the engine's vector."""
     mode = float(found.facts[section_map.MODE])
-    u, v, right, left, z = found.point[:PARAMETER]
-    state = np.zeros(layout.STATE)
-    state[layout.MODE], state[layout.FRESH] = mode, mode
-    state[layout.U], state[layout.V] = u, v
-    state[layout.RIGHT_BUMPER], state[layout.LEFT_BUMPER] = right, -left
-    state[layout.ISOLATOR] = z
-    return state
+    return found.section.family.layout.vector(found.point[:VALUE], mode)
 
 
 def seen_at(found: Orbit, phase: float) -> tuple[_Array, float] | None:
     """Point and mode of the same motion at another forcing phase; None if a limit is met there."""
     section = found.section
     system = section.family.system(found.value)
+    amplitude, frequency = section.family.forcing
     # Of its numbers, since the family's own forcing is another where a second parameter varies.
     here = section.family.excitation.replace(
-        amplitude=float(system[section_map.AMPLITUDE]),
-        frequency=float(system[section_map.FREQUENCY]),
+        amplitude=float(system[amplitude]),
+        frequency=float(system[frequency]),
     )
     ahead = ((phase - here.phase) / (2.0 * math.pi)) % 1.0
     state = vector_of(found)
     if ahead > 0.0:
-        status, state = PreparedRig(Rig(section.family.oscillator, here), system).propagate(
+        status, state = PreparedRig(Rig(section.family.rig.system, here), system).propagate(
             state, ahead, MAX_EVENTS
         )
         if status is not Status.DONE:
             return None
-    right, left = state[layout.RIGHT_BUMPER], -state[layout.LEFT_BUMPER]
-    z = state[layout.ISOLATOR]
-    point = np.array([state[layout.U], state[layout.V], right, left, z, found.value])
-    return point, float(state[layout.MODE])
+    point = np.append(section.family.layout.point(state), found.value)
+    return point, float(state[MODE])
 
 
 def at_phase(found: Orbit, phase: float) -> Orbit | None:

@@ -19,11 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import section_map
-from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
-    HELD,
-    SEEN,
+    VALUE,
     Orbit,
     corrected,
     evaluated,
@@ -56,7 +54,10 @@ _GROWN, _FAR = 3.0, 3e-3
 
 def has_rigid_stop(orbit: Orbit) -> bool:
     """Whether an impact can vanish at all."""
-    return any(stop.rigid for stop in orbit.section.family.oscillator.stops)
+    family = orbit.section.family
+    if family.of_several_masses:  # whose branches end at a grazing of a rigid stop
+        return False
+    return any(stop.rigid for stop in family.oscillator.stops)
 
 
 def fewer(one: Orbit, other: Orbit) -> bool:
@@ -107,13 +108,13 @@ def _clear_of(last: Orbit, guess: _Array, ahead: _Array) -> tuple[Orbit, float] 
     section, mode = last.section, float(last.facts[section_map.MODE])
     for aside in _ASIDE:
         for sense in (1.0, -1.0):
-            point = guess + sense * aside * HELD * section.scale
+            point = guess + sense * aside * section.held * section.scale
             status, found = corrected(section, point, mode)
             if status is Status.DONE and fewer(found, last) and margin_of(found) > 0.0:
                 found = _closest(found, sense)
                 # Of a poor guess both sides may be clear, or it leads to another branch.
                 missed, gone, way = (
-                    change / section.scale * SEEN
+                    change / section.scale * section.seen
                     for change in (found.point - guess, found.point - last.point, ahead)
                 )
                 nearer = missed @ missed < gone @ gone
@@ -125,9 +126,9 @@ def _clear_of(last: Orbit, guess: _Array, ahead: _Array) -> tuple[Orbit, float] 
 def _closest(clear: Orbit, sense: float) -> Orbit:
     """Go on along the parameter to where the clearance vanishes: by secants from its clear side."""
     section, margin = clear.section, margin_of(clear)
-    step = 1e-8 * section.scale[PARAMETER]  # towards the grazing
+    step = 1e-8 * section.scale[VALUE]  # towards the grazing
     for _ in range(_HALVINGS):
-        point = clear.point - sense * step * HELD
+        point = clear.point - sense * step * clear.section.held
         status, found = corrected(section, point, clear.facts[section_map.MODE])
         left = margin_of(found) if status is Status.DONE else math.nan
         if not (found.contacts == clear.contacts and 0.0 <= left < margin):
@@ -155,15 +156,15 @@ def taken_up(grazing: Orbit) -> tuple[Orbit, _Array] | None:
             break
     else:
         return None
-    kick = (image - point)[:PARAMETER] / section.scale[:PARAMETER]
+    kick = (image - point)[:VALUE] / section.scale[:VALUE]
     kick -= grazing.jacobian @ (-depth / size * gradient)
     matrix = np.vstack([grazing.jacobian, gradient])
     try:
         first = np.linalg.solve(matrix, np.append(-kick / math.sqrt(depth), 0.0))
-        second = np.linalg.solve(matrix, np.append(np.zeros(PARAMETER), -1.0))
+        second = np.linalg.solve(matrix, np.append(np.zeros(len(kick)), -1.0))
     except np.linalg.LinAlgError:
         return None
-    along = first / float(np.linalg.norm(first * SEEN))
+    along = first / float(np.linalg.norm(first * section.seen))
 
     def corrected_at(w: float, guess: _Array) -> Orbit | None:
         # The depth, small of second order itself, is what the velocity follows from.
@@ -219,8 +220,8 @@ def _beside(orbit: Orbit, change: _Array) -> _Array:
 
 def _margin_gradient(orbit: Orbit) -> _Array:
     """How the scaled clearance changes with the point, in scaled components."""
-    section, gradient = orbit.section, np.zeros(PARAMETER + 1)
-    for j in np.flatnonzero(SEEN):
+    section, gradient = orbit.section, np.zeros(len(orbit.point))
+    for j in np.flatnonzero(section.seen):
         ends = []
         for step in (_PROBE, -_PROBE):
             point = orbit.point.copy()

@@ -8,15 +8,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine import section_map
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.state import MODE
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
-from vibroimpact.model import State, equilibrium
+from vibroimpact.model import AssemblyState, State
 from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.written_units import written_for
-from vibroimpact.response.engine_input import as_state, engine_state
 from vibroimpact.stability.bifurcations import own_mirror
 from vibroimpact.stability.chatter import placed_at_rest
 from vibroimpact.stability.fixed_points import (
@@ -46,7 +44,7 @@ _TRIES = 16
 def first_orbit(
     fam: Family,
     span: tuple[float, float],
-    start: State | xr.DataArray | xr.Dataset | None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None,
     period: int | None,
     symmetric: bool = True,
 ) -> Orbit:
@@ -57,17 +55,17 @@ def first_orbit(
     InputError
         If Newton's method finds none.
     """
-    if start is None and not fam.oscillator.stops:
-        start = equilibrium(fam.oscillator)  # there is one orbit, however long motions take to it
+    states = fam.layout
+    if start is None and not fam.rig.system.stops:
+        start = states.read(None)  # there is one orbit, however long motions take to it
     if start is None:
         found = _from_rest(fam, span, period)
     else:
-        state = as_state(start)
+        state = states.read(start)
         if state.phase is not None:
             fam = fam.with_phase(state.phase)
-        bumpers = (state.right_bumper or 0.0, state.left_bumper or 0.0)
-        point = np.array([state.displacement, state.velocity, *bumpers, state.isolator, fam.value])
-        mode = float(record.TOUCHING.index(state.contact or 0))
+        parts, mode = states.near(state)
+        point = np.append(parts, fam.value)
         status, found = _least(fam, span, period or 1, point, mode)
         if status is not Status.DONE:
             raise _no_orbit(period or 1, status, found)
@@ -90,7 +88,8 @@ def _no_orbit(period: int, status: Status, failed: Orbit | None) -> InputError:
 
 def _neutral(found: Orbit) -> bool:
     """Whether P' - 1 is singular at a point: a disturbance of state stays as it is."""
-    values = np.linalg.svd(found.jacobian[:2, :2], compute_uv=False)
+    moving = 2 * found.section.family.layout.masses
+    values = np.linalg.svd(found.jacobian[:moving, :moving], compute_uv=False)
     return bool(values[-1] <= _SINGULAR)
 
 
@@ -100,12 +99,12 @@ def _least(
     """Newton's method from a point; the orbit with its least period."""
     scale = scales(fam, span, point)
     status, found = corrected(Section(fam, period, False, scale), point, mode)
-    told_by_none = scale[0] == _least_size(fam) or not fam.oscillator.stops
+    told_by_none = scale[0] == _least_size(fam) or not fam.rig.system.stops
     if status is Status.NOT_SETTLED and told_by_none:
         # Neither the start nor a gap tells the motion's size, which bounds a step; without stops
         # the map is linear, and a step of any length is right.
         for factor in _LARGER:
-            wide = scale * [factor, factor, factor, factor, factor, 1.0]
+            wide = scale * np.append(np.full(len(scale) - 1, factor), 1.0)
             status, found = corrected(Section(fam, period, False, wide), point, mode)
             if status is Status.DONE:
                 section = Section(fam, period, False, scales(fam, span, found.point))
@@ -116,7 +115,8 @@ def _least(
 
 def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Orbit:
     """The orbit on which the motion from rest settles, or one of a given period close to it."""
-    begin = engine_state(fam.oscillator, equilibrium(fam.oscillator))
+    states = fam.layout
+    begin = states.vector_of(states.read(None))
     rest = approach(fam.rig, begin)
     if rest.status not in (Status.DONE, Status.NOT_SETTLED):
         raise InputError(f"start: the motion from rest could not be computed: {rest.status.advice}")
@@ -131,8 +131,8 @@ def _from_rest(fam: Family, span: tuple[float, float], period: int | None) -> Or
     repeats = rest.period and period % rest.period == 0
     least, failed, status = None, None, Status.NOT_SETTLED
     for vector in [rest.state] if repeats else _returns(rest, begin, period):
-        point = np.array([vector[2], vector[3], vector[4], -vector[5], vector[6], fam.value])
-        outcome, found = _least(fam, span, period, point, float(vector[layout.MODE]))
+        point = np.append(states.point(vector), fam.value)
+        outcome, found = _least(fam, span, period, point, float(vector[MODE]))
         if outcome is not Status.DONE:
             status, failed = outcome, found
             continue
@@ -223,13 +223,13 @@ def _least_size(fam: Family) -> float:
 
 def scales(fam: Family, span: tuple[float, float], point: _Array) -> _Array:
     """Sizes of displacement, velocity, deformations and parameter."""
-    rig, omega = fam.oscillator, fam.excitation.angular_frequency
-    # The nearer bumper: the other may be far out of reach.
-    gap = min((b.gap for b in (rig.right, rig.left) if b is not None), default=0.0)
-    size = max(
-        gap,
-        abs(float(point[0])),
-        abs(float(point[1])) / omega,
-        _least_size(fam),
-    )
-    return np.array([size, size * omega, size, size, size, span[1] - span[0]])
+    states, omega = fam.layout, fam.excitation.angular_frequency
+    # The nearer stop: the other may be far out of reach.
+    gap = min((one.gap for one in states.laws), default=0.0)
+    n = states.masses
+    moved = [abs(float(u)) for u in point[:n]]
+    moved += [abs(float(v)) / omega for v in point[n : 2 * n]]
+    size = max(gap, *moved, _least_size(fam))
+    sizes = np.full(states.parts, size)
+    sizes[states.velocities()] *= omega
+    return np.append(sizes, span[1] - span[0])

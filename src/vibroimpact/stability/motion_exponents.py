@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.observers.tangent import MEMORY
-from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
+from vibroimpact.model import Assembly
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_type import Judgement, judge, repeats
 from vibroimpact.stability.settle import Settled
@@ -26,7 +27,8 @@ _TURNING = 8
 
 def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int, Status]:
     """Exponents of a periodic motion from its monodromy matrix; the rest as `judge_wandering`."""
-    carried = np.empty((PARAMETER, PARAMETER))
+    parts = found.states.parts
+    carried = np.empty((parts, parts))
     damping = np.empty(1)
     state = found.state.copy()
     rates = []
@@ -43,15 +45,15 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
             damping,
         )
         if outcome != Status.DONE:
-            nothing = np.full(2, np.nan)
+            nothing = np.full(exponents(found.states), np.nan)
             told = Judgement("undecided", 0, nothing, nothing, Status(outcome).advice)
             return told, math.nan, 0, Status(outcome)
-        rates.append(_rates(carried) / found.period)
+        rates.append(_rates(found.states, carried) / found.period)
     first, second = rates
     if np.isnan(first[1]) or np.isnan(second[1]):
         first[1] = second[1] = _second(found, state, max_events)
     finite = np.isfinite(first) & np.isfinite(second)
-    spread = np.abs(np.subtract(first, second, where=finite, out=np.zeros(2)))
+    spread = np.abs(np.subtract(first, second, where=finite, out=np.zeros(len(first))))
     largest = math.exp(min(first[0] * found.period, 700.0))
     kind = Judgement(
         "periodic",
@@ -63,13 +65,23 @@ def judge_orbit(found: Settled, max_events: int) -> tuple[Judgement, float, int,
     return kind, float(damping[0]) / found.period, 2 * found.period, Status.DONE
 
 
-def _rates(carried: _Array) -> _Array:
-    """Logarithms of the two largest multipliers of an orbit; NaN if the second is lost in rounding.
+def exponents(states: SectionStates) -> int:
+    """How many exponents are computed: of an assembly one for each displacement and velocity."""
+    return 2 * states.masses if isinstance(states.system, Assembly) else 2
+
+
+def _rates(states: SectionStates, carried: _Array) -> _Array:
+    """Logarithms of the largest multipliers of an orbit; NaN if the second is lost in rounding.
 
     A bumper that is never touched only relaxes; it is left out. What an isolator remembers is
     kept: during a rest on a stop it is not coupled to the motion, and the motion still depends on
     it later in the cycle.
     """
+    if isinstance(states.system, Assembly):
+        moduli = np.sort(np.abs(np.linalg.eigvals(carried)))[::-1]
+        with np.errstate(divide="ignore"):
+            found: _Array = np.log(moduli[: exponents(states)])
+        return found
     touched = [j for j in (2, 3) if carried[:2, j].any() or carried[j, :2].any()]
     kept = [0, 1, *touched, *([MEMORY] if carried[MEMORY].any() else [])]
     moduli = np.sort(np.abs(np.linalg.eigvals(carried[np.ix_(kept, kept)])))[::-1]
@@ -116,11 +128,15 @@ def judge_wandering(
         discard=DISCARD,
         progress=progress,
     )
-    size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0, 1.0])
+    states = found.states
+    size = np.ones(states.parts)
+    size[states.velocities()] = found.excitation.angular_frequency
+    # That no motion is quasi-periodic where bumpers forget holds for one mass alone.
+    several = isinstance(states.system, Assembly)
     kind = judge(
         rows[:, : lyapunov.DISSIPATION],
         rows[:, lyapunov.SECTION :] / size,
-        rows[:, lyapunov.DISSIPATION],
+        None if several else rows[:, lyapunov.DISSIPATION],
     )
     damping = float(rows[:, lyapunov.DISSIPATION].mean()) if len(rows) else math.nan
     return kind, damping, len(rows), status

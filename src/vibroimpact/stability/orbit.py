@@ -6,9 +6,9 @@ import xarray as xr
 
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine import section_map
-from vibroimpact.model import State
+from vibroimpact.model import Assembly, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.stability.fixed_points import MAX_EVENTS
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.parameter_family import family
@@ -55,14 +55,17 @@ def orbit(
         - ``multiplier_real`` and ``multiplier_imag``, the Floquet multipliers;
         - ``residual``, the residual of the map, divided by the size of the motion.
 
-        The attribute ``contacts`` is the sequence of contacts, with R for right and L for left.
+        The attribute ``contacts`` is the sequence of contacts, with R for right and L for left, or
+        with the names of the stops of an assembly. The rows and columns of ``monodromy`` are then
+        the displacements, the velocities and the deformations of the stops, in the order of the
+        assembly.
 
     Raises
     ------
     InputError
         If a value is invalid, or if Newton's method finds no orbit near the start.
     """
-    rig = as_rig(rig, frequency)
+    rig = as_rig_of_any_masses(rig, frequency=frequency)
     rig.check_frequency()
     period = None if period is None else whole(period, "period", most=MOST_CYCLES)
     samples = whole(samples, "samples")
@@ -76,7 +79,19 @@ def orbit(
         multiplier_imag=("multiplier", multipliers.imag),
         residual=float(found.facts[section_map.RESIDUAL]),
     )
-    sides = data["contact_side"].values
-    data.attrs["contacts"] = "".join("R" if side == 1 else "L" for side in sides)
+    data.attrs["contacts"] = _sequence(data)
     data.attrs["created_by"] = "vibroimpact.orbit"
-    return describe(data, "vibroimpact.orbit")
+    data = describe(data, "vibroimpact.orbit")
+    if isinstance(rig.system, Assembly):
+        data["monodromy"].attrs["comment"] = (
+            "of the displacements and velocities of the masses and the deformations of the stops"
+        )
+    return data
+
+
+def _sequence(data: xr.Dataset) -> str:
+    """Return the sequence of contacts: R and L, or the names of the stops of an assembly."""
+    if "contact_side" in data:
+        return "".join("R" if side == 1 else "L" for side in data["contact_side"].values)
+    begins = data["event_contact"].values > 0
+    return " ".join(data["event_stop"].values[begins].tolist())

@@ -17,12 +17,11 @@ from numpy.typing import NDArray
 from vibroimpact.continuation.arclength import distance, predicted, strays
 from vibroimpact.continuation.closing import returned
 from vibroimpact.engine import section_map
-from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
+from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.stability.chatter import Rested, completed_elsewhere, placed_at_rest, rests
 from vibroimpact.stability.fixed_points import (
-    HELD,
-    SEEN,
+    VALUE,
     Orbit,
     at_phase,
     beyond,
@@ -98,7 +97,11 @@ class Branch:
     """Sections of the first orbit, and the branch's tangents there, by the forcing's phase."""
     rested: Rested = field(default_factory=Rested)
     """The orbits along which the mass rests on a rigid stop."""
-    seen = SEEN
+
+    @property
+    def seen(self) -> _Array:
+        """Components by which lengths and angles are measured."""
+        return self.first.orbit.section.seen
 
     @property
     def scale(self) -> _Array:
@@ -110,13 +113,13 @@ class Branch:
         section = here.orbit.section
         aim, normal = predicted(self, here, length), here.tangent
         mode = here.orbit.facts[section_map.MODE]
-        bound = min(max(aim[PARAMETER], self.low), self.high)
+        bound = min(max(aim[VALUE], self.low), self.high)
         limited = section.family.parameter.most is not None or not section.family.straight
-        if limited and bound not in (aim[PARAMETER], here.orbit.value):
+        if limited and bound not in (aim[VALUE], here.orbit.value):
             # Beyond the bound there may be no such rig.
-            length = (bound - here.orbit.value) / (here.tangent[PARAMETER] * self.scale[PARAMETER])
-            aim, normal = predicted(self, here, length), HELD
-            aim[PARAMETER] = bound
+            length = (bound - here.orbit.value) / (here.tangent[VALUE] * self.scale[VALUE])
+            aim, normal = predicted(self, here, length), section.held
+            aim[VALUE] = bound
         status, found = corrected(section, aim, mode, normal)
         if status is not Status.DONE or strays(self, found.point, aim, length) or slid(found):
             return None
@@ -180,22 +183,18 @@ class Branch:
         if abs(left) > _STANDS * abs(value - self.first.orbit.value):
             return None
         near = there.orbit.section.family.equation(value + left)
-        damped = there.orbit.rig.oscillator.isolator.damping > 0.0
+        damped = is_damped(there.orbit.rig.system)
         beyond = f"beyond {times:.1g} times the first orbit" if damped else "without bound"
-        limit = (
-            "the dashpot of the isolator may limit it"
-            if damped
-            else f"{times:.1g} times the first orbit"
-        )
+        limit = "damping may limit it" if damped else f"{times:.1g} times the first orbit"
         return f"the motion grows {beyond} near {near} ({limit})"
 
     def _on_bound(self, here: Station, value: float) -> list[Station]:
         """The orbit at the end of the range, if there is one."""
-        share = (value - here.orbit.value) / (here.tangent[PARAMETER] * self.scale[PARAMETER])
+        share = (value - here.orbit.value) / (here.tangent[VALUE] * self.scale[VALUE])
         point = predicted(self, here, share)
-        point[section_map.PARAMETER] = value
+        point[VALUE] = value
         mode = here.orbit.facts[section_map.MODE]
-        status, found = corrected(here.orbit.section, point, mode, HELD)
+        status, found = corrected(here.orbit.section, point, mode)
         if status is not Status.DONE or found.contacts != here.orbit.contacts:
             return []
         return [self._after(here, found)]
@@ -233,8 +232,8 @@ class Branch:
             if status is not Status.DONE:
                 break
             # The parameter is the same for all of them, and so is its sense.
-            tangent = orbit.tangent(HELD)
-            sense = math.copysign(1.0, tangent[PARAMETER] * self.first.tangent[PARAMETER])
+            tangent = orbit.tangent(turned.held)
+            sense = math.copysign(1.0, tangent[VALUE] * self.first.tangent[VALUE])
             found.append((image, sense * tangent))
         return found
 
@@ -244,7 +243,7 @@ class Branch:
             found = at_phase(here.orbit, here.orbit.section.family.phase + PHASES[number])
             if found is None or found.contacts != here.orbit.contacts:
                 continue
-            tangent = found.tangent(HELD * math.copysign(1.0, here.tangent[PARAMETER]))
+            tangent = found.tangent(found.section.held * math.copysign(1.0, here.tangent[VALUE]))
             return Station(found, tangent, here.arclength, here.piece, phases_tried=number + 1)
         return None
 
@@ -264,7 +263,15 @@ class Branch:
         if rigid and (met := dies_out(here.orbit, lambda length: self.stepped(back, length))):
             clear, sense = met
             arclength = here.arclength + distance(self, clear.point, here.y)
-            return [Station(clear, clear.tangent(sense * HELD), arclength, here.piece + 1, True)]
+            return [
+                Station(
+                    clear,
+                    clear.tangent(sense * clear.section.held),
+                    arclength,
+                    here.piece + 1,
+                    True,
+                )
+            ]
         good, bad = 0.0, length
         last = here.orbit
         margin = margin_of(last)
@@ -370,6 +377,13 @@ class Branch:
             if found is not None and found.contacts == last.contacts:
                 return found, length
         return last, good
+
+
+def is_damped(system: Oscillator | Assembly) -> bool:
+    """Whether a motion without contacts loses energy to a dashpot."""
+    if isinstance(system, Assembly):
+        return bool(system.damping_matrix.any())
+    return bool(system.isolator.damping > 0.0)
 
 
 def neutral(here: Station) -> bool:

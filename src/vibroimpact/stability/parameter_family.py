@@ -13,14 +13,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.section_map import PARAMETER
-from vibroimpact.model import Oscillator, Repeated
-from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.engine.assembly import layout
+from vibroimpact.engine.section_map import AMPLITUDE, FREQUENCY, PARAMETER
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model import Assembly, Oscillator, Repeated
+from vibroimpact.model.parameters import Parameter, parameter, usual
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import written_for
+from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.engine_input import system_vector
+from vibroimpact.response.section_states import SectionStates
 
 _Array = NDArray[np.float64]
 
@@ -50,8 +54,13 @@ class Family(NamedTuple):
 
     @property
     def oscillator(self) -> Oscillator:
-        """What vibrates."""
+        """What vibrates, if it has one mass."""
         return self.rig.oscillator
+
+    @property
+    def layout(self) -> SectionStates:
+        """How states stand in vectors and points."""
+        return SectionStates(self.rig.system)
 
     @property
     def excitation(self) -> Repeated:
@@ -82,16 +91,32 @@ class Family(NamedTuple):
     def with_phase(self, phase: float) -> Family:
         """Return the family at another forcing phase of the section."""
         turned = self.rig.periodic.replace(phase=phase)
-        return self._replace(rig=self.rig.with_parts(self.rig.oscillator, turned))
+        return self._replace(rig=self.rig.with_parts(self.rig.system, turned))
 
     @property
     def one_flow(self) -> bool:
         """Whether the engine's numbers move in proportion, and one flow carries all rigs."""
+        if self.of_several_masses:
+            return self.straight
         return self.straight and not any(self.direction[at + par.GAP] for at in _BUMPERS)
+
+    @property
+    def of_several_masses(self) -> bool:
+        """Whether what vibrates is an assembly."""
+        return isinstance(self.rig.system, Assembly)
+
+    @property
+    def forcing(self) -> tuple[int, int]:
+        """Where a system vector has its amplitude and its frequency."""
+        if self.of_several_masses:
+            return len(self.base) - 2, len(self.base) - 1
+        return AMPLITUDE, FREQUENCY
 
     @property
     def states(self) -> int:
         """Components of a state: the isolator's memory is one only where it has any."""
+        if self.of_several_masses:
+            return self.layout.parts
         remembers = self.base[par.HYSTERETIC] or self.direction[par.HYSTERETIC]
         return PARAMETER if remembers else PARAMETER - 1
 
@@ -103,6 +128,9 @@ class Family(NamedTuple):
     @property
     def symmetric(self) -> bool:
         """Whether each motion's mirror image is a motion, all along."""
+        if self.of_several_masses:
+            alike = self.base[layout.SYMMETRIC] == 1.0 and not self.direction[layout.SYMMETRIC]
+            return bool(alike and self.rig.periodic.half_wave)
         here = self.rig.oscillator.symmetric and self.rig.periodic.half_wave
         return here and not (self.parameter.sides or self.parameter.name == "force")
 
@@ -117,6 +145,8 @@ class Family(NamedTuple):
         vector = self.base.copy()
         moving = self.direction != 0.0
         vector[moving] += value * self.direction[moving]
+        if self.of_several_masses:
+            return vector
         for at in _BUMPERS:
             if vector[at + par.KIND] == par.KELVIN_VOIGT and vector[at + par.BUMPER_DAMPING] > 0.0:
                 rate = vector[at + par.BUMPER_STIFFNESS] / vector[at + par.BUMPER_DAMPING]
@@ -130,7 +160,7 @@ class Family(NamedTuple):
         the flow of that rig would lack what the rigs beside it need.
         """
         vector = self.system(value)
-        if vector[par.CURVED]:
+        if not self.of_several_masses and vector[par.CURVED]:
             vanishing = [at for at in _CURVED if self.direction[at] and vector[at] == 0.0]
             vector[vanishing] = np.finfo(float).tiny
             if self.direction[par.DRAG] and vector[par.DRAG] in (1.0, 2.0):
@@ -147,13 +177,23 @@ def family(rig: Rig, name: str) -> Family:
         If there is no such parameter, or the rig has none.
     """
     as_periodic(rig.shaking, "shaking")  # refuses a record
-    varied = parameter(name, rig)
+    if isinstance(rig.system, Assembly):
+        check_size(rig.system)
+        if name not in ("frequency", "amplitude"):
+            raise InputError(
+                f"parameter: {shown(name)}; orbits of an Assembly are followed along 'frequency' "
+                "or 'amplitude' so far; pass one of the two"
+            )
+        varied = usual(name, rig.periodic.of)
+    else:
+        varied = parameter(name, rig)
     value = varied.read(rig)
     step = varied.beside(value) - value
     here = system_vector(rig)
     there = system_vector(varied.vary(rig, value + step))
-    # A rate follows from stiffness and damping, and is infinite without damping.
-    here[RATES] = there[RATES] = np.inf
+    if not isinstance(rig.system, Assembly):
+        # A rate follows from stiffness and damping, and is infinite without damping.
+        here[RATES] = there[RATES] = np.inf
     same = here == there
     difference = np.subtract(there, here, out=np.zeros_like(here), where=~same)
     direction = difference / step
@@ -171,5 +211,6 @@ def _straight(made: Family, step: float) -> bool:
 def _vector(made: Family, value: float) -> _Array:
     """The engine's vector; rates follow from stiffness and damping, and move along no line."""
     vector = system_vector(made.at(value))
-    vector[RATES] = made.base[RATES]
+    if not made.of_several_masses:
+        vector[RATES] = made.base[RATES]
     return vector

@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import section_map
-from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
-    SEEN,
+    VALUE,
     Orbit,
     corrected,
     evaluated,
@@ -39,7 +38,7 @@ _SHRINKS = (0.2, 0.8)
 def half_plus(orbit: Orbit) -> float:
     """det(M + I) of an orbit's map: zero where an eigenvalue is −1."""
     with np.errstate(all="ignore"):  # far from any orbit it may overflow
-        return float(np.linalg.det(orbit.carried + np.eye(PARAMETER)))
+        return float(np.linalg.det(orbit.carried + np.eye(len(orbit.carried))))
 
 
 def slid(found: Orbit) -> bool:
@@ -68,8 +67,9 @@ def parent(here: Orbit, there: Orbit) -> Orbit | None:
         return None
     # From afar the images may have changed sides elsewhere.
     scale = here.section.scale
-    step = np.linalg.norm((there.point - here.point) / scale * SEEN)
-    away = np.linalg.norm((found.point - nearer.point) / scale * SEEN)
+    seen = here.section.seen
+    step = np.linalg.norm((there.point - here.point) / scale * seen)
+    away = np.linalg.norm((found.point - nearer.point) / scale * seen)
     return found if away <= step else None
 
 
@@ -102,12 +102,12 @@ def _zero(near: Orbit, test: Callable[[Orbit], float]) -> Orbit | None:
         return None
     guess = near.point + 0.5 * near.missed[1] * section.scale
     mode = float(near.facts[section_map.MODE])
-    first = float(guess[section_map.PARAMETER])
-    values = [first, first + 1e-6 * section.scale[PARAMETER]]
+    first = float(guess[VALUE])
+    values = [first, first + 1e-6 * section.scale[VALUE]]
     tests: list[float] = []
     point = guess.copy()
     for _ in range(30):
-        point[section_map.PARAMETER] = values[len(tests)]
+        point[VALUE] = values[len(tests)]
         status, found = corrected(section, point, mode)
         if status is not Status.DONE:
             return None
@@ -119,7 +119,7 @@ def _zero(near: Orbit, test: Callable[[Orbit], float]) -> Orbit | None:
         step = -tests[-1] * (values[-1] - values[-2]) / rise if rise else 0.0
         if abs(step) <= 1e-15 * abs(values[-1]):
             return found
-        if abs(values[-1] + step - first) > _REACH * section.scale[PARAMETER]:
+        if abs(values[-1] + step - first) > _REACH * section.scale[VALUE]:
             return None
         values.append(values[-1] + step)
     return found

@@ -21,7 +21,7 @@ from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
 from vibroimpact.stability.branch import follow_both_ways
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
-from vibroimpact.stability.fixed_points import SEEN, Orbit, at_phase, corrected, images
+from vibroimpact.stability.fixed_points import Orbit, at_phase, corrected, images
 from vibroimpact.stability.parameter_family import family
 from vibroimpact.stability.starting_orbits import free, in_basins, settled, values
 from vibroimpact.tasks.threads import Progress
@@ -202,18 +202,21 @@ def on_branch(orbit: Orbit, one: Followed) -> bool:
             else (orbit.value - here.orbit.value) / (there.orbit.value - here.orbit.value)
         )
         guess = here.orbit.point + share * (there.orbit.point - here.orbit.point)
-        reach = _CLOSE + np.linalg.norm((there.orbit.point - here.orbit.point) / scale * SEEN)
+        counts = here.orbit.section.seen
+        reach = _CLOSE + np.linalg.norm((there.orbit.point - here.orbit.point) / scale * counts)
         if phase not in seen_there:
             seen = at_phase(orbit, phase)
             mirrored = orbit.section.family.symmetric
             there_too = () if seen is None else images(seen, mirrored=mirrored)
             seen_there[phase] = [point for point, _ in there_too]
-        near = [z for z in seen_there[phase] if np.linalg.norm((z - guess) / scale * SEEN) <= reach]
+        near = [
+            z for z in seen_there[phase] if np.linalg.norm((z - guess) / scale * counts) <= reach
+        ]
         if not near:
             continue
         status, found = corrected(here.orbit.section, guess, here.orbit.facts[section_map.MODE])
         if status is Status.DONE and any(
-            np.linalg.norm((found.point - z) / scale * SEEN) <= _SAME for z in near
+            np.linalg.norm((found.point - z) / scale * counts) <= _SAME for z in near
         ):
             return True
     return False

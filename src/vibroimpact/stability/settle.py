@@ -7,15 +7,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Oscillator, Repeated, State
+from vibroimpact.model import Assembly, AssemblyState, Oscillator, Repeated, State
 from vibroimpact.model.count_checks import share
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.stability.fixed_points import Orbit, vector_of
 from vibroimpact.tasks.threads import Progress
@@ -42,6 +41,11 @@ class Settled(NamedTuple):
         return self.engine.rig
 
     @property
+    def states(self) -> SectionStates:
+        """How states stand in vectors."""
+        return self.engine.states
+
+    @property
     def oscillator(self) -> Oscillator:
         """What vibrates."""
         return self.rig.oscillator
@@ -59,7 +63,7 @@ class Settled(NamedTuple):
 
 def approach(
     rig: Rig,
-    start: State | _Array,
+    start: State | AssemblyState | _Array,
     tolerance: float = 1e-12,
     max_cycles: int = 2000,
     max_events: int = 10_000,
@@ -75,19 +79,21 @@ def approach(
         If the start cannot be, or an undamped mass that no bumper stops is at resonance.
     """
     tolerance = share(tolerance, "tolerance")
-    check_bounded(rig)
-    if isinstance(start, State):
+    if isinstance(rig.system, Oscillator):
+        check_bounded(rig)
+    if not isinstance(start, np.ndarray):
         if start.phase is not None:
-            rig = rig.with_parts(rig.oscillator, rig.periodic.replace(phase=start.phase))
-        start = engine_state(rig.oscillator, start)
+            rig = rig.with_parts(rig.system, rig.periodic.replace(phase=start.phase))
+        start = SectionStates(rig.system).vector_of(start)
     engine = prepare(rig)
+    several = isinstance(rig.system, Assembly)
     row, reached = engine.dwell(start, Settling(tolerance, max_cycles, 1, max_events), progress)
     return Settled(
         engine,
         reached if np.isfinite(reached).all() else start,
         int(row.period),
         int(row.cycles),
-        Status(int(judged(rig.oscillator, row.status, np.nan))),
+        Status(int(row.status if several else judged(rig.oscillator, row.status, np.nan))),
     )
 
 
@@ -100,38 +106,31 @@ def later(
 
 def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:
     """Largest difference of two states of the engine, as a displacement over `size`."""
-    difference = np.abs(one - other)
-    difference[layout.V] /= found.excitation.angular_frequency
-    return float(
-        difference[
-            [
-                layout.U,
-                layout.V,
-                layout.RIGHT_BUMPER,
-                layout.LEFT_BUMPER,
-                layout.ISOLATOR,
-            ]
-        ].max()
-        / size
-    )
+    states, omega = found.states, found.excitation.angular_frequency
+    difference = np.abs(states.point(one) - states.point(other))
+    difference[states.velocities()] /= omega
+    return float(difference.max() / size)
 
 
 def reach(found: Settled, state: _Array) -> float:
     """Size of a motion near a state, as a displacement (m); never zero."""
-    speed = abs(float(state[layout.V])) / found.excitation.angular_frequency
-    size = max(abs(float(state[layout.U])), speed)
-    return max(size, 1e-3 * reach_at_rest(found.rig), 1e-300)
+    states, omega = found.states, found.excitation.angular_frequency
+    moved = np.abs(states.point(state)[: 2 * states.masses])
+    moved[states.masses :] /= omega
+    return max(float(moved.max()), 1e-3 * reach_at_rest(found.rig), 1e-300)
 
 
 def reach_at_rest(rig: Rig) -> float:
     """Displacement (m) of a mass that the peak of the shaking moves against the isolator alone.
 
-    Without a spring, against its inertia.
+    Without a spring, against its inertia. Of several masses, an estimate from the largest mass and
+    the lowest natural frequency.
     """
-    oscillator, excitation = rig.oscillator, rig.periodic
+    system, excitation = rig.system, rig.periodic
     omega = excitation.angular_frequency
-    peak = float(np.sum(excitation.acceleration(oscillator.mass, omega)))
-    return peak / (oscillator.angular_frequency or omega) ** 2
+    mass = system.mass if isinstance(system, Oscillator) else float(system.mass_matrix.max())
+    peak = float(np.sum(excitation.acceleration(mass, omega)))
+    return peak / (system.angular_frequency or omega) ** 2
 
 
 def settled_on(found: Orbit) -> Settled:

@@ -12,22 +12,23 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, noted
-from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
-from vibroimpact.model import State, equilibrium
+from vibroimpact.model import Assembly, State
 from vibroimpact.model.count_checks import check_max_events, check_samples, whole
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.response.analytic_free_response import exciting_excursion
+from vibroimpact.response.assembly_rig import check_size
+from vibroimpact.response.assembly_rows import measured_over, measured_variables
 from vibroimpact.response.contacts import contact_log
-from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.motion_phases import Recorded, phases
 from vibroimpact.response.plausibility import doubt_stops
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.totals import energies, extremes
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.initial_orbit import first_orbit
-from vibroimpact.stability.motion_exponents import judge_orbit, judge_wandering
+from vibroimpact.stability.motion_exponents import exponents, judge_orbit, judge_wandering
 from vibroimpact.stability.motion_type import Judgement
 from vibroimpact.stability.parameter_family import family
 from vibroimpact.stability.settle import (
@@ -114,6 +115,10 @@ def steady(
         - ``transmissibility``, as in `sweep`;
         - the impacts and the energies per forcing cycle.
 
+        Of an assembly, the variables are those of `simulate` and `sweep` by mass and stop, and
+        ``exponents`` has twice as many entries as there are masses if the motion is periodic. There
+        are no energies and no list of contacts.
+
         The attribute ``evidence`` gives the reason for the classification. If the motion reached
         ``max_events``, the recorded history ends at that time, and ``status`` reports it.
 
@@ -122,12 +127,13 @@ def steady(
     InputError
         If a value is invalid, or if an undamped mass without stops is shaken at resonance.
     """
-    rig = as_rig(rig, frequency)
-    oscillator = rig.oscillator
+    rig = as_rig_of_any_masses(rig, frequency=frequency)
+    if isinstance(rig.system, Assembly):
+        check_size(rig.system)
     samples, window, exponent_cycles = read_lengths(samples, window, exponent_cycles)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     check_progress(progress)
-    state = equilibrium(oscillator) if start is None else as_state(start)
+    state = SectionStates(rig.system).read(start)
     found = approach(rig, state, tolerance, max_cycles, max_events, progress)
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
         return _given_up(found, samples, max_events)
@@ -212,7 +218,7 @@ def describe_motion(
 def approached(found: Settled, period: int) -> Settled | None:
     """Compute the stable orbit to which a motion slowly converges, by Newton's method."""
     along = family(found.rig, "frequency")
-    here = state_from(found.state, found.excitation.phase)
+    here = found.states.state(found.state, found.excitation.phase)
     try:
         orbit = first_orbit(along, (0.0, 1.0), here, period, symmetric=False)
     except InputError:
@@ -235,7 +241,7 @@ def _record(
     return compute_history(
         found.rig,
         cycles,
-        state_from(state, found.excitation.phase),
+        found.states.state(state, found.excitation.phase),
         samples,
         max_events=max_events,
     )
@@ -251,11 +257,14 @@ def _mirror_distance(found: Settled, state: _Array, period: int, max_events: int
     status, half = later(found, state, 0.5 * period, max_events)
     if status is not Status.DONE:
         return math.nan  # seen from there a cycle has more events than are allowed
-    return apart(found, mirror_image(half), state, reach(found, state))
+    image = found.states.mirror_image(half)
+    return math.nan if image is None else apart(found, image, state, reach(found, state))
 
 
 def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:
     """Add the scalars, the contact log, the exact extremes, and quantities derived from them."""
+    if isinstance(found.states.system, Assembly):
+        return _measured_by_mass(data, found, scalars)
     periodic = scalars["period"] > 0
     origin = Recorded(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
     every = phases(data, origin)
@@ -282,6 +291,19 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     return describe(data, "vibroimpact.steady", notes=notes)
 
 
+def _measured_by_mass(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:
+    """Add the scalars, and the exact extremes, forces and impacts, by mass and stop."""
+    assembly = found.states.system
+    assert isinstance(assembly, Assembly)
+    cycles = max(round(float(data["cycle"].values[-1])), 1)
+    row = measured_over(found.engine, found.state, cycles)
+    variables = measured_variables(assembly, row, ())
+    ordered = int(data["simultaneous_impacts"])
+    data = data.assign({**variables, **scalars, "simultaneous_impacts": ordered})
+    data.attrs["created_by"] = "vibroimpact.steady"
+    return describe(data, "vibroimpact.steady", notes=noted(data))
+
+
 def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
     """Record a motion in the cycle in which it reached a limit, from the previous section."""
     with warnings.catch_warnings():
@@ -297,7 +319,7 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
         RuntimeWarning,
         stacklevel=outside(),
     )
-    nothing = ("exponent", np.full(2, np.nan))
+    nothing = ("exponent", np.full(exponents(found.states), np.nan))
     scalars: dict[str, Any] = {
         "motion": "undecided",
         "period": 0,
@@ -324,7 +346,7 @@ def _until_the_last_event(data: xr.Dataset, found: Settled, samples: int) -> xr.
     return compute_history(
         found.rig,
         length,
-        state_from(found.state, found.excitation.phase),
+        found.states.state(found.state, found.excitation.phase),
         samples,
         max_events=max(data.sizes["event"], 1),
     )

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 import pytest
 
 from engine.assembly.systems import neighbours, row
-from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine import lyapunov
 from vibroimpact.engine.assembly import section
 from vibroimpact.engine.assembly.advance import build
 from vibroimpact.engine.assembly.entries import follow_sections, sections
-from vibroimpact.engine.assembly.tangent import unit_disturbances
+from vibroimpact.engine.assembly.plan import make_vector
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.plain_entries import single
+from vibroimpact.engine.status import DONE
 
-PLACE, DISTURB, DESCRIBE, TANGENT = range(4)
+PLACE, DISTURB, DESCRIBE = range(3)
 
 
 @single("f8(i8, f8[::1], f8, f8, f8[::1], f8[:, ::1], f8[::1])")
@@ -37,17 +39,13 @@ def ask(
         section.place(plan, here)
     elif what == DISTURB:
         return section.disturb(plan, here, int(numbers[0]), numbers[1], numbers[2])
-    elif what == DESCRIBE:
+    else:
         numbers[0] = section.parts(plan)
         numbers[1] = section.stiff_rate(plan)
         numbers[2] = section.size(plan, here)
         numbers[3] = section.too_much_work(plan, 1.0)
         numbers[4] = section.too_much_work(plan, 1e9)
         section.units(plan, pointer(q))
-    else:
-        unit_disturbances(plan, int(state[0]), pointer(q))
-        s, c, length = numbers[0], numbers[1], numbers[2]
-        return section.tangent(plan, here, s, c, length, 1000, pointer(q), len(q))
     return 0.0
 
 
@@ -100,17 +98,18 @@ def test_parts_are_disturbed_that_outlive_a_period() -> None:
 
 
 def test_disturbances_of_a_section_are_carried() -> None:
+    """As the rows that `follow_sections` carries."""
     system = neighbours()
     line = sections(0.3, system.period, 1)
     state = system.state()
     follow_sections(system.plan(), system.amplitude, system.omega, state, np.tile(line, (7, 1)))
-    plain, q = state.copy(), np.zeros((6, 6))
+    plain, q, damping = state.copy(), np.zeros((6, 6)), np.zeros(1)
     rows = np.eye(6)
-    count = follow_sections(
-        system.plan(), system.amplitude, system.omega, plain, line, disturbances=rows
-    )
-    found = ask(TANGENT, system.plan(), system.amplitude, system.omega, state, q, line[0].copy())
-    assert found == count
-    assert (state == plain).all()
-    assert (q == rows).all()
-    assert at.PARTS == 2
+    plan = system.plan(tables=False)
+    follow_sections(plan, system.amplitude, system.omega, plain, line, disturbances=rows)
+    vector = make_vector(*system[:5], tables=False)
+    frequency, kept = system.omega / math.tau, state[:-2].copy()
+    done = lyapunov.monodromy(vector, system.amplitude, frequency, 0.3, kept, 1, 1000, q, damping)
+    assert done == DONE
+    np.testing.assert_allclose(kept[2:], plain[2:-2], rtol=1e-12, atol=1e-16)
+    np.testing.assert_allclose(q, rows, rtol=0, atol=1e-11 * abs(rows).max())

@@ -24,8 +24,10 @@ from vibroimpact.engine.assembly.tables import (
     travel_by_tables,
 )
 from vibroimpact.engine.assembly.tables import is_clear as is_clear_on_leap
+from vibroimpact.engine.event_loop import unobserved
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.state import ARRIVAL, STEP
 
 _SAME = 1e-12
 """Share of a step within which events are simultaneous, so that the stop's number decides."""
@@ -56,6 +58,8 @@ def begin(plan: Vector, amplitude: float, omega: float) -> None:
     for i in range(n * w):
         plan[push + i] = factor * plan[shape + i]
     plan[at.MODE] = -1.0
+    enter_mode(plan, 0)
+    plan[at.STIFF_RATE] = plan[at.RATE]
     plan[at.USED] = 0.0
     for i in range(2 * int(max(plan[at.SLOTS], 1.0))):
         plan[int(plan[at.KEYS]) + i] = -1.0
@@ -86,7 +90,6 @@ def load_motion(plan: Vector, state: Vector, s: float, c: float) -> None:
     y[2 * n + w] = 1.0
     unpack_fresh(plan, state[at.STATE_FRESH])
     plan[at.AGE] = state[at.PARTS + 2 * n + count]
-    plan[at.LEVEL] = 0.0
     enter_mode(plan, int(state[at.STATE_MODE]))
 
 
@@ -307,20 +310,20 @@ def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int
 
 
 @kernel
+def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
+    """See `flow.advance`; a step ends a stretch, too, which is kept in the plan."""
+    clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
+    load_motion(plan, before, before[clock], before[clock + 1])
+    event = next_stretch(plan, limit)
+    ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
+    store_motion(plan, after)
+    if event == at.LIMIT and plan[at.LENGTH] < limit:
+        return at.PASSED
+    return event
+
+
+@kernel
 def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
-    """Follow a motion from a section over a length (s), in place; see `flow.cycle`."""
-    load_motion(plan, state, s, c)
-    t, events = 0.0, 0
-    while t < length:
-        left = length - t
-        event = next_stretch(plan, left)
-        if event == at.GIVEN_UP:
-            events = max_events + 1
-            break
-        t = length if plan[at.LENGTH] == left else t + plan[at.LENGTH]
-        if event != at.LIMIT:
-            events += 1
-            if events > max_events:
-                break
-    store_motion(plan, state)
+    """See `flow.cycle`; a stretch takes so long that `advance` is not merged into the loop."""
+    events: int = unobserved(plan, state, s, c, length, max_events)
     return events

@@ -37,12 +37,6 @@ def follow(
     count, written = 0, 0
     for k in range(len(lines)):
         s, c, length = lines[k, 0], lines[k, 1], lines[k, 2]
-        if len(log) == 0 and len(disturbances) == 0 and len(samples) == 0:
-            events = motion.cycle(plan, here, s, c, length, max_events)
-            if events > max_events:
-                return -1 - k
-            count += events
-            continue
         motion.load_motion(plan, here, s, c)
         t, events = 0.0, 0
         while t < length:

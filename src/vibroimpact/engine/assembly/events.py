@@ -6,7 +6,7 @@ import math
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import enter_mode, hold
-from vibroimpact.engine.assembly.series import accelerate, places
+from vibroimpact.engine.assembly.series import accelerate, places, take_off
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -19,8 +19,10 @@ what is lost is of second order, 1e-12."""
 _NOISE = 1e-15
 """A closing speed below this share of the bodies' speeds is rounding."""
 
-_KEPT = 6
+KEPT = 6
 """Zeros by construction that fit into a state."""
+LEVELS = 16
+"""Of how far to leap, which stands below them; the bit of `motion.SETTLING` is never set."""
 
 
 @kernel
@@ -125,16 +127,11 @@ def halt(plan: Vector, y: Vector) -> None:
     """Take the closing speeds from all resting stops, by the least change in energy."""
     n = int(plan[at.MASSES])
     r, listed = int(plan[at.RESTING]), int(plan[at.RESTING_LIST])
-    response, stops = int(plan[at.RESPONSE]), int(plan[at.STOP])
     impulses = beyond(plan, int(plan[at.SCRATCH]))
     for j in range(r):
         impulses[j] = closing(plan, int(plan[listed + j]), beyond(y, n))
     hold(plan, impulses)
-    for j in range(r):
-        f = int(plan[listed + j])
-        one = stops + f * at.STOP_WIDTH
-        for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
-            y[n + i] -= plan[response + f * n + i] * impulses[j]
+    take_off(plan, places(plan), impulses, beyond(y, n))
 
 
 @kernel
@@ -212,14 +209,17 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
 
 @kernel
 def pack_fresh(plan: Vector) -> float:
-    """The zeros by construction as one number: 4 (stop + 1) + order, at most six of them."""
+    """The zeros by construction as one number: 4 (stop + 1) + order, at most six of them.
+
+    Below them stands how far to leap, so that a motion is the same wherever it is taken up.
+    """
     zeros = beyond(plan, int(plan[at.ZEROS]))
     packed, kept = 0, 0
     for f in range(int(plan[at.STOPS])):
-        if zeros[f] > 0.0 and kept < _KEPT:
+        if zeros[f] > 0.0 and kept < KEPT:
             packed = packed * 256 + 4 * (f + 1) + int(zeros[f])
             kept += 1
-    return float(packed)
+    return float(LEVELS * packed + int(plan[at.LEVEL]))
 
 
 @kernel
@@ -229,6 +229,8 @@ def unpack_fresh(plan: Vector, packed: float) -> None:
     for f in range(count):
         zeros[f] = 0.0
     rest = int(packed)
+    plan[at.LEVEL] = float(rest % LEVELS)
+    rest //= LEVELS
     while rest > 0:
         f = rest % 256 // 4 - 1
         if f < count:

@@ -1,11 +1,17 @@
 """Where things are in a plan and in a state.
 
-A plan begins with whole numbers, kept as floats: sizes, and the places of blocks.
+A plan begins with whole numbers, kept as floats: sizes, and the places of blocks; FLOW stands where
+a rig of one mass tells what shakes it, and is `parameters.MASSES`. Up to `NUMBERS`
+it is the rig's vector, behind which a system vector has its amplitude and frequency; what follows
+are constants and rooms.
 A state is [mode, fresh, u (n), v (n), deformation (a number for each stop), age, s, c]. `fresh`
-tells which watched functions are zero by construction (see `events.pack_fresh`).
+tells which watched functions are zero by construction, and how far to leap (see
+`events.pack_fresh`).
 """
 
 from __future__ import annotations
+
+from vibroimpact.engine import motion
 
 (
     MASSES,
@@ -29,6 +35,14 @@ from __future__ import annotations
     RESPONSE,
     COUPLING,
     ROW_SUMS,
+    MASS,
+    CARRIED,
+    LOAD,
+    FLOW,
+    NUMBERS,
+    LENGTH_OF_PLAN,
+    SYMMETRIC,
+    STIFF_RATE,
     ECONOMY,
     # What the mode says.
     MODE,
@@ -88,15 +102,15 @@ from __future__ import annotations
     SHAKEN,
     UNDECIDED,
     COEFFICIENTS,
-) = range(71)
-HEADER = 72
+) = range(79)
+HEADER = 80
 
-LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION, FIRST, BEHIND = (
-    range(10)
-)
+LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)
+FIRST, BEHIND, PARTNER = range(8, 11)
 """Of a stop: its bodies (n for the ground), gap (m), kind, N/m, N s/m, –, κ (1/s; inf without a
-dashpot), and the range of masses on which it acts at once."""
-STOP_WIDTH = 10
+dashpot), the range of masses on which it acts at once, and the stop that is its mirror image (−1 if
+none is)."""
+STOP_WIDTH = 11
 
 KELVIN_VOIGT, RIGID = 0, 1
 
@@ -106,10 +120,11 @@ TERMS = 28
 STEP = 2.5
 """h ρ; the remainder is then 2.5²⁸/28! = 5e-19 of the state."""
 
-LIMIT, CONTACT, IMPACT, RELEASE, RISE, GIVEN_UP = range(6)
-"""What ends a stretch: its limit (or a step), a Kelvin–Voigt stop is met, a rigid one is hit (or
-comes to rest: its bit is set then), a Kelvin–Voigt stop is left, a rest ends, or the motion is no
-longer finite."""
+CONTACT, IMPACT, RELEASE, RISE = range(1, 5)
+LIMIT, PASSED, GIVEN_UP = motion.LIMIT, motion.PASSED, motion.GIVEN_UP
+"""What ends a stretch: its limit, a Kelvin–Voigt stop is met, a rigid one is hit (or comes to rest:
+its bit is set then), a Kelvin–Voigt stop is left, a rest ends, a step, or the motion is no longer
+finite."""
 
 STATE_MODE, STATE_FRESH, PARTS = range(3)
 

@@ -1,16 +1,18 @@
-"""From matrices and stops to a plan."""
+"""From matrices and stops to a rig's vector, and to a plan."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from math import comb, inf
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.tables import rules, table_size
+from vibroimpact.engine.assembly.tables import RULES, rules, table_size
 from vibroimpact.engine.jit import Vector
 
 Matrix = NDArray[np.float64]
@@ -83,7 +85,7 @@ def record_motion(mass: Matrix, influence: Vector, interval: float) -> Forcing:
     return Forcing(-mass @ influence, interval=interval, shaken=True)
 
 
-def make_plan(
+def make_vector(
     mass: Matrix,
     damping: Matrix,
     stiffness: Matrix,
@@ -91,8 +93,9 @@ def make_plan(
     forcing: Forcing,
     constant: Vector | None = None,
     tables: bool = True,
+    influence: Vector | None = None,
 ) -> Vector:
-    """Write a plan.
+    """Write a rig's vector, with which its plan begins.
 
     Parameters
     ----------
@@ -104,6 +107,9 @@ def make_plan(
         Constant forces (N).
     tables
         Whether modes may have tables (they only make the same motion faster).
+    influence : ndarray, shape (n,)
+        By how much a mass moves with the base, of which the force on the base is the sum. Default:
+        1 for each.
     """
     n, count = len(mass), len(stops)
     if count > at.MOST_STOPS:
@@ -113,21 +119,25 @@ def make_plan(
     waves = 2 if record else forcing.weights.shape[1]
     width = 2 * n + waves + 1
     row = 2 * (n + 1)
+    constant = np.zeros(n) if constant is None else constant
+    influence = np.ones(n) if influence is None else influence
 
     header = np.zeros(at.HEADER)
     blocks: list[tuple[int, Vector]] = []
     end = at.HEADER
 
-    def block(index: int, content: Vector | int) -> None:
+    def room(index: int, count: int) -> None:
         nonlocal end
-        content = np.zeros(content) if isinstance(content, int) else np.ravel(content)
         header[index] = end
-        blocks.append((end, content))
-        end += -(-len(content) // 8) * 8
+        end += -(-count // 8) * 8
+
+    def block(index: int, content: Vector) -> None:
+        blocks.append((end, np.ravel(content)))
+        room(index, content.size)
 
     header[[at.MASSES, at.STOPS, at.WAVES, at.RECORD]] = n, count, waves, record
     header[[at.POWER, at.INTERVAL, at.MODE]] = forcing.power, forcing.interval, -1
-    header[at.SHAKEN] = forcing.shaken
+    header[[at.FLOW, at.SHAKEN, at.LOAD]] = par.MASSES, forcing.shaken, influence @ constant
     k, c = inverse @ stiffness, inverse @ damping
     shape = np.zeros((n, waves))
     shape[:, : 1 if record else waves] = inverse @ forcing.weights.reshape(n, -1)
@@ -135,8 +145,9 @@ def make_plan(
     block(at.STIFFNESS, k)
     block(at.DAMPING, c)
     block(at.SHAPE, shape)
-    block(at.PUSH, n * waves)
-    block(at.CONSTANT, inverse @ (np.zeros(n) if constant is None else constant))
+    block(at.CONSTANT, inverse @ constant)
+    block(at.MASS, mass)
+    block(at.CARRIED, mass @ influence)
     closing = np.zeros((count, n))
     for one, stop in zip(closing, stops, strict=True):
         if stop.left != GROUND:
@@ -146,28 +157,33 @@ def make_plan(
     response = closing @ inverse
     block(at.RESPONSE, response)
     block(at.COUPLING, response @ closing.T)
-    block(
-        at.STOP,
-        np.array([_stop(s, n, r) for s, r in zip(stops, _ranges(response != 0.0), strict=True)]),
-    )
+    images = partners(stops)
+    of_stops = zip(stops, _ranges(response != 0.0), images, strict=True)
+    block(at.STOP, np.array([_stop(stop, n, acts, other) for stop, acts, other in of_stops]))
     block(at.ROW_SUMS, np.stack([abs(k).sum(1), abs(c).sum(1)]))
-    block(at.ECONOMY, economy())
-    block(at.PRESSED_LIST, count)
-    block(at.RESTING_LIST, count)
-    block(at.FACTOR, count * count)
-    for vector in (at.Y, at.START, at.END, at.PIECE_Y):
-        block(vector, width + count + 8)
+    header[at.SYMMETRIC] = -1.0 not in images and not constant.any()
+    header[at.NUMBERS] = end
+
+    # What follows is only in a plan.
+    room(at.ECONOMY, at.TERMS * (at.DEGREE + 1))
+    room(at.RULES, RULES)
+    room(at.PUSH, n * waves)
+    room(at.PRESSED_LIST, count)
+    room(at.RESTING_LIST, count)
+    room(at.FACTOR, count * count)
+    for index in (at.Y, at.START, at.END, at.PIECE_Y):
+        room(index, width + count + 8)
     deformations = (at.DEFORMATION, at.START_DEFORMATION, at.END_DEFORMATION)
-    for vector in (*deformations, at.PIECE_DEFORMATION, at.ZEROS):
-        block(vector, count)
-    block(at.SERIES, at.TERMS * row)
-    block(at.WAVE_SERIES, at.TERMS * waves)
-    block(at.FORCE_SERIES, at.TERMS * count)
-    block(at.BERNSTEIN, 16)
-    block(at.COEFFICIENTS, at.TERMS)
-    block(at.ROOM, 64 * 16)
-    block(at.WIDTHS, 64)
-    block(at.SCRATCH, 8 * (width + count + 8))
+    for index in (*deformations, at.PIECE_DEFORMATION, at.ZEROS):
+        room(index, count)
+    room(at.SERIES, at.TERMS * row)
+    room(at.WAVE_SERIES, at.TERMS * waves)
+    room(at.FORCE_SERIES, at.TERMS * count)
+    room(at.BERNSTEIN, 16)
+    room(at.COEFFICIENTS, at.TERMS)
+    room(at.ROOM, 64 * 16)
+    room(at.WIDTHS, 64)
+    room(at.SCRATCH, 8 * (width + count + 8))
 
     # Modes with few pressed stops have tables, as many as there is room for.
     size = table_size(n, count, waves)
@@ -177,16 +193,37 @@ def make_plan(
         most += 1
         modes += comb(count, most)
     header[[at.SLOTS, at.MOST_PRESSED, at.TABLE_SIZE]] = modes, most, size
-    block(at.KEYS, 2 * max(modes, 1))
-    block(at.SLOT_OF, 2 * max(modes, 1))
-    block(at.RULES, rules() if modes else 0)
-    block(at.TABLE_ROOM, (8 * 16 + 4) * (width + count + 8) if modes else 0)
-    block(at.TABLE, modes * size)
+    room(at.KEYS, 2 * max(modes, 1))
+    room(at.SLOT_OF, 2 * max(modes, 1))
+    room(at.TABLE_ROOM, (8 * 16 + 4) * (width + count + 8) if modes else 0)
+    room(at.TABLE, modes * size)
+    header[at.LENGTH_OF_PLAN] = end
 
-    plan = np.zeros(end)
-    plan[: at.HEADER] = header
+    vector = np.zeros(int(header[at.NUMBERS]))
+    vector[: at.HEADER] = header
     for begin, content in blocks:
-        plan[begin : begin + len(content)] = content
+        vector[begin : begin + len(content)] = content
+    return vector
+
+
+def write_plan(vector: Vector, plan: Vector) -> None:
+    """Write what a plan begins with, a rig's vector, and the constants behind it."""
+    numbers = int(vector[at.NUMBERS])
+    plan[:numbers] = vector[:numbers]
+    for index, constants in ((at.ECONOMY, _economy()), (at.RULES, _rules())):
+        begin = int(vector[index])
+        plan[begin : begin + len(constants)] = constants
+
+
+def make_plan(*args: Any, **kwargs: Any) -> Vector:
+    """Make a plan; the arguments are those of `make_vector`."""
+    return plan_of(make_vector(*args, **kwargs))
+
+
+def plan_of(vector: Vector) -> Vector:
+    """Make the plan of a rig's vector."""
+    plan = np.zeros(int(vector[at.LENGTH_OF_PLAN]))
+    write_plan(vector, plan)
     return plan
 
 
@@ -211,7 +248,31 @@ def economy() -> Matrix:
     return np.array(rows)
 
 
-def _stop(stop: Stop, n: int, acts: Vector) -> list[float]:
+@cache
+def _economy() -> Vector:
+    return np.ravel(economy())
+
+
+@cache
+def _rules() -> Vector:
+    return rules()  # type: ignore[no-any-return]
+
+
+def partners(stops: Sequence[Stop]) -> list[float]:
+    """Of each stop the number of the one that is its mirror image, −1 if there is none.
+
+    Alike ones are paired in their order.
+    """
+    found = [-1.0] * len(stops)
+    for f, stop in enumerate(stops):
+        image = stop._replace(left=stop.right, right=stop.left)
+        free = [g for g, other in enumerate(stops) if other == image and found[g] < 0.0]
+        if found[f] < 0.0 and free:
+            found[f], found[free[0]] = float(free[0]), float(f)
+    return found
+
+
+def _stop(stop: Stop, n: int, acts: Vector, partner: float) -> list[float]:
     rigid = stop.restitution is not None
     return [
         stop.left if stop.left != GROUND else n,
@@ -223,6 +284,7 @@ def _stop(stop: Stop, n: int, acts: Vector) -> list[float]:
         stop.restitution if stop.restitution is not None else 0.0,
         stop.stiffness / stop.damping if stop.damping > 0.0 and not rigid else inf,
         *acts,
+        partner,
     ]
 
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.advance import load_motion, next_stretch, store_motion
-from vibroimpact.engine.assembly.events import closing
+from vibroimpact.engine.assembly.events import closing, pack_fresh, unpack_fresh
 from vibroimpact.engine.assembly.mode import enter_mode
-from vibroimpact.engine.assembly.tangent import carry_disturbances
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.state import copy
 
 _FORGOTTEN = 9.0
 """What relaxes by more powers of e in a cycle is another's memory no more."""
@@ -30,8 +29,7 @@ def too_much_work(plan: Vector, period: float) -> int:
 @kernel
 def stiff_rate(plan: Vector) -> float:
     """What makes a velocity of a displacement (1/s): the rate in flight."""
-    enter_mode(plan, 0)
-    rate: float = plan[at.RATE]
+    rate: float = plan[at.STIFF_RATE]
     return rate
 
 
@@ -117,30 +115,50 @@ def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) ->
 
 
 @kernel
-def tangent(
-    plan: Vector,
-    state: Vector,
-    s: float,
-    c: float,
-    length: float,
-    max_events: int,
-    q: Vector,
-    rows: int,
-) -> int:
-    """As `cycle`, carrying disturbances along, the rows of q."""
-    load_motion(plan, state, s, c)
-    t, events = 0.0, 0
-    while t < length:
-        left = length - t
-        event = next_stretch(plan, left)
-        if event == at.GIVEN_UP:
-            events = max_events + 1
-            break
-        carry_disturbances(plan, q, rows)
-        t = length if plan[at.LENGTH] == left else t + plan[at.LENGTH]
-        if event != at.LIMIT:
-            events += 1
-            if events > max_events:
-                break
-    store_motion(plan, state)
-    return events
+def point(plan: Vector, state: Vector, point: Vector) -> None:
+    """See `flow.point`; deformations are those away from the bodies."""
+    copy(beyond(state, at.PARTS), point, parts(plan))
+
+
+@kernel
+def at_point(plan: Vector, state: Vector, point: Vector) -> None:
+    """See `flow.at_point`."""
+    copy(point, beyond(state, at.PARTS), parts(plan))
+    place(plan, state)
+
+
+@kernel
+def _partner(plan: Vector, f: int) -> int:
+    return int(plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.PARTNER])
+
+
+@kernel
+def _mirror_parts(plan: Vector, values: Vector) -> None:
+    """Turn displacements, velocities and deformations into their mirror image."""
+    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+    for i in range(2 * n):
+        values[i] = -values[i]
+    deformation = beyond(values, 2 * n)
+    for f in range(count):
+        other = _partner(plan, f)
+        if f < other:
+            deformation[f], deformation[other] = deformation[other], deformation[f]
+
+
+@kernel
+def mirror(plan: Vector, state: Vector, q: Vector) -> None:
+    """See `flow.mirror`; each stop has a partner."""
+    width, count = parts(plan), int(plan[at.STOPS])
+    _mirror_parts(plan, beyond(state, at.PARTS))
+    for i in range(width):
+        _mirror_parts(plan, beyond(q, i * width))
+    unpack_fresh(plan, state[at.STATE_FRESH])
+    zeros = beyond(plan, int(plan[at.ZEROS]))
+    mode, found = int(state[at.STATE_MODE]), 0
+    for f in range(count):
+        other = _partner(plan, f)
+        if mode >> f & 1:
+            found |= 1 << other
+        if f < other:
+            zeros[f], zeros[other] = zeros[other], zeros[f]
+    state[at.STATE_MODE], state[at.STATE_FRESH] = float(found), pack_fresh(plan)

@@ -62,6 +62,16 @@ def places(plan: Vector) -> Places:
 
 
 @inlined
+def take_off(plan: Vector, of: Places, held: Vector, values: Vector) -> None:
+    """Take what the resting stops' forces (or impulses) do off a number for each mass."""
+    for j in range(of.resting):
+        f = int(plan[of.resting_list + j])
+        one = of.stops + f * at.STOP_WIDTH
+        for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
+            values[i] -= plan[of.response + f * of.masses + i] * held[j]
+
+
+@inlined
 def accelerate(
     plan: Vector,
     of: Places,
@@ -106,11 +116,7 @@ def accelerate(
         one = stops + int(plan[listed + j]) * at.STOP_WIDTH
         held[j] = plan[row + int(plan[one + at.LEFT])] - plan[row + int(plan[one + at.RIGHT])]
     hold(plan, held)
-    for j in range(r):
-        f = int(plan[listed + j])
-        one = stops + f * at.STOP_WIDTH
-        for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
-            plan[row + i] -= plan[response + f * n + i] * held[j]
+    take_off(plan, of, held, beyond(plan, row))
 
 
 @apart

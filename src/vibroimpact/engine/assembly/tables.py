@@ -35,7 +35,9 @@ _NODES = 8
 _AT_NODES = 0
 _FIT = LEVELS * _NODES * 16
 _LIFT = _FIT + 64
-_RULES = _LIFT + 128
+_PLACES = _LIFT + 128
+RULES = _PLACES + _NODES
+"""How many numbers there are."""
 # Of a table.
 STEP_LENGTH, WIDTH, LEAPS, FRACTION, FINE, JETS, FULL, LOW, BOUND = range(9)
 _HEAD = 16
@@ -220,7 +222,7 @@ def _screen(plan: Vector, place: int) -> None:
     count = int(plan[at.STOPS])
     width = int(plan[place + WIDTH])
     rules = int(plan[at.RULES])
-    nodes = rules + _RULES
+    nodes = rules + _PLACES
     full, low, bound = int(plan[place + FULL]), int(plan[place + LOW]), int(plan[place + BOUND])
     leaps = int(plan[place + LEAPS])
     room = int(plan[at.TABLE_ROOM]) + 2 * (width + count + 8)

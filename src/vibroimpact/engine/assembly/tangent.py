@@ -13,6 +13,8 @@ mode it obeys the homogeneous equations. At an event, the disturbed motion is la
 
 from __future__ import annotations
 
+import math
+
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.channels import (
     close_stretch,
@@ -26,6 +28,7 @@ from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.assembly.series import expand_state, travel_by_series
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.state import DAMPING, HITS
 
 
 @kernel
@@ -94,6 +97,37 @@ def carry_disturbances(plan: Vector, q: Vector, rows: int) -> None:
         elif event == at.CONTACT:
             _meet(plan, row)
         tie(plan, row)
+
+
+@kernel
+def _contraction(plan: Vector, mode: int) -> float:
+    """Minus the trace of what the state's derivative is of u and v in a mode (1/s)."""
+    n, count, stops = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.STOP])
+    total = 0.0
+    for i in range(n):
+        total += plan[int(plan[at.DAMPING]) + i * n + i]
+    for f in range(count):
+        if mode >> f & 1:
+            dashpot = plan[stops + f * at.STOP_WIDTH + at.STOP_DAMPING]
+            total += dashpot * plan[int(plan[at.COUPLING]) + f * count + f]
+    return total
+
+
+@kernel
+def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
+    """Carry a disturbance of each part through the last stretch, and note what `flow.tangent` does.
+
+    An impact multiplies what is left of a volume of (u, v) by e², a rest leaves nothing.
+    """
+    f, event, length = int(plan[at.EVENT_STOP]), int(plan[at.EVENT]), plan[at.LENGTH]
+    notes[DAMPING] += length * _contraction(plan, int(plan[at.STRETCH_MODE]))
+    if event in (at.CONTACT, at.IMPACT):
+        notes[HITS + f] += 1.0
+    if event == at.IMPACT:
+        e = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RESTITUTION]
+        left = e > 0.0 and not int(plan[at.MODE]) >> f & 1
+        notes[DAMPING] += -2.0 * math.log(e) if left else math.inf
+    carry_disturbances(plan, q, 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]))
 
 
 @kernel

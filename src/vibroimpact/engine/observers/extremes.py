@@ -150,6 +150,11 @@ FORCE_RIGHT, FORCE_LEFT, IMPULSE_RIGHT, IMPULSE_LEFT = range(6, 10)
 impulse of an impact on a rigid one, per unit mass (m/s², m/s)."""
 NOTES = 10
 
+T_LEAST, T_MOST = NOTES, NOTES + 1
+MEASURES = NOTES + 2
+"""What is measured are the notes, contacts per cycle, and the range of the force on the base per
+unit mass (m/s²)."""
+
 notes_room = stack(NOTES)
 """Room for them."""
 

@@ -1,0 +1,141 @@
+"""The steady motion in flight, in closed form, and whether a motion ends there untouched.
+
+The energy E of what a motion differs by from the steady one never grows in flight, so that its
+closing displacement at a stop stays within √(2 E w K⁻¹ wᵀ). Where that and the steady motion leave
+a clearance at each stop, none is touched any more.
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.events import closing
+from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.assembly.series import expand_state, travel_by_series
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.matrix import radius, solve
+from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.state import LARGEST, parts_room, square_room
+
+
+@apart
+def _solved(a: Vector, b: Vector, n: int) -> bool:
+    found: bool = solve(a, b, n)
+    return found
+
+
+@kernel
+def _response(plan: Vector, omega: float, sine: Vector, cosine: Vector) -> bool:
+    """Replace accelerations by the displacements that they force at ω; False if unbounded."""
+    n = int(plan[at.MASSES])
+    k, c = int(plan[at.STIFFNESS]), int(plan[at.DAMPING])
+    a, b = square_room(), parts_room()
+    m = 2 * n
+    for i in range(n):
+        for j in range(n):
+            stiff = plan[k + i * n + j] - (omega * omega if i == j else 0.0)
+            turn = omega * plan[c + i * n + j]
+            a[i * m + j], a[i * m + n + j] = stiff, -turn
+            a[(n + i) * m + j], a[(n + i) * m + n + j] = turn, stiff
+        b[i], b[n + i] = sine[i], cosine[i]
+    if not _solved(a, b, m):
+        return False
+    for i in range(n):
+        sine[i], cosine[i] = b[i], b[n + i]
+    return True
+
+
+@kernel
+def _statics(plan: Vector, load: Vector) -> bool:
+    """Replace accelerations by the displacements at which the links balance them."""
+    n, k = int(plan[at.MASSES]), int(plan[at.STIFFNESS])
+    a = square_room()
+    for i in range(n * n):
+        a[i] = plan[k + i]
+    return _solved(a, load, n)
+
+
+@apart
+def _dies_out(plan: Vector, period: float, dying: float) -> bool:
+    """Whether free motions become less in a period."""
+    n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
+    q, other, y, none = square_room(), square_room(), parts_room(), parts_room()
+    m = 2 * n
+    steps = math.ceil(plan[at.RATE] * period / at.STEP)
+    for i in range(int(plan[at.STOPS])):
+        none[i] = 0.0
+    for j in range(m):
+        for i in range(m + w + 1):
+            y[i] = 1.0 if i == j else 0.0
+        for _ in range(steps):
+            expand_state(plan, y, none, period / steps)
+            travel_by_series(plan, y, none, 1.0)
+        for i in range(m):
+            q[i * m + j] = y[i]
+    return radius(q, other, m) < dying
+
+
+@apart
+def undisturbed(plan: Vector, state: Vector, dying: float) -> int:
+    """Whether a motion touches nothing any more; then the state becomes the steady one's.
+
+    See `flow.undisturbed`: 2 if so, for its extremes are not written.
+    """
+    n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
+    if plan[at.RECORD] != 0.0 or state[at.STATE_MODE] != 0.0 or 2 * n + w + 1 > LARGEST:
+        return 0
+    enter_mode(plan, 0)
+    push, clock = int(plan[at.PUSH]), at.PARTS + 2 * n + count + 1
+    steady, sine, cosine, swing = parts_room(), parts_room(), parts_room(), parts_room()
+    for i in range(n):
+        steady[i], steady[n + i] = plan[int(plan[at.CONSTANT]) + i], 0.0
+    if not _statics(plan, steady):
+        return 0
+    for f in range(count):
+        swing[f] = closing(plan, f, steady)
+    s, c = state[clock], state[clock + 1]
+    now_s, now_c = s, c
+    for q in range(w // 2):
+        omega = plan[at.OMEGA] * (q + 1)
+        for i in range(n):
+            sine[i], cosine[i] = plan[push + i * w + 2 * q], plan[push + i * w + 2 * q + 1]
+        if not _response(plan, omega, sine, cosine):
+            return 0
+        for f in range(count):
+            swing[f] += math.hypot(closing(plan, f, sine), closing(plan, f, cosine))
+        for i in range(n):
+            steady[i] += sine[i] * now_s + cosine[i] * now_c
+            steady[n + i] += omega * (sine[i] * now_c - cosine[i] * now_s)
+        now_s, now_c = now_s * c + now_c * s, now_c * c - now_s * s
+    energy = 0.0  # twice that of the difference
+    for i in range(n):
+        sine[i] = state[at.PARTS + i] - steady[i]
+        cosine[i] = state[at.PARTS + n + i] - steady[n + i]
+    for i in range(n):
+        force, momentum = 0.0, 0.0
+        for j in range(n):
+            restored = 0.0
+            for k in range(n):
+                restored += plan[int(plan[at.STIFFNESS]) + j * n + k] * sine[k]
+            mass = plan[int(plan[at.MASS]) + i * n + j]
+            force += mass * restored
+            momentum += mass * cosine[j]
+        energy += sine[i] * force + cosine[i] * momentum
+    for f in range(count):
+        for i in range(n):
+            sine[i] = plan[int(plan[at.RESPONSE]) + f * n + i]
+        if not _statics(plan, sine):
+            return 0
+        reach = swing[f] + math.sqrt(max(energy * closing(plan, f, sine), 0.0))
+        if not reach < plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.GAP]:
+            return 0
+    if not _dies_out(plan, 2.0 * math.pi / plan[at.OMEGA], dying):
+        return 0
+    parts = beyond(state, at.PARTS)
+    for i in range(2 * n):
+        parts[i] = steady[i]
+    for f in range(count + 1):  # the deformations have relaxed; the mode begins
+        parts[2 * n + f] = 0.0
+    state[at.STATE_FRESH] = 0.0
+    return 2

@@ -1,0 +1,227 @@
+"""Exact extremes of a motion: of each mass, of each stop's force, and of the force on the base."""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.channels import (
+    ABSOLUTE_ACCELERATION,
+    ACCELERATION,
+    DISPLACEMENT,
+    FORCE,
+    SERIES,
+    close_stretch,
+    open_piece,
+    open_stretch,
+    pieces,
+    series,
+)
+from vibroimpact.engine.assembly.events import closing
+from vibroimpact.engine.assembly.series import to_bernstein
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond, stack
+
+U_LEAST, U_MOST, A_LEAST, A_MOST = range(4)
+OF_MASS = 4
+"""Of the notes first those of each mass: displacement (m), absolute acceleration (m/s²)."""
+T_LEAST, T_MOST, ORDERED, UNDECIDED = range(4)
+OF_BASE = 4
+"""Then the least and the largest force on the base (N), and how many impacts were ordered by a rule
+and how many searches were given up."""
+HITS, PUSHED, STRUCK = range(3)
+OF_STOP = 3
+"""Then of each stop: contacts begun, the largest force (N; infinite of a rigid one that is hit),
+and the largest impulse of an impact (N s)."""
+
+_DEGREE = at.DEGREE
+_DEEPEST = 40
+"""Halvings of a piece, behind which its ends are all that counts."""
+_ROUNDING = 1e-15
+"""Of a series: an extreme that stands out by less is rounding."""
+
+_range_room = stack(2)
+_series_room = stack(SERIES)
+_parts_room = stack((_DEEPEST + 2) * (_DEGREE + 4))
+
+
+def count(masses: int, stops: int) -> int:
+    """How many notes there are."""
+    return OF_MASS * masses + OF_BASE + OF_STOP * stops
+
+
+@kernel
+def start(plan: Vector, notes: Vector) -> None:
+    """Before anything is seen."""
+    base = OF_MASS * int(plan[at.MASSES])
+    for i in range(0, base + 2, 2):
+        notes[i], notes[i + 1] = math.inf, -math.inf
+    notes[base + ORDERED], notes[base + UNDECIDED] = plan[at.ORDERED], plan[at.UNDECIDED]
+    for i in range(OF_STOP * int(plan[at.STOPS])):
+        notes[base + OF_BASE + i] = 0.0
+
+
+@kernel
+def _value(a: Vector, order: int, x: float) -> tuple[float, float, float]:
+    """A power series, its slope and its curvature."""
+    f, f1, f2 = 0.0, 0.0, 0.0
+    for j in range(order, -1, -1):
+        f2 = f2 * x + f1
+        f1 = f1 * x + f
+        f = f * x + a[j]
+    return f, f1, 2.0 * f2
+
+
+@kernel
+def _turn(a: Vector, order: int, low: float, high: float) -> float:
+    """The value where a series turns, which it does once in between."""
+    _, begins, _ = _value(a, order, low)
+    x = 0.5 * (low + high)
+    value = 0.0
+    for _ in range(60):
+        value, slope, curve = _value(a, order, x)
+        if slope == 0.0:
+            break
+        if (slope > 0.0) == (begins > 0.0):
+            low = x
+        else:
+            high = x
+        new = x - slope / curve if curve != 0.0 else low
+        if not low < new < high:
+            new = 0.5 * (low + high)
+        if abs(new - x) < 1e-10:  # the value is then right to 1e-20
+            break
+        x = new
+    return value
+
+
+@apart
+def widen(plan: Vector, a: Vector, order: int, room: Vector) -> None:
+    """Widen a range, the two numbers of `room`, by the values of a power series on [0, 1].
+
+    A part on which the differences of the Bernstein coefficients change their sign once has one
+    extreme in between; others are halved.
+    """
+    spread = 0.0
+    for j in range(1, order + 1):
+        spread += abs(a[j])
+    if room[0] <= a[0] - spread and a[0] + spread <= room[1]:
+        return
+    for j in range(order + 1, int(plan[at.ORDER]) + 1):
+        a[j] = 0.0
+    parts = _parts_room()
+    size = _DEGREE + 4
+    low_at, high_at, depth_at = _DEGREE + 1, _DEGREE + 2, _DEGREE + 3
+    to_bernstein(plan, a, parts)
+    parts[low_at], parts[high_at], parts[depth_at] = 0.0, 1.0, 0.0
+    left = 1
+    while left > 0:
+        left -= 1
+        b = beyond(parts, left * size)
+        room[0] = min(room[0], b[0], b[_DEGREE])
+        room[1] = max(room[1], b[0], b[_DEGREE])
+        least, most, turns, before = b[0], b[0], 0, 0.0
+        for j in range(1, _DEGREE + 1):
+            least, most = min(least, b[j]), max(most, b[j])
+            step = b[j] - b[j - 1]
+            if step * before < 0.0:
+                turns += 1
+            if step != 0.0:
+                before = step
+        slack = _ROUNDING * max(abs(least), abs(most))
+        if room[0] - slack <= least and most <= room[1] + slack:
+            continue
+        low, high, depth = b[low_at], b[high_at], b[depth_at]
+        if turns == 0 or depth >= _DEEPEST:
+            continue
+        if turns == 1:
+            found = _turn(a, order, low, high)
+            room[0], room[1] = min(room[0], found), max(room[1], found)
+            continue
+        after = beyond(parts, (left + 1) * size)
+        middle = 0.5 * (low + high)
+        for j in range(_DEGREE + 1):  # de Casteljau's halves: the second one, then the first
+            after[j] = b[j]
+        for k in range(_DEGREE + 1):
+            b[_DEGREE - k], first = after[_DEGREE - k], after[0]
+            for j in range(_DEGREE - k):
+                after[j] = 0.5 * (after[j] + after[j + 1])
+            after[_DEGREE - k] = first
+        for j in range((_DEGREE + 1) // 2):
+            after[j], after[_DEGREE - j] = after[_DEGREE - j], after[j]
+        b[low_at], b[high_at], b[depth_at] = middle, high, depth + 1.0
+        after[low_at], after[high_at], after[depth_at] = low, middle, depth + 1.0
+        left += 2
+
+
+@kernel
+def _force_on_base(plan: Vector, a: Vector, b: Vector) -> int:
+    """Write the series of ι · (f + p − M a) with absolute accelerations; returns its order."""
+    n, w, carried = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.CARRIED])
+    push, waves = int(plan[at.PUSH]), int(plan[at.WAVE_SERIES])
+    order = int(plan[at.ORDER]) - 1
+    for j in range(order + 1):
+        b[j] = 0.0
+    for i in range(n):
+        series(plan, ACCELERATION, i, a)
+        for j in range(order + 1):
+            value = -a[j]
+            for q in range(w):
+                value += plan[push + i * w + q] * plan[waves + j * w + q]
+            b[j] += plan[carried + i] * value
+    b[0] += plan[at.LOAD]
+    return order
+
+
+@kernel
+def extremes(plan: Vector, notes: Vector) -> None:
+    """Widen the ranges by the last stretch. One-sided values at both its ends count."""
+    n, stops, mode = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.STRETCH_MODE])
+    a, b = _series_room(), _series_room()
+    of_stops = beyond(notes, OF_MASS * n + OF_BASE)
+    range_ = _range_room()
+    open_stretch(plan)
+    for piece in range(pieces(plan)):
+        open_piece(plan, piece)
+        for i in range(n):
+            order = series(plan, DISPLACEMENT, i, a)
+            widen(plan, a, order, beyond(notes, OF_MASS * i + U_LEAST))
+            order = series(plan, ABSOLUTE_ACCELERATION, i, a)
+            widen(plan, a, order, beyond(notes, OF_MASS * i + A_LEAST))
+        order = _force_on_base(plan, a, b)
+        widen(plan, b, order, beyond(notes, OF_MASS * n))
+        for f in range(stops):
+            if mode >> f & 1:
+                order = series(plan, FORCE, f, a)
+                range_[0], range_[1] = -math.inf, of_stops[OF_STOP * f + PUSHED]
+                widen(plan, a, order, range_)
+                of_stops[OF_STOP * f + PUSHED] = range_[1]
+    close_stretch(plan)
+    event = int(plan[at.EVENT])
+    if event not in (at.CONTACT, at.IMPACT):
+        return
+    f = int(plan[at.EVENT_STOP])
+    stop = beyond(of_stops, OF_STOP * f)
+    stop[HITS] += 1.0
+    if event == at.IMPACT:
+        change = closing(plan, f, beyond(plan, int(plan[at.END]) + n))
+        change -= closing(plan, f, beyond(plan, int(plan[at.Y]) + n))
+        impulse = change / plan[int(plan[at.COUPLING]) + f * stops + f]
+        if impulse > 0.0:
+            stop[PUSHED], stop[STRUCK] = math.inf, max(stop[STRUCK], impulse)
+
+
+@kernel
+def write(plan: Vector, notes: Vector, cycles: int, result: Vector) -> None:
+    """Write the notes of so many cycles: the contacts of one."""
+    n, stops = int(plan[at.MASSES]), int(plan[at.STOPS])
+    total = OF_MASS * n + OF_BASE
+    for i in range(total):
+        result[i] = notes[i]
+    base = OF_MASS * n
+    result[base + ORDERED] = plan[at.ORDERED] - notes[base + ORDERED]
+    result[base + UNDECIDED] = plan[at.UNDECIDED] - notes[base + UNDECIDED]
+    for f in range(stops):
+        for i in range(OF_STOP):
+            result[total + OF_STOP * f + i] = notes[total + OF_STOP * f + i]
+        result[total + OF_STOP * f + HITS] /= cycles

@@ -1,0 +1,110 @@
+"""What the engine measures of an assembly, as variables by mass and stop."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.engine import hold, orbit, section_map
+from vibroimpact.engine.assembly import measures
+from vibroimpact.engine.state import MODE
+from vibroimpact.engine.status import Status
+from vibroimpact.model import Assembly
+from vibroimpact.response.hold_rows import MAX_EVENTS, results_of
+
+if TYPE_CHECKING:
+    from vibroimpact.response.prepared_rig import PreparedRig
+
+_Array = NDArray[np.float64]
+
+
+def measured_variables(
+    assembly: Assembly, rows: _Array, dims: tuple[str, ...], prefix: str = ""
+) -> dict[str, Any]:
+    """Return extremes, forces and impacts as variables of a dataset.
+
+    Parameters
+    ----------
+    assembly
+        The assembly.
+    rows : ndarray, shape (*dims, hold.MEASURED + measures.count(...))
+        Rows that the engine writes of holds and orbits.
+    dims
+        Names of the dims of the rows.
+    prefix
+        Of the names of the variables.
+    """
+    n, stops = len(assembly.names), len(assembly.stops)
+    seen = rows[..., hold.MEASURED :]
+    base = measures.OF_MASS * n
+    masses = seen[..., :base].reshape(*seen.shape[:-1], n, measures.OF_MASS)
+    carried = seen[..., base : base + measures.OF_BASE]
+    of_stops = seen[..., base + measures.OF_BASE :].reshape(
+        *seen.shape[:-1], stops, measures.OF_STOP
+    )
+    values: dict[str, tuple[tuple[str, ...], _Array]] = {}
+    for name, low, high in (
+        ("displacement", measures.U_LEAST, measures.U_MOST),
+        ("acceleration", measures.A_LEAST, measures.A_MOST),
+    ):
+        values |= _range(name, masses[..., low], masses[..., high], (*dims, "mass"))
+    least, most = carried[..., measures.T_LEAST], carried[..., measures.T_MOST]
+    values |= _range("transmitted_force", least, most, dims)
+    ordered = np.nan_to_num(carried[..., measures.ORDERED])
+    values["simultaneous_impacts"] = (dims, ordered.astype(np.int64))
+    values["eccentricity"] = (
+        (*dims, "mass"),
+        0.5 * (masses[..., measures.U_LEAST] + masses[..., measures.U_MOST]),
+    )
+    for name, column in (
+        ("impacts", measures.HITS),
+        ("peak_force", measures.PUSHED),
+        ("peak_impulse", measures.STRUCK),
+    ):
+        values[name] = ((*dims, "stop"), of_stops[..., column])
+    return {f"{prefix}{name}": value for name, value in values.items()}
+
+
+def measured_over(engine: PreparedRig, state: _Array, cycles: int) -> _Array:
+    """Return the row that the engine measures of a motion of an assembly over some cycles."""
+    states, shaking = engine.states, engine.shaking
+    system = np.append(engine.vector, [shaking.amplitude, shaking.frequency])
+    row = np.full(results_of(engine.vector), np.nan)
+    facts = np.zeros(section_map.CONTACTS + states.stops)
+    facts[section_map.MODE] = state[MODE]
+    point, limit = np.append(states.point(state), 0.0), MAX_EVENTS
+    outcome = orbit.measure_orbit(system, shaking.phase, point, facts, cycles, limit, row)
+    if outcome != Status.DONE:
+        row[:] = np.nan
+    return row
+
+
+def notes_on(assembly: Assembly, rows: _Array, what: str) -> list[str]:
+    """Return the doubts about rows: what was decided by a rule, or was not decided."""
+    base = hold.MEASURED + measures.OF_MASS * len(assembly.names)
+    notes = []
+    if count := int((rows[..., base + measures.ORDERED] > 0.0).sum()):
+        notes.append(
+            f"{count} {what} with impacts at the same instant as another impact or rest of the "
+            "same mass (simultaneous_impacts); their order is that of the stops in the assembly, "
+            "because restitution alone does not determine the result"
+        )
+    if count := int(np.nansum(rows[..., base + measures.UNDECIDED])):
+        notes.append(
+            f"the search for an event was given up {count} time{'s' if count > 1 else ''} and "
+            "counted as no event; check the orders of magnitude of the input"
+        )
+    return notes
+
+
+def _range(
+    name: str, least: _Array, most: _Array, dims: tuple[str, ...]
+) -> dict[str, tuple[tuple[str, ...], _Array]]:
+    return {
+        f"{name}_max": (dims, most + 0.0),
+        f"{name}_min": (dims, least + 0.0),
+        f"{name}_excursion": (dims, most - least),
+        f"peak_{name}": (dims, np.maximum(np.abs(least), np.abs(most))),
+    }

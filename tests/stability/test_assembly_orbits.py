@@ -1,0 +1,264 @@
+"""Orbits, branches and steady motions of assemblies."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+
+SHAKING = vi.Harmonic("1 m/s2", 0.9)
+
+
+def frame(stop: object = None, gap: float = 0.012, damping: float = 1.0) -> vi.Assembly:
+    """A building on an isolator between two walls."""
+    law = vi.Bumper(6e5, 9e3, gap) if stop is None else stop
+    return vi.Assembly(
+        masses={"base": 300.0, "roof": 250.0},
+        links={
+            "isolator": vi.Link("ground", "base", vi.Isolator(2.0e4, 900.0 * damping)),
+            "storey": vi.Link("base", "roof", vi.Isolator(6.0e4, 400.0 * damping)),
+        },
+        stops={
+            "right": vi.Link("base", "ground", law),
+            "left": vi.Link("ground", "base", law),
+        },
+    )
+
+
+def alone(stop: object, *, assembled: bool) -> vi.Rig:
+    """One mass between two stops, as an oscillator or as an assembly."""
+    isolator = vi.Isolator(1.5e4, 600.0)
+    shaking = vi.Harmonic("1 m/s2", 1.3)
+    if not assembled:
+        return vi.Rig(vi.Oscillator(300.0, isolator, stop, stop), shaking)
+    return vi.Rig(
+        vi.Assembly(
+            masses={"m": 300.0},
+            links={"isolator": vi.Link("ground", "m", isolator)},
+            stops={"right": vi.Link("m", "ground", stop), "left": vi.Link("ground", "m", stop)},
+        ),
+        shaking,
+    )
+
+
+STOPS = {"bumpers": vi.Bumper(2e5, 3e3, "8 mm"), "walls": vi.RigidStop(0.6, "8 mm")}
+
+
+@pytest.mark.parametrize("kind", STOPS)
+def test_the_orbit_of_one_mass_is_the_oscillators(kind: str) -> None:
+    one = vi.orbit(alone(STOPS[kind], assembled=False))
+    several = vi.orbit(alone(STOPS[kind], assembled=True))
+    assert several.attrs["contacts"].split() == [
+        {"R": "right", "L": "left"}[side] for side in one.attrs["contacts"]
+    ]
+    assert len(one.attrs["contacts"]) >= 2
+    for name in ("displacement_max", "acceleration_max", "transmitted_force_max"):
+        mine, theirs = float(np.squeeze(several[name])), float(one[name])
+        assert mine == pytest.approx(theirs, rel=1e-12)
+    known = one["multiplier_real"] + 1j * one["multiplier_imag"]
+    found = several["multiplier_real"] + 1j * several["multiplier_imag"]
+    np.testing.assert_allclose(found[:2], known[:2], rtol=0, atol=1e-11)
+    size = abs(one["monodromy"].values[:2, :2]).max()
+    np.testing.assert_allclose(
+        several["monodromy"].values[:2, :2],
+        one["monodromy"].values[:2, :2],
+        rtol=0,
+        atol=1e-11 * size,
+    )
+    assert float(several["effective_damping"]) == pytest.approx(
+        float(one["effective_damping"]), rel=1e-11
+    )
+    assert bool(several["antisymmetric"]) == bool(one["antisymmetric"])
+
+
+def section_after(rig: vi.Rig, state: vi.State, cycles: int) -> np.ndarray:
+    return vi.simulate(rig, cycles, state, samples=0)["final_state"].values
+
+
+@pytest.mark.parametrize("stop", [None, vi.RigidStop(0.8, 0.012)])
+def test_multipliers_are_those_of_differences(stop: object) -> None:
+    rig = vi.Rig(frame(stop), SHAKING)
+    found = vi.orbit(rig)
+    period = int(found["period"])
+    start = found["initial_state"]
+    names = ["displacement.base", "displacement.roof", "velocity.base", "velocity.roof"]
+    places = [list(start["component"].values).index(name) for name in names]
+    assert (start.values[-5:-1] == 0).all()  # it flies at the section
+    columns = []
+    for place in places:
+        step = 1e-7
+        ends = []
+        for sign in (1.0, -1.0):
+            moved = start.copy()
+            moved[place] += sign * step
+            ends.append(section_after(rig, moved, period))
+        columns.append((ends[0] - ends[1])[places] / (2 * step))
+    differences = np.array(columns).T
+    exact = found["monodromy"].values[:4, :4]
+    np.testing.assert_allclose(exact, differences, rtol=0, atol=1e-6 * abs(exact).max())
+    expected = np.linalg.eigvals(differences)
+    multipliers = (found["multiplier_real"] + 1j * found["multiplier_imag"]).values
+    for one in expected:
+        assert abs(multipliers - one).min() <= 1e-6 * abs(exact).max()
+
+
+def test_the_product_of_multipliers_is_that_of_the_damping() -> None:
+    """Of rigid stops exp(−∫ tr M⁻¹C) times e² for each impact."""
+    e = 0.8
+    rig = vi.Rig(frame(vi.RigidStop(e, 0.012)), SHAKING)
+    found = vi.orbit(rig)
+    impacts = len(found.attrs["contacts"].split())
+    assert impacts >= 2
+    assembly = rig.system
+    trace = np.trace(np.linalg.solve(assembly.mass_matrix, assembly.damping_matrix))
+    lasts = int(found["period"]) / SHAKING.frequency
+    expected = math.exp(-trace * lasts) * e ** (2 * impacts)
+    moving = found["monodromy"].values[:4, :4]
+    assert np.linalg.det(moving) == pytest.approx(expected, rel=1e-10)
+    multipliers = found["multiplier_real"].values + 1j * found["multiplier_imag"].values
+    assert np.prod(multipliers[:4]).real == pytest.approx(expected, rel=1e-9)
+    assert found["exponents"].values.sum() * lasts == pytest.approx(math.log(expected), rel=1e-9)
+    assert float(found["effective_damping"]) * lasts == pytest.approx(
+        -math.log(expected), rel=1e-10
+    )
+
+
+def test_a_steady_motion_is_its_orbit() -> None:
+    rig = vi.Rig(frame(), SHAKING)
+    steady, orbit = vi.steady(rig), vi.orbit(rig)
+    assert str(steady["motion"].values) == "periodic"
+    assert bool(steady["antisymmetric"])
+    assert int(steady["stable"]) == 1
+    assert steady["exponents"].sizes == {"exponent": 4}
+    np.testing.assert_allclose(steady["exponents"], orbit["exponents"], rtol=1e-6)
+    for name in ("displacement_max", "peak_acceleration", "peak_force"):
+        np.testing.assert_allclose(steady[name], orbit[name], rtol=1e-9)
+    # Exact extremes bound the samples, and are close to them.
+    sampled = steady["displacement"].max("time")
+    assert (sampled <= steady["displacement_max"] * (1 + 1e-12)).all()
+    np.testing.assert_allclose(sampled, steady["displacement_max"], rtol=1e-3)
+    np.testing.assert_allclose(
+        steady["transmitted_force"].max(), steady["transmitted_force_max"], rtol=1e-2
+    )
+    swept = vi.sweep(rig, [SHAKING.frequency], "forward")
+    np.testing.assert_allclose(
+        swept["displacement_max"].values[0, 0], orbit["displacement_max"], rtol=1e-11
+    )
+
+
+def test_a_branch_of_one_mass_is_the_oscillators() -> None:
+    branches = [
+        vi.branch(alone(STOPS["bumpers"], assembled=assembled), span=(0.9, 2.2))
+        for assembled in (False, True)
+    ]
+    one, several = branches
+    assert "fold" in one["bifurcation_kind"].values
+    assert "grazing" in one["bifurcation_kind"].values
+    assert several["bifurcation_kind"].values.tolist() == one["bifurcation_kind"].values.tolist()
+    kinds = one["bifurcation_kind"].values
+    exact = kinds != "grazing"
+    np.testing.assert_allclose(
+        several["bifurcation_value"].values[exact], one["bifurcation_value"].values[exact], 1e-8
+    )
+    np.testing.assert_allclose(
+        several["bifurcation_value"].values, one["bifurcation_value"].values, 1e-6
+    )
+    counts = several["bifurcation_contacts"].values[list(kinds).index("fold")]
+    assert counts == "1 right, 1 left"
+
+
+def test_a_branch_without_contacts_is_the_linear_response() -> None:
+    assembly = frame(gap=1.0)
+    found = vi.branch(vi.Rig(assembly, SHAKING), span=(0.4, 3.0))
+    m, c, k = assembly.mass_matrix, assembly.damping_matrix, assembly.stiffness_matrix
+    assert found.sizes["bifurcation"] == 0
+    for i in range(0, found.sizes["point"], 7):
+        here = found.isel(point=i)
+        w = 2 * np.pi * float(here["frequency"])
+        u = np.linalg.solve(k - w**2 * m + 1j * w * c, -m @ np.ones(2))
+        np.testing.assert_allclose(here["displacement_max"], abs(u), rtol=1e-11)
+        rates = np.linalg.eigvals(
+            np.block(
+                [[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]]
+            )
+        )
+        flown = np.exp(rates / float(here["frequency"]))
+        mine = (here["multiplier_real"] + 1j * here["multiplier_imag"]).values
+        if bool(here["antisymmetric"]):
+            assert float(abs(mine).max()) == pytest.approx(abs(flown).max(), rel=1e-10)
+
+
+def test_amplitudes_are_followed_and_other_parameters_refused() -> None:
+    rig = vi.Rig(frame(), SHAKING)
+    found = vi.branch(rig, parameter="amplitude", span=(0.2, 2.0))
+    assert found["displacement_max"].dims == ("point", "mass")
+    assert "grazing" in found["bifurcation_kind"].values
+    with pytest.raises(vi.InputError, match="along 'frequency' or 'amplitude' so far"):
+        vi.branch(rig, parameter="gap", span=(0.01, 0.02))
+    with pytest.raises(vi.InputError, match="outputs: own outputs are not computed"):
+        vi.branch(rig, span=(0.5, 1.0), outputs={"top": "max(velocity)"})
+
+
+def damper(*, zeta: float, mass: float, e: float, clearance: float) -> vi.Rig:
+    """An oscillator with a loose ball between two walls of it, shaken at its resonance."""
+    wall = vi.RigidStop(e, 0.5 * clearance)
+    assembly = vi.Assembly(
+        masses={"host": 1.0, "ball": mass},
+        links={"spring": vi.Link("ground", "host", vi.Isolator(1.0, 2.0 * zeta))},
+        stops={"right": vi.Link("ball", "host", wall), "left": vi.Link("host", "ball", wall)},
+        units="none",
+    )
+    force = vi.Harmonic(1.0, 1.0 / (2.0 * math.pi), of="force", on="host")
+    return vi.Rig(assembly, force)
+
+
+def test_an_impact_damper_is_that_of_its_formula() -> None:
+    """Two impacts a period, each half a period after the other one: in closed form."""
+    zeta, mu, e, d = 0.01, 0.05, 0.75, 30.0
+    h, omega = math.pi, math.sqrt(1.0 - zeta**2)
+    decay, turn = math.exp(-zeta * h), omega * h
+    q = 1.0 + 2.0 * decay * math.cos(turn) + decay**2
+    g0 = -decay * math.sin(turn) / (omega * q)
+    g1 = (1.0 + decay * math.cos(turn) + zeta / omega * decay * math.sin(turn)) / q
+    size = 1.0 / (2.0 * zeta)
+    a = math.pi / 2.0 - 2.0 * mu * g0
+    b = (1.0 - e * (1.0 + 2.0 * mu)) / (1.0 + e) + 2.0 * mu * g1
+    # (a V − d/2)² + (b V)² = X²
+    p = a * a + b * b
+    speed = (a * d / 2 + math.sqrt((a * d / 2) ** 2 - p * (d * d / 4 - size**2))) / p
+    assert speed == pytest.approx(14.78340654, rel=1e-9)
+    found = vi.orbit(damper(zeta=zeta, mass=mu, e=e, clearance=d))
+    assert found.attrs["contacts"].split() in (["left", "right"], ["right", "left"])
+    assert int(found["stable"]) == 1
+    right = found["event_stop"].values == "right"
+    at = found.isel(event=np.flatnonzero(right)[0])
+    host = (a * speed - d / 2) + 2.0 * mu * speed * g0
+    assert float(at["event_displacement"].sel(mass="host")) == pytest.approx(host, rel=1e-11)
+    assert float(at["event_displacement"].sel(mass="ball")) == pytest.approx(
+        host + d / 2, rel=1e-11
+    )
+    assert float(at["event_velocity"].sel(mass="ball")) == pytest.approx(speed, rel=1e-11)
+
+
+def test_a_pair_of_multipliers_leaves_the_unit_circle() -> None:
+    """Beyond Neimark–Sacker the motion beside the orbit spirals away from it, as told."""
+    rig = damper(zeta=0.01, mass=0.05, e=0.75, clearance=30.0)
+    found = vi.branch(rig, span=(0.157, 0.182))
+    kinds = found["bifurcation_kind"].values
+    assert "Neimark-Sacker" in kinds
+    place = list(kinds).index("Neimark-Sacker")
+    critical = found.isel(bifurcation=place)
+    pair = (
+        critical["bifurcation_multiplier_real"] + 1j * critical["bifurcation_multiplier_imag"]
+    ).values
+    pair = pair[np.abs(np.abs(pair) - 1.0) < 1e-7]
+    assert len(pair) == 2
+    assert abs(pair[0] - pair[1].conj()) < 1e-9
+    assert abs(pair[0].imag) > 1e-3
+    value = float(critical["bifurcation_value"])
+    start = critical["bifurcation_section"]
+    for frequency, stable in ((0.998 * value, 1), (1.002 * value, 0)):
+        assert int(vi.orbit(rig, start, 1, frequency=frequency)["stable"]) == stable
