@@ -26,7 +26,7 @@ from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig, with_stated_units
 from vibroimpact.model.units import pretty, to_si
-from vibroimpact.model.varied import Ranges, entries, field_of, read_ranges
+from vibroimpact.model.varied import Ranges, read_ranges, stated
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
 
@@ -236,9 +236,9 @@ def least_acceleration(
 
 
 def _space(rig: Oscillator, vary: Any) -> _Space:
-    given = entries(_bumper_ranges(rig) if vary is None else vary, least=1)
-    rig = with_stated_units(rig, {field_of(name): ends for name, ends in given.items()})
-    ranges = read_ranges(given, rig, None)
+    vary = _bumper_ranges(rig) if vary is None else vary
+    rig = with_stated_units(rig, stated(vary))
+    ranges = read_ranges(vary, rig, None)
     names = tuple(one.parameter.name for one in ranges)
     low, high = np.array([one.ends for one in ranges]).T
     runs(rig, {one.parameter.name: one.ends for one in ranges})  # refused before a search

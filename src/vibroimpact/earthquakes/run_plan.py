@@ -17,7 +17,7 @@ from vibroimpact.model import Oscillator, Record, Rig
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.read_rig import as_rigs, is_one_rig
 from vibroimpact.model.rig import with_stated_units
-from vibroimpact.model.varied import Values, Varied, entries, field_of, read_values, vary_all
+from vibroimpact.model.varied import Values, Varied, read_values, stated, vary_all
 
 _Array = NDArray[np.float64]
 
@@ -83,9 +83,8 @@ def runs(
     rigs = {name: one.oscillator for name, one in read.items()}
     if is_one_rig(rig):
         rigs = {"rig": next(iter(rigs.values()))}
-    given = {field_of(name): values for name, values in entries(vary, least).items()}
-    stated = {**(others or {}), **given}
-    rigs = {name: with_stated_units(one, stated) for name, one in rigs.items()}
+    values = {**(others or {}), **stated(vary)}
+    rigs = {name: with_stated_units(one, values) for name, one in rigs.items()}
     one = next(iter(rigs.values()))
     every = read_values(vary, one, least=least, but=NOT_VARIED, why=WHY_NOT)
     found = Runs(rigs, every, not is_one_rig(rig))

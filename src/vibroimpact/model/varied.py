@@ -92,7 +92,8 @@ def read_ranges(vary: object, rig: Rig | Oscillator, count: int | None = 1) -> l
         not a pair in rising order, or if a value is invalid.
     """
     least, most = (1, None) if count is None else (count, count)
-    given = _given(vary, "ranges", _RANGES, least, most)
+    examples = {"gap": _RANGES["gap"]} if count is None else _RANGES
+    given = _given(vary, "ranges", examples, least, most)
     return [
         _range(varied, span, field_of(name))
         for (name, span), varied in zip(given.items(), _parameters(given, rig), strict=True)
@@ -138,6 +139,18 @@ def read_values(
     return tuple(
         _values(varied, values, field_of(name), longest)
         for (name, values), varied in zip(given.items(), found, strict=True)
+    )
+
+
+def stated(vary: object) -> dict[str, Any]:
+    """Return the values or ranges by their names in messages, to see which state a unit.
+
+    What is not a mapping has none; it is refused where it is read.
+    """
+    return (
+        {field_of(str(name)): one for name, one in vary.items()}
+        if isinstance(vary, Mapping)
+        else {}
     )
 
 

@@ -98,6 +98,10 @@ def read_axes(vary: object, spacing: object, of: Of = "acceleration") -> tuple[A
     """
     given = entries(vary, 2, 2)
     names = [_name(name, "vary") for name in given]
+    if names[0] == names[1]:
+        raise InputError(
+            f"vary: {' and '.join(map(repr, given))} are the same parameter; replace one of the two"
+        )
     spaced = check_mapping({} if spacing is None else spacing, "spacing", _SPACING)
     kinds: dict[str, str] = {}
     for name, kind in spaced.items():
@@ -155,15 +159,13 @@ def _axis(name: str, values: object, field: str, spacing: str | None, of: Of) ->
 
 
 def check_pair(x: Axis, y: Axis) -> None:
-    """Refuse two axes of one parameter, or of one quantity.
+    """Refuse two axes of one quantity.
 
     Raises
     ------
     InputError
         If they do not go together.
     """
-    if x.name == y.name:
-        raise InputError(f"vary: {x.name!r} is given twice; choose another parameter for y")
     if {x.name, y.name} in ONE_QUANTITY:
         raise InputError(
             f"vary: {y.name!r} varies the same quantity as {x.name!r}; choose another parameter "

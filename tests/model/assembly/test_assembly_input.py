@@ -300,7 +300,7 @@ REFUSED = {
     "sweeps": lambda rig: vi.sweeps([rig], [1.0]),
     "steady": lambda rig: vi.steady(rig, frequency=1.0),
     "orbit": lambda rig: vi.orbit(rig, frequency=1.0),
-    "branch": lambda rig: vi.branch(rig, span=(1.0, 2.0)),
+    "branch": lambda rig: vi.branch(rig, vary={"frequency": (1.0, 2.0)}),
     "basins": lambda rig: vi.basins(rig, (-1, 1), (-1, 1), frequency=1.0),
     "lyapunov_exponents": lambda rig: vi.lyapunov_exponents(rig, [1.0]),
     "classify_scenario": vi.classify_scenario,
