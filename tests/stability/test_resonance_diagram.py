@@ -78,10 +78,8 @@ def test_basins_of_a_rig_whose_bumpers_remember():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), slow, None)
     shaking = vi.Harmonic(2.0, hertz(2.0))
     found = vi.basins(vi.Rig(rig, shaking), nodes=5)
-    over = {"parameter": "gap", "random": 0, "starts": 2}
-    data = vi.resonance_diagram(
-        vi.Rig(rig, shaking), {"frequency": (0.8, 1.2)}, **over, basins=[found]
-    )
+    over = {"random": 0, "starts": 2}
+    data = vi.resonance_diagram(vi.Rig(rig, shaking), {"gap": (0.8, 1.2)}, **over, basins=[found])
     assert int(data["branch"].max()) == 0
 
 
