@@ -292,7 +292,7 @@ def test_a_phase_and_a_value_typed_over_a_study(run, tmp_path):
         (["--vary", "gap=1Hz:2Hz", "--frequency", "2Hz"], "--vary: gap: '1Hz'"),
         (
             ["--vary", "gap=10mm:20mm", "--frequency", "2Hz", "--period", "1"],
-            "--vary",
+            "error: --vary: gap: 10 mm to 20 mm does not contain the rig's gap of 7.5 mm",
         ),  # without the rig's own gap
         (
             ["--vary", "right.gap=1mm:2mm", "--set", "right=none", "--frequency", "2Hz"],

@@ -91,6 +91,18 @@ def test_multipliers_stay_critical():
     assert distance.max() < 1e-5
 
 
+def test_the_parameter_of_the_start_is_the_first_whatever_the_order():
+    rig = vi.Rig(case().oscillator, vi.Harmonic(case().amplitude, 2.0))
+    both = {"gap": (7e-3, 8e-3), "frequency": (0.3, 6.0)}
+    one_way, other = (
+        vi.bifurcation_curve(rig, one("fold"), vary=vary)
+        for vary in (both, dict(reversed(both.items())))
+    )
+    assert one_way.attrs["parameter"] == "frequency"
+    assert one_way.attrs["other_parameter"] == "gap"
+    assert one_way.identical(other)
+
+
 def test_symmetry_breaking_and_period_doubling():
     rig = vi.laboratory.case("B3-10mm-A3")
     found = vi.resonance_diagram(vi.Rig(rig.oscillator, rig.amplitude), {"frequency": (0.9, 1.4)})
