@@ -25,7 +25,7 @@ CALLS = {
     "bifurcation_diagram": lambda rig, five: vi.bifurcation_diagram(rig, {"gap": (five, 6)}, 2),
     "bifurcation_curve": lambda rig, five: vi.bifurcation_curve(
         rig,
-        vi.branch(rig, span=(0.05, 0.2)).isel(bifurcation=0),
+        vi.branch(rig, vary={"frequency": (0.05, 0.2)}).isel(bifurcation=0),
         vary={"frequency": (0.05, 0.2), "gap": (0, five)},
     ),
     "basins": lambda rig, five: vi.basins(rig, (-5, five), nodes=2, **BOX),
