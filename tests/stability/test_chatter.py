@@ -7,6 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from stability.followed import values
+from vibroimpact.model.varied import read_ranges
 from vibroimpact.stability import chatter
 from vibroimpact.stability.branch import _first_orbit
 
@@ -74,11 +75,10 @@ def test_a_grazing_of_the_other_wall_between_two_chatters_is_one():
 def test_a_mass_at_rest_at_the_section_begins_no_contact():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(0.8, 0.6), force=2.0)
     shaken = vi.Harmonic(0.3, 0.2)
-    data = vi.branch(vi.Rig(rig, shaken), vi.State(0.6, 0.0), vary={"frequency": (0.15, 0.3)})
+    whole, vary = vi.Rig(rig, shaken), {"frequency": (0.15, 0.3)}
+    data = vi.branch(whole, vi.State(0.6, 0.0), vary=vary)
     assert data.sizes["bifurcation"] == 0
     assert (data["impacts_right"] == 0.0).all()
-    _, _, first = _first_orbit(
-        vi.Rig(rig, shaken), vi.State(0.6, 0.0), "frequency", (0.15, 0.3), None
-    )
+    _, first = _first_orbit(whole, vi.State(0.6, 0.0), read_ranges(vary, whole)[0], None)
     assert chatter.rests(first)
     assert first.contacts == (0, 0)
