@@ -22,10 +22,12 @@ def branches() -> Table:
     case = vi.laboratory.case("B3-10mm-A3")
 
     def branch() -> object:
-        return vi.branch(vi.Rig(rig, excitation), span=(1.0 / _TURN, 2.5 / _TURN))
+        return vi.branch(vi.Rig(rig, excitation), vary={"frequency": (1.0 / _TURN, 2.5 / _TURN)})
 
     def diagram() -> object:
-        return vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (0.3, 4.0))
+        return vi.resonance_diagram(
+            vi.Rig(case.oscillator, case.amplitude), {"frequency": (0.3, 4.0)}
+        )
 
     table = targets("Branches of orbits, warm")
     seconds = interleave({"branch": branch, "diagram": diagram}, _ROUNDS)

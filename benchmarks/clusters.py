@@ -21,17 +21,17 @@ _BASINS = "B3-10mm-A3", (-0.012, 0.012), (-0.1, 0.1)
 
 
 def _map(**how: Any) -> object:
-    axes = (
-        ("stiffness_ratio", np.geomspace(2.0, 60.0, _SIDE)),
-        ("gap_ratio", np.linspace(0, 1, _SIDE)),
-    )
-    return vi.scenario_map(None, *axes, **how)
+    axes = {
+        "stiffness_ratio": np.geomspace(2.0, 60.0, _SIDE),
+        "gap_ratio": np.linspace(0, 1, _SIDE),
+    }
+    return vi.scenario_map(None, axes, **how)
 
 
 def _demands(**how: Any) -> object:
     records = [record(seed) for seed in range(30)]
     scales, gaps = np.linspace(0.1, 3.0, 20), np.linspace(0.005, 0.020, 10)
-    return vi.demands("B3-G3-A3", records, scales, intensity="PGA", gaps=gaps, **how)
+    return vi.demands("B3-G3-A3", records, scales, intensity="PGA", vary={"gap": gaps}, **how)
 
 
 def _ensemble(**how: Any) -> object:

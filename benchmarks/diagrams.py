@@ -39,7 +39,9 @@ def _diagram(table: Table) -> None:
     low, high = 0.2, 1.5
 
     def diagram(steps: int) -> object:
-        return vi.bifurcation_diagram(_rig(), "gap", (low, high), steps, points=_POINTS, threads=2)
+        return vi.bifurcation_diagram(
+            _rig(), {"gap": (low, high)}, steps, points=_POINTS, threads=2
+        )
 
     diagram(3)
     seconds, data = _timed(lambda: diagram(_VALUES))

@@ -39,7 +39,9 @@ def earthquakes() -> Table:
 
     def ask() -> tuple[float, float, xr.Dataset]:
         begin, worked = time.perf_counter(), time.process_time()
-        found = vi.demands(rig, records, scales, intensity="PGA", gaps=gaps, threads=_THREADS)
+        found = vi.demands(
+            rig, records, scales, intensity="PGA", vary={"gap": gaps}, threads=_THREADS
+        )
         return time.perf_counter() - begin, time.process_time() - worked, found
 
     vi.demands(rig, records[:1], 1.0)

@@ -23,8 +23,7 @@ def mapped(nodes: int, **how: Any) -> float:
     begin = time.perf_counter()
     vi.scenario_map(
         None,
-        ("stiffness_ratio", np.geomspace(*_RATIO, nodes)),
-        ("gap_ratio", np.linspace(*_GAP, nodes)),
+        {"stiffness_ratio": np.geomspace(*_RATIO, nodes), "gap_ratio": np.linspace(*_GAP, nodes)},
         threads=2,
         **how,
     )

@@ -20,13 +20,13 @@ _NAMES = "[getattr(vi, name) for name in vi.__all__]"
 _SWEEP = """
 import vibroimpact as vi
 case = vi.laboratory.case("B2-G1-A3")
-vi.sweep(case.oscillator, case.amplitude, case.frequencies)
+vi.sweep(case, case.frequencies)
 """
 _RIGID = """
 import vibroimpact as vi
 case = vi.laboratory.case("B2-G1-A3")
 rig = case.oscillator.replace(right={"kind": "rigid", "restitution": 0.6, "gap": "15 mm"})
-vi.sweep(rig, case.amplitude, case.frequencies)
+vi.sweep(vi.Rig(rig, case.amplitude), case.frequencies)
 """
 _EVERYTHING = """
 import vibroimpact as vi
@@ -42,17 +42,16 @@ vi.stroboscopic_section(motion), vi.impact_section(motion)
 vi.coexisting_motions(shaken)
 vi.lyapunov_exponents([case], [1.2], 100)
 vi.orbit(shaken)
-vi.branch(shaken, span=(1.1, 1.3))
-followed = vi.resonance_diagram(case, (1.0, 4.0))
+vi.branch(shaken, vary={"frequency": (1.1, 1.3)})
+followed = vi.resonance_diagram(case, {"frequency": (1.0, 4.0)})
 (fold, *_) = (followed["bifurcation_kind"].values == "fold").nonzero()[0]
 vi.bifurcation_curve(
     shaken,
     followed.isel(bifurcation=fold),
-    parameters=("frequency", "amplitude"),
-    spans=((1.0, 4.0), (0.5 * amplitude, amplitude)),
+    vary={"frequency": (1.0, 4.0), "amplitude": (0.5 * amplitude, amplitude)},
 )
 vi.classify_scenario(case)
-vi.scenario_map(None, ("stiffness_ratio", [5.0, 10.0]), ("gap_ratio", [0.2, 0.4]))
+vi.scenario_map(None, {"stiffness_ratio": [5.0, 10.0], "gap_ratio": [0.2, 0.4]})
 """
 _PREPARE = """
 import time

@@ -146,7 +146,7 @@ def growth():
 def branches():
     """Draw the orbits along a branch, through both folds."""
     case = vi.laboratory.case("B2-G1-A3")
-    branch = vi.branch(case, frequency="4 Hz", span=("1 Hz", "4 Hz"))
+    branch = vi.branch(case, frequency="4 Hz", vary={"frequency": ("1 Hz", "4 Hz")})
     ax = branch_diagram(branch, quantity="eta_a")
     inside = branch["frequency"] < 4.0
     ax.plot(branch["frequency"][inside], branch["eta_a"][inside], "|", color=BLUE, markersize=9)

@@ -19,7 +19,7 @@ folder.mkdir(parents=True, exist_ok=True)
 
 case = vi.laboratory.case("B2-G1-A3")
 curves = vi.sweep(case, [k / 100 for k in range(60, 361, 6)])
-orbits = vi.resonance_diagram(case, ("0.6 Hz", "3.6 Hz"))
+orbits = vi.resonance_diagram(case, {"frequency": ("0.6 Hz", "3.6 Hz")})
 found = vi.coexisting_motions(case, frequency="2 Hz")
 motions = {}
 for number in range(found.sizes["attractor"]):

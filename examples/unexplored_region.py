@@ -34,8 +34,7 @@ bands = {
 for name, (stiffness, gap) in bands.items():
     data = vi.scenario_map(
         None,
-        ("stiffness_ratio", stiffness),
-        ("gap_ratio", gap),
+        {"stiffness_ratio": stiffness, "gap_ratio": gap},
         store=folder / f"{name}-{nodes}.zarr",
     )
     print(f"{name}: {data['scenario'].size} rigs")

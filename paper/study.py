@@ -264,7 +264,10 @@ class PublishedStudy:
         case = self._case(code)
         return self._once(
             ("antisymmetric branch", code, low, high),
-            lambda: branch(Rig(case.oscillator, Harmonic(case.amplitude, high)), span=(low, high)),
+            lambda: branch(
+                Rig(case.oscillator, Harmonic(case.amplitude, high)),
+                vary={"frequency": (low, high)},
+            ),
         )
 
     def antisymmetric_orbit(
@@ -325,8 +328,10 @@ class PublishedStudy:
             "map",
             lambda: scenario_map(
                 None,
-                ("stiffness_ratio", np.geomspace(0.5, 100.0, MAP_NODES[0])),
-                ("gap_ratio", np.linspace(0.0, 1.0, MAP_NODES[1])),
+                {
+                    "stiffness_ratio": np.geomspace(0.5, 100.0, MAP_NODES[0]),
+                    "gap_ratio": np.linspace(0.0, 1.0, MAP_NODES[1]),
+                },
                 step=MAP_STEP,
                 refine=1,
                 threads=self._threads,

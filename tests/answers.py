@@ -45,15 +45,15 @@ def answers(rigs: int) -> Iterator[tuple[str, xr.Dataset]]:
     for case in vi.laboratory.campaign():
         yield f"sweep {case.code}", vi.sweep(case, case.frequencies[::5])
     for code in ("B2-G1-A3", "B3-10mm-A3"):
-        yield f"branch {code}", vi.branch(code, span=(1.0, 3.0), frequency=1.0)
+        yield f"branch {code}", vi.branch(code, vary={"frequency": (1.0, 3.0)}, frequency=1.0)
     chaotic = "B3-10mm-A3"
     yield "exponents", vi.lyapunov_exponents([chaotic], [0.9, 1.06, 2.0], 400)
     yield "basins", vi.basins(chaotic, (-0.03, 0.03), (-0.2, 0.2), nodes=40, frequency=0.7)
-    ratios = (
-        ("stiffness_ratio", np.geomspace(2.0, 40.0, 4)),
-        ("gap_ratio", np.linspace(0.0, 0.8, 4)),
-    )
-    yield "map", vi.scenario_map(None, *ratios)
+    ratios = {
+        "stiffness_ratio": np.geomspace(2.0, 40.0, 4),
+        "gap_ratio": np.linspace(0.0, 0.8, 4),
+    }
+    yield "map", vi.scenario_map(None, ratios)
     noise = np.random.default_rng(SEED).normal(size=400)
     record = vi.Record(noise, 0.05)
     yield "earthquake", vi.seismic_response(vi.Rig(vi.laboratory.case(chaotic).oscillator, record))

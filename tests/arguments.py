@@ -98,7 +98,9 @@ def fold() -> xr.Dataset:
     """Where the large motion of a published rig ends."""
     case = vi.laboratory.case("B2-G1-A3")
     large = vi.coexisting_motions(case, frequency=2.6, random=0).isel(attractor=0)
-    followed = vi.branch(case, large, frequency=2.6, span=(2.55, 2.7), most_points=100)
+    followed = vi.branch(
+        case, large, frequency=2.6, vary={"frequency": (2.55, 2.7)}, most_points=100
+    )
     (at, *_) = (followed["bifurcation_kind"].values == "fold").nonzero()[0]
     return followed.isel(bifurcation=at)
 
@@ -264,8 +266,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             **_SMALL,
             "displacement": near,
             "velocity": near,
-            "parameter": "frequency",
-            "values": [1.5],
+            "vary": {"frequency": [1.5]},
             "states": 4,
             "seed": 0,
             "threads": 1,
@@ -290,16 +291,14 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "rig": vi.laboratory.case("B2-G1-A3"),
             "frequency": fold()["bifurcation_value"].item(),
             "start": fold(),
-            "parameters": ("frequency", "amplitude"),
-            "spans": ((2.0, 3.0), ("0.03 g", "0.06 g")),
+            "vary": {"frequency": (2.0, 3.0), "amplitude": ("0.03 g", "0.06 g")},
             "most_points": 5,
             "progress": None,
         },
         "bifurcation_diagram": {
             **two,
             **_SMALL,
-            "parameter": "frequency",
-            "span": (1.4, 1.6),
+            "vary": {"frequency": (1.4, 1.6)},
             "steps": 2,
             "directions": ("up",),
             "starts": None,
@@ -318,8 +317,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "branch": {
             **two,
             "start": orbit(),
-            "parameter": "frequency",
-            "span": (1.49, 1.51),
+            "vary": {"frequency": (1.49, 1.51)},
             "period": None,
             "most_points": 4,
             "outputs": None,
@@ -362,7 +360,6 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "records": [record()],
             "scales": [1.0],
             "intensity": "factor",
-            "gaps": None,
             "vary": None,
             "tail": None,
             "max_events": 200,
@@ -451,7 +448,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "least_acceleration": {
             "rig": rig(),
             "records": record(),
-            "ranges": {"gap": (0.01, 0.02), "isolator.stiffness": (500.0, 1000.0)},
+            "vary": {"gap": (0.01, 0.02), "isolator.stiffness": (500.0, 1000.0)},
             "gap": None,
             "limits": None,
             "fractile": 1.0,
@@ -524,8 +521,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         },
         "resonance_diagram": {
             **swept,
-            "span": (1.45, 1.55),
-            "parameter": "frequency",
+            "vary": {"frequency": (1.45, 1.55)},
             "frequency": None,
             "phase": 0.0,
             "longest": 1,
@@ -547,8 +543,8 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "save": {"dataset": motion(), "path": folder / "kept.nc"},
         "scenario_map": {
             "rig": None,
-            "x": ("gap_ratio", [0.5, 0.6]),
-            "y": ("stiffness_ratio", [10.0, 12.0]),
+            "vary": {"gap_ratio": [0.5, 0.6], "stiffness_ratio": [10.0, 12.0]},
+            "spacing": None,
             "step": 0.3,
             "refine": 0,
             "thresholds": None,

@@ -151,8 +151,9 @@ WRONG = [
     ("section", {"a": 1}),
     ("log", np.array(["a", "b"])),
     ("log", None),
-    ("span", {1.4, 1.6}),
-    ("span", range(10**9)),
+    ("vary", {1.4, 1.6}),
+    ("vary", {"frequency": {1.4, 1.6}}),
+    ("vary", {"frequency": range(10**9)}),
     ("random", 10**12),
 ]
 
@@ -168,12 +169,11 @@ def test_what_a_diagram_cannot_use_is_one_line(field, wrong, folder):
     ("name", "field", "wrong"),
     [
         ("Record.from_displacement", "step", 1e-320),
-        ("demands", "gaps", range(10**9)),
-        ("demands", "gaps", np.array(5.0)),
+        ("demands", "vary", {"gap": range(10**9)}),
+        ("demands", "vary", {"gap": np.array(5.0)}),
         ("demands", "scales", range(1, 10**9)),
         ("design_chart", "records", np.array(5.0)),
         ("design_chart", "tail", 10**12),
-        ("bifurcation_curve", "spans", {1, 2}),
         ("bifurcation_diagram", "steps", 10**12),
         ("fit_report", "comparison", [1.0]),
         ("fit_report", "folder", 5),
@@ -186,7 +186,8 @@ def test_what_a_diagram_cannot_use_is_one_line(field, wrong, folder):
         ("lyapunov_exponents", "rigs", np.array(5.0)),
         ("required_gap", "records", range(10**9)),
         ("resonance_diagram", "basins", 5),
-        ("resonance_diagram", "parameter", np.eye(2)),
+        ("resonance_diagram", "vary", np.eye(2)),
+        ("scenario_map", "spacing", "log"),
         ("resonance_diagram", "starts", 10**12),
         ("scenario_map", "step", 1e-300),
         ("ensemble", "method", xr.Dataset({"a": 1})),
@@ -201,13 +202,6 @@ def test_what_cannot_be_used_is_one_line(name, field, wrong, folder, monkeypatch
     function, given = arguments.calls(folder)[name]
     with pytest.raises(vi.InputError, match=rf"^{field}"):
         function(**{**given, field: wrong})
-
-
-@pytest.mark.parametrize("wrong", [5, None, ("frequency",), ("frequency", 5), {1: 2}, ("a",) * 9])
-def test_parameters_of_a_curve_that_are_not_two_names_are_one_line(wrong, folder):
-    function, given = arguments.calls(folder)["bifurcation_curve"]
-    with pytest.raises(vi.InputError, match=r"^parameters: "):
-        function(**{**given, "parameters": wrong})
 
 
 def test_a_value_without_a_text_of_its_own_is_named_by_its_type():
@@ -239,11 +233,7 @@ SHAKING = vi.Harmonic(1.0, 1.0)
         (
             "starts",
             lambda v: vi.bifurcation_diagram(
-                vi.Rig(OSCILLATOR, SHAKING),
-                span=(1.0, 1.1),
-                parameter="frequency",
-                steps=2,
-                starts=v,
+                vi.Rig(OSCILLATOR, SHAKING), vary={"frequency": (1.0, 1.1)}, steps=2, starts=v
             ),
         ),
     ],

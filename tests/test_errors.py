@@ -71,7 +71,7 @@ READERS = {
     "names": lambda _: vi.save(
         dict.fromkeys([*NAMES, "channel_0"], xr.Dataset({"a": 1})), "never.nc"
     ),
-    "parameter": lambda _: vi.branch("B2-G1-A3", frequency="2 Hz", span=(1, 2), parameter="x"),
+    "parameter": lambda _: vi.branch("B2-G1-A3", frequency="2 Hz", vary={"x": (1, 2)}),
     "oscillator": lambda _: vi.Oscillator.model_validate(dict.fromkeys(NAMES, 1)),
     "rigs": lambda _: resonance_family(
         vi.sweeps(["B2-G1-A3"] * 99, np.array([2.0, 2.1])), labels={"x": "y"}

@@ -60,13 +60,13 @@ def test_one_motion():
 
 def test_branches():
     rig = vi.Rig(OSCILLATOR, SHAKEN)
-    expected = vi.branch(rig, span=(1.98, 2.02))
-    found = vi.branch(CODE, frequency=2.0, span=(1.98, "2.02 Hz"))
+    expected = vi.branch(rig, vary={"frequency": (1.98, 2.02)})
+    found = vi.branch(CODE, frequency=2.0, vary={"frequency": (1.98, "2.02 Hz")})
     xr.testing.assert_identical(not_published(found), expected)
-    lowest = vi.branch(CODE, span=(1.98, 2.02))
+    lowest = vi.branch(CODE, vary={"frequency": (1.98, 2.02)})
     assert float(lowest["frequency"].min()) == pytest.approx(1.98)
-    diagram = vi.resonance_diagram(rig, (1.4, 2.0), starts=3)
-    again = vi.resonance_diagram(CODE, ("1.4 Hz", "2 Hz"), starts=3)
+    diagram = vi.resonance_diagram(rig, {"frequency": (1.4, 2.0)}, starts=3)
+    again = vi.resonance_diagram(CODE, {"frequency": ("1.4 Hz", "2 Hz")}, starts=3)
     xr.testing.assert_identical(not_published(again), diagram)
 
 
@@ -81,9 +81,9 @@ def test_scenarios_and_parameters():
     grid = np.linspace(0.8, 3.0, 12)
     rig = vi.Rig(OSCILLATOR, AMPLITUDE)
     assert classify(CODE, grid).features == classify(rig, grid).features
-    axes = ("gap", [0.005, 0.02]), ("stiffness_ratio", [2.0, 10.0])
-    found = vi.scenario_map(CODE, *axes, step=0.2)
-    xr.testing.assert_identical(found, vi.scenario_map(rig, *axes, step=0.2))
+    axes = {"gap": [0.005, 0.02], "stiffness_ratio": [2.0, 10.0]}
+    found = vi.scenario_map(CODE, axes, step=0.2)
+    xr.testing.assert_identical(found, vi.scenario_map(rig, axes, step=0.2))
     assert vi.to_dimensionless(CODE) == vi.to_dimensionless(rig)
 
 
@@ -198,12 +198,12 @@ RECORD = vi.Record([0.1, 0.2], 0.01)
             r"^shaking: 2 amplitudes, but a scenario is defined for one amplitude",
         ),
         (
-            lambda: vi.branch(CASE, span=(2.0, 1.0)),
-            r"^span\[1\]: 1 Hz is not greater than span\[0\]",
+            lambda: vi.branch(CASE, vary={"frequency": (2.0, 1.0)}),
+            r"^vary\['frequency'\]\[1\]: 1 Hz is not greater than vary\['frequency'\]\[0\]",
         ),
         (
-            lambda: vi.branch(CASE, frequency=2.0, span=2.0),
-            r"^span: 2.0; pass the lowest and the high",
+            lambda: vi.branch(CASE, frequency=2.0, vary={"frequency": 2.0}),
+            r"^vary\['frequency'\]: 2.0; pass the lowest and the high",
         ),
     ],
 )

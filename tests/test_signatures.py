@@ -16,7 +16,7 @@ from vibroimpact import figures
 
 REQUIRED = inspect.Parameter.empty
 FORBIDDEN = {"oscillator", "excitation", "amplitude", "shaking", "base", "guess", "low", "high"}
-"""Parts of a rig, and names of the interface before rigs; `Rig` and spans took their place."""
+"""Parts of a rig, and names of the interface before rigs; `Rig` and ranges took their place."""
 BUILDERS = {"from_dimensionless"}
 """Functions that make a rig of numbers, as constructors do."""
 RIG_TYPE = re.compile(r"\b(AnyRig|Rig|Oscillator)\b")
@@ -52,9 +52,9 @@ def _named(function: str) -> dict[str, object]:
 
 def test_the_tables_are_read():
     assert len(FUNCTIONS) > 70
-    assert {"rig", "frequency", "span", "seed", "tolerance", "frequency_span"} <= set(WORDS)
+    assert {"rig", "frequency", "vary", "seed", "tolerance", "frequency_span"} <= set(WORDS)
     assert WORDS["seed"] == 0
-    assert WORDS["span"] is REQUIRED
+    assert WORDS["vary"] is REQUIRED
     assert all(row[3] for row in rows("Exceptions in signatures")), "an exception has a reason"
 
 

@@ -12,6 +12,6 @@ curve). The result shows that the three motions form one curve with two folds.
 import vibroimpact as vi
 from vibroimpact.figures import branch_diagram
 
-orbits = vi.resonance_diagram("B2-G1-A3", ("0.8 Hz", "3.4 Hz"))
+orbits = vi.resonance_diagram("B2-G1-A3", {"frequency": ("0.8 Hz", "3.4 Hz")})
 swept = vi.sweep("B2-G1-A3", [k / 20 for k in range(16, 69)])
 branch_diagram(orbits, quantity="eta_a", sweep=swept)

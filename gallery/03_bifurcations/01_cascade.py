@@ -13,6 +13,6 @@ import vibroimpact as vi
 from vibroimpact.figures import section_diagram
 
 diagram = vi.bifurcation_diagram(
-    "B3-10mm-A3", "gap", (0.0034, 0.0054), 321, frequency="1.12 Hz", points=100
+    "B3-10mm-A3", {"gap": (0.0034, 0.0054)}, 321, frequency="1.12 Hz", points=100
 )
 section_diagram(diagram)

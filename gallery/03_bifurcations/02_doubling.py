@@ -12,6 +12,6 @@ from vibroimpact.figures import section_diagram
 
 rig = vi.laboratory.case("B3-10mm-A3").rig.at("1.12 Hz")
 span = ("4.72 mm", "5.1 mm")
-diagram = vi.bifurcation_diagram(rig, "gap", span, 77)
-branch = vi.branch(rig, parameter="gap", span=span)
+diagram = vi.bifurcation_diagram(rig, {"gap": span}, 77)
+branch = vi.branch(rig, vary={"gap": span})
 section_diagram(diagram, branches=branch)

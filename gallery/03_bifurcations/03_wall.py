@@ -15,8 +15,7 @@ wall = vi.RigidStop(restitution=0.8, gap=0.0)
 ball = vi.Oscillator(1.0, vi.Isolator(stiffness=1.0, damping=0.02), right=wall, left=None)
 diagram = vi.bifurcation_diagram(
     vi.Rig(ball, vi.Harmonic(1.0, 0.6)),
-    "frequency",
-    (0.415, 0.545),
+    {"frequency": (0.415, 0.545)},
     261,
     section="impacts",
     points=100,

@@ -12,14 +12,13 @@ import vibroimpact as vi
 from vibroimpact.figures import bifurcation_curves
 
 rig = vi.laboratory.case("B2-G1-A3").rig.at("2 Hz")
-found = vi.resonance_diagram(rig, ("1 Hz", "4 Hz"))
+found = vi.resonance_diagram(rig, {"frequency": ("1 Hz", "4 Hz")})
 kinds = list(found["bifurcation_kind"].values)
 curves = {
     kind: vi.bifurcation_curve(
         rig,
         found.isel(bifurcation=kinds.index(kind)),
-        parameters=("frequency", "gap"),
-        spans=(("0.3 Hz", "5 Hz"), ("1 mm", "40 mm")),
+        vary={"frequency": ("0.3 Hz", "5 Hz"), "gap": ("1 mm", "40 mm")},
     )
     for kind in ("fold", "grazing")
 }

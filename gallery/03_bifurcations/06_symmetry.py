@@ -12,5 +12,5 @@ chaotic.
 import vibroimpact as vi
 from vibroimpact.figures import branch_diagram
 
-orbits = vi.resonance_diagram("B3-10mm-A3", ("0.95 Hz", "1.3 Hz"), random=0)
+orbits = vi.resonance_diagram("B3-10mm-A3", {"frequency": ("0.95 Hz", "1.3 Hz")}, random=0)
 branch_diagram(orbits, quantity="eccentricity")

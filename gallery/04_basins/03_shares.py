@@ -15,6 +15,6 @@ import vibroimpact as vi
 from vibroimpact.figures import basin_shares
 
 shares = vi.basin_stability(
-    "B2-G1-A3", frequency=2.0, parameter="frequency", values=np.linspace(1.5, 2.7, 13), states=400
+    "B2-G1-A3", frequency=2.0, vary={"frequency": np.linspace(1.5, 2.7, 13)}, states=400
 )
 basin_shares(shares)

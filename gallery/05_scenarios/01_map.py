@@ -18,8 +18,7 @@ from vibroimpact.scenarios.borders import jump_border
 
 data = vi.scenario_map(
     None,
-    ("stiffness_ratio", np.geomspace(0.5, 100.0, 17)),
-    ("gap_ratio", np.linspace(0.0, 1.1, 17)),
+    {"stiffness_ratio": np.geomspace(0.5, 100.0, 17), "gap_ratio": np.linspace(0.0, 1.1, 17)},
     step=0.03,
 )
 published = Mark("published rigs B2 and B3", "o", [19.4, 25.9], [0.217, 0.217])

@@ -14,8 +14,7 @@ from vibroimpact.figures import feature_map
 
 data = vi.scenario_map(
     None,
-    ("stiffness_ratio", np.geomspace(1.0, 100.0, 13)),
-    ("gap_ratio", np.linspace(0.05, 0.95, 11)),
+    {"stiffness_ratio": np.geomspace(1.0, 100.0, 13), "gap_ratio": np.linspace(0.05, 0.95, 11)},
     step=0.03,
 )
 feature_map(data, "jump_down_ratio")

@@ -16,8 +16,7 @@ from vibroimpact.figures import figure_size, save_figure, scenario_map
 
 data = vi.scenario_map(
     "B2-G1-A3",
-    ("gap", np.linspace(2e-3, 36e-3, 15)),
-    ("proportional_stiffness", np.geomspace(2e4, 2e6, 13)),
+    {"gap": np.linspace(2e-3, 36e-3, 15), "proportional_stiffness": np.geomspace(2e4, 2e6, 13)},
     step=0.03,
 )
 with figure_size("86 mm"):  # for one column of a journal

@@ -29,5 +29,7 @@ building = vi.Oscillator("200 t", isolator, right=bumper, left=bumper)
 
 records = {f"quake {seed}": quake(seed) for seed in range(12)}
 gaps = ["60 mm", "90 mm", "120 mm"]
-demands = vi.demands(building, records, np.linspace(1.0, 8.0, 12), intensity="PGA", gaps=gaps)
+demands = vi.demands(
+    building, records, np.linspace(1.0, 8.0, 12), intensity="PGA", vary={"gap": gaps}
+)
 fragility_curves(vi.fragility(demands, "impact_count"))

@@ -12,8 +12,6 @@ from vibroimpact.errors import InputError, shown, unknown
 
 LONGEST_PATH = 4096
 """Largest number of characters of a path in operating systems."""
-VALUES = 'a dict of values by parameter, such as {"gap": ["5 mm", "8 mm"]}'
-"""Description of values that are varied."""
 STARTS = 'a dict of initial states by name, such as {"mine": State(0.01, 0.0)}'
 """Description of initial states."""
 MOST_LISTED = 1_000_000

@@ -94,7 +94,7 @@ def test_a_branch_over_the_force_is_one_over_the_gap() -> None:
     swing = SHAKEN.amplitude / abs(complex(STIFFNESS / MASS - turn**2, 0.2 * turn))
     free = vi.simulate(vi.Rig(rig.without_bumpers(), SHAKEN), 400, samples=0)["final_state"].values
     start = vi.State(free[0], free[1], phase=free[4])
-    over = vi.branch(vi.Rig(rig, SHAKEN), start, span=(-0.8, 1.2), parameter="force")
+    over = vi.branch(vi.Rig(rig, SHAKEN), start, vary={"force": (-0.8, 1.2)})
     kinds = over["bifurcation_kind"].values
     grazings = over["bifurcation_value"].values[kinds == "grazing"]
     assert np.abs(grazings - STIFFNESS * (0.5 - swing)).min() < 1e-11
@@ -103,7 +103,7 @@ def test_a_branch_over_the_force_is_one_over_the_gap() -> None:
     bare = rig.replace(force=0.0, right=rig.right.replace(gap=0.5 + 0.4 / STIFFNESS))
     moved = vi.State(u + 0.4 / STIFFNESS, v, phase=phase)
     low, high = 0.5 - 1.2 / STIFFNESS, 0.5 + 0.8 / STIFFNESS
-    gap = vi.branch(vi.Rig(bare, SHAKEN), moved, span=(low, high), parameter="gap")
+    gap = vi.branch(vi.Rig(bare, SHAKEN), moved, vary={"gap": (low, high)})
     for kind in set(kinds.tolist()):
         values = np.sort(over["bifurcation_value"].values[kinds == kind])
         same = gap["bifurcation_value"].values[gap["bifurcation_kind"].values == kind]

@@ -102,7 +102,7 @@ def test_a_branch_turns_back_at_the_fold() -> None:
         (orbit,) = [o for o in possible_orbits(one) if max(map(abs, o.multipliers)) < 1]
         shaken, start = section(orbit)
         fold = float(one.fold)
-    data = vi.branch(vi.Rig(rig(one), shaken), start, span=(0.1, 0.6), parameter="gap")
+    data = vi.branch(vi.Rig(rig(one), shaken), start, vary={"gap": (0.1, 0.6)})
     kinds = data["bifurcation_kind"].values
     at = data["bifurcation_value"].values[kinds == "fold"]
     assert np.abs(at - fold).min() < 1e-10
@@ -131,7 +131,7 @@ def test_the_period_doubles_where_a_multiplier_is_minus_one() -> None:
         doubling = float(findroot(margin, (mpf("0.2"), mpf("0.25")), solver="anderson"))
         (orbit,) = possible_orbits(one)
         shaken, start = section(orbit)
-    data = vi.branch(vi.Rig(rig(one), shaken), start, span=(0.05, 0.25), parameter="gap")
+    data = vi.branch(vi.Rig(rig(one), shaken), start, vary={"gap": (0.05, 0.25)})
     kinds = data["bifurcation_kind"].values
     at = data["bifurcation_value"].values[kinds == "period doubling"]
     assert np.abs(at - doubling).min() < 1e-10

@@ -143,7 +143,7 @@ def test_the_mirror_holds_without_even_harmonics_only(stop) -> None:
 def test_a_branch_of_orbits(kind: dict) -> None:
     """Each closes, and its multipliers are those of central differences."""
     rig, shaken = between(WALL), vi.Periodic(0.45, **kind, phase=0.25)
-    data = vi.branch(vi.Rig(rig, shaken), GUESS, span=(0.43, 0.48))
+    data = vi.branch(vi.Rig(rig, shaken), GUESS, vary={"frequency": (0.43, 0.48)})
     assert (data["antisymmetric"].values == (kind is ODD)).all()
     assert data["frequency"].values.min() == pytest.approx(0.43)
     assert data["frequency"].values.max() == pytest.approx(0.48)

@@ -40,9 +40,7 @@ def test_a_seed_draws_the_same_states():
 @pytest.mark.full
 def test_motions_keep_their_numbers_along_a_parameter():
     frequencies = [1.6, 1.8, 2.2, 2.6, 2.75]
-    data = vi.basin_stability(
-        "B2-G1-A3", frequency=2.0, parameter="frequency", values=frequencies, states=80
-    )
+    data = vi.basin_stability("B2-G1-A3", frequency=2.0, vary={"frequency": frequencies}, states=80)
     assert data["share"].dims == ("frequency", "attractor")
     np.testing.assert_array_equal(data["frequency"], frequencies)
     sizes = data["displacement_excursion"].values
@@ -77,11 +75,12 @@ def test_points_tell_which_motion_goes_on():
     [
         ({"states": 0}, "states: 0"),
         ({"seed": -1}, "seed: -1"),
-        ({"values": [1.0]}, "parameter: missing"),
-        ({"parameter": "frequency"}, "values: None"),
-        ({"parameter": "frequency", "values": []}, "values: the list is empty"),
-        ({"parameter": "frequency", "values": ["1 mm"]}, "values[0]: "),
-        ({"parameter": "colour", "values": [1.0]}, "parameter: "),
+        ({"vary": {"frequency": None}}, "vary['frequency']: None is not a list"),
+        ({"vary": {"frequency": []}}, "vary['frequency']: the list is empty"),
+        ({"vary": {"frequency": ["1 mm"]}}, "vary['frequency'][0]: "),
+        ({"vary": {"frequency": [1.0, 2.0, 1.0]}}, "vary['frequency']: 1 Hz is given twice"),
+        ({"vary": {"colour": [1.0]}}, "vary: 'colour' is unknown"),
+        ({"vary": {"gap": [1.0], "mass": [1.0]}}, "vary: 'gap', 'mass'; pass a dict of values"),
         (
             {"velocity": (1.0, -1.0)},
             "velocity: the first value, 1 m/s, is not below the second, -1 m/s",

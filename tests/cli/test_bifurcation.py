@@ -28,7 +28,7 @@ def test_over_the_gap(tmp_path, told):
     ]
     data = vi.load(tmp_path / "out" / "B3-10mm-A3-gap-diagram.nc")
     case = vi.laboratory.case("B3-10mm-A3")
-    same = vi.bifurcation_diagram(case, "gap", (4.8e-3, 5e-3), 5, frequency=1.12, random=1)
+    same = vi.bifurcation_diagram(case, {"gap": (4.8e-3, 5e-3)}, 5, frequency=1.12, random=1)
     assert data.attrs["created_by"] == CREATED_BY
     for name in ("section_displacement", "exponents", "period"):
         np.testing.assert_array_equal(data[name], same[name])
@@ -45,7 +45,7 @@ def test_bifurcations_of_branches_are_printed(tmp_path, told):
     # Three branches meet there.
     (row,) = [row for row in rows[1:] if row[0] == "symmetry"]
     case = vi.laboratory.case("B3-10mm-A3")
-    data = vi.resonance_diagram(case, (1.2, 1.3))
+    data = vi.resonance_diagram(case, {"frequency": (1.2, 1.3)})
     broken = data["bifurcation_kind"].values == "symmetry breaking"
     assert float(row[2]) == pytest.approx(data["bifurcation_value"].values[broken][0], rel=1e-9)
     listed = json.loads(told(tmp_path, *few, "--json")[1])["bifurcations"]

@@ -92,7 +92,7 @@ def test_summary(whole):
 def test_the_file_holds_the_diagram(whole):
     data = vi.load(whole[0] / "out/B2-G1-A3-frequency-branches.nc")
     assert data.attrs.pop("title") == "B2-G1-A3"
-    made = vi.resonance_diagram(CASE, (0.3, 5.0))
+    made = vi.resonance_diagram(CASE, {"frequency": (0.3, 5.0)})
     assert {k: str(v) for k, v in data.attrs.items()} == {k: str(v) for k, v in made.attrs.items()}
     assert set(data.variables) == set(made.variables)
     for name in made.variables:
@@ -154,9 +154,7 @@ def test_along_the_gap(gaps):
     assert facts["files"]["data"] == "out/B2-G1-A3-gap-branches.nc"
     data = vi.load(folder / facts["files"]["data"])
     alone = vi.resonance_diagram(
-        vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)),
-        span=("1 mm", "20 mm"),
-        parameter="gap",
+        vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)), vary={"gap": ("1 mm", "20 mm")}
     )
     for name in alone.variables:
         np.testing.assert_array_equal(data[name].values, alone[name].values, err_msg=name)
@@ -294,7 +292,7 @@ def test_a_phase_and_a_value_typed_over_a_study(run, tmp_path):
         (["--vary", "gap=1Hz:2Hz", "--frequency", "2Hz"], "--vary: gap: '1Hz'"),
         (
             ["--vary", "gap=10mm:20mm", "--frequency", "2Hz", "--period", "1"],
-            "--vary",
+            "error: --vary: gap: 10 mm to 20 mm does not contain the rig's gap of 7.5 mm",
         ),  # without the rig's own gap
         (
             ["--vary", "right.gap=1mm:2mm", "--set", "right=none", "--frequency", "2Hz"],

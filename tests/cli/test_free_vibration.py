@@ -112,7 +112,7 @@ def test_a_rig_of_python_that_nothing_shakes():
     assert float(shaken["time"][-1]) == pytest.approx(1.5)
     with pytest.raises(InputError, match=r"^shaking: missing, and the rig has no shaking"):
         vi.sweep(vi.Rig(oscillator, 0), [1, 2])
-    for call in (vi.orbit, lambda rig: vi.bifurcation_diagram(rig, "gap", (0.001, 0.01), 3)):
+    for call in (vi.orbit, lambda rig: vi.bifurcation_diagram(rig, {"gap": (0.001, 0.01)}, 3)):
         with pytest.raises(InputError, match=r"^shaking: 0; pass an amplitude greater than 0"):
             call(vi.Rig(oscillator, vi.Harmonic(0, 2)))
 

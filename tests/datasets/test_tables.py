@@ -65,7 +65,7 @@ def test_other_datasets():
     steady = vi.steady(CODE, frequency="2 Hz")
     assert len(vi.to_table(steady)) == steady.sizes["time"]
     assert len(vi.to_table(steady, rows="contact_number")) == steady.sizes["contact_number"]
-    branch = vi.branch(CODE, frequency="2 Hz", span=(1.98, 2.02))
+    branch = vi.branch(CODE, frequency="2 Hz", vary={"frequency": (1.98, 2.02)})
     table = vi.to_table(branch)
     assert len(table) == branch.sizes["point"]
     assert {"frequency", "eta_d", "multiplier_real_0", "section_displacement"} <= set(table)

@@ -175,13 +175,13 @@ def test_what_has_no_bound_is_infinite() -> None:
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        ({"vary": {}}, "vary: {}; pass the values of at least one parameter"),
+        ({"vary": {}}, "vary: no parameter; pass a dict of values by parameter, with at least one"),
         ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; one of frequency, "),
         (
             {"vary": {"amplitude": [1.0]}},
             "vary: 'amplitude' depends on the shaking, which is not varied here; remove it",
         ),
-        ({"vary": {"gap": []}}, "gaps: the list is empty"),
+        ({"vary": {"gap": []}}, r"vary\['gap'\]: the list is empty"),
         ({"vary": {"yield_force": [1.0]}}, "vary: 'yield_force' is not a parameter of this rig; "),
         ({"records": []}, "records: missing; pass at least one Record"),
         ({"records": [RECORDS["a"], 3]}, r"records\['1'\]: 3 is not a record; pass a Record"),

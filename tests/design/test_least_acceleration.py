@@ -100,24 +100,25 @@ def test_it_is_repeatable() -> None:
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
-        ({"ranges": {}}, "ranges: {}; pass the lowest"),
+        ({"vary": {}}, "vary: no parameter; pass a dict of ranges by parameter, with at least one"),
         (
-            {"ranges": {"gap": 3.0}},
-            r"ranges\['gap'\]: 3.0; pass the lowest and the highest value as a pair",
+            {"vary": {"gap": 3.0}},
+            r"vary\['gap'\]: 3.0; pass the lowest and the highest value of gap as \(low, high\)",
         ),
         (
-            {"ranges": {"gap": (2.0, 1.0)}},
-            r"ranges\['gap'\]: the second value, 1 m, is not above the first, 2 m",
+            {"vary": {"gap": (2.0, 1.0)}},
+            r"vary\['gap'\]\[1\]: 1 m is not greater than vary\['gap'\]\[0\], 2 m",
         ),
-        ({"ranges": {"length": (1.0, 2.0)}}, "vary: 'length'"),
-        ({"gap": "3 kg"}, r"gaps\[0\]: '3 kg'"),
+        ({"vary": {"length": (1.0, 2.0)}}, "vary: 'length'"),
+        ({"vary": {"frequency": (1.0, 2.0)}}, "vary: 'frequency' depends on the shaking"),
+        ({"gap": "3 kg"}, "gap: '3 kg'"),
         ({"limits": {"speed": 1.0}}, "limits: 'speed'; one of peak_displacement, "),
         ({"limits": {"peak_force": "3 m"}}, r"limits\['peak_force'\]: '3 m'"),
         (
             {"limits": {"peak_displacement": 1e-4}},
             r"limits\['peak_displacement'\]: no design that was tried meets this limit of 0.1 mm",
         ),
-        ({"oscillator": RIG.without_bumpers()}, "ranges: missing; .* has no stop"),
+        ({"oscillator": RIG.without_bumpers()}, "vary: missing; .* has no stop"),
     ],
 )
 def test_wrong_input(arguments: dict, line: str) -> None:

@@ -30,8 +30,8 @@ PEAKS = (
 
 
 def test_every_run_is_the_response_by_itself() -> None:
-    vary = {"stops.stiffness": [200.0, 900.0]}
-    data = vi.demands(RIGS["bumpers"], RECORDS, SCALES, gaps=["20 mm", 0.05], vary=vary)
+    vary = {"gap": ["20 mm", 0.05], "stops.stiffness": [200.0, 900.0]}
+    data = vi.demands(RIGS["bumpers"], RECORDS, SCALES, vary=vary)
     assert data["peak_force"].dims == ("record", "scale", "gap", "stops.stiffness")
     assert data["gap"].attrs["units"] == "m"
     assert (data["status"] == 0).all()
@@ -93,10 +93,17 @@ def test_scales_in_an_intensity_measure(intensity, of) -> None:
 
 
 def test_threads_and_blocks_change_no_bit() -> None:
-    whole = vi.demands(RIGS["friction"], RECORDS, SCALES, gaps=[0.01, 0.02, 0.03], threads=1)
+    whole = vi.demands(
+        RIGS["friction"], RECORDS, SCALES, vary={"gap": [0.01, 0.02, 0.03]}, threads=1
+    )
     for block, threads in ((1, 2), (2, 1), (4, 3)):
         other = vi.demands(
-            RIGS["friction"], RECORDS, SCALES, gaps=[0.01, 0.02, 0.03], threads=threads, block=block
+            RIGS["friction"],
+            RECORDS,
+            SCALES,
+            vary={"gap": [0.01, 0.02, 0.03]},
+            threads=threads,
+            block=block,
         )
         for name in whole.data_vars:
             np.testing.assert_array_equal(whole[name], other[name])
@@ -119,7 +126,7 @@ class _KilledError(Exception):
 
 def test_what_was_stopped_is_completed_to_the_same(tmp_path) -> None:
     arguments = (RIGS["bumpers"], RECORDS, SCALES)
-    how = {"gaps": [0.02, 0.03, 0.05], "block": 2}
+    how = {"vary": {"gap": [0.02, 0.03, 0.05]}, "block": 2}
     whole = vi.demands(*arguments, **how)
     store = tmp_path / "demands"
     told: list[int] = []
@@ -195,11 +202,10 @@ def test_it_is_saved_and_read(tmp_path) -> None:
         ({"scales": ["3 m"]}, r"scales\[0\]: '3 m'"),
         ({"intensity": "PGV"}, 'intensity: \'PGV\'; pass "factor", "PGA"'),
         ({"intensity": (0.0, 0.05)}, r"intensity\[0\]: 0"),
-        ({"gaps": 0.01}, "gaps: 0.01 is not a list"),
-        ({"gaps": []}, "gaps: the list is empty"),
-        ({"gaps": [0.01, 0.01]}, "gaps: 10 mm is given twice"),
-        ({"gaps": ["1 kg"]}, r"gaps\[0\]: "),
-        ({"gaps": [0.1], "vary": {"gap": [0.1]}}, "gaps: given together with"),
+        ({"vary": {"gap": 0.01}}, r"vary\['gap'\]: 0.01 is not a list"),
+        ({"vary": {"gap": []}}, r"vary\['gap'\]: the list is empty"),
+        ({"vary": {"gap": [0.01, 0.01]}}, r"vary\['gap'\]: 10 mm is given twice"),
+        ({"vary": {"gap": ["1 kg"]}}, r"vary\['gap'\]\[0\]: "),
         ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; one of "),
         (
             {"vary": {"amplitude": [1.0]}},

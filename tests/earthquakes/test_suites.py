@@ -49,7 +49,7 @@ def test_what_went_beyond_all_limits_is_infinite_and_others_are_refused() -> Non
 
 def test_the_probability_of_impact() -> None:
     records = [noise(seed, count=120) for seed in range(8, 13)]
-    data = vi.demands(RIGS["bumpers"], records, [0.1, 0.3, 1.0], gaps=[0.02, 0.1])
+    data = vi.demands(RIGS["bumpers"], records, [0.1, 0.3, 1.0], vary={"gap": [0.02, 0.1]})
     found = vi.exceedance(data, "impact_count")
     assert found["probability"].dims == ("scale", "gap")
     hits = (data["peak_displacement_right"] > data["gap"]) | (

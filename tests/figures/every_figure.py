@@ -105,9 +105,9 @@ def own_outputs() -> dict[str, xr.Dataset]:
     grid = np.linspace(1.0, 4.0, 16)
     return {
         "sweep": vi.sweep(CASE, grid, outputs=OUTPUT),
-        "branches": vi.resonance_diagram(CASE, (1.0, 4.0), outputs=OUTPUT),
+        "branches": vi.resonance_diagram(CASE, {"frequency": (1.0, 4.0)}, outputs=OUTPUT),
         "diagram": vi.bifurcation_diagram(
-            sections.CASE, "gap", (4.7e-3, 5e-3), 7, frequency=1.12, outputs=OUTPUT
+            sections.CASE, {"gap": (4.7e-3, 5e-3)}, 7, frequency=1.12, outputs=OUTPUT
         ),
     }
 
@@ -117,7 +117,7 @@ def no_units() -> dict[str, xr.Dataset]:
     return {
         "sweep": vi.sweep(NO_UNITS, np.linspace(0.12, 0.24, 13)),
         "motion": vi.steady(NO_UNITS, frequency=0.2),
-        "branches": vi.resonance_diagram(NO_UNITS, (0.12, 0.24)),
+        "branches": vi.resonance_diagram(NO_UNITS, {"frequency": (0.12, 0.24)}),
     }
 
 

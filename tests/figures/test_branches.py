@@ -23,18 +23,18 @@ FREQUENCY = "excitation frequency (Hz)"
 
 @cache
 def diagram() -> xr.Dataset:
-    return vi.resonance_diagram(CASE, (1.0, 4.0))
+    return vi.resonance_diagram(CASE, {"frequency": (1.0, 4.0)})
 
 
 @cache
 def several() -> xr.Dataset:
     """Symmetry breaking, period doubling, and the branches that are born there."""
-    return vi.resonance_diagram("B3-10mm-A3", (0.9, 1.4), longest=2)
+    return vi.resonance_diagram("B3-10mm-A3", {"frequency": (0.9, 1.4)}, longest=2)
 
 
 @cache
 def gaps() -> xr.Dataset:
-    return vi.branch(CASE, frequency=2.0, span=(1e-3, 20e-3), parameter="gap")
+    return vi.branch(CASE, frequency=2.0, vary={"gap": (1e-3, 20e-3)})
 
 
 @cache
@@ -49,8 +49,7 @@ def curve(kind: str, other: str = "stiffness_ratio") -> xr.Dataset:
     return vi.bifurcation_curve(
         vi.Rig(CASE.oscillator, SHAKEN),
         diagram().isel(bifurcation=row),
-        spans=((1.0, 4.0), (low, high)),
-        parameters=("frequency", other),
+        vary={"frequency": (1.0, 4.0), other: (low, high)},
     )
 
 
@@ -195,7 +194,7 @@ def test_branches_are_named_by_their_impacts():
 def test_names_leave_out_a_side_without_a_stop(side):
     stops = {side: vi.RigidStop(0.6, "10 mm")}
     rig = vi.Rig(vi.Oscillator("550 kg", CASE.oscillator.isolator, **stops), "0.03 g")
-    data = vi.branch(rig, span=(1.2, 1.8))
+    data = vi.branch(rig, vary={"frequency": (1.2, 1.8)})
     letter = side[0].upper()
     assert "grazing" in data["bifurcation_kind"].values
     grazing = data["bifurcation_contacts"].values[data["bifurcation_kind"].values == "grazing"]
@@ -235,9 +234,7 @@ def test_names_stand_clear_of_marks_and_of_each_other_inside_the_panel(made):
 
 def test_other_parameters_are_named_with_their_units():
     assert branch_diagram(gaps()).get_xlabel().startswith("gap of each side (")
-    data = vi.branch(
-        vi.Rig(CASE.oscillator, SHAKEN), span=(10.0, 30.0), parameter="stiffness_ratio"
-    )
+    data = vi.branch(vi.Rig(CASE.oscillator, SHAKEN), vary={"stiffness_ratio": (10.0, 30.0)})
     label = branch_diagram(data).get_xlabel()
     assert label.startswith("stiffness ratio")
     assert label.endswith(" (–)")
@@ -397,7 +394,7 @@ def test_what_is_no_branch_is_refused():
 
 def test_sections_are_sent_to_their_own_figure():
     data = vi.bifurcation_diagram(
-        "B3-10mm-A3", "gap", (4.9e-3, 5e-3), 2, frequency=1.12, directions="up"
+        "B3-10mm-A3", {"gap": (4.9e-3, 5e-3)}, 2, frequency=1.12, directions="up"
     )
     refused(lambda: branch_diagram(data), "data: ", "figures.section_diagram", "resonance_diagram")
 

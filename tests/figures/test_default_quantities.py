@@ -43,13 +43,13 @@ FIGURES = {
         ["E_d$ (mm)"],
     ),
     "branch_diagram of a branch": (
-        lambda rig: figures.branch_diagram(vi.branch(rig, frequency=2.0, span=SPAN)),
+        lambda rig: figures.branch_diagram(vi.branch(rig, frequency=2.0, vary={"frequency": SPAN})),
         ["$\\eta_d$ (–)"],
         ["largest displacement (mm)"],
     ),
     "branch_diagram of all branches": (
         lambda rig: figures.branch_diagram(
-            vi.resonance_diagram(rig, SPAN, longest=1, starts=2, random=0)
+            vi.resonance_diagram(rig, {"frequency": SPAN}, longest=1, starts=2, random=0)
         ),
         ["$\\eta_d$ (–)"],
         ["largest displacement (mm)"],
@@ -141,7 +141,7 @@ def test_the_default_survives_a_file(tmp_path):
     """As the file states that the rig is published."""
     data = {
         figures.resonance_curves: vi.sweep(CASE, GRID),
-        figures.branch_diagram: vi.branch(CASE, frequency=2.0, span=SPAN),
+        figures.branch_diagram: vi.branch(CASE, frequency=2.0, vary={"frequency": SPAN}),
         figures.resonance_bands: vi.ensemble(CASE, GAP, partial(vi.sweeps, frequencies=GRID), 4),
     }
     for draw, one in data.items():
@@ -157,7 +157,7 @@ def test_no_eta_where_the_motion_without_stops_is_unbounded():
     assert rig.published
     for draw, data in (
         (figures.resonance_curves, vi.sweep(rig, GRID)),
-        (figures.branch_diagram, vi.branch(rig, frequency=2.0, span=SPAN)),
+        (figures.branch_diagram, vi.branch(rig, frequency=2.0, vary={"frequency": SPAN})),
         (figures.resonance_bands, vi.ensemble(rig, GAP, partial(vi.sweeps, frequencies=GRID), 4)),
     ):
         assert "eta" not in " ".join(labels(draw(data)))

@@ -24,7 +24,7 @@ def test_over_a_parameter_of_two_rigs():
 
 
 def test_of_a_bifurcation_diagram_and_over_the_frequency():
-    found = vi.bifurcation_diagram("B3-10mm-A3", "gap", (4.8e-3, 5e-3), 3, frequency=1.12)
+    found = vi.bifurcation_diagram("B3-10mm-A3", {"gap": (4.8e-3, 5e-3)}, 3, frequency=1.12)
     ax = exponent_curves(found.sel(start="up"))
     np.testing.assert_array_equal(ax.lines[0].get_ydata(), found["exponents"][0, :, 0])
     ax = exponent_curves(vi.lyapunov_exponents("B2-G1-A3", [1.0, 2.0], 64), title="two")

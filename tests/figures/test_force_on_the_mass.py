@@ -145,7 +145,7 @@ def test_without_units_the_frequency_is_angular_and_the_ratio_is_the_same() -> N
 
 
 def test_branches_are_drawn_by_it() -> None:
-    along = vi.branch(RIG, span=(3.0, 6.0))
+    along = vi.branch(RIG, vary={"frequency": (3.0, 6.0)})
     ax = branch_diagram(along, quantity="transmissibility", sweep=swept())
     assert ax.get_ylabel() == "transmissibility of the force (–)"
     assert branch_diagram(along, quantity="peak_transmitted_force").get_ylabel().endswith("(kN)")

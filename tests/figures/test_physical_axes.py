@@ -91,7 +91,7 @@ def test_without_contact_there_is_no_panel_of_forces() -> None:
 def test_a_branch_in_engineers_units() -> None:
     start = swept(BUILDING)["section"].sel(direction="forward").isel(frequency=4)
     shaken = vi.Harmonic("0.12 g", 0.4)
-    data = vi.branch(vi.Rig(BUILDING, shaken), start, span=(0.38, 0.42))
+    data = vi.branch(vi.Rig(BUILDING, shaken), start, vary={"frequency": (0.38, 0.42)})
     for quantity, unit, factor in (
         ("peak_acceleration", "(g)", 1.0 / GRAVITY),
         ("peak_displacement", "(mm)", 1e3),
@@ -101,9 +101,7 @@ def test_a_branch_in_engineers_units() -> None:
         assert ax.get_ylabel().endswith(unit)
         most = max(line.get_ydata().max() for line in ax.lines if len(line.get_ydata()) > 1)
         assert most == pytest.approx(factor * float(data[quantity].max()), rel=1e-12)
-    stiff = vi.branch(
-        vi.Rig(BUILDING, shaken), start, span=(31e6, 32e6), parameter="isolator.stiffness"
-    )
+    stiff = vi.branch(vi.Rig(BUILDING, shaken), start, vary={"isolator.stiffness": (31e6, 32e6)})
     assert branch_diagram(stiff).get_xlabel().endswith("(MN/m)")
 
 

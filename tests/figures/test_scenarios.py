@@ -23,8 +23,7 @@ def made() -> xr.Dataset:
     """A map in four quarters, S2, S4, S6 and nodes that are not known yet."""
     data = vi.scenario_map(
         None,
-        ("stiffness_ratio", np.geomspace(1.0, 4.0, 3)),
-        ("gap_ratio", [0.6, 0.7, 0.8]),
+        {"stiffness_ratio": np.geomspace(1.0, 4.0, 3), "gap_ratio": [0.6, 0.7, 0.8]},
         step=0.05,
     )
     kinds = np.full((N, N), -1, dtype=np.int8)
@@ -97,7 +96,7 @@ def test_border_marks_and_lines():
 
 def test_physical_axes_have_units():
     data = made().rename(stiffness_ratio="stops.stiffness", gap_ratio="gap")
-    other = vi.scenario_map(None, ("stops.stiffness", [1.0, 2.0]), ("gap", [0.5, 1.0]), step=0.05)
+    other = vi.scenario_map(None, {"stops.stiffness": [1.0, 2.0], "gap": [0.5, 1.0]}, step=0.05)
     for name in ("stops.stiffness", "gap"):
         data[name].attrs = other[name].attrs
     ax = scenario_map(data)
@@ -152,8 +151,7 @@ def test_the_same_map_makes_the_same_file(tmp_path):
 def test_the_words_beside_a_colour_bar_are_whole():
     small = vi.scenario_map(
         None,
-        ("stiffness_ratio", np.geomspace(1.0, 4.0, 3)),
-        ("gap_ratio", [0.6, 0.7, 0.8]),
+        {"stiffness_ratio": np.geomspace(1.0, 4.0, 3), "gap_ratio": [0.6, 0.7, 0.8]},
         step=0.05,
     )
     figure = Figure(figsize=(6.0, 5.0), layout="constrained")

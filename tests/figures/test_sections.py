@@ -18,13 +18,13 @@ CASE = vi.laboratory.case("B3-10mm-A3")
 @cache
 def diagram(section: str = "stroboscopic") -> xr.Dataset:
     return vi.bifurcation_diagram(
-        CASE, "gap", (4.7e-3, 5e-3), 7, frequency=1.12, random=1, section=section
+        CASE, {"gap": (4.7e-3, 5e-3)}, 7, frequency=1.12, random=1, section=section
     )
 
 
 @cache
 def branch() -> xr.Dataset:
-    return vi.branch(CASE, frequency=1.12, span=(4.7e-3, 5.1e-3), parameter="gap")
+    return vi.branch(CASE, frequency=1.12, vary={"gap": (4.7e-3, 5.1e-3)})
 
 
 def points(ax) -> np.ndarray:
@@ -106,7 +106,7 @@ def test_bifurcations_of_branches_are_marked():
 
 def test_a_logarithmic_axis():
     data = vi.bifurcation_diagram(
-        CASE, "stops.stiffness", (1e4, 1e6), 5, frequency=3.5, log=True, directions="up"
+        CASE, {"stops.stiffness": (1e4, 1e6)}, 5, frequency=3.5, log=True, directions="up"
     )
     top, _, _ = section_diagram(data)
     assert top.get_xscale() == "log"

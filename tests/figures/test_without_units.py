@@ -76,7 +76,7 @@ def test_motions(motion):
 
 
 def test_branches_and_their_sweep_agree():
-    data = vi.resonance_diagram(RIG, (0.12, 0.24))
+    data = vi.resonance_diagram(RIG, {"frequency": (0.12, 0.24)})
     ax = figures.branch_diagram(data)
     assert ax.get_xlabel() == "excitation frequency $\\omega$"
     assert ax.get_xlim() == pytest.approx((math.tau * 0.12, math.tau * 0.24))

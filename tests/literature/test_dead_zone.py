@@ -41,7 +41,9 @@ def test_the_resonance_curve(ratio: float) -> None:
 def test_it_is_followed_as_a_branch() -> None:
     ends = [ratio * RATE / math.tau for ratio in (0.6, 0.9)]
     start = vi.State(dead_zone_amplitude(0.75), 0.0)
-    data = vi.branch(vi.Rig(DEAD_ZONE, dead_zone_shaken(0.75)), start, span=(ends[0], ends[1]))
+    data = vi.branch(
+        vi.Rig(DEAD_ZONE, dead_zone_shaken(0.75)), start, vary={"frequency": (ends[0], ends[1])}
+    )
     frequency = data["frequency"].values
     assert (frequency.min(), frequency.max()) == pytest.approx(tuple(ends))
     expected = [dead_zone_amplitude(f * math.tau / RATE) for f in frequency]

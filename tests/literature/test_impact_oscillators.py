@@ -97,7 +97,7 @@ def _followed(
 ) -> tuple[vi.Oscillator, vi.Harmonic, xr.Dataset]:
     """The branch of the faster of its orbits."""
     rig, (shaken, start) = budd_dux_rig(one), budd_dux_start(fastest(one))
-    return rig, shaken, vi.branch(vi.Rig(rig, shaken), start, span=span)
+    return rig, shaken, vi.branch(vi.Rig(rig, shaken), start, vary={"frequency": span})
 
 
 def _curve(
@@ -122,8 +122,7 @@ def _curve(
     found = vi.bifurcation_curve(
         vi.Rig(rig, shaken),
         data.isel(bifurcation=i),
-        spans=((0.1, 1.0), (low, high)),
-        parameters=("frequency", other),
+        vary={"frequency": (0.1, 1.0), other: (low, high)},
     )
     assert float(found[other].min()) == pytest.approx(low, abs=1e-12)
     assert float(found[other].max()) == pytest.approx(high, rel=1e-12)

@@ -152,7 +152,7 @@ def test_the_map_agrees_with_the_tests_at_their_places():
     for a in ACCELERATIONS:
         ratios, gaps = table.stiffness_ratio[a], table.gap[a]
         data = vi.scenario_map(
-            None, ("stiffness_ratio", list(ratios.values())), ("gap_ratio", list(gaps.values()))
+            None, {"stiffness_ratio": list(ratios.values()), "gap_ratio": list(gaps.values())}
         )
         names = np.array(data["scenario"].attrs["flag_meanings"].split())
         for i, g in enumerate(gaps):

@@ -195,7 +195,7 @@ def test_the_period_as_a_parameter_keeps_the_damping_ratio():
 def test_a_branch_follows_the_period_and_a_curve_does_not():
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.0)
-    data = vi.branch(case, frequency="2 Hz", span=(0.6, 1.2), parameter="isolator_period")
+    data = vi.branch(case, frequency="2 Hz", vary={"isolator_period": (0.6, 1.2)})
     mass, isolator = case.oscillator.mass, case.oscillator.isolator
     ratio = isolator.damping / (2.0 * (isolator.stiffness * mass) ** 0.5)
     for k in (0, data.sizes["point"] // 2, -1):
@@ -204,7 +204,7 @@ def test_a_branch_follows_the_period_and_a_curve_does_not():
         state = data["section"].isel(point=k)
         after = vi.simulate(vi.Rig(here, shaken), 1, state, samples=0)["final_state"]
         assert after[:2].values == pytest.approx(state[:2].values, abs=1e-9)
-    data = vi.branch(case, frequency="2 Hz", span=(3e5, 1e6), parameter="stiffness_at_restitution")
+    data = vi.branch(case, frequency="2 Hz", vary={"stiffness_at_restitution": (3e5, 1e6)})
     begun = case.oscillator.right
     for k in (0, data.sizes["point"] // 2, -1):
         stiffness = float(data["stiffness_at_restitution"][k])

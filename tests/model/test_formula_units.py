@@ -61,7 +61,7 @@ def test_numbers_print_with_their_units() -> None:
 def test_points_of_a_branch_are_motions_of_rigs_with_that_number(
     name: str, span: tuple[float, float]
 ) -> None:
-    found = vi.branch(RIG, parameter=name, span=span, frequency="1.2 Hz")
+    found = vi.branch(RIG, vary={name: span}, frequency="1.2 Hz")
     whose, _, number = name.rpartition(".")
     fields = ("right", "left") if whose == "stops" else (whose.removeprefix("stops."),)
     for point in (0, found.sizes["point"] // 2, -1):
@@ -94,7 +94,7 @@ def test_points_of_a_branch_are_motions_of_rigs_with_that_number(
 )
 def test_refused(name: str, span: tuple[float, float], told: str) -> None:
     with pytest.raises(vi.InputError, match=told):
-        vi.branch(RIG, parameter=name, span=span, frequency="1.2 Hz")
+        vi.branch(RIG, vary={name: span}, frequency="1.2 Hz")
 
 
 def test_a_formula_of_a_built_in_law_has_the_parameters_of_that_law() -> None:
@@ -103,7 +103,7 @@ def test_a_formula_of_a_built_in_law_has_the_parameters_of_that_law() -> None:
     with pytest.raises(
         vi.InputError, match=r"'isolator.k3' is unknown; .*isolator.stiffness, .*isolator.cubic"
     ):
-        vi.branch(rig, parameter="isolator.k3", span=(1.0, 2.0), frequency=0.1)
+        vi.branch(rig, vary={"isolator.k3": (1.0, 2.0)}, frequency=0.1)
 
 
 def named_like_built_in() -> vi.Rig:
@@ -154,7 +154,7 @@ def test_a_number_of_a_formula_has_no_meaning_by_its_name(name: str) -> None:
 def test_unequal_stops_have_no_common_number() -> None:
     unequal = RIG.with_parts(RIG.oscillator.replace(left=STOP.replace(ks=1e5)))
     with pytest.raises(vi.InputError, match=r"'right\.ks' or 'left\.ks'"):
-        vi.branch(unequal, parameter="stops.ks", span=(1e5, 2e5), frequency="1.2 Hz")
+        vi.branch(unequal, vary={"stops.ks": (1e5, 2e5)}, frequency="1.2 Hz")
 
 
 def test_stops_whose_numbers_have_other_units_have_no_common_number() -> None:
@@ -162,7 +162,7 @@ def test_stops_whose_numbers_have_other_units_have_no_common_number() -> None:
     left = vi.Law("p*d + q*d**3", gap=0.01, q=1e5, p=1e5)
     rig = RIG.with_parts(RIG.oscillator.replace(right=right, left=left))
     with pytest.raises(vi.InputError, match=r"units of q, N/m and N/m.*'right.q' or 'left.q'"):
-        vi.branch(rig, parameter="stops.q", span=(1e5, 2e5), frequency="1.2 Hz")
+        vi.branch(rig, vary={"stops.q": (1e5, 2e5)}, frequency="1.2 Hz")
 
 
 @pytest.mark.parametrize(
@@ -187,10 +187,10 @@ SOFT = RIG.with_parts(RIG.oscillator.replace(isolator=SOFTENING))
 @pytest.mark.full
 def test_a_branch_ends_at_the_bound_beyond_which_there_is_no_such_law() -> None:
     least = sample(1e-4, 0.03)
-    found = vi.branch(SOFT, parameter="isolator.a", span=(least, 0.1), frequency="1.2 Hz")
+    found = vi.branch(SOFT, vary={"isolator.a": (least, 0.1)}, frequency="1.2 Hz")
     assert float(found["isolator.a"].min()) == least
     with pytest.raises(vi.InputError, match=r"isolator\.a at 0: isolator\.formula: column 17"):
-        vi.branch(SOFT, parameter="isolator.a", span=(0.0, 0.1), frequency="1.2 Hz")
+        vi.branch(SOFT, vary={"isolator.a": (0.0, 0.1)}, frequency="1.2 Hz")
 
 
 @pytest.mark.full
@@ -199,8 +199,7 @@ def test_designs_and_basins_vary_numbers_of_formulas() -> None:
         SOFT,
         ("-20 mm", "20 mm"),
         ("-0.1 m/s", "0.1 m/s"),
-        parameter="isolator.a",
-        values=["4 cm", "6 cm"],
+        vary={"isolator.a": ["4 cm", "6 cm"]},
         states=16,
         frequency="1.2 Hz",
     )
@@ -219,4 +218,4 @@ def test_a_number_called_as_that_of_a_bumper_is_varied_alone() -> None:
 
 def test_a_misspelt_parameter_gets_a_suggestion() -> None:
     with pytest.raises(vi.InputError, match=r"did you mean stops.stiffness\?"):
-        vi.branch("B2-G1-A3", parameter="stops.stifness", span=(1.0, 2.0), frequency=1.0)
+        vi.branch("B2-G1-A3", vary={"stops.stifness": (1.0, 2.0)}, frequency=1.0)

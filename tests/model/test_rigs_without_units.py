@@ -227,11 +227,11 @@ def test_a_record_with_a_unit_needs_a_rig_with_units(tmp_path):
     with pytest.raises(InputError, match=r"was read without a unit, but the rig has units"):
         vi.Rig(vi.Oscillator(2, SOFT), bare)
     for call in (
-        lambda: vi.demands(stated, [vi.Record([0, 1, 0], 0.1)], gaps=["5 mm", "6 mm"]),
+        lambda: vi.demands(stated, [vi.Record([0, 1, 0], 0.1)], vary={"gap": ["5 mm", "6 mm"]}),
         lambda: vi.demands(stated, [vi.Record([0, 1, 0], 0.1)], ["0.1 g"], intensity="pga"),
         lambda: vi.design_chart(vi.Rig(stated, 0.5), {"gap": ["5 mm", "6 mm"]}),
     ):
-        with pytest.raises(InputError, match=r"^(gaps|scales): .* has a unit, but the rig has"):
+        with pytest.raises(InputError, match=r"^(vary\['gap'\]|scales): .* has a unit, but"):
             call()
     assert "unit_system" not in vi.demands(vi.Oscillator(1, SOFT), record).attrs
 

@@ -27,7 +27,7 @@ def test_every_point_comes_back_to_itself(motion: Motion, phase: float) -> None:
     shaken = motion.excitation.replace(phase=phase)
     low, high = 0.6 * shaken.frequency, 1.5 * shaken.frequency
     try:
-        data = vi.branch(vi.Rig(rig, shaken), span=(low, high), most_points=400)
+        data = vi.branch(vi.Rig(rig, shaken), vary={"frequency": (low, high)}, most_points=400)
     except vi.InputError:  # the motion from rest does not settle
         assume(False)
     for name in ("ended_low", "ended_high"):

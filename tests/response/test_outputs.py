@@ -110,7 +110,7 @@ def test_files_keep_outputs(tmp_path):
 
 def test_a_bifurcation_diagram_has_outputs_and_draws_them():
     data = vi.bifurcation_diagram(
-        "B3-10mm-A3", "frequency", (1.0, 1.3), 4, outputs={"power": POWER, "top": top_speed}
+        "B3-10mm-A3", {"frequency": (1.0, 1.3)}, 4, outputs={"power": POWER, "top": top_speed}
     )
     assert data["power"].dims == ("start", "frequency")
     swept = vi.sweep("B3-10mm-A3", [1.3], "forward", outputs={"power": POWER})
@@ -126,9 +126,11 @@ def test_a_bifurcation_diagram_has_outputs_and_draws_them():
 def test_branches_have_outputs_of_orbits_and_bifurcations(function):
     outputs = {"power": POWER}
     if function == "branch":
-        data = vi.branch(RIG, frequency=2.0, span=(1.6, 2.8), outputs=outputs)
+        data = vi.branch(RIG, frequency=2.0, vary={"frequency": (1.6, 2.8)}, outputs=outputs)
     else:
-        data = vi.resonance_diagram(RIG, (2.4, 2.8), starts=3, random=0, outputs=outputs)
+        data = vi.resonance_diagram(
+            RIG, {"frequency": (2.4, 2.8)}, starts=3, random=0, outputs=outputs
+        )
     assert data["power"].dims == ("point",)
     assert np.isfinite(data["power"]).all()
     here = int(np.abs(data["frequency"].values - 2.45).argmin())

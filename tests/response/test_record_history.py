@@ -220,13 +220,13 @@ def test_a_tail_is_for_records() -> None:
     [
         lambda rig, record: vi.orbit(vi.Rig(rig, record)),
         lambda rig, record: vi.steady(vi.Rig(rig, record)),
-        lambda rig, record: vi.branch(vi.Rig(rig, record), span=(1.0, 2.0)),
+        lambda rig, record: vi.branch(vi.Rig(rig, record), vary={"frequency": (1.0, 2.0)}),
         lambda rig, record: vi.lyapunov_exponents([vi.Rig(rig, record)], [1.0]),
         lambda rig, record: vi.sweeps([vi.Rig(rig, record)], [1.0]),
         lambda rig, record: vi.sweep(vi.Rig(rig, record), [1.0]),
         lambda rig, record: vi.coexisting_motions(vi.Rig(rig, record)),
         lambda rig, record: vi.classify_scenario(vi.Rig(rig, record)),
-        lambda rig, record: vi.resonance_diagram(vi.Rig(rig, record), [1.0, 2.0]),
+        lambda rig, record: vi.resonance_diagram(vi.Rig(rig, record), {"frequency": [1.0, 2.0]}),
     ],
 )
 def test_where_a_period_is_asked_a_record_is_refused(ask) -> None:

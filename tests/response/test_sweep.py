@@ -100,7 +100,9 @@ class TestDataset:
             scales = [(data[name] / data[f"{size}_excursion"]).values for data in (wide, narrow)]
             np.testing.assert_allclose(np.concatenate(scales, axis=1), scales[0][0, 0], rtol=1e-14)
         if damping == 1100.0:
-            orbit = vi.branch(vi.Rig(rig, vi.Harmonic(case.amplitude, 2.2)), span=(2.1, 2.3))
+            orbit = vi.branch(
+                vi.Rig(rig, vi.Harmonic(case.amplitude, 2.2)), vary={"frequency": (2.1, 2.3)}
+            )
             i = int(np.argmin(np.abs(orbit["frequency"].values - 2.2)))
             scale = float(orbit["eta_d"][i] / orbit["displacement_excursion"][i])
             assert scale == pytest.approx(

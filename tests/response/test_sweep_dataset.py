@@ -95,7 +95,9 @@ def test_peaks_are_the_larger_ends() -> None:
 def test_a_branch_has_them_too() -> None:
     rig = RIGS["bumpers"]
     held = vi.sweep(vi.Rig(rig, 0.5), [FREQUENCY], "forward").isel(direction=0, frequency=0)
-    orbit = vi.branch(vi.Rig(rig, vi.Harmonic(0.5, FREQUENCY)), held["section"], span=(1.49, 1.51))
+    orbit = vi.branch(
+        vi.Rig(rig, vi.Harmonic(0.5, FREQUENCY)), held["section"], vary={"frequency": (1.49, 1.51)}
+    )
     at = int(np.argmin(np.abs(orbit["frequency"].values - FREQUENCY)))
     for name in ("peak_displacement", "peak_acceleration", "peak_force_right"):
         assert float(orbit[name][at]) == pytest.approx(float(held[name]), rel=1e-2)

@@ -157,7 +157,7 @@ def test_a_machine_on_its_mounts(ratio: float) -> None:
     mounts = vi.Isolator(800.0 * natural**2, 2.0 * ratio * 800.0 * natural)
     rig = vi.Rig(vi.Oscillator(800.0, mounts), "0.4 kg m")
     swept = vi.sweep(rig, np.linspace(1.0, 14.0, 60))
-    along = vi.branch(rig, frequency="6 Hz", span=(1.0, 14.0))
+    along = vi.branch(rig, frequency="6 Hz", vary={"frequency": (1.0, 14.0)})
     for data in (swept, along):
         r = data["frequency"] / 4.0
         distance = np.hypot((1.0 - r) * (1.0 + r), 2.0 * ratio * r)
@@ -198,13 +198,10 @@ def test_the_unbalance_that_just_grazes_follows_the_resonance() -> None:
     stop = vi.Bumper("3 MN/m", "10 kN s/m", "6 mm")
     mounts = vi.Isolator(800.0 * natural**2, 0.12 * 800.0 * natural)
     rig = vi.Rig(vi.Oscillator(800.0, mounts, stop, stop), "0.8 kg m")
-    along = vi.branch(rig, frequency="3.5 Hz", span=(3.2, 3.9))
+    along = vi.branch(rig, frequency="3.5 Hz", vary={"frequency": (3.2, 3.9)})
     grazing = along.isel(bifurcation=list(along["bifurcation_kind"]).index("grazing"))
     curve = vi.bifurcation_curve(
-        rig.at("3.5 Hz"),
-        grazing,
-        parameters=("frequency", "amplitude"),
-        spans=((3.2, 4.6), (0.3, 1.5)),
+        rig.at("3.5 Hz"), grazing, vary={"frequency": (3.2, 4.6), "amplitude": (0.3, 1.5)}
     )
     assert np.ptp(curve["frequency"].values) > 1.0
     r = curve["frequency"] / 4.0
@@ -215,7 +212,7 @@ def test_the_unbalance_that_just_grazes_follows_the_resonance() -> None:
 
 def test_along_a_branch_it_is_that_of_the_orbits() -> None:
     rig = vi.Rig(RIGS["bumpers"], "0.045 kg m", "12 Hz")
-    along = vi.branch(rig, span=(6.0, 14.0))
+    along = vi.branch(rig, vary={"frequency": (6.0, 14.0)})
     for i in range(0, along.sizes["point"], max(1, along.sizes["point"] // 6)):
         one = along.isel(point=i)
         orbit = vi.orbit(rig, one["section"], frequency=float(one["frequency"]))

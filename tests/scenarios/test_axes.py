@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.scenarios.axes import NAMES, Base, axis, check_pair, logarithmic
+from vibroimpact.scenarios.axes import NAMES, Base, logarithmic, read_axes
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SINE = vi.Harmonic(CASE.amplitude, 1.0)
@@ -86,48 +86,71 @@ def test_logarithmic_axes_are_refined_geometrically():
     assert not logarithmic(np.linspace(0.5, 100, 9))
     assert not logarithmic(np.linspace(1.0, 1.02, 9))
     assert not logarithmic(np.linspace(0.0, 1.0, 9))
-    fine = axis(("stiffness_ratio", [1.0, 4.0, 16.0]), "x").refined(1)
-    np.testing.assert_allclose(fine.values, [1, 2, 4, 8, 16])
-    fine = axis(("gap_ratio", [0.0, 0.5, 1.0]), "x").refined(2)
-    np.testing.assert_allclose(fine.values, np.linspace(0, 1, 9))
+    x, y = read_axes({"stiffness_ratio": [1.0, 4.0, 16.0], "gap_ratio": [0.0, 0.5, 1.0]}, None)
+    np.testing.assert_allclose(x.refined(1).values, [1, 2, 4, 8, 16])
+    np.testing.assert_allclose(y.refined(2).values, np.linspace(0, 1, 9))
     # Of two values only the user knows.
+    ends = {"damping_ratio": [0.1, 0.2], "stiffness_ratio": [1.0, 100.0]}
     for spacing, middle in (("log", 10.0), ("linear", 50.5)):
-        fine = axis(("stiffness_ratio", [1.0, 100.0], spacing), "x").refined(1)
-        assert fine.values[1] == pytest.approx(middle)
+        x, y = read_axes(ends, {"stiffness_ratio": spacing})
+        assert y.refined(1).values[1] == pytest.approx(middle)
+        assert x.refined(1).values[1] == pytest.approx(0.15)
 
 
 @pytest.mark.parametrize(
-    ("given", "message"),
+    ("name", "values", "message"),
     [
-        ("gap", "is not an axis"),
-        (("gap",), "is not an axis"),
-        (("gip", [1, 2]), "'gip'; one of gap, amplitude"),
-        (("gap", "1:2"), "is not a list"),
-        (("gap", [0.01, 0.02], "cubic"), "is not an axis"),
-        (("gap_ratio", [0.0, 1.0], "log"), r"x\[0\]: 0 is not possible on a logarithmic axis"),
-        (("gap", [0.01]), "the list has one value; pass at least two values"),
-        (("gap", [0.01, 0.01]), r"x\[1\]: 10 mm follows 10 mm; sort the values in increasing"),
-        (("gap", [-0.01, 0.01]), r"x\[0\]"),
-        (("stiffness_ratio", [0.0, 1.0]), r"x\[0\]"),
-        (("gap", [0.01, "2 kg"]), r"x\[1\].*is a mass"),
-        (("damping_ratio", [0.1, 0.8]), r"x\[1\].*no resonance peak"),
+        ("gip", [1, 2], "^vary: 'gip'; one of gap, amplitude"),
+        ("gap_rtio", [1, 2], r"^vary: 'gap_rtio'; did you mean gap_ratio\?"),
+        ("gap", "1:2", r"^vary\['gap'\]: '1:2' is not a list; pass at least two values"),
+        ("gap", [0.01], r"^vary\['gap'\]: the list has one value; pass at least two values"),
+        ("gap", [0.01, 0.01], r"^vary\['gap'\]\[1\]: 10 mm follows 10 mm; sort the values in "),
+        ("gap", [-0.01, 0.01], r"^vary\['gap'\]\[0\]"),
+        ("stiffness_ratio", [0.0, 1.0], r"^vary\['stiffness_ratio'\]\[0\]"),
+        ("gap", [0.01, "2 kg"], r"^vary\['gap'\]\[1\].*is a mass"),
+        ("damping_ratio", [0.1, 0.8], r"^vary\['damping_ratio'\]\[1\].*no resonance peak"),
     ],
 )
-def test_what_cannot_be_an_axis_is_refused(given, message):
+def test_what_cannot_be_an_axis_is_refused(name, values, message):
+    other = {"relaxation_time": [0.01, 0.02]}
+    for vary in ({name: values, **other}, {**other, name: values}):
+        with pytest.raises(vi.InputError, match=message):
+            read_axes(vary, None)
+
+
+@pytest.mark.parametrize(
+    ("spacing", "message"),
+    [
+        ("log", '^spacing: \'log\'; pass a dict of "log" or "linear" by parameter'),
+        ({"gap": "cubic"}, r"^spacing\['gap'\]: 'cubic'; one of log, linear is accepted"),
+        ({"amplitude": "log"}, "^spacing: 'amplitude' is not an axis of this map; one of gap, "),
+        ({"gpa": "log"}, "^spacing: 'gpa'; one of gap, amplitude"),
+        ({"gap": "log"}, r"^vary\['gap'\]\[0\]: 0 is not possible on a logarithmic axis"),
+    ],
+)
+def test_a_spacing_that_cannot_be_is_refused(spacing, message):
     with pytest.raises(vi.InputError, match=message):
-        axis(given, "x")
+        read_axes({"gap": [0.0, 1.0], "damping_ratio": [0.1, 0.2]}, spacing)
 
 
 def test_text_with_units():
-    np.testing.assert_allclose(axis(("gap", ["5 mm", "0.01 m"]), "x").values, [5e-3, 10e-3])
+    x, _ = read_axes({"gap": ["5 mm", "0.01 m"], "damping_ratio": [0.1, 0.2]}, None)
+    np.testing.assert_allclose(x.values, [5e-3, 10e-3])
 
 
-def test_axes_that_do_not_go_together():
-    gap, ratio = axis(("gap", [0, 1]), "x"), axis(("gap_ratio", [0, 1]), "y")
-    with pytest.raises(vi.InputError, match=r"^y: 'gap_ratio' varies the same quantity as 'gap'"):
-        check_pair(gap, ratio)
-    with pytest.raises(vi.InputError, match=r"^y: 'gap' is also the parameter of x"):
-        check_pair(gap, gap)
+@pytest.mark.parametrize(
+    ("vary", "message"),
+    [
+        ({"gap": [0, 1], "gap_ratio": [0, 1]}, "'gap_ratio' varies the same quantity as 'gap'"),
+        ({"gap": [0, 1], "stops.gap": [0, 1]}, "'gap' and 'stops.gap' are the same parameter"),
+        ({"gap": [0, 1]}, "'gap'; pass a dict of values by parameter, with two parameters, such"),
+        ({}, "no parameter; pass a dict"),
+        (("gap", [0, 1]), r"\('gap', \[0, 1\]\); pass a dict"),
+    ],
+)
+def test_axes_that_do_not_go_together(vary, message):
+    with pytest.raises(vi.InputError, match=f"^vary: {message}"):
+        read_axes(vary, None)
 
 
 def test_a_base_without_bumpers_is_refused():

@@ -18,8 +18,7 @@ def test_the_border_of_jumps_is_the_cusp_of_the_folds():
     delta = vi.to_dimensionless(rig_of(case)).right.gap
     data = vi.scenario_map(
         rig_of(case),
-        ("stiffness_ratio", np.geomspace(1.0, 4.0, 9)),
-        ("gap_ratio", [delta, delta + 0.2]),
+        {"stiffness_ratio": np.geomspace(1.0, 4.0, 9), "gap_ratio": [delta, delta + 0.2]},
         step=0.02,
     )
     told = []
@@ -43,5 +42,5 @@ def test_the_border_of_jumps_is_the_cusp_of_the_folds():
 
 
 def test_a_map_without_such_a_border():
-    data = vi.scenario_map(None, ("damping_ratio", [0.1, 0.2]), ("relaxation_time", [0.01, 0.02]))
+    data = vi.scenario_map(None, {"damping_ratio": [0.1, 0.2], "relaxation_time": [0.01, 0.02]})
     assert jump_border(data).sizes["border_point"] == 0

@@ -59,7 +59,7 @@ def test_the_dataset_has_the_variables_of_a_map_and_those_of_the_sweep():
     assert found["confidence"].item() == inside.confidence
     assert found["fold_frequency"].values.tolist() == list(inside.features.folds)
     nodes = vi.scenario_map(
-        None, ("stiffness_ratio", [25.9, 26.0]), ("gap_ratio", [0.5, 0.6]), step=0.1
+        None, {"stiffness_ratio": [25.9, 26.0], "gap_ratio": [0.5, 0.6]}, step=0.1
     )
     assert {str(name) for name in nodes} - {"level"} <= {str(name) for name in found}
     assert found["eta_a"].identical(inside.sweep["eta_a"])

@@ -84,10 +84,11 @@ def test_a_part_of_the_branch_tells_what_the_whole_one_tells(monkeypatch):
 
     monkeypatch.setattr(map_node, "with_folds", both_ways)
     side = sample(14, 7)
-    gaps = ("gap_ratio", np.linspace(0.02, 0.97, side))
-    vi.scenario_map(None, ("stiffness_ratio", np.geomspace(0.7, 6.0, side)), gaps, threads=1)
+    gaps = {"gap_ratio": np.linspace(0.02, 0.97, side)}
+    hard = {"stiffness_ratio": np.geomspace(0.7, 6.0, side)}
+    vi.scenario_map(None, {**hard, **gaps}, threads=1)
     light = vi.from_dimensionless(3.0, 0.5, 0.01, 0.05)
-    vi.scenario_map(light, ("relaxation_time", np.geomspace(0.001, 1.0, 4)), gaps, threads=1)
+    vi.scenario_map(light, {"relaxation_time": np.geomspace(0.001, 1.0, 4), **gaps}, threads=1)
     thresholds = Thresholds()
     assert len(asked) > sample(60, 15)
     assert any(whole.folds for whole, _ in asked)

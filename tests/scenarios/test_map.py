@@ -15,7 +15,7 @@ import xarray as xr
 import zarr
 
 import vibroimpact as vi
-from scenarios.small_map import OPTIONS, X, Y, rig_of, small
+from scenarios.small_map import AXES, OPTIONS, rig_of, small
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.scenarios import map as mapping
 from vibroimpact.scenarios.axes import one_sine
@@ -76,7 +76,7 @@ def test_every_variable_is_described():
 
 def test_no_result_depends_on_threads_or_blocks_or_where_it_is_kept(tmp_path):
     for name, options in (("one", {"threads": 1, "block": 2}), ("big", {"threads": 3, "block": 9})):
-        data = vi.scenario_map(None, X, Y, **{**OPTIONS, **options}, store=tmp_path / name)
+        data = vi.scenario_map(None, AXES, **{**OPTIONS, **options}, store=tmp_path / name)
         xr.testing.assert_equal(data.load(), small())
 
 
@@ -89,13 +89,13 @@ def test_many_rigs_go_to_processes_by_themselves(monkeypatch):
         return executors.placed(threads, where)
 
     monkeypatch.setattr(mapping, "placed", placed)
-    for most in (len(X[1]) * len(Y[1]), len(X[1]) * len(Y[1]) + 1):
+    for most in (20, 21):
         monkeypatch.setattr(mapping, "_MANY", most)
-        data = vi.scenario_map(None, X, Y, **OPTIONS, threads=2)
+        data = vi.scenario_map(None, AXES, **OPTIONS, threads=2)
         xr.testing.assert_identical(data, small())
     assert asked == ["threads", "processes", "threads", "threads"]
     monkeypatch.setattr(mapping, "_MANY", 1)
-    vi.scenario_map(None, X, Y, **OPTIONS, threads=1)
+    vi.scenario_map(None, AXES, **OPTIONS, threads=1)
     assert asked[4:] == ["threads", "threads"]
 
 
@@ -109,14 +109,14 @@ def test_a_map_that_was_stopped_is_completed_to_the_same(tmp_path):
                 raise KeyboardInterrupt
 
         try:
-            vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map", progress=stop)
+            vi.scenario_map(None, AXES, **OPTIONS, store=tmp_path / "map", progress=stop)
         except KeyboardInterrupt:
             stops += 1
     assert stops >= 3
     held = zarr.open_group(tmp_path / "map", mode="r")
     done = int(np.asarray(held["done"][:]).sum())
     assert done > 0
-    data = vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map")
+    data = vi.scenario_map(None, AXES, **OPTIONS, store=tmp_path / "map")
     xr.testing.assert_identical(data.load(), small())
 
 
@@ -125,8 +125,8 @@ def test_a_process_that_was_killed(tmp_path):
     """At any moment, without a chance to tidy up."""
     code = (
         "import numpy as np, vibroimpact as vi\n"
-        "vi.scenario_map(None, ('stiffness_ratio', np.geomspace(1.0, 64.0, 4)),"
-        f" ('gap_ratio', np.linspace(0.0, 1.0, 5)), **{OPTIONS!r}, store='map')\n"
+        "vi.scenario_map(None, {'stiffness_ratio': np.geomspace(1.0, 64.0, 4),"
+        f" 'gap_ratio': np.linspace(0.0, 1.0, 5)}}, **{OPTIONS!r}, store='map')\n"
     )
     kills = 0
     for delay in (0.0, 0.4, 1.0):
@@ -143,7 +143,7 @@ def test_a_process_that_was_killed(tmp_path):
             kills += 1
         child.wait()
     assert kills
-    data = vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map")
+    data = vi.scenario_map(None, AXES, **OPTIONS, store=tmp_path / "map")
     xr.testing.assert_identical(data.load(), small())
 
 
@@ -163,19 +163,20 @@ def test_a_process_that_was_killed(tmp_path):
 )
 def test_wrong_values_are_refused(options, message):
     with pytest.raises(vi.InputError, match=message):
-        vi.scenario_map(**{"rig": None, "x": X, "y": Y, **OPTIONS, **options})
+        vi.scenario_map(**{"rig": None, "vary": AXES, **OPTIONS, **options})
 
 
 def test_a_physical_map_agrees_with_the_dimensionless_one():
     """The same nodes, reached through gap and bumper stiffness of a laboratory rig."""
     case = vi.laboratory.case("B3-10mm-A3")
     peak = case.oscillator.right.gap / vi.to_dimensionless(rig_of(case)).right.gap
-    stiffness = [ratio * case.oscillator.isolator.stiffness for ratio in X[1][2:]]
-    gaps = [ratio * peak for ratio in Y[1][1:4]]
+    stiffness = [
+        ratio * case.oscillator.isolator.stiffness for ratio in AXES["stiffness_ratio"][2:]
+    ]
+    gaps = [ratio * peak for ratio in AXES["gap_ratio"][1:4]]
     data = vi.scenario_map(
         rig_of(case),
-        ("proportional_stiffness", stiffness),
-        ("gap", gaps),
+        {"proportional_stiffness": stiffness, "gap": gaps},
         step=OPTIONS["step"],
         block=2,
     )
@@ -187,7 +188,7 @@ def test_a_physical_map_agrees_with_the_dimensionless_one():
 @pytest.mark.full
 def test_progress_counts_up(tmp_path):
     told = []
-    vi.scenario_map(None, X, Y, **OPTIONS, progress=lambda *at: told.append(at))
+    vi.scenario_map(None, AXES, **OPTIONS, progress=lambda *at: told.append(at))
     done = [d for d, _ in told]
     assert done == sorted(done)
     assert [t for _, t in told] == sorted(t for _, t in told)

@@ -22,15 +22,15 @@ from vibroimpact.scenarios import map_store
 from vibroimpact.stores import zarr_store
 
 # What is kept does not depend on how much it is.
-X, Y = ("stiffness_ratio", [1.0, 16.0]), ("gap_ratio", [0.2, 0.6, 0.9])
+AXES = {"stiffness_ratio": [1.0, 16.0], "gap_ratio": [0.2, 0.6, 0.9]}
 OPTIONS = {"refine": 1, "block": 2, "step": 0.05}
 
 
 def test_a_finished_map_is_read_and_not_computed(tmp_path):
-    first = vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map").load()
+    first = vi.scenario_map(None, AXES, **OPTIONS, store=tmp_path / "map").load()
     told = []
     again = vi.scenario_map(
-        None, X, Y, **OPTIONS, store=tmp_path / "map", progress=lambda *at: told.append(at)
+        None, AXES, **OPTIONS, store=tmp_path / "map", progress=lambda *at: told.append(at)
     )
     xr.testing.assert_identical(again.load(), first)
     assert told == []
@@ -47,11 +47,11 @@ def test_a_finished_map_is_read_and_not_computed(tmp_path):
 )
 def test_a_store_with_another_map_is_refused_and_kept(tmp_path, changes, field):
     store = tmp_path / "map"
-    first = vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
+    first = vi.scenario_map(None, AXES, **OPTIONS, store=store).load()
     told = rf"store: .* contains a map with other values of {field};"
     with pytest.raises(vi.InputError, match=told):
-        vi.scenario_map(x=X, y=Y, store=store, **{"rig": None, **OPTIONS, **changes})
-    xr.testing.assert_identical(vi.scenario_map(None, X, Y, **OPTIONS, store=store).load(), first)
+        vi.scenario_map(vary=AXES, store=store, **{"rig": None, **OPTIONS, **changes})
+    xr.testing.assert_identical(vi.scenario_map(None, AXES, **OPTIONS, store=store).load(), first)
 
 
 def test_what_is_no_map_is_refused_and_kept(tmp_path):
@@ -61,15 +61,15 @@ def test_what_is_no_map_is_refused_and_kept(tmp_path):
     zarr.open_group(tmp_path / "other", mode="w").create_array("a", shape=(2,), dtype="f8")
     for name in ("folder", "file", "other"):
         with pytest.raises(vi.InputError, match=r"store: .* exists, but contains no readable map"):
-            vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / name)
+            vi.scenario_map(None, AXES, **OPTIONS, store=tmp_path / name)
     assert (tmp_path / "folder" / "mine").read_text() == "kept"
     with pytest.raises(vi.InputError, match=r"store: .* cannot be written .*does not exist"):
-        vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "missing" / "map")
+        vi.scenario_map(None, AXES, **OPTIONS, store=tmp_path / "missing" / "map")
     for wrong in (3, "a\0b"):
         with pytest.raises(
             vi.InputError, match=r"store: .* is not a path; pass the path of a folder"
         ):
-            vi.scenario_map(None, X, Y, **OPTIONS, store=wrong)
+            vi.scenario_map(None, AXES, **OPTIONS, store=wrong)
 
 
 def test_a_store_in_use_is_refused(tmp_path):
@@ -79,10 +79,10 @@ def test_a_store_in_use_is_refused(tmp_path):
     def second(done: int, total: int) -> None:
         if not refused:
             with pytest.raises(vi.InputError, match="being written by another process") as error:
-                vi.scenario_map(None, X, Y, **OPTIONS, store=store)
+                vi.scenario_map(None, AXES, **OPTIONS, store=store)
             refused.append(error)
 
-    vi.scenario_map(None, X, Y, **OPTIONS, store=store, progress=second)
+    vi.scenario_map(None, AXES, **OPTIONS, store=store, progress=second)
     assert refused
 
 
@@ -97,14 +97,14 @@ def test_what_a_killed_process_leaves_does_no_harm(tmp_path):
             if done:
                 os.kill(os.getpid(), signal.SIGKILL)
         vi.scenario_map(
-            None, {X!r}, {Y!r}, **{OPTIONS!r}, store={str(store)!r}, progress=kill
+            None, {AXES!r}, **{OPTIONS!r}, store={str(store)!r}, progress=kill
         )
     """
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], check=False)
     assert done.returncode == -signal.SIGKILL
     assert lock.exists()
-    again = vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
-    xr.testing.assert_identical(again, vi.scenario_map(None, X, Y, **OPTIONS).load())
+    again = vi.scenario_map(None, AXES, **OPTIONS, store=store).load()
+    xr.testing.assert_identical(again, vi.scenario_map(None, AXES, **OPTIONS).load())
     assert not lock.exists()
 
 
@@ -112,7 +112,7 @@ def test_what_a_killed_process_leaves_does_no_harm(tmp_path):
 def whole(tmp_path_factory):
     """A finished map in a folder, and the same in memory."""
     store = tmp_path_factory.mktemp("whole") / "map"
-    return store, vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
+    return store, vi.scenario_map(None, AXES, **OPTIONS, store=store).load()
 
 
 def chunks(array):
@@ -143,7 +143,7 @@ DAMAGES = [remove, replace_by_folder, truncate, flip]
 
 def mended(store):
     with pytest.warns(vi.InputWarning, match=r"is damaged; \d of its 2 parts are computed again"):
-        return vi.scenario_map(None, X, Y, **OPTIONS, store=store).load()
+        return vi.scenario_map(None, AXES, **OPTIONS, store=store).load()
 
 
 CASES = [("scenario", damage) for damage in DAMAGES] + [("gap_ratio", flip), ("level", remove)]
@@ -156,14 +156,14 @@ def test_a_damaged_file_is_made_again(whole, tmp_path, array, damage):
     xr.testing.assert_identical(mended(store), whole[1])
     with warnings.catch_warnings():  # and is whole then
         warnings.simplefilter("error")
-        vi.scenario_map(None, X, Y, **OPTIONS, store=store)
+        vi.scenario_map(None, AXES, **OPTIONS, store=store)
 
 
 @pytest.mark.parametrize("damage", sample(DAMAGES, DAMAGES[::3]))
 def test_damage_after_opening_is_an_error_in_one_line(whole, tmp_path, damage):
     """Values of a map with a store are read when they are used, which may be much later."""
     shutil.copytree(whole[0], store := tmp_path / "map")
-    opened = vi.scenario_map(None, X, Y, **OPTIONS, store=store)
+    opened = vi.scenario_map(None, AXES, **OPTIONS, store=store)
     damage(chunks(store / "extent")[0])
     said = r"store: '.*map' was damaged after it was opened \(extent: .+\); .* damaged parts again"
     for part in (opened.extent, opened.extent[1, :2], opened.isel(gap_ratio=[0, 2]).extent):
@@ -176,7 +176,7 @@ def test_damage_after_opening_is_an_error_in_one_line(whole, tmp_path, damage):
 
 def test_parts_that_are_read_later_are_those_of_the_map(whole):
     """In every way of indexing that xarray has."""
-    opened = vi.scenario_map(None, X, Y, **OPTIONS, store=whole[0])
+    opened = vi.scenario_map(None, AXES, **OPTIONS, store=whole[0])
     rows, columns = xr.DataArray([0, 2, 1], dims="k"), xr.DataArray([1, 1, 0], dims="k")
     for part in (
         lambda data: data.extent[1:, ::2],
@@ -198,10 +198,10 @@ def test_what_is_interrupted_leaves_no_files_of_its_own(tmp_path, monkeypatch):
         # Its own only: an interrupt within the threads of zarr would never come back.
         patch.setattr(zarr_store, "os", SimpleNamespace(replace=interrupt))
         with pytest.raises(KeyboardInterrupt):
-            vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map")
+            vi.scenario_map(None, AXES, **OPTIONS, store=tmp_path / "map")
     assert list(tmp_path.iterdir()) == []
     with pytest.raises(KeyboardInterrupt):
-        vi.scenario_map(None, X, Y, **OPTIONS, store=tmp_path / "map", progress=interrupt)
+        vi.scenario_map(None, AXES, **OPTIONS, store=tmp_path / "map", progress=interrupt)
     assert [path.name for path in tmp_path.iterdir()] == ["map"]
 
 
@@ -212,7 +212,7 @@ def test_a_lost_mark_costs_a_block_at_most(whole, tmp_path, damage):
         damage(file)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", vi.InputWarning)
-        again = vi.scenario_map(None, X, Y, **OPTIONS, store=store)
+        again = vi.scenario_map(None, AXES, **OPTIONS, store=store)
     xr.testing.assert_identical(again.load(), whole[1])
 
 
@@ -246,7 +246,7 @@ def test_a_folder_whose_own_description_is_damaged_is_refused(whole, tmp_path, c
         content = json.dumps(held)
     file.write_text(content)
     with pytest.raises(vi.InputError, match=r"contains no readable map|contains a map with other"):
-        vi.scenario_map(None, X, Y, **OPTIONS, store=store)
+        vi.scenario_map(None, AXES, **OPTIONS, store=store)
 
 
 @pytest.mark.full
@@ -260,7 +260,7 @@ def test_every_flipped_bit_of_a_chunk_is_noticed(whole, tmp_path):
         files[i].write_bytes(content)
         with pytest.warns(vi.InputWarning, match="is damaged"):
             xr.testing.assert_identical(
-                vi.scenario_map(None, X, Y, **OPTIONS, store=store).load(), whole[1]
+                vi.scenario_map(None, AXES, **OPTIONS, store=store).load(), whole[1]
             )
 
 
@@ -287,10 +287,10 @@ def test_a_write_that_was_killed_in_between_is_no_damage(whole, tmp_path):
     zarr_store.write_block(group, map_store._KIND, place, {"extent": np.full((4, 3), 7.0)})
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        after = vi.scenario_map(None, X, Y, **OPTIONS, store=store).extent.values
+        after = vi.scenario_map(None, AXES, **OPTIONS, store=store).extent.values
         assert (after[:4] == 7.0).all()
         file.write_bytes(before)
-        again = vi.scenario_map(None, X, Y, **OPTIONS, store=store)
+        again = vi.scenario_map(None, AXES, **OPTIONS, store=store)
         xr.testing.assert_identical(again.load(), whole[1])
     group["extent"][place] = np.full((4, 3), 8.0)
     xr.testing.assert_identical(mended(store), whole[1])
@@ -299,24 +299,24 @@ def test_a_write_that_was_killed_in_between_is_no_damage(whole, tmp_path):
 def test_a_link_is_the_folder_that_it_leads_to(tmp_path):
     """Also for the lock, or two processes could write one map."""
     (tmp_path / "link").symlink_to(tmp_path / "map", target_is_directory=True)
-    axes = ("stiffness_ratio", [1.0, 2.0]), ("gap_ratio", [0.5, 0.6])
+    axes = {"stiffness_ratio": [1.0, 2.0], "gap_ratio": [0.5, 0.6]}
     refused = []
 
     def second(done: int, total: int) -> None:
         if not refused:
             with pytest.raises(vi.InputError, match="being written by another process") as error:
-                vi.scenario_map(None, *axes, step=0.05, store=tmp_path / "map")
+                vi.scenario_map(None, axes, step=0.05, store=tmp_path / "map")
             refused.append(error)
 
-    vi.scenario_map(None, *axes, step=0.05, store=tmp_path / "link", progress=second)
+    vi.scenario_map(None, axes, step=0.05, store=tmp_path / "link", progress=second)
     assert refused
     assert (tmp_path / "map" / "zarr.json").is_file()
     assert {p.name for p in tmp_path.iterdir()} == {"link", "map"}
 
 
 def test_a_store_of_another_version_is_refused(tmp_path, monkeypatch):
-    axes = ("stiffness_ratio", [1.0, 2.0]), ("gap_ratio", [0.5, 0.6])
-    vi.scenario_map(None, *axes, step=0.05, store=tmp_path / "map")
+    axes = {"stiffness_ratio": [1.0, 2.0], "gap_ratio": [0.5, 0.6]}
+    vi.scenario_map(None, axes, step=0.05, store=tmp_path / "map")
     monkeypatch.setattr(zarr_store, "__version__", "99.0")
     with pytest.raises(vi.InputError, match=r"of version .* of vibroimpact, but this is version"):
-        vi.scenario_map(None, *axes, step=0.05, store=tmp_path / "map")
+        vi.scenario_map(None, axes, step=0.05, store=tmp_path / "map")

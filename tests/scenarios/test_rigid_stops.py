@@ -38,7 +38,7 @@ def test_the_range_of_a_rigid_stop_is_bounded_by_energy_or_at_last() -> None:
 
 def test_a_map_over_what_a_rigid_stop_has() -> None:
     data = vi.scenario_map(
-        vi.Rig(between(0.5), 1.0), ("gap_ratio", [0.7, 1.2]), ("restitution", [0.4, 0.8]), step=0.05
+        vi.Rig(between(0.5), 1.0), {"gap_ratio": [0.7, 1.2], "restitution": [0.4, 0.8]}, step=0.05
     )
     assert data["scenario"].sel(gap_ratio=1.2).values.tolist() == [0, 0]
     assert (data["scenario"].sel(gap_ratio=0.7).values > 0).all()
@@ -60,19 +60,19 @@ def test_nodes_change_what_each_stop_has() -> None:
 
 @pytest.mark.parametrize("name", ["stops.stiffness", "proportional_stiffness", "relaxation_time"])
 def test_a_rigid_stop_has_no_stiffness_to_map_over(name: str) -> None:
-    axes = (name, [1.0, 2.0]), ("gap_ratio", [0.5, 1.0])
+    axes = {name: [1.0, 2.0], "gap_ratio": [0.5, 1.0]}
     with pytest.raises(
         vi.InputError, match=f"^rig: '{name}' applies to bumpers, but this rig has none"
     ):
-        vi.scenario_map(vi.Rig(between(0.5), 1.0), *axes)
+        vi.scenario_map(vi.Rig(between(0.5), 1.0), axes)
 
 
 def test_a_bumper_has_no_restitution_to_map_over() -> None:
     rig = FREE.replace(right=vi.Bumper(20.0, 0.4, 0.5))
-    axes = ("restitution", [0.1, 0.2]), ("gap_ratio", [0.5, 1.0])
+    axes = {"restitution": [0.1, 0.2], "gap_ratio": [0.5, 1.0]}
     with pytest.raises(
         vi.InputError, match=r"^rig: .stops\.restitution. applies to rigid stops, but"
     ):
-        vi.scenario_map(vi.Rig(rig, 1.0), *axes)
-    with pytest.raises(vi.InputError, match=r"^x\[1\]: 1\.2"):
-        vi.scenario_map(vi.Rig(rig, 1.0), ("restitution", [0.1, 1.2]), axes[1])
+        vi.scenario_map(vi.Rig(rig, 1.0), axes)
+    with pytest.raises(vi.InputError, match=r"^vary\['restitution'\]\[1\]: 1\.2"):
+        vi.scenario_map(vi.Rig(rig, 1.0), {**axes, "restitution": [0.1, 1.2]})

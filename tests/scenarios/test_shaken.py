@@ -154,8 +154,7 @@ def test_a_map_is_made_of_such_rigs(shaken: vi.Harmonic) -> None:
     sizes = [0.5 * shaken.amplitude, 2.0 * shaken.amplitude]
     data = vi.scenario_map(
         vi.Rig(CASE.oscillator, shaken),
-        ("amplitude", sizes),
-        ("stiffness_ratio", [1.0, 20.0]),
+        {"amplitude": sizes, "stiffness_ratio": [1.0, 20.0]},
         step=0.02,
     )
     units, name = {
@@ -182,8 +181,7 @@ def test_a_map_is_made_of_such_rigs(shaken: vi.Harmonic) -> None:
 def test_the_unit_of_an_unbalance_is_that_of_its_axis() -> None:
     data = vi.scenario_map(
         vi.Rig(CASE.oscillator, UNBALANCE),
-        ("amplitude", ["1 kg m", "2 kg m"]),
-        ("stiffness_ratio", [1.0, 20.0]),
+        {"amplitude": ["1 kg m", "2 kg m"], "stiffness_ratio": [1.0, 20.0]},
         step=0.1,
     )
     assert data["amplitude"].attrs["units"] == "kg m"
@@ -196,8 +194,7 @@ def test_the_border_of_jumps_is_the_same_under_a_force() -> None:
     delta = vi.to_dimensionless(vi.Rig(CASE.oscillator, CASE.amplitude)).right.gap
     data = vi.scenario_map(
         vi.Rig(CASE.oscillator, FORCE),
-        ("stiffness_ratio", np.geomspace(1.4, 2.0, 3)),
-        ("gap_ratio", [delta, delta + 0.2]),
+        {"stiffness_ratio": np.geomspace(1.4, 2.0, 3), "gap_ratio": [delta, delta + 0.2]},
         step=0.02,
     )
     border = jump_border(data)
@@ -225,4 +222,4 @@ def test_what_has_no_scenario_is_refused(oscillator, amplitude, message) -> None
     with pytest.raises(vi.InputError, match=message):
         classify(vi.Rig(oscillator, amplitude))
     with pytest.raises(vi.InputError, match=message):
-        vi.scenario_map(vi.Rig(oscillator, amplitude), ("gap", [1e-3, 2e-3]), ("amplitude", [1, 2]))
+        vi.scenario_map(vi.Rig(oscillator, amplitude), {"gap": [1e-3, 2e-3], "amplitude": [1, 2]})

@@ -12,7 +12,9 @@ import vibroimpact as vi
 @cache
 def diagram(code: str, low: float = 0.3, high: float = 4.0, phase: float = 0.0):
     case = vi.laboratory.case(code)
-    return vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (low, high), phase=phase)
+    return vi.resonance_diagram(
+        vi.Rig(case.oscillator, case.amplitude), {"frequency": (low, high)}, phase=phase
+    )
 
 
 def values(data, kind: str) -> np.ndarray:

@@ -151,7 +151,7 @@ def test_a_steady_motion_is_its_orbit() -> None:
 
 def test_a_branch_of_one_mass_is_the_oscillators() -> None:
     branches = [
-        vi.branch(alone(STOPS["bumpers"], assembled=assembled), span=(0.9, 2.2))
+        vi.branch(alone(STOPS["bumpers"], assembled=assembled), vary={"frequency": (0.9, 2.2)})
         for assembled in (False, True)
     ]
     one, several = branches
@@ -172,7 +172,7 @@ def test_a_branch_of_one_mass_is_the_oscillators() -> None:
 
 def test_a_branch_without_contacts_is_the_linear_response() -> None:
     assembly = frame(gap=1.0)
-    found = vi.branch(vi.Rig(assembly, SHAKING), span=(0.4, 3.0))
+    found = vi.branch(vi.Rig(assembly, SHAKING), vary={"frequency": (0.4, 3.0)})
     m, c, k = assembly.mass_matrix, assembly.damping_matrix, assembly.stiffness_matrix
     assert found.sizes["bifurcation"] == 0
     for i in range(0, found.sizes["point"], 7):
@@ -193,13 +193,13 @@ def test_a_branch_without_contacts_is_the_linear_response() -> None:
 
 def test_amplitudes_are_followed_and_other_parameters_refused() -> None:
     rig = vi.Rig(frame(), SHAKING)
-    found = vi.branch(rig, parameter="amplitude", span=(0.2, 2.0))
+    found = vi.branch(rig, vary={"amplitude": (0.2, 2.0)})
     assert found["displacement_max"].dims == ("point", "mass")
     assert "grazing" in found["bifurcation_kind"].values
     with pytest.raises(vi.InputError, match="along 'frequency' or 'amplitude' so far"):
-        vi.branch(rig, parameter="gap", span=(0.01, 0.02))
+        vi.branch(rig, vary={"gap": (0.01, 0.02)})
     with pytest.raises(vi.InputError, match="outputs: own outputs are not computed"):
-        vi.branch(rig, span=(0.5, 1.0), outputs={"top": "max(velocity)"})
+        vi.branch(rig, vary={"frequency": (0.5, 1.0)}, outputs={"top": "max(velocity)"})
 
 
 def damper(*, zeta: float, mass: float, e: float, clearance: float) -> vi.Rig:
@@ -246,7 +246,7 @@ def test_an_impact_damper_is_that_of_its_formula() -> None:
 def test_a_pair_of_multipliers_leaves_the_unit_circle() -> None:
     """Beyond Neimark–Sacker the motion beside the orbit spirals away from it, as told."""
     rig = damper(zeta=0.01, mass=0.05, e=0.75, clearance=30.0)
-    found = vi.branch(rig, span=(0.157, 0.182))
+    found = vi.branch(rig, vary={"frequency": (0.157, 0.182)})
     kinds = found["bifurcation_kind"].values
     assert "Neimark-Sacker" in kinds
     place = list(kinds).index("Neimark-Sacker")

@@ -17,7 +17,9 @@ def case():
 
 @cache
 def diagram():
-    return vi.resonance_diagram(vi.Rig(case().oscillator, case().amplitude), (0.8, 4.0))
+    return vi.resonance_diagram(
+        vi.Rig(case().oscillator, case().amplitude), {"frequency": (0.8, 4.0)}
+    )
 
 
 def one(kind: str, number: int = -1):
@@ -31,8 +33,7 @@ def curve(kind: str, other: str, low: float, high: float, number: int = -1):
     return vi.bifurcation_curve(
         vi.Rig(case().oscillator, vi.Harmonic(case().amplitude, 2.0)),
         one(kind, number),
-        spans=((0.3, 6.0), (low, high)),
-        parameters=("frequency", other),
+        vary={"frequency": (0.3, 6.0), other: (low, high)},
     )
 
 
@@ -52,7 +53,7 @@ def test_folds_are_those_of_the_branches_beside_it():
     for gap in (6e-3, 9e-3):
         rig = case().oscillator
         rig = rig.replace(right=rig.right.replace(gap=gap), left=rig.left.replace(gap=gap))
-        beside = vi.resonance_diagram(vi.Rig(rig, case().amplitude), (1.0, 5.0))
+        beside = vi.resonance_diagram(vi.Rig(rig, case().amplitude), {"frequency": (1.0, 5.0)})
         folds = beside["bifurcation_value"].values[beside["bifurcation_kind"].values == "fold"]
         order = np.argsort(data["gap"].values)
         here = np.interp(gap, data["gap"].values[order], data["frequency"].values[order])
@@ -79,7 +80,7 @@ def test_both_folds_meet_in_a_cusp():
             stiffness=stiffness, damping=rig.right.damping * stiffness / rig.right.stiffness
         )
         rig = rig.replace(right=bumper, left=bumper)
-        found = vi.resonance_diagram(vi.Rig(rig, case().amplitude), (1.2, 3.0))
+        found = vi.resonance_diagram(vi.Rig(rig, case().amplitude), {"frequency": (1.2, 3.0)})
         counts.append(int((found["bifurcation_kind"] == "fold").sum()))
     assert counts == [0, 2]
 
@@ -90,16 +91,27 @@ def test_multipliers_stay_critical():
     assert distance.max() < 1e-5
 
 
+def test_the_parameter_of_the_start_is_the_first_whatever_the_order():
+    rig = vi.Rig(case().oscillator, vi.Harmonic(case().amplitude, 2.0))
+    both = {"gap": (7e-3, 8e-3), "frequency": (0.3, 6.0)}
+    one_way, other = (
+        vi.bifurcation_curve(rig, one("fold"), vary=vary)
+        for vary in (both, dict(reversed(both.items())))
+    )
+    assert one_way.attrs["parameter"] == "frequency"
+    assert one_way.attrs["other_parameter"] == "gap"
+    assert one_way.identical(other)
+
+
 def test_symmetry_breaking_and_period_doubling():
     rig = vi.laboratory.case("B3-10mm-A3")
-    found = vi.resonance_diagram(vi.Rig(rig.oscillator, rig.amplitude), (0.9, 1.4))
+    found = vi.resonance_diagram(vi.Rig(rig.oscillator, rig.amplitude), {"frequency": (0.9, 1.4)})
     for kind, critical in (("symmetry breaking", 1.0), ("period doubling", -1.0)):
         row = int(np.flatnonzero(found["bifurcation_kind"].values == kind)[0])
         data = vi.bifurcation_curve(
             vi.Rig(rig.oscillator, vi.Harmonic(rig.amplitude, 1.2)),
             found.isel(bifurcation=row),
-            spans=((0.5, 2.0), (0.47, 0.51)),
-            parameters=("frequency", "amplitude"),
+            vary={"frequency": (0.5, 2.0), "amplitude": (0.47, 0.51)},
         )
         assert data.sizes["point"] > 3
         distance = np.abs(data["multiplier_real"].values - critical).min(axis=1)
@@ -109,14 +121,30 @@ def test_symmetry_breaking_and_period_doubling():
 @pytest.mark.parametrize(
     ("wrong", "told"),
     [
-        ({"parameters": ("gap", "frequency")}, "parameters"),
-        ({"parameters": ("frequency", "frequency")}, "twice"),
-        ({"parameters": ("frequency", "mass")}, "no curve can be followed along 'mass'"),
-        ({"spans": ((0.3, 6.0), (1.0, 2e-2))}, r"spans\[1\]\[1\]: 0\.02 m is not greater than"),
-        ({"spans": ((0.3, 6.0), (1e-2, 2e-2))}, "does not contain"),
+        ({"vary": {"frequency": (0.3, 6.0)}}, r"^vary: 'frequency'; .*, with two parameters, such"),
         (
-            {"parameters": ("frequency", "gap_ratio"), "spans": ((0.3, 6.0), (0.4, 0.5))},
-            "does not contain",
+            {"vary": {"gap": (1e-3, 2e-2), "stops.gap": (1e-3, 2e-2)}},
+            r"^vary: 'gap' and 'stops\.gap' are the same parameter",
+        ),
+        (
+            {"vary": {"gap": (1e-3, 2e-2), "amplitude": (0.3, 0.6)}},
+            "^vary: neither 'gap' nor 'amplitude' is .*; pass 'frequency' and another one",
+        ),
+        (
+            {"vary": {"frequency": (0.3, 6.0), "mass": (500, 600)}},
+            "^vary: no curve can be followed along 'mass'",
+        ),
+        (
+            {"vary": {"frequency": (0.3, 6.0), "gap": (1.0, 2e-2)}},
+            r"^vary\['gap'\]\[1\]: 0\.02 m is not greater than vary\['gap'\]\[0\], 1 m",
+        ),
+        (
+            {"vary": {"frequency": (0.3, 6.0), "gap": (1e-2, 2e-2)}},
+            r"^vary\['gap'\]: 10 mm to 20 mm does not contain the rig's gap of 7\.5 mm; widen",
+        ),
+        (
+            {"vary": {"frequency": (0.3, 6.0), "gap_ratio": (0.4, 0.5)}},
+            r"^vary\['gap_ratio'\]: 0\.4 to 0\.5 does not contain",
         ),
         ({"start": None}, "start"),
     ],
@@ -124,8 +152,7 @@ def test_symmetry_breaking_and_period_doubling():
 def test_refused(wrong, told):
     given = {
         "start": one("fold"),
-        "parameters": ("frequency", "gap"),
-        "spans": ((0.3, 6.0), (1e-3, 2e-2)),
+        "vary": {"frequency": (0.3, 6.0), "gap": (1e-3, 2e-2)},
         **wrong,
     }
     with pytest.raises(vi.InputError, match=told):
@@ -134,16 +161,13 @@ def test_refused(wrong, told):
 
 def test_no_symmetry_breaking_without_symmetry():
     case = vi.laboratory.case("B3-10mm-A3")
-    found = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (0.9, 1.4))
+    found = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), {"frequency": (0.9, 1.4)})
     row = int(np.flatnonzero(found["bifurcation_kind"].values == "symmetry breaking")[0])
-    with pytest.raises(
-        vi.InputError, match=r"parameters: 'stops\.right\.gap' makes the rig asymmetric"
-    ):
+    with pytest.raises(vi.InputError, match=r"^vary: 'stops\.right\.gap' makes the rig asymmetric"):
         vi.bifurcation_curve(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.2)),
             found.isel(bifurcation=row),
-            spans=((0.5, 2.0), (1e-3, 2e-2)),
-            parameters=("frequency", "stops.right.gap"),
+            vary={"frequency": (0.5, 2.0), "stops.right.gap": (1e-3, 2e-2)},
         )
 
 
@@ -151,14 +175,13 @@ def test_neimark_sacker():
     bumper = vi.Bumper(0.01, 0.2, 0.6)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), bumper, bumper)
     turn = 2 * np.pi
-    found = vi.resonance_diagram(vi.Rig(rig, 1.0), (1.0 / turn, 1.5 / turn))
+    found = vi.resonance_diagram(vi.Rig(rig, 1.0), {"frequency": (1.0 / turn, 1.5 / turn)})
     row = int(np.flatnonzero(found["bifurcation_kind"].values == "Neimark-Sacker")[0])
     seen = []
     data = vi.bifurcation_curve(
         vi.Rig(rig, vi.Harmonic(1.0, 1.2 / turn)),
         found.isel(bifurcation=row),
-        spans=((0.5 / turn, 2.0 / turn), (0.4, 0.9)),
-        parameters=("frequency", "gap"),
+        vary={"frequency": (0.5 / turn, 2.0 / turn), "gap": (0.4, 0.9)},
         progress=lambda *at: seen.append(at),
     )
     modulus = np.hypot(data["multiplier_real"], data["multiplier_imag"]).values[:, 0]
@@ -172,13 +195,12 @@ def test_grazing_of_one_bumper(side):
     rig = case().oscillator
     far = rig.right.replace(gap=1.0)
     rig = rig.replace(**{"left" if side == "right" else "right": far})
-    found = vi.resonance_diagram(vi.Rig(rig, case().amplitude), (1.2, 3.0))
+    found = vi.resonance_diagram(vi.Rig(rig, case().amplitude), {"frequency": (1.2, 3.0)})
     row = int(np.flatnonzero(found["bifurcation_kind"].values == "grazing")[-1])
     data = vi.bifurcation_curve(
         vi.Rig(rig, vi.Harmonic(case().amplitude, 2.0)),
         found.isel(bifurcation=row),
-        spans=((0.5, 5.0), (4e-3, 12e-3)),
-        parameters=("frequency", f"{side}.gap"),
+        vary={"frequency": (0.5, 5.0), f"{side}.gap": (4e-3, 12e-3)},
     )
     omega = 2 * np.pi * data["frequency"].values
     k, c = rig.isolator.stiffness / rig.mass, rig.isolator.damping / rig.mass
@@ -193,13 +215,10 @@ def test_grazing_of_rigid_stops_in_closed_form(left, other, low, high):
     rig = vi.Oscillator(550.0, vi.Isolator(26.8e3, 1.1e3), vi.RigidStop(0.6, 0.025), left)
     shaken = vi.Harmonic("0.05 g", 3.0)
     whole = vi.Rig(rig, shaken)
-    found = vi.branch(whole, span=(0.6, 3.0))
+    found = vi.branch(whole, vary={"frequency": (0.6, 3.0)})
     i = int(np.flatnonzero(found["bifurcation_kind"].values == "grazing")[0])
     data = vi.bifurcation_curve(
-        whole,
-        found.isel(bifurcation=i),
-        spans=((0.3, 6.0), (low, high)),
-        parameters=("frequency", other),
+        whole, found.isel(bifurcation=i), vary={"frequency": (0.3, 6.0), other: (low, high)}
     )
     assert data.sizes["point"] < 300
     for end in ("ended_low", "ended_high"):

@@ -21,7 +21,7 @@ def shaken(frequency: float, phase: float = 0.0) -> vi.Harmonic:
 
 @cache
 def over_frequency() -> xr.Dataset:
-    return vi.bifurcation_diagram(vi.Rig(RIG, shaken(1.2, 0.4)), "frequency", (1.05, 1.2), 16)
+    return vi.bifurcation_diagram(vi.Rig(RIG, shaken(1.2, 0.4)), {"frequency": (1.05, 1.2)}, 16)
 
 
 def changes(data: xr.Dataset, first: int, second: int) -> list[tuple[float, float]]:
@@ -42,7 +42,7 @@ def changes(data: xr.Dataset, first: int, second: int) -> list[tuple[float, floa
 def test_period_doublings_lie_where_branches_double(parameter, low, high, frequency):
     """Each change from period 1 to 2 holds a doubling of the branch of period 1."""
     whole = vi.Rig(RIG, shaken(frequency))
-    given = (whole, parameter, (low, high), sample(201, 41))
+    given = (whole, {parameter: (low, high)}, sample(201, 41))
     found = vi.bifurcation_diagram(*given, directions="up").isel(start=0)
     ends = changes(found, 1, 2)
     assert ends
@@ -57,7 +57,7 @@ def test_period_doublings_lie_where_branches_double(parameter, low, high, freque
             stop = RIG.right.replace(gap=float(middle[parameter]))
             rig = RIG.replace(right=stop, left=stop)
         branch = vi.branch(
-            vi.Rig(rig, excitation), middle["section"], span=(low, high), parameter=parameter
+            vi.Rig(rig, excitation), middle["section"], vary={parameter: (low, high)}
         )
         doubling = branch["bifurcation_kind"].values == "period doubling"
         at = branch["bifurcation_value"].values[doubling]
@@ -90,7 +90,7 @@ def test_single_values_are_those_of_steady(k):
 
 def test_impacts_are_those_of_steady():
     data = vi.bifurcation_diagram(
-        vi.Rig(RIG, shaken(1.2)), "amplitude", ("0.045 g", "0.05 g"), 3, section="impacts"
+        vi.Rig(RIG, shaken(1.2)), {"amplitude": ("0.045 g", "0.05 g")}, 3, section="impacts"
     ).isel(amplitude=-1, start=0)
     motion = vi.steady(
         vi.Rig(RIG, shaken(1.2).replace(amplitude=float(data["amplitude"]))), data["section"]
@@ -109,7 +109,7 @@ def test_the_mirror_image():
     rig = RIG.replace(left=RIG.left.replace(gap=6e-3))
     turned = rig.replace(right=rig.left, left=rig.right)
     one, other = (
-        vi.bifurcation_diagram(vi.Rig(given, shaken(1.3, phase)), "amplitude", (0.3, 0.6), 7)
+        vi.bifurcation_diagram(vi.Rig(given, shaken(1.3, phase)), {"amplitude": (0.3, 0.6)}, 7)
         for given, phase in ((rig, 0.2), (turned, 0.2 + np.pi))
     )
     settled = one["period"].values > 0
@@ -125,7 +125,7 @@ def test_up_is_down_where_there_is_one_motion():
     """Free flight, in closed form: |u| of the section, and exponents −C/2M."""
     rig = RIG.replace(right=None, left=None)
     span = ("10 kN/m", "40 kN/m")
-    data = vi.bifurcation_diagram(vi.Rig(rig, shaken(2.0)), "isolator.stiffness", span, 9)
+    data = vi.bifurcation_diagram(vi.Rig(rig, shaken(2.0)), {"isolator.stiffness": span}, 9)
     np.testing.assert_allclose(
         data["section_displacement"].sel(start="up"), data["section_displacement"].sel(start="down")
     )
@@ -140,7 +140,7 @@ def test_up_is_down_where_there_is_one_motion():
 
 
 def test_threads_and_seeds():
-    given = (vi.Rig(RIG, shaken(1.1)), "gap", (4e-3, 5e-3), 40)
+    given = (vi.Rig(RIG, shaken(1.1)), {"gap": (4e-3, 5e-3)}, 40)
     seen = []
     one, two = (
         vi.bifurcation_diagram(
@@ -164,14 +164,16 @@ def test_named_starts_find_what_coexists():
     case = vi.laboratory.case("B2-G1-A3")
     starts = {"rest": vi.State(), "far": vi.State(0.0, 0.5)}
     data = vi.bifurcation_diagram(
-        case, "gap", ("6 mm", "7.5 mm"), 3, frequency=2.4, starts=starts, directions=()
+        case, {"gap": ("6 mm", "7.5 mm")}, 3, frequency=2.4, starts=starts, directions=()
     )
     reach = data["displacement_max"].sel(gap=7.5e-3)
     assert float(reach.sel(start="rest")) < 7.5e-3 < float(reach.sel(start="far"))
 
 
 def test_a_motion_that_is_given_up():
-    data = vi.bifurcation_diagram(vi.Rig(RIG, shaken(0.5)), "gap", (4.9e-3, 5e-3), 2, max_events=6)
+    data = vi.bifurcation_diagram(
+        vi.Rig(RIG, shaken(0.5)), {"gap": (4.9e-3, 5e-3)}, 2, max_events=6
+    )
     assert (data["status"] == 2).all()
     assert (data["period"] == 0).all()
     assert data["section_displacement"].isnull().all()
@@ -181,8 +183,8 @@ def test_a_motion_that_is_given_up():
 @pytest.mark.parametrize(
     "wrong",
     [
-        {"parameter": "colour"},
-        {"span": (2e-3, 1e-3)},
+        {"vary": {"colour": (2e-3, 5e-3)}},
+        {"vary": {"gap": (2e-3, 1e-3)}},
         {"steps": 1},
         {"directions": "sideways"},
         {"directions": ()},
@@ -191,10 +193,10 @@ def test_a_motion_that_is_given_up():
         {"section": "poincare"},
         {"points": 0},
         {"threads": 0},
-        {"span": (0.0, 5e-3), "log": True},
+        {"vary": {"gap": (0.0, 5e-3)}, "log": True},
     ],
 )
 def test_refused(wrong):
-    given = {"parameter": "gap", "span": (2e-3, 5e-3)}
-    with pytest.raises(vi.InputError, match=next(iter(wrong))):
+    given = {"vary": {"gap": (2e-3, 5e-3)}}
+    with pytest.raises(vi.InputError, match=f"^{next(iter(wrong))}"):
         vi.bifurcation_diagram(vi.Rig(RIG, shaken(1.1)), **{**given, **wrong})

@@ -23,14 +23,13 @@ MODES = {0: 0.0, 1: 1.0, -1: 2.0}
 
 def beside_the_cusp(other: str, low: float, high: float):
     """The fold of B2-G1-A3 near 0.56 Hz over the frequency and another parameter."""
-    data = vi.resonance_diagram(vi.Rig(CASE.oscillator, CASE.amplitude), (0.4, 1.0))
+    data = vi.resonance_diagram(vi.Rig(CASE.oscillator, CASE.amplitude), {"frequency": (0.4, 1.0)})
     folds = np.flatnonzero(data["bifurcation_kind"].values == "fold")
     row = folds[np.argmin(np.abs(data["bifurcation_value"].values[folds] - 0.56038578))]
     return vi.bifurcation_curve(
         vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)),
         data.isel(bifurcation=int(row)),
-        spans=((0.3, 6.0), (low, high)),
-        parameters=("frequency", other),
+        vary={"frequency": (0.3, 6.0), other: (low, high)},
     )
 
 
@@ -63,15 +62,14 @@ def highest_fold(cubic: float, damping: float, stops: int):
     """The fold of the highest frequency, over frequency and amplitude."""
     found = vi.branch(
         vi.Rig(rig(cubic, damping, stops), vi.Harmonic(0.5, 3.9 / TURN)),
-        span=(1.0 / TURN, 4.0 / TURN),
+        vary={"frequency": (1.0 / TURN, 4.0 / TURN)},
     )
     folds = np.flatnonzero(found["bifurcation_kind"].values == "fold")
     row = folds[np.argmax(found["bifurcation_value"].values[folds])]
     return vi.bifurcation_curve(
         vi.Rig(rig(cubic, damping, stops), vi.Harmonic(0.5, 1.8 / TURN)),
         found.isel(bifurcation=int(row)),
-        spans=tuple(zip(LOW, HIGH, strict=True)),
-        parameters=("frequency", "amplitude"),
+        vary=dict(zip(("frequency", "amplitude"), zip(LOW, HIGH, strict=True), strict=True)),
     )
 
 
@@ -200,7 +198,9 @@ def at(side: np.ndarray, size: float) -> float:
 def folds_of_branch(cubic: float, damping: float, size: float) -> np.ndarray:
     """Ω of the folds on the branch at one amplitude, which knows nothing of the curve."""
     shaken = vi.Harmonic(size, 3.0 / TURN)
-    found = vi.branch(vi.Rig(rig(cubic, damping, 1), shaken), span=(0.9 / TURN, 3.0 / TURN))
+    found = vi.branch(
+        vi.Rig(rig(cubic, damping, 1), shaken), vary={"frequency": (0.9 / TURN, 3.0 / TURN)}
+    )
     return TURN * found["bifurcation_value"].values[found["bifurcation_kind"].values == "fold"]
 
 
@@ -226,19 +226,20 @@ def test_a_parameter_of_one_side_takes_the_symmetry():
     """The fold begins as that of a motion that is its own mirror image."""
     oscillator = CASE.oscillator
     shaken = vi.Harmonic(CASE.amplitude, 2.0)
-    found = vi.branch(vi.Rig(oscillator, shaken), span=(1.0, 4.0))
+    found = vi.branch(vi.Rig(oscillator, shaken), vary={"frequency": (1.0, 4.0)})
     row = list(found["bifurcation_kind"].values).index("fold")
     assert found["bifurcation_antisymmetric"][row]
     gap = oscillator.right.gap
     data = vi.bifurcation_curve(
         vi.Rig(oscillator, shaken),
         found.isel(bifurcation=row),
-        spans=((0.3, 6.0), (0.5 * gap, 1.5 * gap)),
-        parameters=("frequency", "stops.right.gap"),
+        vary={"frequency": (0.3, 6.0), "stops.right.gap": (0.5 * gap, 1.5 * gap)},
     )
     for wide in (0.6 * gap, 1.3 * gap):
         other = oscillator.replace(right=oscillator.right.replace(gap=wide))
-        beside = vi.branch(vi.Rig(other, vi.Harmonic(CASE.amplitude, 4.0)), span=(1.0, 4.0))
+        beside = vi.branch(
+            vi.Rig(other, vi.Harmonic(CASE.amplitude, 4.0)), vary={"frequency": (1.0, 4.0)}
+        )
         folds = beside["bifurcation_value"].values[beside["bifurcation_kind"].values == "fold"]
         order = np.argsort(data["stops.right.gap"].values)
         here = np.interp(
@@ -251,15 +252,14 @@ def test_a_parameter_of_one_side_takes_the_symmetry():
 def test_no_step_lands_on_the_curve_beside_it():
     """1e-5 from a grazing on its way, behind which motions with one contact more fold as well."""
     case = vi.laboratory.case("B3-10mm-A3")
-    found = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (0.9, 1.4))
+    found = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), {"frequency": (0.9, 1.4)})
     value, contacts = found["bifurcation_value"].values, found["bifurcation_contacts"].values
     folds = (found["bifurcation_kind"].values == "fold") & (contacts == "7R 4L")
     row = np.flatnonzero(folds & (np.abs(value - 1.0082179) < 1e-6))[0]
     data = vi.bifurcation_curve(
         vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.2)),
         found.isel(bifurcation=int(row)),
-        spans=((0.3, 3.0), (0.1, 2.0)),
-        parameters=("frequency", "amplitude"),
+        vary={"frequency": (0.3, 3.0), "amplitude": (0.1, 2.0)},
     )
     for k in range(data.sizes["point"]):
         shaken = vi.Harmonic(float(data["amplitude"][k]), float(data["frequency"][k]))

@@ -14,7 +14,9 @@ from stability.followed import diagram, remembering, values
 def test_neimark_sacker_with_a_long_memory(phase):
     """There a pair can cross the unit circle, and beyond it the motion is quasi-periodic."""
     turn = 2 * np.pi
-    data = vi.resonance_diagram(vi.Rig(remembering(), 1.0), (1.0 / turn, 1.8 / turn), phase=phase)
+    data = vi.resonance_diagram(
+        vi.Rig(remembering(), 1.0), {"frequency": (1.0 / turn, 1.8 / turn)}, phase=phase
+    )
     (value,) = values(data, "Neimark-Sacker")
     row = int(np.flatnonzero(data["bifurcation_kind"].values == "Neimark-Sacker")[0])
     pair = data.isel(bifurcation=row)
@@ -31,7 +33,7 @@ def test_no_pair_passes_the_circle_at_no_damping(left):
     stop = vi.Bumper(10.0, 0.0, 1.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop if left else None)
     shaken = vi.Harmonic(0.3, 1.3 / (2 * np.pi))
-    data = vi.branch(vi.Rig(rig, shaken), span=(0.0, 0.5), parameter="isolator.damping")
+    data = vi.branch(vi.Rig(rig, shaken), vary={"isolator.damping": (0.0, 0.5)})
     assert float(data["isolator.damping"].min()) == 0.0
     assert len(values(data, "Neimark-Sacker")) == 0
 
@@ -69,7 +71,7 @@ def test_two_folds_within_a_step(mirrored):
     natural = rig.natural_frequency
     data = vi.branch(
         vi.Rig(rig.mirrored() if mirrored else rig, vi.Harmonic(amplitude, 1.5 * natural)),
-        span=(0.4 * natural, 4.0 * natural),
+        vary={"frequency": (0.4 * natural, 4.0 * natural)},
     )
     low, high = values(data, "fold")[-2:]
     assert high - low < 1e-4 * natural

@@ -104,23 +104,29 @@ def test_grazing_of_a_damped_bumper_in_closed_form():
 def test_ends_are_told():
     case = vi.laboratory.case("B2-G1-A3")
     shaken = vi.Harmonic(case.amplitude, 2.0)
-    data = vi.branch(vi.Rig(case.oscillator, shaken), span=(1.9, 2.2), most_points=500)
+    data = vi.branch(
+        vi.Rig(case.oscillator, shaken), vary={"frequency": (1.9, 2.2)}, most_points=500
+    )
     assert "range ends at 1.9" in data.attrs["ended_low"] + data.attrs["ended_high"]
     assert float(data["frequency"].min()) == 1.9
-    short = vi.branch(vi.Rig(case.oscillator, shaken), span=(0.3, 5.0), most_points=4)
+    short = vi.branch(
+        vi.Rig(case.oscillator, shaken), vary={"frequency": (0.3, 5.0)}, most_points=4
+    )
     assert "4 points" in short.attrs["ended_low"]
 
 
 @pytest.mark.parametrize(
     ("wrong", "told"),
     [
-        ({"parameter": "colour"}, "parameter: 'colour' is unknown"),
-        ({"span": (3.0, 4.0)}, "does not contain"),
-        ({"span": (2.5, 2.4)}, "is not greater than"),
-        ({"span": ("1 mm", 4.0)}, r"span\[0\]"),
+        ({"vary": {"colour": (1.0, 2.0)}}, "^vary: 'colour' is unknown"),
+        (
+            {"vary": {"frequency": (3.0, 4.0)}},
+            r"^vary\['frequency'\]: 3 Hz to 4 Hz does not contain the rig's frequency of 2 Hz, at "
+            "which the first orbit lies; widen this range",
+        ),
         ({"period": 0}, "period"),
         ({"most_points": 1.5}, "most_points"),
-        ({"parameter": "stops.right.gap", "span": (0.0, 1e-3)}, "does not contain"),
+        ({"vary": {"right.gap": (0.0, 1e-3)}}, r"^vary\['right\.gap'\]: .* does not contain"),
     ],
 )
 def test_refused(wrong, told):
@@ -128,7 +134,7 @@ def test_refused(wrong, told):
     with pytest.raises(vi.InputError, match=told):
         vi.branch(
             vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)),
-            **{"span": (0.3, 4.0), **wrong},
+            **{"vary": {"frequency": (0.3, 4.0)}, **wrong},
         )
 
 
@@ -136,10 +142,8 @@ def test_a_parameter_that_the_bumpers_do_not_share():
     case = vi.laboratory.case("B2-G1-A3")
     rig = case.oscillator.replace(left=case.oscillator.left.replace(gap=6e-3))
     with pytest.raises(vi.InputError, match=r"'right\.gap' or 'left\.gap'"):
-        vi.branch(vi.Rig(rig, vi.Harmonic(0.5, 2.0)), span=(1e-3, 1e-2), parameter="gap")
-    data = vi.branch(
-        vi.Rig(rig, vi.Harmonic(0.5, 2.0)), span=(1e-3, 1e-2), parameter="stops.left.gap"
-    )
+        vi.branch(vi.Rig(rig, vi.Harmonic(0.5, 2.0)), vary={"gap": (1e-3, 1e-2)})
+    data = vi.branch(vi.Rig(rig, vi.Harmonic(0.5, 2.0)), vary={"stops.left.gap": (1e-3, 1e-2)})
     assert data.sizes["point"] > 5
 
 
@@ -151,7 +155,7 @@ def test_an_amplitude_is_followed_in_its_own_unit(amplitude, low, high, units) -
     """Of a linear rig the excursion is proportional to it; the gap over free flight the inverse."""
     rig = vi.laboratory.case("B2-Ginf-A3").oscillator
     shaken = vi.Harmonic(amplitude, "2 Hz")
-    data = vi.branch(vi.Rig(rig, shaken), span=(low, high), parameter="amplitude")
+    data = vi.branch(vi.Rig(rig, shaken), vary={"amplitude": (low, high)})
     assert data["amplitude"].attrs["units"] == units
     ratio = data["displacement_excursion"].values / data["amplitude"].values
     np.testing.assert_allclose(ratio, ratio[0], rtol=1e-10)

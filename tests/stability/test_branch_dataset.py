@@ -16,7 +16,8 @@ def test_an_orbit_without_extremes_is_told(monkeypatch):
         RuntimeWarning, match="largest values of the orbit at .* are unknown: .*max_events"
     ):
         data = vi.branch(
-            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)), span=(1.95, 2.05)
+            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)),
+            vary={"frequency": (1.95, 2.05)},
         )
     assert data["eta_d"].isnull().any()
 

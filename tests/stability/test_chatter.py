@@ -7,6 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from stability.followed import values
+from vibroimpact.model.varied import read_ranges
 from vibroimpact.stability import chatter
 from vibroimpact.stability.branch import _first_orbit
 
@@ -20,7 +21,7 @@ def ball(restitution):
 @pytest.fixture(scope="module")
 def bouncing():
     shaken = vi.Harmonic(12.0, 1.0)
-    return vi.branch(vi.Rig(ball(0.5), shaken), span=(5.0, 25.0), parameter="amplitude")
+    return vi.branch(vi.Rig(ball(0.5), shaken), vary={"amplitude": (5.0, 25.0)})
 
 
 def test_the_number_of_followed_impacts_of_a_chatter_is_no_grazing(bouncing):
@@ -47,7 +48,12 @@ def test_a_release_at_the_section_is_no_grazing():
     """A wall at the place of rest is left where the acceleration of the base changes its sign."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.02), vi.RigidStop(0.7, 0.0))
     found = [
-        values(vi.branch(vi.Rig(rig, vi.Harmonic(1.0, 0.05, phase)), span=(0.03, 0.064)), "grazing")
+        values(
+            vi.branch(
+                vi.Rig(rig, vi.Harmonic(1.0, 0.05, phase)), vary={"frequency": (0.03, 0.064)}
+            ),
+            "grazing",
+        )
         for phase in (0.0, 1.0)
     ]
     assert [len(one) for one in found] == [0, 0]
@@ -57,7 +63,7 @@ def test_a_grazing_of_the_other_wall_between_two_chatters_is_one():
     wall = vi.RigidStop(0.6, 0.05)
     rig = vi.Oscillator(1.0, vi.Isolator(0.0, 0.1), wall, wall, force=0.5)
     shaken = vi.Harmonic(1.0, 0.3)
-    data = vi.branch(vi.Rig(rig, shaken), span=(0.3, 1.8), parameter="amplitude")
+    data = vi.branch(vi.Rig(rig, shaken), vary={"amplitude": (0.3, 1.8)})
     np.testing.assert_allclose(
         values(data, "grazing"), [0.5, 0.7395252246, 1.3754939077], rtol=1e-8
     )
@@ -69,11 +75,10 @@ def test_a_grazing_of_the_other_wall_between_two_chatters_is_one():
 def test_a_mass_at_rest_at_the_section_begins_no_contact():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), vi.RigidStop(0.8, 0.6), force=2.0)
     shaken = vi.Harmonic(0.3, 0.2)
-    data = vi.branch(vi.Rig(rig, shaken), vi.State(0.6, 0.0), span=(0.15, 0.3))
+    whole, vary = vi.Rig(rig, shaken), {"frequency": (0.15, 0.3)}
+    data = vi.branch(whole, vi.State(0.6, 0.0), vary=vary)
     assert data.sizes["bifurcation"] == 0
     assert (data["impacts_right"] == 0.0).all()
-    _, _, first = _first_orbit(
-        vi.Rig(rig, shaken), vi.State(0.6, 0.0), "frequency", (0.15, 0.3), None
-    )
+    _, first = _first_orbit(whole, vi.State(0.6, 0.0), read_ranges(vary, whole)[0], None)
     assert chatter.rests(first)
     assert first.contacts == (0, 0)

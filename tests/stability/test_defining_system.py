@@ -22,7 +22,7 @@ HOLD_GAP = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 @pytest.fixture(scope="module")
 def fold():
     """The upper fold over frequency and gap: its system, and where it is."""
-    data = vi.branch(vi.Rig(CASE.oscillator, SHAKEN), span=(1.0, 4.0))
+    data = vi.branch(vi.Rig(CASE.oscillator, SHAKEN), vary={"frequency": (1.0, 4.0)})
     row = int(np.flatnonzero(data["bifurcation_kind"].values == "fold")[-1])
     one = data.isel(bifurcation=row)
     state = one["bifurcation_section"].values
@@ -75,12 +75,11 @@ def test_a_curve_of_folds_warns_of_nothing():
     """On its way Newton's method meets maps so steep that squares of their slopes overflow."""
     stop = vi.Bumper(stiffness=680e3, damping=1e3, gap=5e-3)
     rig = vi.Oscillator(550.0, vi.Isolator(26.3e3, 1.14e3), stop, stop)
-    found = vi.branch(vi.Rig(rig, vi.Harmonic("0.05 g", 4.0)), span=(1.5, 4.0))
+    found = vi.branch(vi.Rig(rig, vi.Harmonic("0.05 g", 4.0)), vary={"frequency": (1.5, 4.0)})
     data = vi.bifurcation_curve(
         vi.Rig(rig, vi.Harmonic("0.05 g", 2.0)),
         found.isel(bifurcation=1),
-        spans=((0.3, 8.0), (0.05, 5.0)),
-        parameters=("frequency", "amplitude"),
+        vary={"frequency": (0.3, 8.0), "amplitude": (0.05, 5.0)},
     )
     for end in ("ended_low", "ended_high"):
         assert data.attrs[end] == "the range of amplitude ends at 0.509858106 g"

@@ -30,7 +30,7 @@ def reaches(gap: float, low: float, high: float) -> list[float]:
 def test_from_free_flight_to_impacts_and_back(left, frequency):
     """The branch goes through the whole range, and grazes where free flight reaches the wall."""
     rig = vi.Oscillator("550 kg", FREE, WALL, left)
-    data = vi.branch(vi.Rig(rig, vi.Harmonic("0.05 g", frequency)), span=(0.6, 3.0))
+    data = vi.branch(vi.Rig(rig, vi.Harmonic("0.05 g", frequency)), vary={"frequency": (0.6, 3.0)})
     assert [data.attrs[f"ended_{end}"] for end in ("low", "high")] == [
         "the range ends at 0.6 Hz",
         "the range ends at 3 Hz",
@@ -49,7 +49,7 @@ def test_from_free_flight_to_impacts_and_back(left, frequency):
 def test_impacts_come_and_go_between_a_wall_and_a_preloaded_bumper():
     bumper = vi.Bumper("510 kN/m", "0.9 kN s/m", "-1 mm")
     rig = vi.Oscillator("550 kg", FREE, vi.RigidStop(0.6, "5 mm"), bumper)
-    data = vi.branch(vi.Rig(rig, vi.Harmonic("0.05 g", "4 Hz")), span=(0.95, 4.0))
+    data = vi.branch(vi.Rig(rig, vi.Harmonic("0.05 g", "4 Hz")), vary={"frequency": (0.95, 4.0)})
     assert data.attrs["ended_low"] == "the range ends at 0.95 Hz"
     grazing = data.isel(bifurcation=data["bifurcation_kind"].values == "grazing")
     assert {"1R 2L | 2R 2L", "1R 1L | 2R 1L", "1R 1L | 1R 2L"} <= set(
@@ -62,9 +62,7 @@ def test_impacts_come_and_go_between_a_wall_and_a_preloaded_bumper():
 
 def test_over_the_restitution_to_its_end():
     rig = vi.Oscillator("550 kg", FREE, WALL)
-    data = vi.branch(
-        vi.Rig(rig, vi.Harmonic("0.05 g", "1.1 Hz")), span=(0.0, 1.0), parameter="restitution"
-    )
+    data = vi.branch(vi.Rig(rig, vi.Harmonic("0.05 g", "1.1 Hz")), vary={"restitution": (0.0, 1.0)})
     assert float(data["stops.restitution"].min()) == 0.0
     assert float(data["stops.restitution"].max()) == 1.0
     assert data.attrs["ended_high"] == "the range ends at 1"
@@ -99,7 +97,7 @@ def test_a_branch_that_is_born_in_the_grazing_of_free_flight_ends_there(gap, lef
     """Beyond, the same orbits come again: a cycle later, or as mirror images."""
     wall = vi.RigidStop(0.6, gap)
     rig = vi.Oscillator("550 kg", FREE, wall, wall if left else None)
-    data = vi.resonance_diagram(vi.Rig(rig, "0.05 g"), (0.6, 3.0))
+    data = vi.resonance_diagram(vi.Rig(rig, "0.05 g"), {"frequency": (0.6, 3.0)})
     grazes = reaches(float(wall.gap), 0.6, 1.2)[0]
     branches = np.unique(data["branch"])
     ended = [data.attrs[f"branch_{i}_ended_{end}"] for i in branches for end in ("low", "high")]
@@ -122,13 +120,15 @@ def test_a_branch_is_the_same_wherever_it_is_begun(phase, frequency, start):
     """Of period 4: from a doubling through one impact more to the grazing of free flight."""
     rig = vi.Oscillator("550 kg", FREE, WALL)
     begun = vi.Rig(rig, vi.Harmonic("0.05 g", frequency, phase))
-    data = vi.branch(begun, vi.State(*start), span=(0.6, 3.0), period=4)
+    data = vi.branch(begun, vi.State(*start), vary={"frequency": (0.6, 3.0)}, period=4)
     three = data["impacts_right"].values * data["period"].values == 3.0
     four = data.isel(point=three & (data["period"].values == 4))
     for i in np.linspace(0, four.sizes["point"] - 2, 5).astype(int):
         here = four.isel(point=i)
         shaken = vi.Harmonic("0.05 g", float(here["frequency"]), phase)
-        again = vi.branch(vi.Rig(rig, shaken), here["section"], span=(0.6, 3.0), period=4)
+        again = vi.branch(
+            vi.Rig(rig, shaken), here["section"], vary={"frequency": (0.6, 3.0)}, period=4
+        )
         assert [one[:2] for one in listed(again)] == [
             (0.9115988, "grazing"),
             (0.9142847, "period doubling"),
@@ -151,7 +151,7 @@ def chattering():
     for frequency in (0.07559, 0.08):
         forcing = vi.Harmonic(1.0, frequency)
         start = vi.steady(vi.Rig(rig, forcing))
-        branches.append(vi.branch(vi.Rig(rig, forcing), start, span=(0.0754, 0.081)))
+        branches.append(vi.branch(vi.Rig(rig, forcing), start, vary={"frequency": (0.0754, 0.081)}))
     return branches
 
 

@@ -10,7 +10,9 @@ import vibroimpact as vi
 def test_an_orbit_has_its_least_period():
     case = vi.laboratory.case("B2-G1-A3")
     data = vi.branch(
-        vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)), span=(1.9, 2.1), period=3
+        vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)),
+        vary={"frequency": (1.9, 2.1)},
+        period=3,
     )
     assert set(data["period"].values) == {1}
 
@@ -41,7 +43,7 @@ def test_without_a_guess_it_is_the_motion_from_rest_with_its_period():
     rig, shaken = doubled()
     assert int(vi.steady(vi.Rig(rig, shaken))["period"]) == 2
     assert int(vi.orbit(vi.Rig(rig, shaken))["period"]) == 2
-    data = vi.branch(vi.Rig(rig, shaken), span=(1.1, 1.2))
+    data = vi.branch(vi.Rig(rig, shaken), vary={"frequency": (1.1, 1.2)})
     between = data["stable"].values >= 0  # in the doubling itself it is that of period 1
     assert set(data["period"].values[between]) == {2}
 
@@ -63,6 +65,8 @@ def test_a_branch_begins_in_chaos():
     for frequency in (1.05, 1.06):
         with pytest.warns(RuntimeWarning, match="which does not settle"):
             data = vi.branch(
-                vi.Rig(rig, shaken.replace(frequency=frequency)), span=(1.04, 1.08), period=2
+                vi.Rig(rig, shaken.replace(frequency=frequency)),
+                vary={"frequency": (1.04, 1.08)},
+                period=2,
             )
         assert set(data["period"].values) <= {1, 2}

@@ -235,7 +235,9 @@ def test_it_grazes_where_the_free_flight_reaches_the_stop():
     shaken = vi.Harmonic(a, 0.7 / (2 * math.pi), of="displacement")
     start = vi.simulate(vi.Rig(rig.without_bumpers(), shaken), 300, samples=0)["final_state"].values
     begin = vi.State(start[0], start[1], phase=start[4])
-    data = vi.branch(vi.Rig(rig, shaken), begin, span=(0.6 / (2 * math.pi), 0.85 / (2 * math.pi)))
+    data = vi.branch(
+        vi.Rig(rig, shaken), begin, vary={"frequency": (0.6 / (2 * math.pi), 0.85 / (2 * math.pi))}
+    )
     at = 2 * math.pi * data["bifurcation_value"].values
     grazing = at[data["bifurcation_kind"].values == "grazing"]
     assert np.abs(grazing - exact).min() < 1e-11

@@ -15,7 +15,7 @@ def test_an_event_on_the_section_does_not_end_a_branch(phase):
     turn = 2 * np.pi
     data = vi.branch(
         vi.Rig(between_stops(3.0), vi.Harmonic(0.2, 2.0 / turn, phase)),
-        span=(0.3 / turn, 2.5 / turn),
+        vary={"frequency": (0.3 / turn, 2.5 / turn)},
     )
     assert float(data["frequency"].min()) == pytest.approx(0.3 / turn)
     assert float(data["frequency"].max()) == pytest.approx(2.5 / turn)
@@ -31,9 +31,7 @@ def test_along_the_gap_through_the_grazing(phase):
     """The derivative with respect to the gap jumps there: one side's must be used."""
     turn = 2 * np.pi
     data = vi.branch(
-        vi.Rig(between_stops(0.5), vi.Harmonic(0.2, 1.2 / turn, phase)),
-        span=(0.01, 2.0),
-        parameter="gap",
+        vi.Rig(between_stops(0.5), vi.Harmonic(0.2, 1.2 / turn, phase)), vary={"gap": (0.01, 2.0)}
     )
     assert float(data["gap"].min()) == pytest.approx(0.01)
     assert float(data["gap"].max()) == pytest.approx(2.0)
@@ -45,9 +43,7 @@ def test_along_the_gap_through_the_grazing(phase):
 def test_no_step_lands_on_another_branch():
     case = vi.laboratory.case("B2-G1-A3")
     data = vi.branch(
-        vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)),
-        span=(1e-4, 2e-2),
-        parameter="gap",
+        vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 2.0)), vary={"gap": (1e-4, 2e-2)}
     )
     assert float(data["gap"].min()) == pytest.approx(1e-4)
     assert float(data["gap"].max()) == pytest.approx(2e-2)
@@ -64,7 +60,7 @@ def test_grazing_of_a_heavy_dashpot(phase):
     turn = 2 * np.pi
     data = vi.branch(
         vi.Rig(between_stops(10.0), vi.Harmonic(0.2, 2.0 / turn, phase)),
-        span=(0.8 / turn, 2.5 / turn),
+        vary={"frequency": (0.8 / turn, 2.5 / turn)},
     )
     squares = np.sort(np.roots([1.0, -(2.0 - 4.0 * 0.05**2), 1.0 - 0.2**2]).real)
     np.testing.assert_allclose(values(data, "grazing") * turn, np.sqrt(squares), rtol=5e-12)
@@ -72,7 +68,9 @@ def test_grazing_of_a_heavy_dashpot(phase):
 
 def test_a_closed_branch_ends_where_it_began():
     case = vi.laboratory.case("B3-10mm-A3")
-    data = vi.branch(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.2)), span=(0.5, 2.0))
+    data = vi.branch(
+        vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.2)), vary={"frequency": (0.5, 2.0)}
+    )
     assert data.attrs["closed"] == 1
     assert float(data["eccentricity"].max()) > 5e-4
     assert float(data["eccentricity"].min()) < -5e-4
@@ -84,7 +82,7 @@ def test_a_closed_branch_of_a_longer_period_is_gone_round_once():
     data = vi.branch(
         vi.Rig(rig, vi.Harmonic(0.5, 0.091918874526)),
         vi.State(0.342505143, -0.804559204),
-        span=("0.5 rad/s", "2 rad/s"),
+        vary={"frequency": ("0.5 rad/s", "2 rad/s")},
         period=4,
     )
     assert data.attrs["closed"] == 1
@@ -135,7 +133,8 @@ def test_through_the_grazings_of_very_stiff_bumpers(ratio, time, sides):
     rig, amplitude = made.oscillator, made.amplitude
     natural = rig.natural_frequency
     data = vi.branch(
-        vi.Rig(rig, vi.Harmonic(amplitude, 0.3 * natural)), span=(0.2 * natural, 4.0 * natural)
+        vi.Rig(rig, vi.Harmonic(amplitude, 0.3 * natural)),
+        vary={"frequency": (0.2 * natural, 4.0 * natural)},
     )
     ends = {data.attrs["ended_low"], data.attrs["ended_high"]}
     assert ends == {f"the range ends at ω = {share:.9g}" for share in (0.2, 4.0)}

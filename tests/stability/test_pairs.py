@@ -18,7 +18,7 @@ def test_a_pair_that_passes_the_circle_and_becomes_real_within_a_step():
         1.0, vi.Isolator(1.0, 0.8), vi.Bumper(1000.0, 0.0, 0.0), vi.Bumper(0.01, 20.1, 0.0)
     )
     shaken = vi.Harmonic(1.0, 0.5 / np.pi)
-    data = vi.branch(vi.Rig(rig, shaken), span=(0.12, 0.16), most_points=400)
+    data = vi.branch(vi.Rig(rig, shaken), vary={"frequency": (0.12, 0.16)}, most_points=400)
     assert "unexplained_changes" not in data.attrs
     kinds = data["bifurcation_kind"].values
     first = data.isel(bifurcation=int((kinds == "Neimark-Sacker").argmax()))

@@ -16,9 +16,7 @@ def test_from_no_dashpot_and_to_none():
     shaken = vi.Harmonic(0.2, 1.2 / turn)
     ends = []
     for damping in (0.0, 1.0):
-        data = vi.branch(
-            vi.Rig(between_stops(damping), shaken), span=(0.0, 2.0), parameter="stops.damping"
-        )
+        data = vi.branch(vi.Rig(between_stops(damping), shaken), vary={"stops.damping": (0.0, 2.0)})
         ends.append(data.isel(point=int(data["stops.damping"].values.argmin())))
         ends.append(data.isel(point=int(data["stops.damping"].values.argmax())))
     for one, other in ((ends[0], ends[2]), (ends[1], ends[3])):
@@ -38,7 +36,7 @@ def test_other_parameters(parameter):
         "stiffness_ratio": (1.0, 50.0),
     }
     low, high = ranges[parameter]
-    data = vi.branch(vi.Rig(case.oscillator, shaken), span=(low, high), parameter=parameter)
+    data = vi.branch(vi.Rig(case.oscillator, shaken), vary={parameter: (low, high)})
     assert data.attrs["parameter"] == parameter
     for i in np.linspace(0, data.sizes["point"] - 1, 8).astype(int):
         value = float(data[parameter][i])
@@ -70,7 +68,7 @@ def test_over_the_gap_into_preload(frequency):
         return case.oscillator.replace(right=bumper, left=bumper)
 
     ways = [
-        vi.branch(vi.Rig(rig(gap), shaken), span=("-1 mm", "1 mm"), parameter="gap")
+        vi.branch(vi.Rig(rig(gap), shaken), vary={"gap": ("-1 mm", "1 mm")})
         for gap in (1e-3, -1e-3)
     ]
     for data in ways:
@@ -99,7 +97,7 @@ def test_over_the_restitution_of_a_wall():
     def rig(restitution: float) -> vi.Oscillator:
         return case.oscillator.replace(right=vi.RigidStop(restitution, "2 mm"), left=None)
 
-    data = vi.branch(vi.Rig(rig(0.6), shaken), span=(0.5, 0.95), parameter="restitution")
+    data = vi.branch(vi.Rig(rig(0.6), shaken), vary={"restitution": (0.5, 0.95)})
     assert data.attrs["parameter"] == "stops.restitution"
     ends = {data.attrs["ended_low"], data.attrs["ended_high"]}
     assert ends == {"the range ends at 0.5", "the range ends at 0.95"}
@@ -121,7 +119,7 @@ def test_parameters_that_do_not_count_in_proportion(parameter, low, high):
     stop = vi.PowerBumper(200.0, 0.3, 1.5, restitution=0.6)
     rig = vi.Oscillator(1.0, vi.BoucWenIsolator(4.0, 1.0, 0.2, 0.1), stop, stop.replace(gap=0.5))
     shaken = vi.Harmonic(0.5, 1.1 / (2 * np.pi))
-    data = vi.branch(vi.Rig(rig, shaken), span=(low, high), parameter=parameter)
+    data = vi.branch(vi.Rig(rig, shaken), vary={parameter: (low, high)})
     values = data[parameter].values
     assert values.min() <= low + 1e-9
     assert values.max() >= high - 1e-9

@@ -22,7 +22,7 @@ def hertz(omega: float) -> float:
 
 def test_one_branch_has_the_attributes_of_any():
     case = vi.laboratory.case("B3-0mm-A3")
-    data = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), (3.0, 4.0))
+    data = vi.resonance_diagram(vi.Rig(case.oscillator, case.amplitude), {"frequency": (3.0, 4.0)})
     assert set(data["branch"].values) == {0}
     assert data.attrs["branch_0_closed"] == 0
     assert {data.attrs[f"branch_0_ended_{end}"] for end in ("low", "high")} == {
@@ -33,7 +33,7 @@ def test_one_branch_has_the_attributes_of_any():
 
 @cache
 def isolated() -> xr.Dataset:
-    return vi.resonance_diagram(vi.Rig(TWO_STOPS, 2.0), (hertz(1.5), hertz(8.0)))
+    return vi.resonance_diagram(vi.Rig(TWO_STOPS, 2.0), {"frequency": (hertz(1.5), hertz(8.0))})
 
 
 def test_isolated_branches_are_found_once():
@@ -43,17 +43,20 @@ def test_isolated_branches_are_found_once():
     kinds = [(int(data["period"][k]), bool(data["antisymmetric"][k])) for k in first]
     assert kinds == [(1, True), (3, True), (3, False)]
     assert [data.attrs[f"branch_{b}_closed"] for b in range(3)] == [0, 1, 1]
-    alone = vi.resonance_diagram(vi.Rig(TWO_STOPS, 2.0), (hertz(1.5), hertz(8.0)), random=0)
+    alone = vi.resonance_diagram(
+        vi.Rig(TWO_STOPS, 2.0), {"frequency": (hertz(1.5), hertz(8.0))}, random=0
+    )
     assert int(alone["branch"].max()) == 0
     xr.testing.assert_equal(
-        isolated(), vi.resonance_diagram(vi.Rig(TWO_STOPS, 2.0), (hertz(1.5), hertz(8.0)))
+        isolated(),
+        vi.resonance_diagram(vi.Rig(TWO_STOPS, 2.0), {"frequency": (hertz(1.5), hertz(8.0))}),
     )
 
 
 def test_basins_lead_to_a_branch_that_random_starts_miss():
     """A small isola of period 5, to which 1 state in 100 leads, within 3 % of the frequency."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.059), HARD, None)
-    asked = {"rig": vi.Rig(rig, 2.0), "span": (hertz(4.0), hertz(8.0))}
+    asked = {"rig": vi.Rig(rig, 2.0), "vary": {"frequency": (hertz(4.0), hertz(8.0))}}
     missed = vi.resonance_diagram(**asked, longest=5, random=40)
     assert not (missed["period"] == 5).any()
     found = vi.basins(vi.Rig(rig, vi.Harmonic(2.0, hertz(6.0))), nodes=40)
@@ -75,8 +78,8 @@ def test_basins_of_a_rig_whose_bumpers_remember():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), slow, None)
     shaking = vi.Harmonic(2.0, hertz(2.0))
     found = vi.basins(vi.Rig(rig, shaking), nodes=5)
-    over = {"parameter": "gap", "random": 0, "starts": 2}
-    data = vi.resonance_diagram(vi.Rig(rig, shaking), (0.8, 1.2), **over, basins=[found])
+    over = {"random": 0, "starts": 2}
+    data = vi.resonance_diagram(vi.Rig(rig, shaking), {"gap": (0.8, 1.2)}, **over, basins=[found])
     assert int(data["branch"].max()) == 0
 
 
@@ -94,7 +97,7 @@ def excursions(data: xr.Dataset, value: float) -> list[float]:
 def test_two_parameters_meet_in_the_same_orbits():
     """Where a diagram over the frequency and one over the gap cross, orbits are the same."""
     shaking = vi.Harmonic(2.0, hertz(4.6))
-    over_gap = vi.resonance_diagram(vi.Rig(TWO_STOPS, shaking), (0.9, 3.0), parameter="gap")
+    over_gap = vi.resonance_diagram(vi.Rig(TWO_STOPS, shaking), {"gap": (0.9, 3.0)})
     one, other = excursions(isolated(), hertz(4.6)), excursions(over_gap, 1.0)
     # Free flight, and the stable and the unstable orbit of period 3.
     assert len(one) == len(other) == 3
@@ -108,9 +111,9 @@ def test_two_parameters_meet_in_the_same_orbits():
 def test_what_settles_lies_on_a_branch(parameter, low, high):
     """Each motion of a bifurcation diagram of period 1 to 4 is near an orbit of its period."""
     shaking = vi.Harmonic(2.0, hertz(2.4))
-    data = vi.resonance_diagram(vi.Rig(ONE_STOP, shaking), (low, high), parameter=parameter)
+    data = vi.resonance_diagram(vi.Rig(ONE_STOP, shaking), {parameter: (low, high)})
     found = vi.bifurcation_diagram(
-        vi.Rig(ONE_STOP, shaking), parameter, (low, high), 9, random=2, seed=5
+        vi.Rig(ONE_STOP, shaking), {parameter: (low, high)}, 9, random=2, seed=5
     )
     x, y = data[parameter].values, data["displacement_excursion"].values
     for i, value in enumerate(found[parameter].values[1:-1], start=1):
@@ -126,8 +129,8 @@ def test_what_settles_lies_on_a_branch(parameter, low, high):
 def test_the_bifurcations_of_a_branch_are_among_them():
     case = vi.laboratory.case("B3-10mm-A3")
     shaking = vi.Harmonic(case.amplitude, 1.12)
-    every = vi.resonance_diagram(case, (4.8e-3, 6e-3), parameter="gap", frequency=1.12, random=0)
-    one = vi.branch(vi.Rig(case.oscillator, shaking), span=(4.8e-3, 6e-3), parameter="gap")
+    every = vi.resonance_diagram(case, {"gap": (4.8e-3, 6e-3)}, frequency=1.12, random=0)
+    one = vi.branch(vi.Rig(case.oscillator, shaking), vary={"gap": (4.8e-3, 6e-3)})
     for kind in np.unique(one["bifurcation_kind"]):
         mine, theirs = (
             d["bifurcation_value"].values[d["bifurcation_kind"].values == kind]
@@ -140,17 +143,17 @@ def test_the_bifurcations_of_a_branch_are_among_them():
 @pytest.mark.parametrize(
     ("wrong", "told"),
     [
-        ({"parameter": "gap"}, "frequency: missing"),
+        ({"vary": {"gap": (1.0, 2.0)}}, "frequency: missing"),
         ({"frequency": 2.0}, "frequency: 2.0, but the frequency is the varied"),
-        ({"parameter": "colour", "frequency": 2.0}, "parameter: 'colour'"),
+        ({"vary": {"colour": (1.0, 2.0)}, "frequency": 2.0}, "vary: 'colour'"),
         ({"rig": vi.Rig(ONE_STOP, [0.1, 0.2])}, "shaking: a list"),
         ({"random": -1}, "random: -1"),
         ({"starts": 0}, "starts: 0"),
-        ({"span": (1.0, 0.5)}, r"span\[1\]: ω = 3\.14159"),
+        ({"vary": {"frequency": (1.0, 0.5)}}, r"vary\['frequency'\]\[1\]: ω = 3\.14159"),
     ],
 )
 def test_refused(wrong, told):
-    given = {"rig": vi.Rig(ONE_STOP, 1.0), "span": (1.0, 2.0)}
+    given = {"rig": vi.Rig(ONE_STOP, 1.0), "vary": {"frequency": (1.0, 2.0)}}
     with pytest.raises(vi.InputError, match=told):
         vi.resonance_diagram(**{**given, **wrong})
 
@@ -159,7 +162,7 @@ def test_refused(wrong, told):
     ("changed", "told"),
     [
         (
-            {"span": (1.0, 2.0)},
+            {"vary": {"frequency": (1.0, 2.0)}},
             r"basins\[0\]: these basins were computed at frequency ω = 1.88496, outside",
         ),
         (
@@ -172,12 +175,14 @@ def test_refused(wrong, told):
 )
 def test_basins_that_are_refused(changed, told):
     found = vi.basins(vi.Rig(ONE_STOP, vi.Harmonic(1.0, 0.3)), nodes=3)
-    given = {"rig": vi.Rig(ONE_STOP, 1.0), "span": (0.2, 0.4), "basins": found}
+    given = {"rig": vi.Rig(ONE_STOP, 1.0), "vary": {"frequency": (0.2, 0.4)}, "basins": found}
     with pytest.raises(vi.InputError, match=told):
         vi.resonance_diagram(**{**given, **changed}, starts=1)
 
 
 def test_where_no_orbit_is_found_it_is_an_error():
     stiff = vi.Oscillator(550.0, vi.Isolator(1e30, 1100.0), right=vi.Bumper(5e5, 900.0, 7.5e-3))
-    with pytest.raises(vi.InputError, match=r"span: no periodic orbit .* between 2 and 2\.1"):
-        vi.resonance_diagram(vi.Rig(stiff, 0.5), (2.0, 2.1))
+    with pytest.raises(
+        vi.InputError, match=r"vary\['frequency'\]: no periodic orbit .* between 2 and 2\.1"
+    ):
+        vi.resonance_diagram(vi.Rig(stiff, 0.5), {"frequency": (2.0, 2.1)})

@@ -18,21 +18,20 @@ SI = vi.Rig(STATED.oscillator.replace(units="SI"), STATED.shaking)
 BOX = {"velocity": (-1, 1)}
 
 CALLS = {
-    "branch": lambda rig, five: vi.branch(rig, parameter="gap", span=(1, five)),
+    "branch": lambda rig, five: vi.branch(rig, vary={"gap": (1, five)}),
     "branch of a damping": lambda rig, five: vi.branch(
-        rig, parameter="isolator.damping", span=(0.2, five.replace("m", "N s/m"))
+        rig, vary={"isolator.damping": (0.2, five.replace("m", "N s/m"))}
     ),
-    "bifurcation_diagram": lambda rig, five: vi.bifurcation_diagram(rig, "gap", (five, 6), 2),
+    "bifurcation_diagram": lambda rig, five: vi.bifurcation_diagram(rig, {"gap": (five, 6)}, 2),
     "bifurcation_curve": lambda rig, five: vi.bifurcation_curve(
         rig,
-        vi.branch(rig, span=(0.05, 0.2)).isel(bifurcation=0),
-        parameters=("frequency", "gap"),
-        spans=((0.05, 0.2), (0, five)),
+        vi.branch(rig, vary={"frequency": (0.05, 0.2)}).isel(bifurcation=0),
+        vary={"frequency": (0.05, 0.2), "gap": (0, five)},
     ),
     "basins": lambda rig, five: vi.basins(rig, (-5, five), nodes=2, **BOX),
     "basin_stability": lambda rig, five: vi.basin_stability(rig, (-5, five), states=2, **BOX),
     "scenario_map": lambda rig, five: vi.scenario_map(
-        rig, ("gap", [1, five]), ("gap_ratio", [0.5, 1.0])
+        rig, {"gap": [1, five], "gap_ratio": [0.5, 1.0]}
     ),
     "ensemble": lambda rig, five: vi.ensemble(
         rig, {"gap": f"uniform:1:{five}"}, partial(vi.sweeps, frequencies=[0.1]), draws=2
@@ -57,7 +56,9 @@ def test_the_same_rig_in_si_units_accepts_it(call):
 
 
 def test_frequencies_have_units_of_any_rig(tmp_path):
-    assert vi.resonance_diagram(STATED, ("0.6 rad/s", "0.11 Hz")).unit_system == "none"
+    assert (
+        vi.resonance_diagram(STATED, {"frequency": ("0.6 rad/s", "0.11 Hz")}).unit_system == "none"
+    )
 
 
 def test_a_study_file_without_units_counts_too(tmp_path):
@@ -68,6 +69,6 @@ def test_a_study_file_without_units_counts_too(tmp_path):
     )
     for given in (path, str(path)):
         with pytest.raises(vi.InputError, match="has a unit, but the rig has none"):
-            vi.branch(given, frequency=0.2, parameter="gap", span=("5 mm", 3))
+            vi.branch(given, frequency=0.2, vary={"gap": ("5 mm", 3)})
         with pytest.raises(vi.InputError, match="has a unit, but the rig has none"):
-            vi.branch(rig=given, frequency=0.2, parameter="gap", span=("5 mm", 3))
+            vi.branch(rig=given, frequency=0.2, vary={"gap": ("5 mm", 3)})

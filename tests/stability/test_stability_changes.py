@@ -8,6 +8,7 @@ import pytest
 import vibroimpact as vi
 from samples import sample
 from stability.followed import values
+from vibroimpact.model.varied import read_ranges
 from vibroimpact.stability.bifurcations import unexplained
 from vibroimpact.stability.branch import _both_ways, _first_orbit
 
@@ -25,7 +26,7 @@ def test_a_symmetry_breaking_of_an_orbit_that_does_not_reach_the_only_stop(gap):
     rig = vi.Oscillator(453.0518198083075, isolator, left=left)
     shaken = vi.Harmonic("1.436060444936944 N", 0.045)
     start = vi.steady(vi.Rig(rig, shaken))["final_state"]
-    data = vi.branch(vi.Rig(rig, shaken), start, span=(0.0434, 0.046))
+    data = vi.branch(vi.Rig(rig, shaken), start, vary={"frequency": (0.0434, 0.046)})
     assert np.abs(values(data, "symmetry breaking") - 0.04373158).min() < 1e-8
     assert "unexplained_changes" not in data.attrs
 
@@ -48,7 +49,9 @@ def test_a_branch_ends_where_orbits_are_not_isolated():
     f, reach = shaken.frequency, sample(0.1, 0.01)
     with pytest.warns(RuntimeWarning, match="not isolated"):
         start = vi.steady(vi.Rig(rig, shaken))["final_state"]
-    data = vi.branch(vi.Rig(rig, shaken), start, span=((1.0 - reach) * f, (1.0 + reach) * f))
+    data = vi.branch(
+        vi.Rig(rig, shaken), start, vary={"frequency": ((1.0 - reach) * f, (1.0 + reach) * f)}
+    )
     assert data.sizes["point"] < 100
     assert data.sizes["bifurcation"] == 0
     for end in ("low", "high"):
@@ -58,8 +61,9 @@ def test_a_branch_ends_where_orbits_are_not_isolated():
 def test_a_change_that_no_bifurcation_explains_is_told():
     """If those that explain it are left out."""
     case = vi.laboratory.case("B2-G1-A3")
-    _, span, first = _first_orbit(case.rig.at(2.0), None, "frequency", (0.8, 4.0), None)
-    stations, _, _ = _both_ways(first, span, 5000)
+    (along,) = read_ranges({"frequency": (0.8, 4.0)}, case.rig)
+    _, first = _first_orbit(case.rig.at(2.0), None, along, None)
+    stations, _, _ = _both_ways(first, along.ends, 5000)
     (change,) = unexplained(stations, [])[:1]
     assert 0.8 < change[0] < 4.0
 
@@ -68,7 +72,7 @@ def test_a_branch_that_grows_until_its_points_are_used_up_says_so():
     """Below Den Hartog's bound dry friction does not limit a resonance."""
     rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.3))
     shaken = vi.Harmonic(1.0, 0.11)
-    data = vi.branch(vi.Rig(rig, shaken), span=(0.1, 0.2), most_points=300)
+    data = vi.branch(vi.Rig(rig, shaken), vary={"frequency": (0.1, 0.2)}, most_points=300)
     assert "points were reached" in data.attrs["ended_high"]
     assert "times as large as the first orbit and still grows" in data.attrs["ended_high"]
 
@@ -77,7 +81,7 @@ def test_a_branch_ends_where_its_motion_grows_without_bound():
     """Long before its points are used up: at the resonance, from either side of it."""
     rig = vi.Oscillator(1.0, vi.FrictionIsolator(1.0, 0.0, 0.3))
     for frequency, end in ((0.11, "high"), (0.19, "low")):
-        data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, frequency)), span=(0.1, 0.2))
+        data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, frequency)), vary={"frequency": (0.1, 0.2)})
         assert "without bound near ω = 1 (" in data.attrs[f"ended_{end}"]
         assert data.sizes["point"] < 2500
         ratio = data["displacement_max"].max() / data["displacement_max"].min()
@@ -88,7 +92,7 @@ def test_a_branch_ends_where_its_motion_grows_without_bound():
 def test_a_slightly_damped_resonance_is_passed(damping_ratio):
     """However large it is: its peak is that of the closed form."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2.0 * damping_ratio))
-    data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, 0.11)), span=(0.1, 0.2))
+    data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, 0.11)), vary={"frequency": (0.1, 0.2)})
     assert data.attrs["ended_high"] == "the range ends at ω = 1.25663706"
     peak = 0.5 / damping_ratio
     assert float(data["displacement_max"].max()) == pytest.approx(peak, rel=1e-3)
@@ -96,7 +100,7 @@ def test_a_slightly_damped_resonance_is_passed(damping_ratio):
 
 def test_a_dashpot_limits_a_resonance_that_is_not_followed_to_its_peak():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 2e-5))
-    data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, 0.11)), span=(0.1, 0.2))
+    data = vi.branch(vi.Rig(rig, vi.Harmonic(1.0, 0.11)), vary={"frequency": (0.1, 0.2)})
     assert "without bound" not in data.attrs["ended_high"]
     told = "the motion grows beyond 1e+04 times the first orbit"
     assert data.attrs["ended_high"].startswith(told)
@@ -105,7 +109,7 @@ def test_a_dashpot_limits_a_resonance_that_is_not_followed_to_its_peak():
 def test_a_motion_that_grows_with_the_amplitude_is_no_resonance():
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.2))
     shaken = vi.Harmonic(1e-3, 0.11)
-    data = vi.branch(vi.Rig(rig, shaken), span=(1e-3, 100.0), parameter="amplitude")
+    data = vi.branch(vi.Rig(rig, shaken), vary={"amplitude": (1e-3, 100.0)})
     assert data.attrs["ended_high"] == "the range ends at 100"
 
 
@@ -115,7 +119,7 @@ def test_a_pair_passes_the_circle_where_the_section_lies_in_a_contact():
     left = vi.Bumper(0.01, 2.009975124224178, 10.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.06), right, left)
     shaken = vi.Harmonic(1.0, 0.5 / np.pi)
-    data = vi.branch(vi.Rig(rig, shaken), span=(0.11, 0.21))
+    data = vi.branch(vi.Rig(rig, shaken), vary={"frequency": (0.11, 0.21)})
     assert "unexplained_changes" not in data.attrs
     (value,) = values(data, "Neimark-Sacker")
     assert value == pytest.approx(0.191607879, abs=1e-8)

@@ -22,10 +22,10 @@ dask = pytest.importorskip("dask")
 
 GRID = np.linspace(0.5, 3.0, 30)
 SIDE = sample(12, 5)
-AXES = (
-    ("stiffness_ratio", np.geomspace(2.0, 60.0, SIDE), "log"),
-    ("gap_ratio", np.linspace(0.0, 1.0, SIDE), "linear"),
-)
+AXES = {
+    "stiffness_ratio": np.geomspace(2.0, 60.0, SIDE),
+    "gap_ratio": np.linspace(0.0, 1.0, SIDE),
+}
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +41,7 @@ def cluster():
 
 @pytest.fixture(scope="module")
 def on_threads():
-    return vi.scenario_map(None, *AXES, refine=1, block=2)
+    return vi.scenario_map(None, AXES, refine=1, block=2)
 
 
 def test_sweeps(cluster):
@@ -68,7 +68,7 @@ def test_basins(cluster):
 
 def _shares(**how):
     return vi.basin_stability(
-        "B3-10mm-A3", frequency=0.7, parameter="gap", values=[0.004, 0.006], states=20, **how
+        "B3-10mm-A3", frequency=0.7, vary={"gap": [0.004, 0.006]}, states=20, **how
     )
 
 
@@ -76,7 +76,7 @@ def _diagram(**how):
     case = vi.laboratory.case("B3-10mm-A3")
     shaking = vi.Harmonic(case.amplitude, 1.12)
     return vi.bifurcation_diagram(
-        vi.Rig(case.oscillator, shaking), "gap", ("5 mm", "6 mm"), 3, **how
+        vi.Rig(case.oscillator, shaking), {"gap": ("5 mm", "6 mm")}, 3, **how
     )
 
 
@@ -116,7 +116,7 @@ def test_a_map_outlives_workers(cluster, on_threads):
                 killed.append(pid)
                 os.kill(pid, signal.SIGKILL)
 
-    there = vi.scenario_map(None, *AXES, refine=1, block=2, where=cluster, progress=kill)
+    there = vi.scenario_map(None, AXES, refine=1, block=2, where=cluster, progress=kill)
     assert len(killed) == 2
     assert there.identical(on_threads)
 
@@ -133,11 +133,11 @@ def test_a_map_is_completed_when_the_scheduler_died(tmp_path, on_threads):
             local.close(timeout=10)
 
     with pytest.raises(LostError, match="connection to the cluster was lost"):
-        vi.scenario_map(None, *AXES, refine=1, block=2, store=store, where=client, progress=die)
+        vi.scenario_map(None, AXES, refine=1, block=2, store=store, where=client, progress=die)
     client.close()
     left = []
     again = vi.scenario_map(
-        None, *AXES, refine=1, block=2, store=store, progress=lambda *at: left.append(at[0])
+        None, AXES, refine=1, block=2, store=store, progress=lambda *at: left.append(at[0])
     )
     assert left[0] > 0  # what was done is not done again
     assert again.load().identical(on_threads)

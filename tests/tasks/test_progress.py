@@ -160,20 +160,21 @@ def test_all_functions_tell_the_same(monkeypatch):
         told.append((done, total))
 
     shaken = vi.Harmonic(CASE.amplitude, 2.0)
-    found = vi.resonance_diagram(vi.Rig(CASE.oscillator, CASE.amplitude), (1.0, 3.0), progress=note)
+    found = vi.resonance_diagram(
+        vi.Rig(CASE.oscillator, CASE.amplitude), {"frequency": (1.0, 3.0)}, progress=note
+    )
     assert all(isinstance(total, int) for _, total in told)
     assert len(told) >= found.sizes["point"] / 2  # at each point: one branch may take minutes
     assert told[-1][0] == told[-1][1]
     told.clear()
-    vi.branch(vi.Rig(CASE.oscillator, shaken), span=(7e-3, 8e-3), parameter="gap", progress=note)
+    vi.branch(vi.Rig(CASE.oscillator, shaken), vary={"gap": (7e-3, 8e-3)}, progress=note)
     counted_and_ended(told)
     told.clear()
     fold = found.isel(bifurcation=0)
     vi.bifurcation_curve(
         vi.Rig(CASE.oscillator, shaken),
         fold,
-        parameters=("frequency", "gap"),
-        spans=((1.0, 4.0), (7e-3, 8e-3)),
+        vary={"frequency": (1.0, 4.0), "gap": (7e-3, 8e-3)},
         progress=note,
     )
     counted_and_ended(told)

@@ -47,17 +47,19 @@ def moved() -> xr.Dataset:
 
 def explored() -> None:
     assert_type(vi.orbit(vi.Rig(rig, shaking), vi.State(0.001, 0.0), period=1), xr.Dataset)
-    assert_type(vi.branch(case, frequency="2 Hz", span=(1.0, 3.0)), xr.Dataset)
+    assert_type(vi.branch(case, frequency="2 Hz", vary={"frequency": (1.0, 3.0)}), xr.Dataset)
     diagram = vi.bifurcation_diagram(
-        vi.Rig(rig, shaking), "gap", ("3 mm", "7 mm"), 9, where="threads"
+        vi.Rig(rig, shaking), {"gap": ("3 mm", "7 mm")}, 9, where="threads"
     )
     assert_type(diagram, xr.Dataset)
     found = vi.basins(case, (-0.02, 0.02), ("-1 m/s", "1 m/s"), frequency=2.6, nodes=(20, 30))
     curves = vi.manifolds(vi.Rig(rig, shaking), longest=1.0)
     save_figure(basin_portrait(found, manifolds=curves), "basins.png")
-    assert_type(vi.resonance_diagram(case, (1.0, 3.0), basins=[found]), xr.Dataset)
-    assert_type(vi.resonance_diagram(vi.Rig(rig, 0.5), (1.0, 3.0), random=2), xr.Dataset)
-    shares = vi.basin_stability(case, frequency=2.0, parameter="frequency", values=[2.0, 2.6])
+    assert_type(vi.resonance_diagram(case, {"frequency": (1.0, 3.0)}, basins=[found]), xr.Dataset)
+    assert_type(
+        vi.resonance_diagram(vi.Rig(rig, 0.5), {"frequency": (1.0, 3.0)}, random=2), xr.Dataset
+    )
+    shares = vi.basin_stability(case, frequency=2.0, vary={"frequency": [2.0, 2.6]})
     assert_type(shares, xr.Dataset)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list, check_progress
+from vibroimpact.arguments import check_progress
 from vibroimpact.attraction.attractor_variables import POINTS, ranked
 from vibroimpact.attraction.attractors import Attractor
 from vibroimpact.attraction.basin_fractions import interval
@@ -20,13 +20,11 @@ from vibroimpact.attraction.match_attractors import matched
 from vibroimpact.attraction.state_window import Window, walls, window
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.errors import InputError
-from vibroimpact.model import to_si
 from vibroimpact.model.count_checks import check_max_events, whole
-from vibroimpact.model.parameters import Parameter
-from vibroimpact.model.parameters import parameter as registered
+from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.varied import Values, read_values
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
@@ -56,8 +54,7 @@ def basin_stability(
     velocity: Sequence[float | str] | None = None,
     *,
     frequency: float | str | None = None,
-    parameter: str | None = None,
-    values: Iterable[float | str] | None = None,
+    vary: Values | None = None,
     states: int = 1000,
     seed: int = 0,
     max_cycles: int = 2000,
@@ -83,10 +80,11 @@ def basin_stability(
         steady motions at all values of the parameter, chosen as in `basins`.
     frequency
         Forcing frequency (Hz). Default: the frequency of the rig.
-    parameter, values
-        Name of the parameter that is varied, such as "frequency" or "gap", and the values that it
-        takes. A motion keeps its number at the next value of the parameter if, at that value, its
-        states lead to a nearby motion.
+    vary
+        Parameter that is varied, and the values that it takes, such as
+        ``{"gap": [5e-3, 6e-3]}``. Parameters are named as in `branch`. A motion keeps its number at
+        the next value of the parameter if, at that value, its states lead to a nearby motion.
+        Default: no parameter is varied.
     states
         Number of random initial states. The same states are used at each value of the parameter.
     seed
@@ -118,10 +116,11 @@ def basin_stability(
         If a value is invalid, or if the rig has no dissipation.
     """
     rig = as_rig(rig, frequency)
-    named = None if parameter is None else registered(parameter, rig).name
-    if rig.frequency is None and named == "frequency" and isinstance(values, Iterable):
-        values = list(values)
-        rig = rig.at(values[0]) if values else rig
+    given = read_values(vary, rig, most=1, longest=MOST_VALUES)
+    varied = parameter(given[0].name, rig) if given else None
+    values = given[0].values.tolist() if given else [0.0]
+    if rig.frequency is None and varied and varied.name == "frequency":
+        rig = rig.at(values[0])
     rig.check_frequency()
     check_progress(progress)
     drawn, seed = whole(states, "states", most=MOST_STATES), whole(seed, "seed", 0)
@@ -129,9 +128,8 @@ def basin_stability(
     workers = placed(threads, where)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
-    varied, given = _values(rig, parameter, values)
     searches = []
-    for value in given:
+    for value in values:
         here = varied.vary(rig, value) if varied else rig
         check_bounded(here)
         searches.append(Search(Stage(here, max_events), max_cycles, workers))
@@ -163,7 +161,7 @@ def basin_stability(
         every_found.append(_Found(known, counts, int((found.owner < 0).sum())))
         if progress is not None:
             progress(i + 1, len(searches))
-    data = _dataset(every_found, numbers, drawn, varied, given)
+    data = _dataset(every_found, numbers, drawn, varied, values)
     return describe(
         data,
         "vibroimpact.basin_stability",
@@ -178,26 +176,6 @@ def basin_stability(
         },
         varied=[varied] if varied else [],
     )
-
-
-def _values(
-    rig: Rig,
-    name: str | None,
-    values: Iterable[float | str] | None,
-) -> tuple[Parameter | None, list[float]]:
-    if name is None:
-        if values is not None:
-            raise InputError(
-                "parameter: missing, although values are given; pass the name of the parameter "
-                'that has these values, such as "gap"'
-            )
-        return None, [0.0]
-    varied = registered(name, rig)
-    listed = check_list(values, "values", MOST_VALUES, f"a list of values of {varied.name}")
-    given = [to_si(one, varied.quantity, f"values[{i}]") for i, one in enumerate(listed)]
-    if not given:
-        raise InputError(f"values: the list is empty; pass at least one value of {varied.name}")
-    return varied, given
 
 
 def _around(ranges: Iterable[tuple[float, float]]) -> tuple[float, float]:

@@ -16,7 +16,7 @@ from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, NUMBER_HELP, Vary, read_o
 _STEPS = 25
 
 
-@calls("basin_stability", "Parameter and samples", samples="states", vary="values")
+@calls("basin_stability", "Parameter and samples", samples="states")
 def basin_stability(
     rig: opt.RigName,
     /,
@@ -68,8 +68,7 @@ def basin_stability(
             data = vi.basin_stability(
                 shaken,
                 *window,
-                parameter=along,
-                values=varied.values(_STEPS),
+                vary={along: varied.values(_STEPS)},
                 states=samples,
                 seed=seed,
                 threads=threads,

@@ -24,7 +24,7 @@ _SHOWN = {
 _DIRECTIONS = {"both": ("up", "down"), "up": ("up",), "down": ("down",), "none": ()}
 
 
-@calls("bifurcation_diagram", "Diagram", vary="span", direction="directions", compute="outputs")
+@calls("bifurcation_diagram", "Diagram", direction="directions", compute="outputs")
 def bifurcation(
     rig: opt.RigName,
     /,
@@ -101,8 +101,7 @@ def bifurcation(
         with progress_bar("computing motions") as progress:
             data = vi.bifurcation_diagram(
                 shaken,
-                along,
-                span,
+                {along: span},
                 varied.number or _STEPS,
                 directions=_DIRECTIONS[direction],
                 random=random,
@@ -117,7 +116,7 @@ def bifurcation(
         orbits = None
         if branches:
             start_phase = shaken.harmonic.phase
-            orbits = vi.resonance_diagram(shaken, span, parameter=along, phase=start_phase)
+            orbits = vi.resonance_diagram(shaken, {along: span}, phase=start_phase)
         written.write(
             data,
             f"{varied.ending}-diagram",

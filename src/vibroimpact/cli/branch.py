@@ -23,7 +23,7 @@ _HOLDS = 120
 """Number of frequencies of the stepped sweep in the figure."""
 
 
-@calls("resonance_diagram", "Branch", vary="span", compute="outputs")
+@calls("resonance_diagram", "Branch", compute="outputs")
 def branch(
     rig: opt.RigName,
     /,
@@ -120,8 +120,7 @@ def branch(
                 data = vi.branch(
                     shaken,
                     near,
-                    parameter=along,
-                    span=span,
+                    vary={along: span},
                     period=period,
                     outputs=outputs,
                     progress=progress,
@@ -129,8 +128,7 @@ def branch(
             else:
                 data = vi.resonance_diagram(
                     shaken,
-                    span,
-                    parameter=along,
+                    {along: span},
                     phase=what.phase,
                     longest=longest,
                     random=random,

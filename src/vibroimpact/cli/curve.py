@@ -22,12 +22,7 @@ _KINDS = {
 }
 
 
-@calls(
-    "bifurcation_curve",
-    "Curve",
-    bifurcation="kind",
-    vary="spans",
-)
+@calls("bifurcation_curve", "Curve", bifurcation="kind")
 def curve(
     rig: opt.RigName,
     /,
@@ -90,11 +85,12 @@ def curve(
     for one in found:
         check_continuous(one)
     first, second = found
-    kind, pair, spans = _KINDS[bifurcation], (first.name, second.name), (first.span, second.span)
+    kind, pair = _KINDS[bifurcation], (first.name, second.name)
+    spans = {one.name: one.span for one in found}
     shaken = rig_at(what, frequency, along=first.name)
     with results(what, output) as written:
         with progress_bar("following curves") as progress:
-            curves = curves_of_kind(shaken, kind, parameters=pair, spans=spans, progress=progress)
+            curves = curves_of_kind(shaken, kind, vary=spans, progress=progress)
         ending = f"{bifurcation}-{first.ending}-{second.ending}"
         written.write(curves, ending, figures.bifurcation_curves, f"{what.title}, {kind}")
     return written.tell(facts.facts(kind, pair, curves), facts.text(kind, pair, curves))

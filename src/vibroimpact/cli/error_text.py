@@ -12,6 +12,7 @@ from vibroimpact.cli.function_options import RENAMED
 from vibroimpact.errors import short_line
 
 _FIELD = re.compile(r"([a-z_.]+)(?=(\[\d+\])?: )")
+_VARIED = re.compile(r"vary\[(['\"])(.+?)\1\](\[\d+\])?")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _PAIR = re.compile(r"parameter (--[a-z-]+) requires 2 positional arguments")
 _UNIT = re.compile(r"[A-Za-zµ°]+(\^?-?[²³]|\^-?\d|[23])?([*/·][A-Za-z]+(\^?-?\d|[²³])?)*")
@@ -80,6 +81,8 @@ def _as_option(message: str, words: Sequence[str]) -> str:
     for argument in RENAMED.get(module, ()):
         if re.match(rf"{re.escape(argument)}(\[[^\]]*\])?: ", message):
             return _in_options(message, RENAMED[module])
+    if varied := _VARIED.match(message):
+        return f"--vary: {varied[2]}{message[varied.end() :]}"
     field = _FIELD.match(message)
     if field is None:
         return message

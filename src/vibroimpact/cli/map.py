@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
@@ -22,7 +22,7 @@ _AXES = ("stiffness_ratio=0.5:100:log", "gap_ratio=0:1")
 _PUBLISHED = "B3-10mm-A3"
 
 
-@calls("scenario_map", "Map", rig="rig", vary="x", output="store")
+@calls("scenario_map", "Map", rig="rig", output="store")
 def scenario_map(
     rig: opt.RigName | None = None,
     /,
@@ -117,14 +117,17 @@ def scenario_map(
             "--vary amplitude=0.01g:0.1g"
         )
     used = thresholds.thresholds()
-    names = [str(name) for name, *_ in axes]
+    names = [name for name, *_ in axes]
+    if names[0] == names[1]:
+        raise InputError(f"--vary: {names[0]!r} is given twice; pass two different parameters")
     ending = f"{'-'.join(names).replace('_', '-').replace('.', '-')}-map"
     with results(what, output) as written:
         written.files["data"] = store = written.path(ending, "zarr")
         with progress_bar("computing the map") as progress:
             data = vi.scenario_map(
                 what.rig,
-                *axes,
+                {name: values for name, values, _ in axes},
+                spacing={name: spacing for name, _, spacing in axes},
                 step=step,
                 refine=refine,
                 thresholds=used,
@@ -146,7 +149,7 @@ def scenario_map(
     )
 
 
-def _axis(path: str, text: str, of: Of) -> tuple[str, list[float], str]:
+def _axis(path: str, text: str, of: Of) -> tuple[str, list[float], Literal["log", "linear"]]:
     """Read an axis: its name, its values in SI units, and "log" or "linear"."""
     from vibroimpact.model.parameters import canonical, usual
     from vibroimpact.scenarios.axes import NAMES

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
@@ -19,9 +19,10 @@ from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside, shown
+from vibroimpact.errors import outside
 from vibroimpact.model import Oscillator
 from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model.varied import Values
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
 
@@ -35,7 +36,7 @@ _STIFFNESSES = {
 
 def design_chart(
     rig: AnyRig | Oscillator,
-    vary: Mapping[str, ArrayLike],
+    vary: Values,
     *,
     records: AnyRecords | None = None,
     limits: Mapping[str, float | str] | None = None,
@@ -130,7 +131,7 @@ def design_chart(
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
-    plan = _designs(oscillator, vary)
+    plan = runs(oscillator, vary, least=1)
     most = limits_of(limits)
     workers = placed(threads, where)
     places = list(itertools.product(*(range(n) for n in plan.shape)))
@@ -144,22 +145,6 @@ def design_chart(
         **what.parameters(),
     }
     return describe(data, "vibroimpact.design_chart", parameters, what.notes(), plan.varied)
-
-
-def _designs(oscillator: Oscillator, vary: Any) -> Runs:
-    """Read which rigs are computed.
-
-    Raises
-    ------
-    InputError
-        If nothing is varied, or a value is invalid.
-    """
-    if not isinstance(vary, Mapping) or not vary:
-        raise InputError(
-            f"vary: {shown(vary)}; pass the values of at least one parameter, such as "
-            '{"gap": ["200 mm", "300 mm"]}'
-        )
-    return runs(oscillator, None, vary)
 
 
 def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:

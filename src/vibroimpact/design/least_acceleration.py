@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,19 +16,21 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
 from vibroimpact.design.limits import QUANTITIES, limits_of
 from vibroimpact.design.worst_sine import STEP
-from vibroimpact.earthquakes.run_plan import Runs, runs
+from vibroimpact.earthquakes.run_plan import runs
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, shown, warn_of_input
+from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Oscillator
 from vibroimpact.model.count_checks import whole
 from vibroimpact.model.parameters import parameter
+from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.model.units import pretty
+from vibroimpact.model.rig import Rig, with_stated_units
+from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.varied import Ranges, read_ranges, stated
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]
-_Range = tuple[float | str, float | str]
 
 _STIFFNESSES = (0.1, 100.0)
 """Default range of a bumper's stiffness over that of the isolator."""
@@ -67,7 +69,7 @@ class _Space(NamedTuple):
     def rigs(self, x: _Array) -> list[Oscillator]:
         """Return the rig of each column."""
         return [
-            runs(self.rig, None, {n: [v] for n, v in zip(self.names, one, strict=True)}).oscillator(
+            runs(self.rig, {n: [v] for n, v in zip(self.names, one, strict=True)}).oscillator(
                 (0,) * len(self.names)
             )
             for one in self.values(x).T.tolist()
@@ -110,13 +112,13 @@ _VAST = 1e30
 
 def least_acceleration(
     rig: AnyRig | Oscillator,
-    ranges: Mapping[str, _Range] | None = None,
+    vary: Ranges | None = None,
     *,
     records: AnyRecords | None = None,
     gap: float | str | None = None,
     limits: Mapping[str, float | str] | None = None,
     fractile: float = 1.0,
-    frequency_span: _Range | None = None,
+    frequency_span: tuple[float | str, float | str] | None = None,
     step: float = STEP,
     tail: float | str | None = None,
     seed: int = 0,
@@ -137,7 +139,7 @@ def least_acceleration(
     ----------
     rig, records, fractile, frequency_span, step, tail, threads, where
         As in `design_chart`.
-    ranges
+    vary
         Parameters of the search, as a mapping from names to the lowest and the highest value. The
         names are those of `design_chart`. Default: the stiffness of the bumpers from 0.1 to 100
         times the stiffness of the isolator, and the damping of the bumpers from 0.01 to 10 times
@@ -181,8 +183,11 @@ def least_acceleration(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
     if gap is not None:
-        oscillator = runs(oscillator, [gap], None).oscillator((0,))
-    space = _space(oscillator, ranges)
+        oscillator = with_stated_units(oscillator, {"gap": gap})
+        size = to_si(gap, LENGTH, "gap", minimum=0.0)
+        oscillator = parameter("gap", oscillator, "gap").vary(Rig(oscillator), size).oscillator
+    space = _space(oscillator, vary)
+    oscillator = space.rig
     most = limits_of(limits)
     known = _Known(what, space, placed(threads, where), progress)
     constraints = tuple(
@@ -230,45 +235,29 @@ def least_acceleration(
     return describe(data, "vibroimpact.least_acceleration", parameters, told, varied)
 
 
-def _space(rig: Oscillator, ranges: Any) -> _Space:
-    given = _bumper_ranges(rig) if ranges is None else ranges
-    if not isinstance(given, Mapping) or not given:
-        raise InputError(
-            f"ranges: {shown(given)}; pass the lowest and the highest value of at least one "
-            'parameter, such as {"stops.stiffness": ("1 MN/m", "1 GN/m")}'
-        )
-    for name, ends in given.items():
-        if isinstance(ends, str) or not isinstance(ends, Sequence) or len(ends) != 2:
-            raise InputError(
-                f"ranges[{name!r}]: {shown(ends)}; pass the lowest and the highest value as a pair "
-                "(low, high)"
-            )
-    plan: Runs = runs(rig, None, given)
-    low, high = (np.array([one.values[i] for one in plan.varied]) for i in (0, 1))
-    for one in plan.varied:
-        if not one.values[0] < one.values[1]:
-            quantity = parameter(one.name, rig).quantity
-            first, last = (pretty(float(value), quantity) for value in one.values[:2])
-            raise InputError(
-                f"ranges[{one.name!r}]: the second value, {last}, is not above the first, "
-                f"{first}; pass the lower value first"
-            )
+def _space(rig: Oscillator, vary: Any) -> _Space:
+    vary = _bumper_ranges(rig) if vary is None else vary
+    rig = with_stated_units(rig, stated(vary))
+    ranges = read_ranges(vary, rig, None)
+    names = tuple(one.parameter.name for one in ranges)
+    low, high = np.array([one.ends for one in ranges]).T
+    runs(rig, {one.parameter.name: one.ends for one in ranges})  # refused before a search
     wide = (low > 0.0) & (high >= _WIDE * np.maximum(low, 0.0))
-    return _Space(rig, tuple(one.name for one in plan.varied), low, high, wide)
+    return _Space(rig, names, low, high, wide)
 
 
 def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
     """Return the default ranges of a bumper for this isolator."""
     if not rig.stops or not all(stop.spring_and_dashpot for stop in rig.stops):
         raise InputError(
-            "ranges: missing; by default the search for the best design varies linear bumpers, but "
+            "vary: missing; by default the search for the best design varies linear bumpers, but "
             + ("this rig has no stop" if not rig.stops else "a stop of this rig is of another kind")
             + "; in Python, pass the ranges of other parameters"
         )
     spring = rig.isolator.initial_stiffness
     if spring == 0.0:
         raise InputError(
-            "ranges: missing; for an isolator without a spring there are no default ranges; in "
+            "vary: missing; for an isolator without a spring there are no default ranges; in "
             "Python, pass the ranges of the parameters"
         )
     critical = 2.0 * math.sqrt(spring * rig.mass)
@@ -312,9 +301,7 @@ def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
 
 def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:
     if not math.isfinite(best["peak_acceleration"]):
-        raise InputError(
-            f"ranges: no design could be computed: {Status(int(best['status'])).advice}"
-        )
+        raise InputError(f"vary: no design could be computed: {Status(int(best['status'])).advice}")
     for name, limit in limits.items():
         if best[name] > limit:
             quantity = QUANTITIES[VARIABLES[name].units]

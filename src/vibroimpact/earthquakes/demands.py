@@ -37,6 +37,7 @@ from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import with_si_unit
+from vibroimpact.model.varied import Values
 from vibroimpact.model.written_units import has_no_units
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
@@ -62,8 +63,7 @@ def demands(
     scales: ArrayLike | Sequence[str] = (1.0,),
     *,
     intensity: Literal["factor", "PGA"] | tuple[float | str, float] = "factor",
-    gaps: ArrayLike | None = None,
-    vary: Mapping[str, ArrayLike] | None = None,
+    vary: Values | None = None,
     tail: float | str | None = None,
     max_events: int = MAX_EVENTS,
     store: Path | str | None = None,
@@ -93,11 +93,9 @@ def demands(
         Measure of the scales. ``"factor"`` is the number by which a record is multiplied. ``"PGA"``
         is the peak acceleration of the record (m/s²). A pair of a natural period (s) and a damping
         ratio selects the pseudo-acceleration of the record at this period and damping (m/s²).
-    gaps
-        Gaps on each side (m). This is a short form of ``vary={"gap": …}``.
     vary
         Parameters that are varied, as a mapping from names to values. All combinations of the
-        values are computed. Names are, for example, ``"stops.stiffness"``,
+        values are computed. Names are, for example, ``"gap"``, ``"stops.stiffness"``,
         ``"stops.restitution"``, ``"right.gap"``, ``"damping_ratio"`` and
         ``"isolator.yield_force"``. A parameter of stops is set on both sides, if the stop there has
         this parameter.
@@ -139,7 +137,7 @@ def demands(
     """
     check_progress(progress)
     shaking = suite(records)
-    rigs = runs(rig, gaps, vary, {**in_words(shaking), "scales": scales})
+    rigs = runs(rig, vary, {**in_words(shaking), "scales": scales})
     scaled = measure(intensity)
     levels = _levels(scales, scaled)
     known, factors = scaled.factors(list(shaking.values()), levels)

@@ -9,20 +9,21 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from vibroimpact.arguments import VALUES, check_list, check_mapping, is_list
+from vibroimpact.arguments import check_list, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, Rig
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.read_rig import as_rigs, is_one_rig
 from vibroimpact.model.rig import with_stated_units
-from vibroimpact.model.varied import Varied, varied, vary_all
+from vibroimpact.model.varied import Values, Varied, read_values, stated, vary_all
 
 _Array = NDArray[np.float64]
 
 NOT_VARIED = ("frequency", "amplitude", "gap_ratio")
 """Parameters of what shakes it, which a record does not have."""
+WHY_NOT = "depends on the shaking, which is not varied here"
 
 
 class Runs(NamedTuple):
@@ -64,13 +65,14 @@ class Runs(NamedTuple):
 
 def runs(
     rig: Any,
-    gaps: ArrayLike | None,
-    vary: Mapping[str, ArrayLike] | None,
+    vary: Values | None,
     others: Mapping[str, object] | None = None,
+    least: int = 0,
 ) -> Runs:
     """Read the rigs: one, or several by name or in a list; and what is varied of each.
 
-    ``others`` are values, by their names in messages, that may state a unit, too.
+    ``others`` are values, by their names in messages, that may state a unit, too. ``least`` is the
+    least number of parameters that are varied.
 
     Raises
     ------
@@ -81,34 +83,14 @@ def runs(
     rigs = {name: one.oscillator for name, one in read.items()}
     if is_one_rig(rig):
         rigs = {"rig": next(iter(rigs.values()))}
-    given = dict(check_mapping({} if vary is None else vary, "vary", VALUES))
-    if gaps is not None:
-        if "gap" in given:
-            raise InputError("gaps: given together with vary['gap']; remove one of the two")
-        given = {"gap": gaps, **given}
-    stated = {**(others or {}), **{_field(name): values for name, values in given.items()}}
-    rigs = {name: with_stated_units(one, stated) for name, one in rigs.items()}
+    values = {**(others or {}), **stated(vary)}
+    rigs = {name: with_stated_units(one, values) for name, one in rigs.items()}
     one = next(iter(rigs.values()))
-    every = tuple(
-        varied(
-            name,
-            values,
-            one,
-            _field(name),
-            NOT_VARIED,
-            "depends on the shaking, which is not varied here",
-        )
-        for name, values in given.items()
-    )
+    every = read_values(vary, one, least=least, but=NOT_VARIED, why=WHY_NOT)
     found = Runs(rigs, every, not is_one_rig(rig))
     for at in itertools.product(*((0, n - 1) for n in found.shape)):
         found.oscillator(at)  # refused before anything is computed
     return found
-
-
-def _field(name: str) -> str:
-    """Return the name of the values of a parameter in messages."""
-    return "gaps" if name == "gap" else f"vary[{name!r}]"
 
 
 def in_words(records: Mapping[str, Record]) -> dict[str, Record]:

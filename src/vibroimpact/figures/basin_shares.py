@@ -42,7 +42,7 @@ def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     if "share" not in data or data["share"].ndim != 2:
         raise InputError(
             "data: the shares do not depend on a parameter; pass the result of basin_stability "
-            "with parameter= and values="
+            "with vary="
         )
     ax = axes_or_new(ax, (7.2, 4.4), title)
     along = data[str(data["share"].dims[0])]

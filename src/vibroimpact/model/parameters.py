@@ -14,7 +14,6 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, cast
 
-from vibroimpact.arguments import is_pair
 from vibroimpact.errors import InputError, meant, shown
 from vibroimpact.model.derived_parameters import DERIVED
 from vibroimpact.model.excitation import FREQUENCY_WORDS, Of, amplitude_of
@@ -40,7 +39,6 @@ from vibroimpact.model.quantities import (
 )
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import STOPS
-from vibroimpact.model.units import to_si, with_si_unit
 from vibroimpact.model.validation import Accepts
 
 _UNITS = {
@@ -408,30 +406,3 @@ _SYMBOLS = {
     **dict.fromkeys(("t", "period", "naturalperiod"), "'isolator_period'"),
 }
 """The usual symbol of a parameter, and what to write instead."""
-
-
-def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[float, float]:
-    """Read the lowest and the highest value of a parameter.
-
-    Raises
-    ------
-    InputError
-        If the range is not a pair, if a value is invalid, or if the range is empty.
-    """
-    if not is_pair(span):
-        raise InputError(
-            f"{field}: {shown(span)}; pass the lowest and the highest value of {varied.name} as "
-            "(low, high)"
-        )
-    ends = list(cast("Iterable[float | str]", span))
-    low, high = (
-        to_si(end, varied.quantity, f"{field}[{i}]", minimum=varied.least, maximum=varied.most)
-        for i, end in enumerate(ends)
-    )
-    if not low < high:
-        first, last = (with_si_unit(end, varied.quantity) for end in (low, high))
-        raise InputError(
-            f"{field}[1]: {last} is not greater than {field}[0], {first}; pass the lowest value "
-            "first, and then the highest"
-        )
-    return low, high

@@ -8,17 +8,17 @@ from functools import wraps
 from pathlib import Path
 from typing import Any, ParamSpec, TypeAlias, TypeVar
 
-from vibroimpact.arguments import check_list, is_list, is_pair
+from vibroimpact.arguments import check_list, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import laboratory
 from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.excitation import Harmonic, Periodic
 from vibroimpact.model.laboratory import Case
 from vibroimpact.model.oscillator import Oscillator
-from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig, several_masses
 from vibroimpact.model.study import read_rig_study
+from vibroimpact.model.varied import Range
 from vibroimpact.model.written_units import written_for
 
 _P = ParamSpec("_P")
@@ -185,14 +185,8 @@ def _read(value: Any, where: str, oscillator_alone: bool) -> Rig:
     raise InputError(f"{where}: {shown(value)} is not a rig; {_ACCEPTED}{why}")
 
 
-def from_lowest(rig: Rig, parameter: str, span: Any) -> Rig:
-    """Return the rig. If its frequency is open and varied, set the lowest frequency of the span.
-
-    Raises
-    ------
-    InputError
-        If the frequency is open, and no parameter has this name.
-    """
-    if rig.frequency is None and registered(parameter, rig).name == "frequency" and is_pair(span):
-        return rig.at(next(iter(span)))
+def from_lowest(rig: Rig, along: Range) -> Rig:
+    """Return the rig. If its frequency is open and varied, set the lowest frequency."""
+    if rig.frequency is None and along.parameter.name == "frequency":
+        return rig.at(along.low)
     return rig

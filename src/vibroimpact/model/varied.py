@@ -1,26 +1,37 @@
-"""Vary several parameters of a rig at once."""
+"""Parameters of a rig that are varied: a range or values by path, and several set at once."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Any, NamedTuple
+import itertools
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple, TypeAlias, cast
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.arguments import check_list
-from vibroimpact.errors import InputError
+from vibroimpact.arguments import MOST_LISTED, check_list, check_mapping, is_pair
+from vibroimpact.errors import InputError, shown
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.sizes import doubt_damping_ratio
-from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.units import pretty, to_si, with_si_unit
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
 """Parameters that also set a damping. They are set first, so that a varied damping replaces it."""
 
 _LAST = ("stiffness_ratio", "damping_ratio", "gap_ratio", "relaxation_time")
 """Parameters that depend on others. They are set after all others, in this order."""
+
+
+Ranges: TypeAlias = Mapping[str, tuple[float | str, float | str]]
+"""Lowest and highest value by parameter, in SI units or as texts with units."""
+Values: TypeAlias = Mapping[str, ArrayLike]
+"""Values by parameter, in SI units or as texts with units."""
+
+_RANGES = {"frequency": ("1 Hz", "3 Hz"), "gap": ("5 mm", "8 mm")}
+_VALUES = {"gap": ["5 mm", "8 mm"], "damping_ratio": [0.05, 0.1]}
+_COUNTS = {0: "no", 1: "one", 2: "two"}
 
 
 class Varied(NamedTuple):
@@ -32,45 +43,198 @@ class Varied(NamedTuple):
     long_name: str
 
 
-def varied(
-    name: str, values: Any, rig: Oscillator, field: str, but: tuple[str, ...], why: str
-) -> Varied:
-    """Read the values of a parameter that is varied.
+class Range(NamedTuple):
+    """A parameter that is varied, and its lowest and highest value in SI units."""
+
+    parameter: Parameter
+    low: float
+    high: float
+    field: str
+    """Name of the range in messages, such as ``vary['gap']``."""
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Lowest and highest value."""
+        return self.low, self.high
+
+    def check_contains(self, value: float, why: str = "") -> None:
+        """Refuse a range that does not contain the rig's own value. ``why`` it must, in words.
+
+        Raises
+        ------
+        InputError
+            If the value lies outside the range.
+        """
+        if not self.low <= value <= self.high:
+            low, high, own = (pretty(one, self.parameter.quantity) for one in (*self.ends, value))
+            raise InputError(
+                f"{self.field}: {low} to {high} does not contain the rig's {self.parameter.name} "
+                f"of {own}{why}; widen this range"
+            )
+
+
+def read_ranges(vary: object, rig: Rig | Oscillator, count: int | None = 1) -> list[Range]:
+    """Read parameters and their ranges, such as ``{"gap": ("3 mm", "7 mm")}``.
 
     Parameters
     ----------
-    name, values
-        Name of the parameter, and its values in SI units or as texts with units.
+    vary
+        The argument.
     rig
-        The oscillator. The unit of the parameter may depend on its laws.
-    field
-        Name of the values in messages.
+        The rig. The unit of a parameter may depend on its laws.
+    count
+        Number of parameters. None if any number of at least one is accepted.
+
+    Raises
+    ------
+    InputError
+        If it is not a mapping with so many parameters, if there is no such parameter, if a range is
+        not a pair in rising order, or if a value is invalid.
+    """
+    least, most = (1, None) if count is None else (count, count)
+    examples = {"gap": _RANGES["gap"]} if count is None else _RANGES
+    given = _given(vary, "ranges", examples, least, most)
+    return [
+        _range(varied, span, field_of(name))
+        for (name, span), varied in zip(given.items(), _parameters(given, rig), strict=True)
+    ]
+
+
+def read_values(
+    vary: object,
+    rig: Rig | Oscillator,
+    *,
+    least: int = 0,
+    most: int | None = None,
+    longest: int = MOST_LISTED,
+    but: tuple[str, ...] = (),
+    why: str = "",
+) -> tuple[Varied, ...]:
+    """Read parameters and their values, such as ``{"gap": ["3 mm", "7 mm"]}``.
+
+    Parameters
+    ----------
+    vary
+        The argument. None means no parameter, if this is accepted.
+    rig
+        The rig. The unit of a parameter may depend on its laws.
+    least, most
+        Least and largest number of parameters.
+    longest
+        Largest number of values of a parameter.
     but, why
         Names of parameters that are not accepted, and the reason in words.
 
     Raises
     ------
     InputError
-        If there is no such parameter, or if a value is invalid or occurs twice.
+        If it is not such a mapping, if there is no such parameter, or if a value is invalid or
+        occurs twice.
     """
-    known = parameter(name, rig, "vary")
-    if known.name in but:
-        raise InputError(f"vary: {name!r} {why}; remove it")
-    values = check_list(values, field, what="a list of values")
-    limits: dict[str, Any] = {"minimum": known.least} if known.zero else {"above": 0.0}
+    given = entries(vary, least, most)
+    found = _parameters(given, rig)
+    for name, one in zip(given, found, strict=True):
+        if one.name in but:
+            raise InputError(f"vary: {name!r} {why}; remove it")
+    return tuple(
+        _values(varied, values, field_of(name), longest)
+        for (name, values), varied in zip(given.items(), found, strict=True)
+    )
+
+
+def stated(vary: object) -> dict[str, Any]:
+    """Return the values or ranges by their names in messages, to see which state a unit.
+
+    What is not a mapping has none; it is refused where it is read.
+    """
+    return (
+        {field_of(str(name)): one for name, one in vary.items()}
+        if isinstance(vary, Mapping)
+        else {}
+    )
+
+
+def entries(vary: object, least: int = 0, most: int | None = None) -> dict[str, Any]:
+    """Return the values of the parameters that are varied, as they were passed.
+
+    Raises
+    ------
+    InputError
+        If it is not a mapping from names, or if it has fewer than `least` or more than `most`.
+    """
+    return _given({} if vary is None and not least else vary, "values", _VALUES, least, most)
+
+
+def field_of(name: str) -> str:
+    """Return the name of the values or of the range of a parameter in messages."""
+    return f"vary[{name!r}]"
+
+
+def _given(
+    vary: object, kind: str, examples: Mapping[str, Any], least: int, most: int | None
+) -> dict[str, Any]:
+    count = _COUNTS[least if most is None else most]
+    bound = "at least " if most is None else "" if least == most else "at most "
+    plural = "" if count == "one" else "s"
+    clause = f", with {bound}{count} parameter{plural}" if least or most else ""
+    shortest = dict(itertools.islice(examples.items(), max(1, most or 1)))
+    example = repr(shortest).replace("'", '"')
+    what = f"a dict of {kind} by parameter{clause}, such as {example}"
+    given = dict(check_mapping(vary, "vary", what))
+    if len(given) < least or (most is not None and len(given) > most):
+        names = ", ".join(map(shown, given)) or "no parameter"
+        raise InputError(f"vary: {names}; pass {what}")
+    return given
+
+
+def _parameters(given: Mapping[str, Any], rig: Rig | Oscillator) -> list[Parameter]:
+    found: dict[str, Parameter] = {}
+    for name in given:
+        one = parameter(name, rig, "vary")
+        if one.name in found:
+            first = next(other for other in given if parameter(other, rig, "vary") == one)
+            raise InputError(
+                f"vary: {first!r} and {name!r} are the same parameter; remove one of the two"
+            )
+        found[one.name] = one
+    return list(found.values())
+
+
+def _range(varied: Parameter, span: object, field: str) -> Range:
+    if not is_pair(span):
+        raise InputError(
+            f"{field}: {shown(span)}; pass the lowest and the highest value of {varied.name} as "
+            "(low, high)"
+        )
+    low, high = (
+        to_si(end, varied.quantity, f"{field}[{i}]", minimum=varied.least, maximum=varied.most)
+        for i, end in enumerate(cast("Iterable[float | str]", span))
+    )
+    if not low < high:
+        first, last = (with_si_unit(end, varied.quantity) for end in (low, high))
+        raise InputError(
+            f"{field}[1]: {last} is not greater than {field}[0], {first}; pass the lowest value "
+            "first, and then the highest"
+        )
+    return Range(varied, low, high, field)
+
+
+def _values(varied: Parameter, values: object, field: str, longest: int) -> Varied:
+    items = check_list(values, field, longest, f"a list of values of {varied.name}")
+    limits: dict[str, Any] = {"minimum": varied.least} if varied.zero else {"above": 0.0}
     numbers = [
-        to_si(value, known.quantity, f"{field}[{i}]", **limits, maximum=known.most)
-        for i, value in enumerate(values)
+        to_si(value, varied.quantity, f"{field}[{i}]", **limits, maximum=varied.most)
+        for i, value in enumerate(items)
     ]
     if not numbers:
-        raise InputError(f"{field}: the list is empty; pass at least one value")
-    if known.name == "damping_ratio":
+        raise InputError(f"{field}: the list is empty; pass at least one value of {varied.name}")
+    if varied.name == "damping_ratio":
         doubt_damping_ratio(max(numbers), field)
     if twice := [one for i, one in enumerate(numbers) if one in numbers[:i]]:
         raise InputError(
-            f"{field}: {pretty(twice[0], known.quantity)} is given twice; remove one of the two"
+            f"{field}: {pretty(twice[0], varied.quantity)} is given twice; remove one of the two"
         )
-    return Varied(known.name, np.array(numbers), known.units, known.long_name)
+    return Varied(varied.name, np.array(numbers), varied.units, varied.long_name)
 
 
 def vary_all(rig: Rig, values: Iterable[tuple[Parameter, float]]) -> Rig:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, shown, unknown
+from vibroimpact.arguments import check_list, check_mapping, check_name
+from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import (
     Harmonic,
     to_si,
@@ -21,6 +22,7 @@ from vibroimpact.model.parameters import PARAMETERS, canonical, usual
 from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
+from vibroimpact.model.varied import entries, field_of
 
 _Array = NDArray[np.float64]
 
@@ -46,6 +48,8 @@ ONE_QUANTITY = (
     {"stops.stiffness", "proportional_stiffness"},
 )
 """Pairs that say the same of one rig."""
+
+_SPACING = 'a dict of "log" or "linear" by parameter, such as {"stiffness_ratio": "log"}'
 
 _OF_BUMPERS = ("stops.stiffness", "proportional_stiffness", "stiffness_ratio", "relaxation_time")
 
@@ -80,33 +84,54 @@ def logarithmic(values: _Array) -> bool:
     return bool(spread < 0.05 and spread < 0.1 * uneven)
 
 
-def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
-    """Read an axis: the name of a parameter, its values, and "linear" or "log" if it is not clear.
+def read_axes(vary: object, spacing: object, of: Of = "acceleration") -> tuple[Axis, Axis]:
+    """Read the axes x and y of a map: parameters and values, and spacings that are not clear.
 
     `of` is the quantity of amplitudes.
 
     Raises
     ------
     InputError
-        If it is not such a pair, or a value is invalid.
+        If there are not two parameters that go together, or if a value or a spacing is invalid.
     """
-    pair = isinstance(given, tuple | list) and len(given) in (2, 3) and isinstance(given[0], str)
-    if not pair or given[2:] not in ((), [], ("log",), ["log"], ("linear",), ["linear"]):
+    given = entries(vary, 2, 2)
+    names = [_name(name, "vary") for name in given]
+    if names[0] == names[1]:
         raise InputError(
-            f"{field}: {shown(given)} is not an axis; pass the name of a parameter and its values, "
-            'such as ("gap_ratio", [0, 0.5, 1]); "log" or "linear" may be the third item'
+            f"vary: {' and '.join(map(repr, given))} are the same parameter; replace one of the two"
         )
-    name, values = given[:2]
-    name = canonical(name, NAMES)
-    if name not in NAMES:
+    spaced = check_mapping({} if spacing is None else spacing, "spacing", _SPACING)
+    kinds: dict[str, str] = {}
+    for name, kind in spaced.items():
+        known = _name(name, "spacing")
+        if known not in names:
+            raise InputError(
+                f"spacing: {name!r} is not an axis of this map; one of {', '.join(names)} is "
+                "accepted"
+            )
+        kinds[known] = check_name(kind, ("log", "linear"), f"spacing[{name!r}]")
+    x, y = (
+        _axis(name, values, field_of(written), kinds.get(name), of)
+        for name, (written, values) in zip(names, given.items(), strict=True)
+    )
+    check_pair(x, y)
+    return x, y
+
+
+def _name(name: str, field: str) -> str:
+    known = canonical(name, NAMES)
+    if known not in NAMES:
         raise InputError(f"{field}: {unknown(name, NAMES)}")
+    return known
+
+
+def _axis(name: str, values: object, field: str, spacing: str | None, of: Of) -> Axis:
     varied = usual(name, of)
-    if isinstance(values, str) or not isinstance(values, Iterable):
-        raise InputError(f"{field}: {shown(values)} is not a list; pass at least two values")
+    items = check_list(values, field, what="at least two values")
     limits: dict[str, Any] = {"minimum": 0.0} if varied.zero else {"above": 0.0}
     limits["maximum"] = varied.most
     numbers = np.array(
-        [to_si(value, varied.quantity, f"{field}[{i}]", **limits) for i, value in enumerate(values)]
+        [to_si(value, varied.quantity, f"{field}[{i}]", **limits) for i, value in enumerate(items)]
     )
     if len(numbers) < 2:
         count = "one value" if len(numbers) else "no values"
@@ -122,7 +147,7 @@ def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
             f"{field}[{len(numbers) - 1}]: at a damping ratio of {numbers[-1]:g}, there is no "
             "resonance peak; pass values below 0.707107"
         )
-    spaced = given[2] == "log" if len(given) == 3 else logarithmic(numbers)
+    spaced = spacing == "log" if spacing else logarithmic(numbers)
     if spaced and numbers[0] <= 0.0:
         raise InputError(
             f"{field}[0]: 0 is not possible on a logarithmic axis; pass values above 0, or use a "
@@ -132,19 +157,17 @@ def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
 
 
 def check_pair(x: Axis, y: Axis) -> None:
-    """Refuse two axes of one parameter, or of one quantity.
+    """Refuse two axes of one quantity.
 
     Raises
     ------
     InputError
         If they do not go together.
     """
-    if x.name == y.name:
-        raise InputError(f"y: {y.name!r} is also the parameter of x; choose another one for y")
     if {x.name, y.name} in ONE_QUANTITY:
         raise InputError(
-            f"y: {y.name!r} varies the same quantity as {x.name!r}, the parameter of x; choose "
-            "another one for y"
+            f"vary: {y.name!r} varies the same quantity as {x.name!r}; choose another parameter "
+            "for y"
         )
 
 

@@ -152,8 +152,10 @@ def _cusp(rig: Rig, along: str, value: float) -> float | None:
         curve = bifurcation_curve(
             rig.at(float(orbits["bifurcation_value"][i])),
             orbits.isel(bifurcation=i),
-            spans=((float(held[0]), float(held[-1])), (value / _REACH, value * _REACH)),
-            parameters=("frequency", along),
+            vary={
+                "frequency": (float(held[0]), float(held[-1])),
+                along: (value / _REACH, value * _REACH),
+            },
         )
     except InputError:  # too near to the cusp for Newton's method
         return None

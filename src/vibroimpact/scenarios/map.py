@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -18,7 +18,8 @@ from vibroimpact.grids.refinement import UNKNOWN, Nodes, Scenarios
 from vibroimpact.model import from_dimensionless
 from vibroimpact.model.count_checks import share, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
-from vibroimpact.scenarios.axes import Axis, Base, axis, check_pair, one_sine
+from vibroimpact.model.varied import Values
+from vibroimpact.scenarios.axes import Axis, Base, one_sine, read_axes
 from vibroimpact.scenarios.map_node import RIG, classified
 from vibroimpact.scenarios.map_store import MapStore, chunk_slices, map_store
 from vibroimpact.scenarios.sweep_frequencies import STEP
@@ -47,9 +48,9 @@ MOST_NODES = 4_000_000
 @in_units_of_rig
 def scenario_map(
     rig: AnyRig | None,
-    x: tuple[Any, ...],
-    y: tuple[Any, ...],
+    vary: Values,
     *,
+    spacing: Mapping[str, Literal["log", "linear"]] | None = None,
     step: float = STEP,
     refine: int = 0,
     thresholds: Thresholds | None = None,
@@ -71,8 +72,9 @@ def scenario_map(
         laboratory case or its code such as ``"B2-G1-A3"``, or the path of a study file. If it is
         None, the rig has the dimensionless parameters ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on
         both sides.
-    x, y
-        The parameters on the two axes. Each is a tuple of a name and rising values.
+    vary
+        The parameters on the two axes, x first, and rising values of each, such as
+        ``{"gap_ratio": [0, 0.5, 1], "stiffness_ratio": [1, 10, 100]}``.
 
         Physical parameters are ``"gap"`` (m, on each side), ``"amplitude"`` (in the unit of the
         amplitude of the rig), ``"stops.stiffness"`` (N/m, at the damping C_j of the rig) and
@@ -83,9 +85,9 @@ def scenario_map(
         A parameter of stops is set on both sides, if the stop has it. A rigid stop has only a gap
         and a restitution. If both parameters are dimensionless and δ0 is not one of them, δ0 stays
         constant. If one of the parameters is physical, the gap stays constant.
-
-        A third entry ``"log"`` or ``"linear"`` in the tuple selects the spacing of refined values.
-        It is required only if the values do not show their spacing.
+    spacing
+        Spacing of refined values by parameter, ``"log"`` or ``"linear"``. Default: the spacing that
+        the values show. It is required only if they show none.
     step
         Frequency step of the sweeps, as a share of the natural frequency.
     refine
@@ -136,10 +138,7 @@ def scenario_map(
     """
     check_progress(progress)
     start = _base(rig)
-    first, second = (
-        axis(given, where, start.base.sine.of) for given, where in ((x, "x"), (y, "y"))
-    )
-    check_pair(first, second)
+    first, second = read_axes(vary, spacing, start.base.sine.of)
     used = checked(thresholds)
     settings = {
         "x": {"name": first.name, "values": first.values.tolist(), "log": first.logarithmic},
@@ -158,7 +157,7 @@ def scenario_map(
     if nodes > MOST_NODES:
         raise InputError(
             f"refine: {refine} gives {nodes} points, more than the maximum of {MOST_NODES}; lower "
-            "refine, or pass fewer values of x and y"
+            "refine, or pass fewer values"
         )
     fine = first.refined(refine), second.refined(refine)
     for end in (0, -1):  # refused before anything is computed
@@ -169,7 +168,7 @@ def scenario_map(
         block << refine,
     )
 
-    def compute(nodes: list[Values], tally: Tally) -> dict[str, NDArray[Any]]:
+    def compute(nodes: list[Node], tally: Tally) -> dict[str, NDArray[Any]]:
         return classified([start.rig(one) for one in nodes], used, fine_step, max_cycles, tally)
 
     with map_store(store, fine, plan.chunk, refine + 1, settings) as held:
@@ -191,7 +190,7 @@ def map_workers(nodes: int, threads: int | None, where: Any) -> Workers:
     return placed(threads, where)
 
 
-Values: TypeAlias = dict[str, float]
+Node: TypeAlias = dict[str, float]
 """The parameters of a node."""
 
 
@@ -208,13 +207,13 @@ class _Plan(NamedTuple):
         for (r, row), (c, column) in itertools.product(enumerate(rows), enumerate(columns)):
             yield r, c, (row, column)
 
-    def values(self, row: int, column: int) -> Values:
+    def values(self, row: int, column: int) -> Node:
         """Return the values of both parameters at a node."""
         x, y = self.axes
         return {x.name: float(x.values[column]), y.name: float(y.values[row])}
 
 
-Compute = Callable[[list[Values], Tally], dict[str, NDArray[Any]]]
+Compute = Callable[[list[Node], Tally], dict[str, NDArray[Any]]]
 
 
 def _level(
@@ -256,7 +255,7 @@ def _known(plan: _Plan, held: MapStore, level: int) -> Scenarios:
 
 
 def _parallel(
-    nodes: list[Values],
+    nodes: list[Node],
     compute: Compute,
     workers: Workers,
     progress: Progress | None,

@@ -193,7 +193,7 @@ def primary_branch(found: Evidence, rig: Rig, ended: Holds) -> xr.Dataset | None
         return None
     low, high = found.swept
     try:
-        return branch(Rig(oscillator, first[0]), first[1], span=(low, high))
+        return branch(Rig(oscillator, first[0]), first[1], vary={"frequency": (low, high)})
     except InputError:
         return None
 

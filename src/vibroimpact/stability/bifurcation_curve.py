@@ -23,7 +23,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list, check_progress, is_pair
+from vibroimpact.arguments import check_progress
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.datasets.description import (
@@ -34,12 +34,12 @@ from vibroimpact.datasets.description import (
 )
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.section_map import PARAMETER
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError
 from vibroimpact.model.count_checks import whole
-from vibroimpact.model.parameters import parameter, read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
+from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.stability.bifurcation_locus import Locus, Place
 from vibroimpact.stability.bifurcations import BREAKING
 from vibroimpact.stability.branch_dataset import state_of
@@ -51,7 +51,6 @@ from vibroimpact.tasks.threads import Progress, counted
 
 _Array = NDArray[np.float64]
 
-_NAMES = 'pass the names of two parameters, such as ("frequency", "gap")'
 _NOTHING = xr.DataArray([np.nan])
 
 
@@ -61,8 +60,7 @@ def bifurcation_curve(
     start: xr.Dataset,
     *,
     frequency: float | str | None = None,
-    parameters: tuple[str, str],
-    spans: tuple[tuple[float | str, float | str], tuple[float | str, float | str]],
+    vary: Ranges,
     most_points: int = 2000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -75,13 +73,12 @@ def bifurcation_curve(
         path of a study file.
     start
         One bifurcation of a dataset of `branch` or `resonance_diagram`, which was computed along
-        the first parameter: ``data.isel(bifurcation=i)``.
+        one of the two parameters: ``data.isel(bifurcation=i)``.
     frequency
         Forcing frequency (Hz). Default: the frequency of the rig.
-    parameters
-        Names of the two parameters, as in `branch`.
-    spans
-        Lowest and highest value of each of the two parameters, in SI units or as text with units.
+    vary
+        The two parameters, and the lowest and highest value of each, as in `branch`. The parameter
+        along which ``start`` was computed is the first, whatever the order of the mapping.
     most_points
         Largest number of points in each direction along the curve.
     progress
@@ -104,75 +101,55 @@ def bifurcation_curve(
     """
     check_progress(progress)
     rig = as_rig(rig, frequency)
-    names = check_list(parameters, "parameters", 2, "a list of two parameters")
-    for name in (one for one in names if not isinstance(one, str)):
-        raise InputError(f"parameters: {shown(name)} is not a name; {_NAMES}")
-    if len(names) != 2:
-        raise InputError(f"parameters: {shown(parameters)} is not a pair; {_NAMES}")
-    for name in names:
-        parameter(name, rig, "parameters")
+    ranges = read_ranges(vary, rig, 2)
     oscillator, excitation = rig.oscillator, rig.harmonic
-    parameters = (names[0], names[1])
     if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
         raise InputError(
             "start: this is not a single bifurcation; pass one bifurcation of a result of branch, "
             "such as data.isel(bifurcation=0)"
         )
-    if start.attrs.get("parameter") != parameters[0].replace("-", "_"):
+    ranges.sort(key=lambda one: one.parameter.name != start.attrs.get("parameter"))
+    first, second = (one.parameter.name for one in ranges)
+    if first != start.attrs.get("parameter"):
         raise InputError(
-            f"parameters: {parameters[0]!r} is not the parameter along which the start was "
-            f"computed; pass {start.attrs.get('parameter')!r} as the first parameter"
+            f"vary: neither {first!r} nor {second!r} is the parameter along which the start was "
+            f"computed; pass {start.attrs.get('parameter')!r} and another one"
         )
     most_points = whole(most_points, "most_points")
     kind = start["bifurcation_kind"].item()
     phase = float(start["bifurcation_section"].sel(component="phase"))
-    over = plane(Rig(oscillator, excitation.replace(phase=phase)), (parameters[0], parameters[1]))
-    if not is_pair(spans):
-        raise InputError(
-            f"spans: {shown(spans)}; pass a pair (low, high) for each of the two parameters, such "
-            "as ((2, 8), (0.005, 0.02))"
-        )
-    ends = [
-        read_span(varied, span, f"spans[{i}]")
-        for i, (varied, span) in enumerate(
-            zip((over.family.parameter, over.other), spans, strict=True)
-        )
-    ]
-    if not ends[1][0] <= over.value <= ends[1][1]:
-        low, high, own = (pretty(one, over.other.quantity) for one in (*ends[1], over.value))
-        raise InputError(
-            f"spans[1]: {low} to {high} does not contain the rig's {parameters[1]} of {own}; widen "
-            "this range"
-        )
+    over = plane(Rig(oscillator, excitation.replace(phase=phase)), (first, second))
+    ranges[1].check_contains(over.value)
+    ends = [one.ends for one in ranges]
     if kind == BREAKING and not over.symmetric:
         raise InputError(
-            f"parameters: {parameters[1]!r} makes the rig asymmetric, but the start is a symmetry "
+            f"vary: {second!r} makes the rig asymmetric, but the start is a symmetry "
             "breaking, which requires a symmetric rig; use a parameter that changes both sides "
             "equally, such as 'gap'"
         )
     system, y = _start(over, kind, start, ends)
-    first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
+    spot = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
     if first is None:
-        first = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
-    if first is None:
+        spot = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
+    if spot is None:
         own = pretty(float(start["bifurcation_value"]), over.family.parameter.quantity, 9)
         raise InputError(
-            f"start: this rig has no {kind} near {parameters[0]} = {own}; pass a bifurcation that "
+            f"start: this rig has no {kind} near {first} = {own}; pass a bifurcation that "
             "was computed for this rig"
         )
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
         along = sense * np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 1.0])
-        begin = Place(system, first, unit_tangent(first.jacobian, along, SEEN), 0.0)
+        begin = Place(system, spot, unit_tangent(spot.jacobian, along, SEEN), 0.0)
         locus = Locus(begin, ends)
         traces.append(arclength.follow(locus, begin, most_points, told))
         if traces[0].ended == CLOSED:
             break
     cusps = [
-        spot
+        cusp
         for trace in traces
         for pair in itertools.pairwise(trace.points)
-        if (spot := locus.cusp(*pair)) is not None
+        if (cusp := locus.cusp(*pair)) is not None
     ]
     places = traces[0].points
     if len(traces) == 2:

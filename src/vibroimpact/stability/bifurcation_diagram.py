@@ -30,10 +30,9 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Rig, State
 from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, share, whole
-from vibroimpact.model.parameters import parameter as registered
-from vibroimpact.model.parameters import read_span
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest, in_units_of_rig
+from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
@@ -54,8 +53,7 @@ _BLOCK = 32
 @in_units_of_rig
 def bifurcation_diagram(
     rig: AnyRig,
-    parameter: str,
-    span: tuple[float | str, float | str],
+    vary: Ranges,
     steps: int = 200,
     *,
     frequency: float | str | None = None,
@@ -85,10 +83,8 @@ def bifurcation_diagram(
     rig
         The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
         path of a study file.
-    parameter
-        Name of the parameter that is varied, as in `branch`.
-    span
-        Lowest and highest value of the parameter, in SI units or as text with units.
+    vary
+        Parameter that is varied, and its lowest and highest value, as in `branch`.
     steps
         Number of values of the parameter, including both ends.
     frequency
@@ -152,15 +148,15 @@ def bifurcation_diagram(
         If a value is invalid.
     """
     check_progress(progress)
-    rig = from_lowest(as_rig(rig, frequency), parameter, span)
+    rig = as_rig(rig, frequency)
+    (along,) = read_ranges(vary, rig)
+    rig, varied, ends = from_lowest(rig, along), along.parameter, along.ends
     oscillator, excitation = rig.oscillator, as_periodic(rig.harmonic, "shaking")[0]
-    varied = registered(parameter, rig)
-    ends = read_span(varied, span)
     log = check_flag(log, "log")
     if log and ends[0] <= 0.0:
         raise InputError(
-            f"span[0]: {ends[0]:g} is not possible on a logarithmic axis; pass a value above 0, or "
-            "use a linear axis"
+            f"{along.field}[0]: {ends[0]:g} is not possible on a logarithmic axis; pass a value "
+            "above 0, or use a linear axis"
         )
     count = whole(steps, "steps", 2, MOST_LISTED)
     values: _Array = np.geomspace(*ends, count) if log else np.linspace(*ends, count)

@@ -10,8 +10,8 @@ from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Rig, State
 from vibroimpact.model.count_checks import MOST_CYCLES, whole
-from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest, in_units_of_rig
+from vibroimpact.model.varied import Range, Ranges, read_ranges
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
@@ -32,8 +32,7 @@ def branch(
     start: State | xr.DataArray | xr.Dataset | None = None,
     *,
     frequency: float | str | None = None,
-    parameter: str = "frequency",
-    span: tuple[float | str, float | str],
+    vary: Ranges,
     period: int | None = None,
     most_points: int = 5000,
     outputs: Outputs | None = None,
@@ -56,9 +55,10 @@ def branch(
     frequency
         Forcing frequency of the first orbit (Hz). Default: the frequency of the rig. If the rig
         leaves the frequency open and the frequency is varied, the default is the lowest frequency
-        of the span.
-    parameter
-        Name of the parameter that is varied:
+        of the range.
+    vary
+        Parameter that is varied, and its lowest and highest value in SI units or as texts with
+        units, such as ``{"gap": ("3 mm", "7 mm")}``. Parameters are named by path:
 
         - of the excitation: "frequency", "amplitude" or "force" (a constant force);
         - of the stops on both sides: "gap", "stops.stiffness", "stops.damping",
@@ -71,8 +71,6 @@ def branch(
         - the stiffness of the bumpers at a fixed coefficient of restitution:
           "stiffness_at_restitution";
         - dimensionless: "gap_ratio" (δ0), "relaxation_time" (τ) or "damping_ratio" (ξ).
-    span
-        Lowest and highest value of the parameter, in SI units or as text with units.
     period
         Period of the orbits, in forcing cycles. Default: the period of the motion that is reached
         from rest, or 1 if there is a ``start``.
@@ -113,17 +111,18 @@ def branch(
         If a value is invalid, or if Newton's method finds no orbit near the start.
     """
     check_progress(progress)
-    rig = from_lowest(as_rig_of_any_masses(rig, frequency=frequency), parameter, span)
+    rig = as_rig_of_any_masses(rig, frequency=frequency)
     if outputs is not None and isinstance(rig.system, Assembly):
         raise InputError(
             "outputs: own outputs are not computed for an Assembly of several masses so far; "
             "remove outputs"
         )
-    fam, ends, first = _first_orbit(rig, start, parameter, span, period)
+    (along,) = read_ranges(vary, rig)
+    fam, first = _first_orbit(from_lowest(rig, along), start, along, period)
     most_points = whole(most_points, "most_points")
     own = () if outputs is None else read_outputs(outputs, rig)
-    followed = follow_both_ways(first, ends, most_points, progress)
-    data = as_dataset([followed], fam, ends, own=own)
+    followed = follow_both_ways(first, along.ends, most_points, progress)
+    data = as_dataset([followed], fam, along.ends, own=own)
     if progress is not None:
         progress(data.sizes["point"], data.sizes["point"])
     return data
@@ -135,11 +134,12 @@ def turning_points(
     span: tuple[float, float],
     most_points: int = 5000,
 ) -> list[float]:
-    """Return the frequencies (Hz) at which a branch of period-1 orbits turns back.
+    """Return the frequencies (Hz) of a span at which a branch of period-1 orbits turns back.
 
-    The arguments are those of `branch`.
+    The other arguments are those of `branch`.
     """
-    _, span, first = _first_orbit(rig, start, "frequency", span, 1)
+    (along,) = read_ranges({"frequency": span}, rig)
+    _, first = _first_orbit(rig, start, along, 1)
     path = InContact if bounded_by_flight(first) else Branch
     stations, ended, _ = _both_ways(first, span, most_points, path=path)
     found = [one.orbit.value for one in bifurcations.find(stations, turning=True) if one.turns]
@@ -152,21 +152,14 @@ def turning_points(
 def _first_orbit(
     rig: Rig,
     start: State | xr.DataArray | xr.Dataset | None,
-    parameter: str,
-    span: tuple[float | str, float | str],
+    along: Range,
     period: int | None,
-) -> tuple[Family, tuple[float, float], Orbit]:
-    """Return the varied parameter, its range, and the first orbit."""
-    fam = family(rig.with_parts(rig.system, rig.harmonic), parameter)
-    ends = read_span(fam.parameter, span)
-    if not ends[0] <= fam.value <= ends[1]:
-        low, high, own = (fam.written(value) for value in (*ends, fam.value))
-        raise InputError(
-            f"span: {low} to {high} does not contain the rig's {parameter} of {own}, at which the "
-            "first orbit lies; widen this range"
-        )
+) -> tuple[Family, Orbit]:
+    """Return the rig along the varied parameter, and the first orbit."""
+    fam = family(rig.with_parts(rig.system, rig.harmonic), along.parameter.name)
+    along.check_contains(fam.value, ", at which the first orbit lies")
     period = None if period is None else whole(period, "period", most=MOST_CYCLES)
-    return fam, ends, first_orbit(fam, ends, start, period)
+    return fam, first_orbit(fam, along.ends, start, period)
 
 
 def follow_both_ways(

@@ -111,7 +111,7 @@ def as_dataset(
             warnings.warn(
                 f"stability changes {often} along this branch without a detected bifurcation, "
                 f"first between {name} = {low} and {high}; the list of bifurcations is incomplete "
-                "there; to search with smaller steps, narrow the span around these values",
+                "there; to search with smaller steps, narrow the range around these values",
                 RuntimeWarning,
                 stacklevel=outside(),
             )

@@ -8,24 +8,20 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.parameters import read_span
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.units import pretty
+from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.stability.bifurcation_curve import bifurcation_curve
 from vibroimpact.stability.branch import branch
 from vibroimpact.stability.resonance_diagram import resonance_diagram
 from vibroimpact.stability.two_parameters import plane
 from vibroimpact.tasks.threads import Progress
 
-Span = tuple[float, float]
-
 
 def curves_of_kind(
     rig: Rig,
     kind: str,
     *,
-    parameters: tuple[str, str],
-    spans: tuple[Span, Span],
+    vary: Ranges,
     progress: Progress | None = None,
 ) -> dict[str, xr.Dataset]:
     """Find the bifurcations of one kind along the first parameter, and follow each over both.
@@ -36,10 +32,8 @@ def curves_of_kind(
         The rig at one frequency, which does not matter if the first parameter is the frequency.
     kind
         Kind of bifurcation, such as "fold" or "period doubling".
-    parameters
-        The two parameters, by the names that `branch` takes.
-    spans
-        Lowest and highest value of each, in SI units.
+    vary
+        The first parameter and the other, each with its lowest and highest value.
     progress
         Called with the number of points so far.
 
@@ -55,35 +49,30 @@ def curves_of_kind(
         If a value cannot be used, the second range leaves out the rig's own value, or there is no
         such bifurcation.
     """
-    first, second = parameters
+    along, beside = read_ranges(vary, rig, 2)
+    first, second = names = along.parameter.name, beside.parameter.name
     shaking = rig.harmonic
     if first == "frequency":
         natural = rig.oscillator.angular_frequency / math.tau
         rig = Rig(rig.oscillator, shaking.replace(frequency=natural or 1.0))
-    over = plane(rig, parameters)
-    low, high = read_span(over.other, spans[1], "spans[1]")
-    if not low <= over.value <= high:
-        quantity = over.other.quantity
-        raise InputError(
-            f"spans[1]: {pretty(low, quantity)} to {pretty(high, quantity)} does not contain the "
-            f"rig's {second} of {pretty(over.value, quantity)}; widen this range"
-        )
+    over = plane(rig, names)
+    beside.check_contains(over.value)
+    only = {first: along.ends}
     if first == "frequency":
-        data = resonance_diagram(rig, spans[0], phase=shaking.phase, progress=progress)
+        data = resonance_diagram(rig, only, phase=shaking.phase, progress=progress)
     else:
-        data = branch(rig, span=spans[0], parameter=first)
+        data = branch(rig, vary=only)
     found: dict[str, xr.Dataset] = {}
     for i in np.flatnonzero(data["bifurcation_kind"].values == kind):
         value = float(data["bifurcation_value"][i])
-        if any(_passes(curve, parameters, value, over.value) for curve in found.values()):
+        if any(_passes(curve, names, value, over.value) for curve in found.values()):
             continue
         start = data.isel(bifurcation=int(i))
-        found[f"{first} {value:.6g}"] = bifurcation_curve(
-            rig, start, parameters=parameters, spans=spans, progress=progress
-        )
+        both = {**only, second: beside.ends}
+        found[f"{first} {value:.6g}"] = bifurcation_curve(rig, start, vary=both, progress=progress)
     if not found:
         raise InputError(
-            f"kind: no {kind} was found for {first} from {spans[0][0]} to {spans[0][1]}; choose "
+            f"kind: no {kind} was found for {first} from {along.low} to {along.high}; choose "
             "another kind, or widen the range of the first parameter"
         )
     return found

@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from vibroimpact.arguments import VALUES, check_mapping, check_progress
+from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
@@ -21,7 +21,7 @@ from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.model.varied import Varied, varied, vary_all
+from vibroimpact.model.varied import Values, Varied, read_values, vary_all
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import as_state
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
@@ -52,7 +52,7 @@ def lyapunov_exponents(
     *,
     transient: int = 500,
     start: State | xr.DataArray | xr.Dataset | None = None,
-    vary: Mapping[str, ArrayLike] | None = None,
+    vary: Values | None = None,
     phase: float | str = 0.0,
     max_events: int = 10_000,
     threads: int | None = None,
@@ -132,17 +132,7 @@ def lyapunov_exponents(
     max_events = check_max_events(max_events)
     workers = placed(threads, where)
     first = pairs[0].oscillator
-    every = tuple(
-        varied(
-            name,
-            values,
-            first,
-            f"vary[{name!r}]",
-            ("frequency",),
-            "is set by the argument frequencies",
-        )
-        for name, values in check_mapping({} if vary is None else vary, "vary", VALUES).items()
-    )
+    every = read_values(vary, first, but=("frequency",), why="is set by the argument frequencies")
     shape = (len(pairs), len(grid), *(len(one.values) for one in every))
     items = [
         _rig_at(pairs[r], grid, i, angle, zip(every, at, strict=True))

@@ -19,6 +19,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import State, equilibrium
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.varied import field_of
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
@@ -54,7 +55,8 @@ def rigs_along(varied: Parameter, rig: Rig, values: Iterable[float]) -> list[Rig
         check_bounded(one)
         shaken = one.periodic
         if not (shaken.amplitude > 0.0 and shaken.frequency > 0.0):
-            raise InputError(f"span[0]: the {varied.name} is 0; pass a value greater than 0")
+            field = field_of(varied.name)
+            raise InputError(f"{field}[0]: the {varied.name} is 0; pass a value greater than 0")
     return found
 
 

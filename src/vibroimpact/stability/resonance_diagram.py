@@ -14,9 +14,8 @@ from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.count_checks import MOST_CYCLES, MOST_STARTS, whole
-from vibroimpact.model.parameters import parameter as registered
-from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
 from vibroimpact.stability.branch import follow_both_ways
@@ -35,9 +34,8 @@ _CLOSE = 0.1
 @in_units_of_rig
 def resonance_diagram(
     rig: AnyRig,
-    span: tuple[float | str, float | str],
+    vary: Ranges,
     *,
-    parameter: str = "frequency",
     frequency: float | str | None = None,
     phase: float = 0.0,
     longest: int = 4,
@@ -63,10 +61,8 @@ def resonance_diagram(
     rig
         The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
         path of a study file.
-    span
-        Lowest and highest value of the parameter, in SI units or as text with units.
-    parameter
-        Name of the parameter that is varied, as in `branch`.
+    vary
+        Parameter that is varied, and its lowest and highest value, as in `branch`.
     frequency
         Forcing frequency (Hz), if another parameter is varied. Default: the frequency of the rig.
     phase
@@ -108,16 +104,16 @@ def resonance_diagram(
     """
     check_progress(progress)
     rig = as_rig(rig, frequency)
-    if registered(parameter, rig).name == "frequency":
+    (along,) = read_ranges(vary, rig)
+    if along.parameter.name == "frequency":
         if frequency is not None:
             raise InputError(
                 f"frequency: {shown(frequency)}, but the frequency is the varied parameter; remove "
                 "frequency, or vary another parameter"
             )
-        rig = rig.at(read_span(registered("frequency", rig), span)[1])
+        rig = rig.at(along.high)
     shaken = rig.with_parts(rig.oscillator, rig.harmonic.replace(phase=phase))
-    fam = family(shaken, parameter)
-    ends = read_span(fam.parameter, span)
+    fam, ends = family(shaken, along.parameter.name), along.ends
     longest = whole(longest, "longest", most=MOST_CYCLES)
     starts = whole(starts, "starts", most=MOST_STARTS)
     most_branches = whole(most_branches, "most_branches")
@@ -161,8 +157,8 @@ def resonance_diagram(
     if not followed:
         between = f"{ends[0]:g} and {ends[1]:g} {fam.parameter.units}"
         raise InputError(
-            f"span: no periodic orbit was found between {between}; widen this range, or pass a "
-            "larger number of starts"
+            f"{along.field}: no periodic orbit was found between {between}; widen this range, or "
+            "pass a larger number of starts"
         )
     data = as_dataset(followed, fam, ends, "resonance_diagram", own)
     data.attrs["complete"] = int(complete)

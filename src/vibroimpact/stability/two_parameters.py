@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import system_vector
 from vibroimpact.stability.parameter_family import RATES, Family, family
@@ -47,14 +47,12 @@ def plane(rig: Rig, names: tuple[str, str]) -> Plane:
         If there is no such parameter, the rig has none, or the two do not go together.
     """
     first = family(rig, names[0])
-    other = parameter(names[1], rig, "parameters")
-    if other.name == first.parameter.name:
-        raise InputError(f"parameters: {names[0]!r} is given twice; pass two different parameters")
     second = family(rig, names[1])
+    other = second.parameter
     for one in (first, second):
         if not one.straight:
             raise InputError(
-                f"parameters: no curve can be followed along {one.parameter.name!r}, because the "
+                f"vary: no curve can be followed along {one.parameter.name!r}, because the "
                 "equations of this rig do not depend linearly on it; use the frequency, the "
                 "amplitude, a gap, a force, or another stiffness or damping; branch accepts any "
                 "parameter"
@@ -76,7 +74,7 @@ def plane(rig: Rig, names: tuple[str, str]) -> Plane:
     straight[RATES] = True  # they follow from stiffness and damping
     if not straight.all():
         raise InputError(
-            f"parameters: {names[0]!r} and {names[1]!r} are not independent of each other; pass "
+            f"vary: {names[0]!r} and {names[1]!r} are not independent of each other; pass "
             "another pair, such as 'frequency' and 'gap', or 'stiffness_ratio' and 'gap_ratio'"
         )
     return made

@@ -73,7 +73,7 @@ def progress_bar(what: str = "done", *, every: float = 0.2) -> Progress:
     a line every half minute. It also estimates the remaining time. No other package is required.
     Example::
 
-        vi.scenario_map(rig, x, y, progress=vi.progress_bar("map"))
+        vi.scenario_map(rig, axes, progress=vi.progress_bar("map"))
 
     Parameters
     ----------

@@ -41,9 +41,7 @@ def _coco_impact() -> tuple[float, float]:
 @cache
 def coco_grazing() -> float:
     """The amplitude at which the family of this orbit grazes."""
-    data = vi.branch(
-        vi.Rig(COCO_RIG, COCO_SHAKEN), COCO_START, span=(0.05, 1.0), parameter="amplitude"
-    )
+    data = vi.branch(vi.Rig(COCO_RIG, COCO_SHAKEN), COCO_START, vary={"amplitude": (0.05, 1.0)})
     grazings = data["bifurcation_value"].values[data["bifurcation_kind"].values == "grazing"]
     return float(grazings[np.abs(grazings - 0.1).argmin()])
 
@@ -117,7 +115,9 @@ def budd_dux_doubling_found(one: Oscillator) -> float:
     shaken, start = budd_dux_start(fastest(one))
     exact = budd_dux_doubling(one)
     data = vi.branch(
-        vi.Rig(budd_dux_rig(one), shaken), start, span=(0.9 * one.frequency, 1.02 * exact)
+        vi.Rig(budd_dux_rig(one), shaken),
+        start,
+        vary={"frequency": (0.9 * one.frequency, 1.02 * exact)},
     )
     values = data["bifurcation_value"].values
     values = values[data["bifurcation_kind"].values == "period doubling"]

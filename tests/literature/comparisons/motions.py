@@ -110,7 +110,7 @@ def elastic_stops(phase: float = 0.0) -> xr.Dataset:
     """The branch over Ω from 1 to 2.5."""
     return vi.branch(
         vi.Rig(STOPS, vi.Harmonic(0.2, 2.0 / math.tau, phase)),
-        span=(1.0 / math.tau, 2.5 / math.tau),
+        vary={"frequency": (1.0 / math.tau, 2.5 / math.tau)},
     )
 
 

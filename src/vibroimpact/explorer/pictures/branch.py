@@ -35,11 +35,10 @@ def branches(state: State, data: xr.Dataset, progress: Progress) -> dict[str, An
         If the motion is not periodic.
     """
     shaken, section, period = at(state, data)
-    low, high = state.span
     found = branch(
         Rig(state.oscillator, shaken),
         section,
-        span=(low, high),
+        vary={"frequency": state.span},
         period=int(period) or None,
         most_points=_MOST,
         progress=progress,

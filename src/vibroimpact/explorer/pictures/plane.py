@@ -73,8 +73,10 @@ def scenarios(where: Plane, fine: bool, progress: Progress) -> dict[str, Any]:
     )
     data = scenario_map(
         base,
-        ("stiffness_ratio", np.geomspace(*STIFFNESS, _NODES), "log"),
-        ("gap_ratio", np.linspace(*GAP, _NODES)),
+        {
+            "stiffness_ratio": np.geomspace(*STIFFNESS, _NODES),
+            "gap_ratio": np.linspace(*GAP, _NODES),
+        },
         step=_STEP,
         refine=1 if fine else 0,
         progress=progress,
