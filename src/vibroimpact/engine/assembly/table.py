@@ -110,21 +110,6 @@ def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Ve
     notes[0] = math.nan
 
 
-@kernel
-def start_growth(plan: Vector, state: Vector, q: Vector, w: Vector) -> None:
-    """See `flow.start_growth`; `monodromy` tells the growth instead."""
-    q[0], w[0] = math.nan, math.nan
-
-
-@kernel
-def growth(
-    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector, w: Vector
-) -> None:
-    """See `flow.growth`; it is not known."""
-    for i in range(3):
-        notes[i] = math.nan
-
-
 MOTION = (
     begin,
     build,
@@ -149,4 +134,4 @@ MOTION = (
     extremes,
     measured,
 )
-DISTURBED = (unit_disturbances, tangent, mirror, start_growth, growth, margin)
+DISTURBED = (unit_disturbances, tangent, mirror, margin)
