@@ -34,7 +34,7 @@ from vibroimpact.response.assembly_state import (
     state_components,
 )
 from vibroimpact.response.record_dataset import record_parameters
-from vibroimpact.response.record_history import straight
+from vibroimpact.response.record_history import base_acceleration, straight
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
 
@@ -406,7 +406,7 @@ def _sampled(
     if isinstance(shaking, Record):
         time = np.minimum(np.arange(count) * (shaking.step / run.samples), ends)
         coordinates["time"] = time
-        name, values = "base_acceleration", shaking.at(time)
+        name, values = "base_acceleration", base_acceleration(shaking, time, run.samples)
     else:
         cycle = np.arange(count) / run.samples
         if count and run.status is Status.DONE:

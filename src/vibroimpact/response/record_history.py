@@ -87,7 +87,7 @@ def through(
         coordinates["time"] = time
         variables["initial_state"] = ("component", first)
         variables |= sampled(out, oscillator.isolator)
-        variables["base_acceleration"] = ("time", _base_acceleration(record, time, samples))
+        variables["base_acceleration"] = ("time", base_acceleration(record, time, samples))
         events = listed(found, record.step, oscillator.isolator)
         # A record has steps, not cycles.
         variables |= {name: one for name, one in events.items() if "cycle" not in name}
@@ -105,7 +105,7 @@ def through(
     return describe(data, "vibroimpact.simulate", parameters, record.about.notes)
 
 
-def _base_acceleration(record: Record, time: _Array, samples: int) -> _Array:
+def base_acceleration(record: Record, time: _Array, samples: int) -> _Array:
     """Return the base acceleration at the samples; exactly the record's own where it has one."""
     values = record.at(time)
     own = values[: len(record.acceleration) * samples : samples]
