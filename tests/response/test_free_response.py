@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.response.free_response import largest_flight, swept_flight
+from vibroimpact.response.free_response import largest_flight, resonance, swept_flight
 
 SHAKEN = vi.Harmonic(0.3, 0.2)
 
@@ -37,6 +37,15 @@ def test_a_softening_fold_is_swept_from_above() -> None:
     swing, acceleration = largest_flight(vi.Rig(rig, vi.Harmonic(0.2, 0.2)))
     assert swing >= np.nanmax(found[0]) * (1.0 - 1e-6)
     assert acceleration > 0.0
+
+
+def test_a_jump_stands_at_the_fold_of_the_branch() -> None:
+    """Backward, a hardening resonance is largest where the motion jumps up."""
+    rig = vi.Oscillator(1.0, vi.PolynomialIsolator(1.0, 0.02, 0.3))
+    branch = vi.branch(vi.Rig(rig, vi.Harmonic(0.3, 0.3)), span=(0.15, 0.3))
+    (fold,) = branch["bifurcation_value"].values
+    jump = resonance(vi.Rig(rig, SHAKEN))
+    assert jump == pytest.approx(fold, abs=1e-6 * rig.natural_frequency)
 
 
 def test_what_friction_holds_does_not_fly() -> None:
