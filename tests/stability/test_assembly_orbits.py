@@ -86,7 +86,7 @@ def test_multipliers_are_those_of_differences(stop: object) -> None:
     start = found["initial_state"]
     names = ["displacement.base", "displacement.roof", "velocity.base", "velocity.roof"]
     places = [list(start["component"].values).index(name) for name in names]
-    assert (start.values[-5:-1] == 0).all()  # it flies at the section
+    assert (start.values[-3:-1] == 0).all()  # it flies at the section
     columns = []
     for place in places:
         step = 1e-7
@@ -150,24 +150,26 @@ def test_a_steady_motion_is_its_orbit() -> None:
 
 
 def test_a_branch_of_one_mass_is_the_oscillators() -> None:
-    branches = [
-        vi.branch(alone(STOPS["bumpers"], assembled=assembled), vary={"frequency": (0.9, 2.2)})
+    one, several = (
+        vi.branch(alone(STOPS["bumpers"], assembled=assembled), vary={"frequency": (0.7, 3.0)})
         for assembled in (False, True)
-    ]
-    one, several = branches
-    assert "fold" in one["bifurcation_kind"].values
-    assert "grazing" in one["bifurcation_kind"].values
-    assert several["bifurcation_kind"].values.tolist() == one["bifurcation_kind"].values.tolist()
-    kinds = one["bifurcation_kind"].values
-    exact = kinds != "grazing"
-    np.testing.assert_allclose(
-        several["bifurcation_value"].values[exact], one["bifurcation_value"].values[exact], 1e-8
     )
+    kinds = one["bifurcation_kind"].values.tolist()
+    assert kinds.count("fold") >= 3
+    assert kinds.count("grazing") >= 2
+    assert several["bifurcation_kind"].values.tolist() == kinds
     np.testing.assert_allclose(
-        several["bifurcation_value"].values, one["bifurcation_value"].values, 1e-6
+        several["bifurcation_value"].values, one["bifurcation_value"].values, rtol=1e-9
     )
-    counts = several["bifurcation_contacts"].values[list(kinds).index("fold")]
-    assert counts == "1 right, 1 left"
+    assert several.sizes["point"] == one.sizes["point"]
+    np.testing.assert_allclose(
+        several["displacement_max"].values[:, 0], one["displacement_max"].values, rtol=1e-9
+    )
+    names = {"R": " right,", "L": " left"}
+    for mine, theirs in zip(
+        several["bifurcation_contacts"].values, one["bifurcation_contacts"].values, strict=True
+    ):
+        assert mine == "".join(names.get(letter, letter) for letter in theirs)
 
 
 def test_a_branch_without_contacts_is_the_linear_response() -> None:

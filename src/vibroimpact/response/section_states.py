@@ -112,11 +112,6 @@ class SectionStates(NamedTuple):
         image[FIRST + 2 * n :][: self.stops] = vector[FIRST + 2 * n :][partners]
         return image
 
-    @property
-    def moving(self) -> _Array:
-        """1 for displacements and velocities of masses, 0 for other parts."""
-        return (np.arange(self.parts) < 2 * self.masses).astype(float)
-
     def velocities(self) -> NDArray[np.bool_]:
         """Which parts are velocities."""
         n = self.masses

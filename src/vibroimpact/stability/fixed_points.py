@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,14 @@ VALUE = -1
 """Where a point has its parameter: behind the parts of its state."""
 
 
+@cache
+def _components(first: int, size: int) -> _Array:
+    """1 for so many components of a point, the first ones, and for its parameter; else 0."""
+    found = np.zeros(size)
+    found[:first] = found[VALUE] = 1.0
+    return found
+
+
 @dataclass(frozen=True)
 class Section:
     """The map whose fixed points are sought: how far it goes, and whether it mirrors."""
@@ -48,9 +56,7 @@ class Section:
     @cached_property
     def held(self) -> _Array:
         """Normal of the plane on which the parameter does not change."""
-        found = np.zeros(len(self.scale))
-        found[VALUE] = 1.0
-        return found
+        return _components(0, len(self.scale))
 
     @cached_property
     def seen(self) -> _Array:
@@ -59,7 +65,7 @@ class Section:
         A bumper's deformation is left out: at a section that passes from flight into contact it
         begins to move with the mass, and a smooth branch would have a corner.
         """
-        return np.append(self.family.layout.moving, 1.0)
+        return _components(2 * self.family.layout.masses, len(self.scale))
 
     @property
     def period(self) -> int:
@@ -119,7 +125,7 @@ class Orbit:
         """The parameter as text, with its unit."""
         return self.section.family.written(self.value, 9)
 
-    @property
+    @cached_property
     def contacts(self) -> tuple[int, ...]:
         """Contacts with each stop in a period; of one mass with the right and the left one."""
         found = tuple(int(count) for count in self.facts[section_map.CONTACTS :])

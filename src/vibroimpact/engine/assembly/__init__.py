@@ -35,10 +35,16 @@ Rest
     together, w·v′ = 0, until the force between them falls to zero; several rests are solved
     together. An impact on a resting body lets it be hit in turn.
 
+Table of functions
+    `table` has the functions of `engine.flow`: entries follow an assembly as they follow one mass.
+    The motion between two calls is in the state, the last stretch in the plan, where observers
+    (`channels`) read it. A step that ends without an event is `motion.PASSED`.
+
 Limits: 52 stops, the bits of a mode in a float. Free masses that fly far away lose the digits of
 their links' deformations, which are differences of displacements.
 
-Modules: `layout` (plan and state), `plan` (numpy description to plan), `mode`, `series`, `vectors`,
-`roots`, `tables`, `events`, `advance` (stretch, cycle), `channels` (what is observed), `tangent`,
-`section` (states at a section), `entries` (for Python).
+Modules: `layout` (plan and state), `plan` (numpy description to a rig's vector, and to a plan),
+`mode`, `series`, `vectors`, `roots`, `tables`, `events`, `advance` (stretch), `channels` (what is
+observed), `measures` (extremes), `tangent`, `section` (states at a section), `free_motion` (in
+closed form), `table`, `entries` (for Python, by sections).
 """

@@ -2,7 +2,7 @@
 
 A plan begins with whole numbers, kept as floats: sizes, and the places of blocks; FLOW stands where
 a rig of one mass tells what shakes it, and is `parameters.MASSES`. Up to `NUMBERS`
-it is the rig's vector, behind which a system vector has its amplitude and frequency; what follows
+it is the rig's vector, after which a system vector has its amplitude and frequency; what follows
 are constants and rooms.
 A state is [mode, fresh, u (n), v (n), deformation (a number for each stop), age, s, c]. `fresh`
 tells which watched functions are zero by construction, and how far to leap (see

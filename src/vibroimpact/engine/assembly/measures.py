@@ -36,7 +36,7 @@ and the largest impulse of an impact (N s)."""
 
 _DEGREE = at.DEGREE
 _DEEPEST = 40
-"""Halvings of a piece, behind which its ends are all that counts."""
+"""Halvings of a piece, after which its ends are all that counts."""
 _ROUNDING = 1e-15
 """Of a series: an extreme that stands out by less is rounding."""
 

@@ -207,7 +207,7 @@ def make_vector(
 
 
 def write_plan(vector: Vector, plan: Vector) -> None:
-    """Write what a plan begins with, a rig's vector, and the constants behind it."""
+    """Write what a plan begins with, a rig's vector, and the constants that follow."""
     numbers = int(vector[at.NUMBERS])
     plan[:numbers] = vector[:numbers]
     for index, constants in ((at.ECONOMY, _economy()), (at.RULES, _rules())):
