@@ -70,6 +70,8 @@ def test_ranges_that_cannot_be(vary, told):
 def test_a_range_keeps_the_bounds_of_its_parameter():
     with pytest.raises(vi.InputError, match=r"^vary\['restitution'\]\[1\]: 1\.2"):
         read_ranges({"restitution": (0.5, 1.2)}, WALL)
+    with pytest.raises(vi.InputError, match=r"^vary\['restitution'\]\[0\]: -0\.1"):
+        read_ranges({"restitution": (-0.1, 0.5)}, WALL)
 
 
 @pytest.mark.parametrize(
