@@ -56,9 +56,9 @@ def basins() -> Table:
     )
     alike = sum(a == b for a, b in zip(ours, theirs, strict=True))
     table.notes.append(
-        "The loop integrates each state with solve_ivp (LSODA, 1e-8) until the state is near one "
-        "of the motions, which are passed to the loop. Its bumpers have no memory. The loop is "
-        f"timed over {_CHECKED} states. For {alike} of them, it finds the same motion as vi.basins."
+        "The loop integrates with solve_ivp (LSODA, 1e-8) until the state is near one of the "
+        "motions, which are passed to it, with bumpers without memory. It is timed over "
+        f"{_CHECKED} states, {alike} of which lead to the same motion as in vi.basins."
     )
     return table
 

@@ -46,8 +46,8 @@ def campaign() -> Table:
     table.notes.append(
         f"{len(rigs)} rigs × {data.sizes['direction']} directions × {len(frequencies)} "
         f"frequencies = {data['cycles'].size:,} holds, with {cycles:,} forcing cycles. {unsettled} "
-        "holds do not settle. They are measured over 500 cycles after the first 2,000. The times "
-        "include checks, free-flight references and the labelled dataset."
+        "do not settle, and are measured over 500 cycles after 2,000. Times include checks, "
+        "free-flight references and the labelled dataset."
     )
     if processors() < max(_THREADS):
         table.notes.append("There is only one processor: two threads cannot be faster.")

@@ -37,7 +37,7 @@ def _demands(**how: Any) -> object:
 def _ensemble(**how: Any) -> object:
     case = vi.laboratory.case("B2-G1-A3")
     response = partial(vi.sweeps, frequencies=np.linspace(0.5, 5.0, 100), **how)
-    spread = {"gap": "normal:5%", "bumper_stiffness": "lognormal:0.2"}
+    spread = {"gap": "normal:5%", "stops.stiffness": "lognormal:0.2"}
     return vi.ensemble(
         vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.0)), spread, response, 2048
     )
@@ -89,7 +89,6 @@ def clusters() -> Table:
             table.add(f"{name}: processes over threads", others.text(), "", "")
             table.add(f"{name}: threads, s", Spread.of(taken["threads"]).text(), "", "")
     table.notes.append(
-        f"In each of {_ROUNDS} rounds, the same call runs in three ways, in turn. The cluster and "
-        "the processes are started before."
+        f"{_ROUNDS} rounds of the same call, in turn. Cluster and processes are started before."
     )
     return table

@@ -62,17 +62,20 @@ def _diagram(table: Table) -> None:
         met(ratio > _FASTER),
     )
     table.notes.append(
-        f"The diagram shows problem P over gaps from {low} to {high}. Each value is held until the "
-        f"motion is steady. This takes {cycles:,.0f} forcing cycles in all, without those of the "
-        f"exponents. scipy (DOP853, rtol {_RTOL:g}) computes {len(gaps)} of the gaps once, from "
-        f"rest. Its time is multiplied by {2 * _SHARE}."
+        f"Problem P over gaps from {low} to {high}: {cycles:,.0f} forcing cycles, without those of "
+        f"the exponents. scipy (DOP853, rtol {_RTOL:g}) computes {len(gaps)} of the gaps once, "
+        f"from rest; its time is multiplied by {2 * _SHARE}."
     )
 
 
 def _ensemble(table: Table) -> None:
     rig = _rig()
     frequencies = np.linspace(0.5, 3.0, 50) / math.tau
-    spread = {"gap": "normal:5%", "bumper_stiffness": "lognormal:0.2", "damping": "lognormal:0.1"}
+    spread = {
+        "gap": "normal:5%",
+        "stops.stiffness": "lognormal:0.2",
+        "isolator.damping": "lognormal:0.1",
+    }
 
     def ensemble(count: int) -> object:
         response = partial(vi.sweeps, frequencies=frequencies, threads=2)
@@ -104,7 +107,7 @@ def _ensemble(table: Table) -> None:
     )
     table.notes.append(
         "The ensemble draws P's gap, bumper stiffness and damping. scipy computes ten rigs in one "
-        "direction, for as many cycles as the holds took on average. Its time is multiplied by "
+        "direction, for as many cycles as the holds took on average; its time is multiplied by "
         f"{2 * _SHARE}."
     )
 

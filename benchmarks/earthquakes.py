@@ -54,9 +54,8 @@ def earthquakes() -> Table:
     impacts = found["impact_count"]
     table.notes.append(
         f"B3-A3 at gaps of 5 to 20 mm and peaks of 0.1 to 3 m/s²: {float((impacts > 0).mean()):.0%}"
-        f" of the runs touch a bumper, with {float(impacts.mean()):.1f} contacts per run on "
-        "average. The labelled dataset contains the peaks, forces, impulses, counts and residual "
-        "displacements of each run."
+        f" of the runs touch a bumper, with {float(impacts.mean()):.1f} contacts per run. The "
+        "dataset has the peaks, forces, impulses, counts and residual displacements."
     )
     try:
         peer = import_module("benchmarks.peers.opensees_peer")
@@ -84,9 +83,8 @@ def earthquakes() -> Table:
             met(ratio > _TIMES) if last else "",
         )
     table.notes.append(
-        f"OpenSees computes {len(chosen)} of the runs, one after the other. Its peak is the "
-        "largest displacement of its steps. The peaks of vi.demands are right to rounding. "
-        "OpenSees does not reach this accuracy with any number of steps. At the same error, the "
-        "ratio is therefore larger than in the last row."
+        f"OpenSees computes {len(chosen)} of the runs; its peak is that of its steps. It does not "
+        "reach the accuracy of vi.demands, whose peaks are right to rounding, with any number of "
+        "steps. At the same error, the ratio is larger than in the last row."
     )
     return table

@@ -12,25 +12,26 @@ _ROUNDS = 5
 _CASE = "B2-G1-A3"
 _SINE = ("--frequency", "2Hz")
 _FEW = ("--from", "2Hz", "--to", "2.1Hz")
+_VARY = ("--vary", "frequency=2Hz:2.1Hz")
 _RECORD, _TEST = "quake.csv", "test.csv"
 
 COMMANDS = {
     "sweep": (_CASE, *_FEW, "--step", "0.1Hz"),
     "motion": (_CASE, *_SINE),
-    "branch": (_CASE, *_FEW, "--random", "0"),
-    "bifurcation": (_CASE, *_FEW, "--steps", "2"),
-    "curve": (_CASE, "--over", "frequency,gap", "--first", "2.4Hz:2.8Hz", "--second", "7mm:8mm"),
+    "branch": (_CASE, *_VARY, "--random", "0"),
+    "bifurcation": (_CASE, "--vary", "frequency=2Hz:2.1Hz:2"),
+    "curve": (_CASE, "--vary", "frequency=2.4Hz:2.8Hz", "--vary", "gap=7mm:8mm"),
     "basins": (_CASE, *_SINE, "--nodes", "10"),
     "manifolds": (_CASE, *_SINE, "--nodes", "10", "--spacing", "0.1", "--longest", "1"),
-    "basin-stability": (_CASE, *_FEW, "--steps", "2", "--samples", "10"),
+    "basin-stability": (_CASE, "--vary", "frequency=2Hz:2.1Hz:2", "--samples", "10"),
     "simulate": (_CASE, *_SINE, "--cycles", "1"),
     "record": (_RECORD, "--periods", "2"),
     "earthquake": (_CASE, _RECORD),
-    "design": (_CASE, *_FEW, "--vary", "gap", "5mm:10mm:2"),
-    "ensemble": (_CASE, "--uncertain", "gap", "normal:5%", "--draws", "2", *_FEW),
+    "design": (_CASE, *_FEW, "--vary", "gap=5mm:10mm:2"),
+    "ensemble": (_CASE, "--uncertain", "gap=normal:5%", "--draws", "2", *_FEW),
     "classify": (_CASE,),
     "identify": (_TEST, "--rig", _CASE, "--free", "gap", "--starts", "1"),
-    "map": ("--x", "gap-ratio", "0.2:0.4:2", "--y", "stiffness-ratio", "5:10:2", "--refine", "0"),
+    "map": ("--vary", "gap_ratio=0.2:0.4:2", "--vary", "stiffness_ratio=5:10:2", "--refine", "0"),
     "cache": (),
 }
 """Words of each command by its name; `explore` serves a page until it is ended."""
@@ -77,8 +78,8 @@ def fixed() -> Table:
         work = Spread.of([one.work for one in runs])
         table.add(f"`{name}`", seconds.text(), digits(work.median))
     table.notes.append(
-        f"Each command does its smallest task, {_ROUNDS} times in turn. Values are the median and, "
-        "in brackets, the range. The sweeps of `classify` and the steps of `branch` and `curve` "
-        "are as fine as always. `explore` is left out, because it serves a page."
+        f"The smallest task of each command, {_ROUNDS} times in turn: median and range. The sweeps "
+        "of `classify` and the steps of `branch` and `curve` are as fine as always. `explore` "
+        "serves a page, and is left out."
     )
     return table

@@ -14,7 +14,7 @@ from vibroimpact.measurements.read import as_measured
 _FIT = 10.0
 _BOOTSTRAP = 120.0
 _DRAWS = 1000
-_FREE = "stiffness,damping,bumper_stiffness,bumper_damping,gap"
+_FREE = "isolator.stiffness,isolator.damping,stops.stiffness,stops.damping,gap"
 _CYCLES = 40
 """Cycles that the general solver is given to settle; the engine goes on until it has."""
 
@@ -95,10 +95,9 @@ def identification() -> Table:
     table.add(f"the same by solve_ivp, {_CYCLES} cycles a frequency, s", f"{others:.1f}", "", "")
     table.add("ratio", f"{others / own:,.0f}", "", "")
     table.notes.append(
-        "The fit of B2-G1-A3 starts from half to one and a half times each value. "
         f"{fit.attrs['starts_alike']} of {fit.attrs['starts']} starts led to the same fit, with "
         f"{fit.attrs['evaluations']} evaluations. solve_ivp (RK45, rtol 1e-6, at least 50 steps "
-        "per cycle) does not locate events. It therefore smears each contact, and its 40 cycles do "
-        "not settle everywhere."
+        "per cycle) does not locate events, so it smears each contact, and its 40 cycles do not "
+        "settle everywhere."
     )
     return table

@@ -51,8 +51,7 @@ def yielding() -> Table:
             *held,
         )
     table.notes.append(
-        "Bumpers, dashpot, spring and forcing are those of P. Events are contacts, detachments, "
-        "turns of the mass, and the beginning of yielding."
+        "Events are contacts, detachments, turns of the mass, and the beginning of yielding."
     )
     return table
 
@@ -79,9 +78,9 @@ def sampling() -> Table:
         met(1e9 * spread.median < _NANOSECONDS),
     )
     table.notes.append(
-        f"The time is that of {_PERIODS:,} periods with {_SAMPLES} samples each, minus that of the "
-        "same periods without samples. It includes displacement, velocity, acceleration, both "
-        "bumpers and the contact of each sample, all events, and the labelled dataset."
+        f"{_PERIODS:,} periods with {_SAMPLES} samples each, minus the same without samples: "
+        "displacement, velocity, acceleration, both bumpers and the contact of each sample, all "
+        "events, and the labelled dataset."
     )
     return table
 
@@ -105,7 +104,7 @@ def laws() -> Table:
             f"{1e9 * spread.median / (_PERIODS * events):.0f}",
         )
     table.notes.append(
-        "Mass, isolator and forcing are those of P. The motions differ, and so does the number of "
-        "their events. Events are contacts, impacts and detachments."
+        "The motions differ, and so does the number of their events: contacts, impacts and "
+        "detachments."
     )
     return table

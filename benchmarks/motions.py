@@ -54,9 +54,9 @@ def motions() -> Table:
     table.add("the same, µs a forcing cycle and thread", f"{2e6 * taken / cycles:.2f}", "", "")
     chaotic = int((data["exponents"][..., 0] > 0.01).sum())
     table.notes.append(
-        f"The spectra are those of rig B3-A3 at {_GAPS} gaps from 5 to 25 mm and {_FREQUENCIES} "
-        "frequencies from 0.5 to 3 Hz. Each spectrum needs 600 further cycles for the transient "
-        f"and the directions. {chaotic:,} of the motions have a positive exponent."
+        f"Spectra of B3-A3 at {_GAPS} gaps from 5 to 25 mm and {_FREQUENCIES} frequencies from 0.5 "
+        "to 3 Hz, with 600 further cycles each for the transient and the directions. "
+        f"{chaotic:,} have a positive exponent."
     )
     if processors() < 2:
         table.notes.append("There is only one processor: two threads cannot be faster.")

@@ -74,8 +74,8 @@ def records() -> Table:
             met(ratio > _TIMES) if last else "",
         )
     table.notes.append(
-        "Peaks are those at the record's samples. The peaks of vi.simulate are right to rounding. "
-        "OpenSeesPy does not reach this accuracy with any number of steps. At the same error, the "
-        "ratio is therefore larger than in the last row."
+        "Peaks at the record's samples. OpenSeesPy does not reach the accuracy of vi.simulate, "
+        "whose peaks are right to rounding, with any number of steps. At the same error, the ratio "
+        "is larger than in the last row."
     )
     return table

@@ -83,9 +83,7 @@ def scenarios() -> Table:
         met(done.seconds < _STUDY),
     )
     table.notes.append(
-        "λ is from 0.5 to 100, and δ0 from 0 to 1; ξ = 0.15 and τ = 0.01. Each rig is swept from "
-        "0.4 times its natural frequency to beyond its primary resonance. Motions that do not "
-        "settle are classified as chaotic or not. Where a sweep might miss a jump, the branch of "
-        "orbits is followed."
+        "λ from 0.5 to 100, δ0 from 0 to 1; ξ = 0.15, τ = 0.01; sweeps from 0.4 times the natural "
+        "frequency to beyond the primary resonance."
     )
     return table

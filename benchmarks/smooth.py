@@ -90,11 +90,7 @@ def smooth() -> list[Table]:
         verdicts.add(
             f"{problem.name}, state error", f"{error:.1e}", "at most 1e-11", met(error <= 1e-11)
         )
-    table.notes.append(
-        f"All runs start from rest and locate all events. scipy runs {SCIPY_PERIODS} periods. "
-        "Errors are differences from an integration with 25 digits. Each motion touches both stops "
-        "once per period."
-    )
+    table.notes.append(f"All events are located. scipy runs {SCIPY_PERIODS} periods.")
     table.notes += [f"{name} is not installed and was left out." for name in missing]
     return [table, verdicts]
 

@@ -166,9 +166,9 @@ def startup(compiled: Compiling) -> Table:
         value = f"{compiled.cold[entry]:.1f}, then {compiled.cached[entry]:.2f}"
         table.add(f"compiling for {public}, then loading, s", value, "", "")
     table.notes.append(
-        "vi.sweep computes B2-G1-A3 at the 46 published frequencies, forward and backward. The "
-        "command uses steps of 0.01 Hz, and also writes a figure, a NetCDF file and a summary. "
-        "Targets are for the wall-clock time. On a quiet machine, it is near the processor time."
+        "B2-G1-A3 at the 46 published frequencies, both ways; the command in steps of 0.01 Hz, "
+        "with a figure, a NetCDF file and a summary. Targets are for wall-clock time, which on a "
+        "quiet machine is near the processor time."
     )
     return table
 

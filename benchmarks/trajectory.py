@@ -119,10 +119,8 @@ def trajectory(others: Peers, ready: str) -> list[Table]:
             ready if name in (ENGINE, SIMULATE) else others.solvers[name].ready,
         )
     table.notes.append(
-        f"Values are the median and, in brackets, the range over {_ROUNDS} interleaved rounds "
-        f"(scipy: {_SCIPY_ROUNDS}). Ratios are computed round by round. scipy runs "
-        f"{SCIPY_PERIODS} periods, and its error is the error after them. A contact consists of "
-        "the landing and the detachment."
+        f"{_ROUNDS} rounds (scipy: {_SCIPY_ROUNDS}). scipy runs {SCIPY_PERIODS} periods, with the "
+        "error after them. A contact is its landing and its detachment."
     )
     table.notes += [f"{name} is not installed and was left out." for name in others.missing]
 

@@ -112,7 +112,9 @@ def demanded() -> xr.Dataset:
 @cache
 def fit() -> xr.Dataset:
     data = [vi.simulate(vi.Rig(rig(), vi.Harmonic(2.0, f)), 3, samples=24) for f in (1.2, 1.6)]
-    return vi.identify(rig(), data, {"stiffness": "90 N/m"}, starts=1, tried=1, profiles=False)
+    return vi.identify(
+        rig(), data, {"isolator.stiffness": "90 N/m"}, starts=1, tried=1, profiles=False
+    )
 
 
 _SMALL: dict[str, Any] = {"max_cycles": 50, "max_events": 200}
@@ -426,7 +428,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "identify": {
             "rig": rig(),
             "data": motion(),
-            "free": {"stiffness": "90 N/m"},
+            "free": {"isolator.stiffness": "90 N/m"},
             "each": (),
             "ties": None,
             "priors": None,
@@ -449,7 +451,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "least_acceleration": {
             "rig": rig(),
             "records": record(),
-            "ranges": {"gap": (0.01, 0.02), "stiffness": (500.0, 1000.0)},
+            "ranges": {"gap": (0.01, 0.02), "isolator.stiffness": (500.0, 1000.0)},
             "gap": None,
             "limits": None,
             "fractile": 1.0,

@@ -1,11 +1,11 @@
-"""Tables of CONTRIBUTING, which tests compare with the code."""
+"""Tables of docs/reference/words.md, which tests compare with the code."""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
 
-_PAGE = (Path(__file__).parents[1] / "CONTRIBUTING.md").read_text(encoding="utf-8")
+_PAGE = (Path(__file__).parents[1] / "docs/reference/words.md").read_text(encoding="utf-8")
 
 
 def rows(heading: str) -> list[list[str]]:

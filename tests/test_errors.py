@@ -94,8 +94,8 @@ def test_errors_of_commands_are_short(tmp_path, capsys):
     study.write_text('case = "B2-G1-A3"\n' + "".join(f"key{i} = 1\n" for i in range(99)))
     for words in (
         ["sweep", str(study)],
-        ["map", "--x", "x" * 999, "1:2"],
-        ["bifurcation", "B2-G1-A3", "--parameter", "x", "--from", "1", "--to", "2"],
+        ["map", "--vary", "x" * 999 + "=1:2"],
+        ["bifurcation", "B2-G1-A3", "--vary", "x=1:2"],
         ["sweep", "B2-G1-A3", *NAMES],
         ["x" * 999],
     ):

@@ -1,4 +1,4 @@
-"""What public functions return has the names, types and units that CONTRIBUTING lists."""
+"""Results of public functions have the names, types and units of docs/reference/words.md."""
 
 from __future__ import annotations
 

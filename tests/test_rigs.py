@@ -123,7 +123,7 @@ def test_a_study_file(study):
         motion = vi.simulate(given, 5, frequency="2 Hz")
         one = vi.simulate(vi.Rig(STUDIED, vi.Harmonic("0.04 g", 2.0)), 5)
         xr.testing.assert_identical(motion, one)
-    guess = vi.identify(path, expected, "stiffness", tried=0, starts=1, profiles=False)
+    guess = vi.identify(path, expected, "isolator.stiffness", tried=0, starts=1, profiles=False)
     assert vi.fitted_rig(guess).oscillator.right == STUDIED.right
 
 

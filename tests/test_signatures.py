@@ -1,4 +1,4 @@
-"""Parameters of public functions have the names and defaults that CONTRIBUTING lists."""
+"""Parameters of public functions have the names and defaults that docs/reference/words.md lists."""
 
 from __future__ import annotations
 

@@ -21,6 +21,10 @@ def peak(rigs):
     return vi.sweeps(rigs, grid)[["peak_acceleration"]].max(("direction", "frequency"))
 
 
-spread = {"gap": "normal:5%", "bumper_stiffness": "lognormal:0.2", "damping": "lognormal:0.1"}
+spread = {
+    "gap": "normal:5%",
+    "stops.stiffness": "lognormal:0.2",
+    "isolator.damping": "lognormal:0.1",
+}
 found = vi.sensitivity("B2-G1-A3", spread, peak, "peak_acceleration", 128, resamples=100)
 sensitivity_bars(found)

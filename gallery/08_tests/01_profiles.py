@@ -25,6 +25,6 @@ test = as_measured(xr.Dataset({n: swept[n] * e for n, e in zip(names, noise, str
 bumper = vi.Bumper("400 kN/m", "0.5 kN s/m", "10 mm")
 guess = vi.Oscillator("550 kg", vi.Isolator("25 kN/m", "1.5 kN s/m"), bumper, bumper)
 
-free = "stiffness,damping,bumper_stiffness,bumper_damping"
+free = "isolator.stiffness,isolator.damping,stops.stiffness,stops.damping"
 fit = vi.identify(vi.Rig(guess, "0.04 g"), test, free, starts=2)
 fit_profiles(fit)

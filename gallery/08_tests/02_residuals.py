@@ -26,7 +26,7 @@ bumper = vi.Bumper("400 kN/m", "0.5 kN s/m", "10 mm")
 guess = vi.Oscillator("550 kg", vi.Isolator("25 kN/m", "1.5 kN s/m"), bumper, bumper)
 
 contact = hertzian(guess, depth=0.002)
-free = "stiffness,damping,bumper_stiffness,dissipation"
+free = "isolator.stiffness,isolator.damping,stops.stiffness,stops.dissipation"
 fit = vi.identify(vi.Rig(contact, "0.04 g"), test, free, starts=1, tried=0, profiles=False)
 print(fit.attrs["findings"])
 fit_residuals(fit)

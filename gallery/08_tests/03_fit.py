@@ -24,5 +24,5 @@ test = as_measured(
 
 bumper = vi.Bumper("700 kN/m", "0.5 kN s/m", "7.5 mm")
 guess = vi.Oscillator("550 kg", case.oscillator.isolator, bumper, bumper)
-fit = vi.identify(guess, test, "bumper_stiffness,bumper_damping,gap", starts=1, profiles=False)
+fit = vi.identify(guess, test, "stops.stiffness,stops.damping,gap", starts=1, profiles=False)
 fit_history(fit)

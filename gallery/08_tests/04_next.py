@@ -25,7 +25,7 @@ test = as_measured(xr.Dataset({n: swept[n] * e for n, e in zip(names, noise, str
 bumper = vi.Bumper("400 kN/m", "0.5 kN s/m", "10 mm")
 guess = vi.Oscillator("550 kg", vi.Isolator("25 kN/m", "1.5 kN s/m"), bumper, bumper)
 
-free = "stiffness,damping,bumper_stiffness,bumper_damping"
+free = "isolator.stiffness,isolator.damping,stops.stiffness,stops.damping"
 fit = vi.identify(vi.Rig(guess, "0.04 g"), test, free, starts=1, profiles=False)
 levels = 9.80665 * np.linspace(0.02, 0.1, 17)
 told = vi.next_test(fit, frequencies=np.linspace(0.6, 4.0, 69), amplitudes=levels)

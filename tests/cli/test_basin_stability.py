@@ -10,7 +10,7 @@ import pytest
 import vibroimpact as vi
 
 COMMAND = "basin-stability"
-RANGE = ("--from", "1.6Hz", "--to", "2.8Hz", "--steps", "4", "--samples", "60")
+RANGE = ("--vary", "frequency=1.6Hz:2.8Hz:4", "--samples", "60")
 NAME = "B2-G1-A3-frequency-basin-stability"
 
 
@@ -31,7 +31,7 @@ def test_text_and_files(run, tmp_path):
 
 
 def test_json_and_another_parameter(run, tmp_path):
-    words = ("--parameter", "gap", "--from", "4mm", "--to", "6mm", "--steps", "2")
+    words = ("--vary", "gap=4mm:6mm:2")
     window = ("--displacement", "-12mm:12mm", "--velocity", "-0.1:0.1", "--frequency", "0.7Hz")
     code, out, _ = run("B3-10mm-A3", *words, *window, "--samples", "40", "--seed", "3", "--json")
     assert code == 0
@@ -49,10 +49,9 @@ def test_json_and_another_parameter(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("--steps", "1"), "--steps: 1"),
+        (("--vary", "gap=1mm:2mm:1"), "the number of values, '1', is not a whole"),
         (("--samples", "0"), "--samples: 0"),
-        (("--parameter", "gap"), "--from: missing"),
-        (("--parameter", "gap", "--from", "4mm", "--to", "6mm"), "--frequency: missing"),
+        (("--vary", "gap=4mm:6mm"), "--frequency: missing"),
         (("--velocity", "1"), "--velocity: '1' is not a range; pass LOW:HIGH"),
     ],
 )

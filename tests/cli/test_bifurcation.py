@@ -11,12 +11,12 @@ import vibroimpact as vi
 from vibroimpact.stability.bifurcation_diagram import CREATED_BY
 
 COMMAND = "bifurcation"
-GAPS = ("B3-10mm-A3", "--parameter", "gap", "--from", "4.8mm", "--to", "5mm")
+GAPS = ("B3-10mm-A3", "--vary", "gap=4.8mm:5mm:5")
 
 
 def test_over_the_gap(tmp_path, told):
     code, out, errors = told(
-        tmp_path, *GAPS, *("--frequency", "1.12Hz", "--steps", "5", "--random", "1", "--branches")
+        tmp_path, *GAPS, *("--frequency", "1.12Hz", "--random", "1", "--branches")
     )
     assert (code, errors) == (0, "")
     lines = [line.rstrip() for line in out.splitlines()]
@@ -36,7 +36,7 @@ def test_over_the_gap(tmp_path, told):
 
 @pytest.mark.full
 def test_bifurcations_of_branches_are_printed(tmp_path, told):
-    few = ("B3-10mm-A3", "--from", "1.2Hz", "--to", "1.3Hz", "--steps", "2", "--branches")
+    few = ("B3-10mm-A3", "--vary", "frequency=1.2Hz:1.3Hz:2", "--branches")
     code, out, _ = told(tmp_path, *few)
     assert code == 0
     table = out.partition("Bifurcations on the branches\n")[2].partition("\nFiles")[0]
@@ -56,7 +56,7 @@ def test_bifurcations_of_branches_are_printed(tmp_path, told):
 def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
     code, out, errors = told(
         tmp_path,
-        *("B2-G1-A3", "--from", "2Hz", "--to", "2.4Hz", "--steps", "5", "--direction", "down"),
+        *("B2-G1-A3", "--vary", "frequency=2Hz:2.4Hz:5", "--direction", "down"),
         *("--quantity", "impact-velocity", "--phase", "90deg", "--json"),
     )
     assert (code, errors) == (0, "")
@@ -74,7 +74,7 @@ def test_a_study_says_its_frequency(tmp_path, told):
     (tmp_path / "rig.toml").write_text(
         'case = "B2-Ginf-A3"\n[simulate]\nfrequency = "2 Hz"\n', encoding="utf-8"
     )
-    words = ("--parameter", "damping", "--from", "1kN*s/m", "--to", "2kN*s/m", "--steps", "2")
+    words = ("--vary", "isolator.damping=1kN*s/m:2kN*s/m:2")
     code, out, errors = told(tmp_path, "rig.toml", *words, "--json")
     assert (code, errors) == (0, "")
     (ranges,) = {tuple(one["period"] for one in r) for r in json.loads(out)["starts"].values()}
@@ -86,14 +86,20 @@ def test_a_study_says_its_frequency(tmp_path, told):
     [
         (GAPS, "--frequency: missing"),
         ((*GAPS, "--frequency", "0Hz"), "--frequency"),
-        ((*GAPS, "--frequency", "1Hz", "--steps", "1"), "--steps: 1"),
+        (
+            ("B2-G1-A3", "--vary", "gap=1mm:2mm:1"),
+            "--vary: gap: the number of values, '1', is not a whole",
+        ),
         ((*GAPS, "--frequency", "1Hz", "--random", "-1"), "--random: -1"),
         (
             (*GAPS, "--frequency", "1Hz", "--direction", "none"),
             "--direction: neither a direction nor a start",
         ),
-        (("B2-G1-A3", "--parameter", "colour"), "--parameter: 'colour'"),
-        (("B2-G1-A3", "--from", "3Hz", "--to", "2Hz"), "--to: 2"),
+        (("B2-G1-A3", "--vary", "colour=1:2"), "--vary: 'colour'"),
+        (
+            ("B2-G1-A3", "--vary", "frequency=3Hz:2Hz"),
+            "--vary: frequency: the lower end of the range, 3 Hz",
+        ),
     ],
 )
 def test_refused(run, words, told_of):
@@ -104,7 +110,7 @@ def test_refused(run, words, told_of):
 
 @pytest.mark.full
 def test_own_outputs_are_computed(run, tmp_path):
-    words = ("B2-G1-A3", "--from", "2Hz", "--to", "2.2Hz", "--steps", "2", "--direction", "up")
+    words = ("B2-G1-A3", "--vary", "frequency=2Hz:2.2Hz:2", "--direction", "up")
     code, _, errors = run(*words, "--compute", "top [m/s] = max(abs(velocity))")
     assert (code, errors) == (0, "")
     data = vi.load(tmp_path / "out/B2-G1-A3-frequency-diagram.nc")

@@ -77,7 +77,7 @@ def test_thresholds_and_what_they_change(run):
 @pytest.mark.full
 def test_changed_rig(run):
     """One bumper alone, and none."""
-    code, out, _ = run("B2-G1-A3", "--no-left", "--json")
+    code, out, _ = run("B2-G1-A3", "--set", "left=none", "--json")
     assert code == 0
     assert json.loads(out)["scenario"] in ("S2", "S3", "S4", "unclassified")
     _, out, _ = run("B2-Ginf-A3", "--json")

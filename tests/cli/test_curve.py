@@ -13,8 +13,8 @@ import vibroimpact as vi
 
 COMMAND = "curve"
 CASE = vi.laboratory.case("B2-G1-A3")
-RATIO = ("--over", "frequency,stiffness-ratio", "--second", "0.5:100", "--first", "1Hz:4Hz")
-GAP = ("--over", "frequency,gap", "--second", "1mm:20mm", "--first", "1Hz:4Hz")
+RATIO = ("--vary", "frequency=1Hz:4Hz", "--vary", "stiffness_ratio=0.5:100")
+GAP = ("--vary", "frequency=1Hz:4Hz", "--vary", "gap=1mm:20mm")
 
 
 def groups(path: Path) -> set[str]:
@@ -119,7 +119,7 @@ def test_grazing_in_closed_form(run, tmp_path):
 @pytest.mark.full
 def test_two_parameters_neither_of_which_is_the_frequency(run, tmp_path):
     """Free flight at 2 Hz grazes a gap in proportion to the amplitude."""
-    words = ("--over", "gap,amplitude", "--first", "2mm:20mm", "--second", "0.02g:0.1g")
+    words = ("--vary", "gap=2mm:20mm", "--vary", "amplitude=0.02g:0.1g")
     code, out, errors = run(
         "B2-G1-A3", "--bifurcation", "grazing", *words, "--frequency", "2Hz", "--json"
     )
@@ -134,8 +134,9 @@ def test_two_parameters_neither_of_which_is_the_frequency(run, tmp_path):
 
 
 def test_identified_parameters_over_a_plane(run, tmp_path):
-    words = ("--parameters", "identified", "--over", "frequency,gap", "--bifurcation", "fold")
-    code, out, _ = run("B2-G1-A3", *words, "--first", "1.6Hz:1.8Hz", "--second", "7mm:8mm")
+    words = ("--parameters", "identified", "--bifurcation", "fold")
+    plane = ("--vary", "frequency=1.6Hz:1.8Hz", "--vary", "gap=7mm:8mm")
+    code, out, _ = run("B2-G1-A3", *words, *plane)
     assert code == 0
     assert "K = 26.8 kN/m" in out
     assert (tmp_path / "out/B2-G1-A3-identified-fold-frequency-gap.nc").is_file()
@@ -144,71 +145,66 @@ def test_identified_parameters_over_a_plane(run, tmp_path):
 @pytest.mark.full
 def test_a_study_and_what_is_typed_over_it(run, tmp_path):
     (tmp_path / "low.toml").write_text('case = "B2-G1-A3"\n[excitation]\namplitude = "0.04 g"\n')
-    words = ("--bifurcation", "grazing", "--damping", "1.2 kN s/m", "--figure", "svg")
+    words = ("--bifurcation", "grazing", "--set", "isolator.damping=1.2 kN s/m", "--figure", "svg")
     code, out, _ = run("low.toml", *GAP, *words)
     assert code == 0
     assert "1 grazing curve" in out
-    path = tmp_path / "out/low-damping-1.2kNs_m-grazing-frequency-gap.nc"
+    path = tmp_path / "out/low-isolator-damping-1.2kNs_m-grazing-frequency-gap.nc"
     (group,) = groups(path)
     data = vi.load(path, group=group)
-    assert data.attrs["title"] == "low, damping 1.2 kN s/m"
+    assert data.attrs["title"] == "low, isolator damping 1.2 kN s/m"
     rig = CASE.oscillator
     rig = rig.replace(isolator=rig.isolator.replace(damping=1200.0))
     exact = swing(rig, 0.8 * CASE.amplitude, data["frequency"].values)
     np.testing.assert_allclose(data["gap"], exact, rtol=1e-9)
     svg = path.with_suffix(".svg").read_text()
-    assert "low, damping 1.2 kN s/m, grazing" in svg
+    assert "low, isolator damping 1.2 kN s/m, grazing" in svg
 
 
-SECOND = ("--second", "1mm:20mm")
-GAPS = ("--first", "1mm:20mm")
+FIRST = ("--vary", "frequency=1.5Hz:3Hz")
+SECOND = (*FIRST, "--vary", "gap=1mm:20mm")
+GAPS = ("--vary", "gap=1mm:20mm")
 
 
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (["--over", "frequency", *SECOND], "--over: 'frequency' is not a pair"),
-        (["--over", "", *SECOND], "--over"),
-        (["--over", "frequency,gap,damping", *SECOND], "--over"),
-        (["--over", "frequency,mass", *SECOND], "--over: 'mass'"),
-        (["--over", "mass,gap", "--first", "1:2", *SECOND, "--frequency", "2Hz"], "'mass'"),
-        (["--over", "frequency,frequency", "--second", "1Hz:2Hz"], "'frequency' is given twice"),
-        (["--over", "frequency,", *SECOND], "''"),
-        ([], "--second"),
-        (["--first", "1Hz", *SECOND], "--first: '1Hz'"),
-        (["--first", "1Hz:", *SECOND], "--first: '1Hz:'"),
-        (["--first", ":1Hz", *SECOND], "--first: ':1Hz'"),
-        (["--second", "1mm"], "--second: '1mm'"),
-        pytest.param(["--first", "4Hz:1Hz", *SECOND], "--first"),
-        pytest.param(["--first", "a:b", *SECOND], "--first"),
-        pytest.param(["--second", "20mm:1mm"], "--second"),
-        pytest.param(["--second", "a:b"], "--second"),
-        pytest.param(["--second", "1mm:2mm:3mm"], "--second"),
-        pytest.param(["--second", "1Hz:2Hz"], "--second"),
-        pytest.param(["--second=-1mm:2mm"], "--second"),
-        pytest.param(["--second", "10mm:20mm"], "--second"),  # without the rig's own gap
-        (["--over", "gap,damping", *SECOND], "--frequency: missing"),
+        ([], "--vary: given 0 times; pass two parameters, such as --vary frequency"),
+        ([*FIRST], "--vary: given 1 times; pass two"),
+        ([*SECOND, "--vary", "mass=1:2"], "--vary: given 3 times"),
+        ([*FIRST, "--vary", "colour=1:2"], "--vary: 'colour' is unknown"),
+        (["--vary", "frequency", "--vary", "frequency=1Hz:2Hz"], "'frequency' is given twice"),
+        ([*FIRST, "--vary", "gap=1mm:2mm:5"], "--vary: gap: a curve is followed"),
+        ([*GAPS, "--vary", "frequency=1Hz"], "--vary: frequency: '1Hz'"),
+        ([*FIRST, "--vary", "gap=20mm:1mm"], "--vary: gap: the lower end of the range, 20 mm"),
+        ([*FIRST, "--vary", "gap=a:b"], "--vary: gap: 'a'"),
+        ([*FIRST, "--vary", "gap=1Hz:2Hz"], "--vary: gap: '1Hz'"),
+        ([*FIRST, "--vary", "gap=10mm:20mm"], "--vary[1]"),  # without the rig's own gap
         (
-            ["--over", "gap,damping", *GAPS, "--second", "1kN s/m:2kN s/m"],
+            [*GAPS, "--vary", "isolator.damping=1kN s/m:2kN s/m"],
             "--frequency: missing",
         ),
-        pytest.param(
-            ["--over", "gap,gap-ratio", *GAPS, "--second", "0.1:1", "--frequency", "2Hz"],
-            "--over: ",
+        (
+            [*GAPS, "--vary", "gap_ratio=0.1:1", "--frequency", "2Hz"],
+            "parameters: ",
         ),
-        (["--first", "3Hz:4Hz", *SECOND], "--bifurcation: no fold was found for frequency"),
-        (["--bifurcation", "neimark-sacker", "--first", "2Hz:3Hz", *SECOND], "no Neimark-Sacker"),
+        (
+            ["--vary", "frequency=3Hz:4Hz", *GAPS],
+            "--bifurcation: no fold was found for frequency",
+        ),
+        (
+            ["--bifurcation", "neimark-sacker", "--vary", "frequency=2Hz:3Hz", *GAPS],
+            "no Neimark-Sacker",
+        ),
         (["--bifurcation", "hopf", *SECOND], "--bifurcation"),
-        (["--no-right", "--no-left", *SECOND], "no bumper"),
+        (["--set", "right=none", "--set", "left=none", *SECOND], "not a parameter of this rig"),
         ([*SECOND, "--figure", "bmp"], "--figure"),
         ([*SECOND, "--output", "/proc/vibroimpact"], "--output"),
         ([*SECOND, "--paramter", "gap"], "--paramter"),
     ],
 )
 def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):
-    # Of what is not asked, a narrow range: it is quick.
-    narrow = [] if "--first" in words or "gap,damping" in words else ["--first", "1.5Hz:3Hz"]
-    code, out, errors = run("B2-G1-A3", *words, *narrow)
+    code, out, errors = run("B2-G1-A3", *words)
     assert (code, out) == (2, "")
     assert errors.startswith("vibroimpact: error: ")
     assert errors.count("\n") == 1

@@ -12,7 +12,7 @@ import vibroimpact as vi
 
 COMMAND = "ensemble"
 FEW = ("--draws", "8", "--frequencies", "1Hz,2.4Hz")
-GAP = ("--uncertain", "gap", "normal:5%")
+GAP = ("--uncertain", "gap=normal:5%")
 STUDY = """
 case = "B2-G1-A3"
 
@@ -20,7 +20,7 @@ case = "B2-G1-A3"
 frequencies = ["1 Hz", "2.4 Hz"]
 
 [ensemble]
-uncertain = { bumper-stiffness = "lognormal:0.2", gap = "uniform:7 mm:8 mm" }
+uncertain = { "stops.stiffness" = "lognormal:0.2", gap = "uniform:7 mm:8 mm" }
 draws = 4
 method = "latin"
 seed = 3
@@ -51,7 +51,7 @@ def test_of_a_study_as_json(tmp_path, told):
     code, out, errors = told(tmp_path, "rig.toml", "--json")
     assert (code, errors) == (0, "")
     facts = json.loads(out)
-    spread = {"bumper_stiffness": "lognormal:0.2", "gap": "uniform:7 mm:8 mm"}
+    spread = {"stops.stiffness": "lognormal:0.2", "gap": "uniform:7 mm:8 mm"}
     assert facts["uncertain"] == spread
     response = partial(vi.sweeps, frequencies=[1.0, 2.4])
     same = vi.ensemble("B2-G1-A3", spread, response, 4, method="latin", seed=3)
@@ -65,8 +65,8 @@ def test_of_a_study_as_json(tmp_path, told):
     [
         ((), "--uncertain: missing"),
         ((*GAP, *GAP), "--uncertain: 'gap' is given twice"),
-        (("--uncertain", "colour", "normal:5%"), "--uncertain: 'colour'"),
-        (("--uncertain", "gap", "gauss:5%"), "--uncertain['gap']: 'gauss:5%'"),
+        (("--uncertain", "colour=normal:5%"), "--uncertain: 'colour' is unknown"),
+        (("--uncertain", "gap=gauss:5%"), "--uncertain['gap']: 'gauss:5%'"),
         ((*GAP, "--draws", "100"), "--draws: 100"),
         ((*GAP, "--draws", "0"), "--draws: 0"),
         ((*GAP, "--seed", "-1"), "--seed: -1"),

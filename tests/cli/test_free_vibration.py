@@ -74,14 +74,17 @@ def test_options_take_away_the_shaking_and_the_isolator(run, tmp_path, capsys):
     words = ("--amplitude", "0", "--displacement", "5mm", "--cycles", "3", "-o", str(tmp_path))
     assert main(["simulate", "B2-G1-A3", *words]) == 0
     assert "at rest: free vibration" in capsys.readouterr().out
-    words = ("--no-isolator", "--frequency", "2Hz", "--cycles", "3", "-o", str(tmp_path))
+    words = ("--set", "isolator=none", "--frequency", "2Hz", "--cycles", "3", "-o", str(tmp_path))
     assert main(["simulate", "B2-G1-A3", *words]) == 0
     out = capsys.readouterr().out
     assert "B2-G1-A3, no isolator" in out
     assert "isolator        none" in out
-    assert main(["simulate", "B2-G1-A3", "--no-isolator", "--stiffness", "2kN/m"]) == 2
-    assert "--stiffness: given together with --no-isolator" in capsys.readouterr().err
-    assert main(["simulate", "B2-Ginf-A3", "--no-isolator"]) == 2
+    both = ("--set", "isolator=none", "--set", "isolator.stiffness=2kN/m")
+    assert main(["simulate", "B2-G1-A3", *both]) == 2
+    assert (
+        "--set: isolator.stiffness: the part is removed by isolator=none" in capsys.readouterr().err
+    )
+    assert main(["simulate", "B2-Ginf-A3", "--set", "isolator=none"]) == 2
     assert "nothing holds the mass" in capsys.readouterr().err
 
 

@@ -11,9 +11,9 @@ from vibroimpact.cli.frequency_grid import (
     list_frequencies,
 )
 from vibroimpact.cli.options import RigOptions
-from vibroimpact.cli.parameters import option_range
 from vibroimpact.cli.rig import subject
 from vibroimpact.cli.study import SweepTable
+from vibroimpact.cli.vary import read_one
 from vibroimpact.errors import InputError
 
 DEFAULT = (0.5, 5.0, 0.01)
@@ -77,7 +77,11 @@ def test_the_default_range_follows_from_the_rig(tmp_path):
     for code in ("B2-G1-A3", "B2-G1-A1", "B3-0mm-A2"):
         assert default_range(subject(code, RigOptions())) == (0.5, 5.0, 0.01)
     # A case that has become another rig has a range of its own.
-    assert default_range(subject("B2-G1-A3", RigOptions(mass="55 kg"))) == (1.6, 16.0, 0.05)
+    assert default_range(subject("B2-G1-A3", RigOptions(values=("mass=55 kg",)))) == (
+        1.6,
+        16.0,
+        0.05,
+    )
     path = tmp_path / "building.toml"
     path.write_text(
         '[oscillator]\nmass = "1000 t"\n'
@@ -118,10 +122,10 @@ def test_without_a_natural_frequency_nothing_is_refused_but_the_default(tmp_path
     ):
         with pytest.raises(InputError, match=f"{missing}: missing; the isolator has no stiffness"):
             list_frequencies(*given, None, None, default_range(what))
-    assert option_range(what, "frequency", "1Hz", "2Hz") == (1.0, 2.0)
-    assert option_range(what, "gap", "1mm", "2mm") == (0.001, 0.002)
-    with pytest.raises(InputError, match="--to: missing; the isolator has no stiffness"):
-        option_range(what, "frequency", "1Hz", None)
+    assert read_one(what, ("frequency=1Hz:2Hz",)).span == (1.0, 2.0)
+    assert read_one(what, ("gap=1mm:2mm",)).span == (0.001, 0.002)
+    with pytest.raises(InputError, match="--vary: frequency: missing; the isolator has no stiff"):
+        read_one(what, ())
     path.write_text(NO_SPRING + '[sweep]\nfrom = "1 Hz"\nto = "3 Hz"\n')
     assert default_span(subject(str(path), RigOptions())) == (1.0, 3.0)
 

@@ -13,6 +13,7 @@ from cyclopts import Parameter
 from docstring_parser import parse_from_object
 
 import vibroimpact as vi
+from vibroimpact import cli
 from vibroimpact.cli import _COMMANDS
 from vibroimpact.cli.function_options import (
     describe,
@@ -23,18 +24,13 @@ from vibroimpact.cli.function_options import (
 from vibroimpact.cli.options import OutputOptions, RigOptions, ThresholdOptions
 from vibroimpact.cli.records import RecordOptions
 from vibroimpact.cli.states import StateOptions
+from vibroimpact.model.parameters import PARAMETERS, canonical
+from vibroimpact.scenarios.axes import NAMES
 
 OWN_DEFAULTS = {
-    ("bifurcation", "parameter"): "the usual diagram; the function requires it",
-    ("bifurcation", "steps"): "a figure has about so many columns",
     ("bifurcation", "direction"): "both, as the function, by its name",
     ("basins", "nodes"): "a figure has about so many pixels",
-    ("basin_stability", "parameter"): "the command always varies one",
-    ("basin_stability", "steps"): "a number of values; the function takes the values",
     ("branch", "basins"): "a number of basins; the function takes the basins",
-    ("curve", "over"): "the usual plane; the function requires it",
-    ("scenario_map", "x"): "the map of the paper; the function requires it",
-    ("scenario_map", "y"): "the map of the paper; the function requires it",
     ("scenario_map", "refine"): "a map with smooth borders",
     ("record", "damping"): "a text that may hold several; the same value",
     ("record", "periods"): "a number of periods; the function takes the periods",
@@ -87,7 +83,11 @@ def test_defaults_are_those_of_the_function(name):
 
 
 def test_enough_defaults_are_compared():
-    assert sum(len(_counterparts(name)) for name in CALLING) > 30
+    compared = {
+        (COMMANDS[name].__name__, option) for name in CALLING for option in _counterparts(name)
+    }
+    assert len(compared) > 25
+    assert OWN_DEFAULTS.keys() <= compared
 
 
 @pytest.mark.parametrize("name", CALLING)
@@ -121,6 +121,20 @@ def test_the_help_of_a_command_ends_with_its_examples(name):
     text = COMMANDS[name].__doc__
     assert text.splitlines()[-1].startswith(f"    vibroimpact {name}")
     assert "Parameters" not in text
+
+
+def test_parameters_in_the_examples_of_the_help_are_paths():
+    texts = [cli._HELP, *(one.__doc__ for one in COMMANDS.values())]
+    found = [
+        path
+        for text in texts
+        for paths in re.findall(r"--(?:free|set|vary|uncertain|each) ([\w.,]+)", text)
+        for path in paths.split(",")
+    ]
+    assert len(found) > 15
+    parts = ("isolator", "left", "right")
+    strange = {one for one in found if canonical(one, PARAMETERS) not in PARAMETERS}
+    assert not strange.difference(parts, NAMES)
 
 
 @pytest.mark.parametrize("name", COMMANDS)

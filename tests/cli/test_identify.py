@@ -25,11 +25,12 @@ def file(tmp_path_factory):
 
 
 def test_one_command_makes_a_report_and_a_rig_that_sweep_takes(file, tmp_path, capsys):
-    words = ["identify", str(file), "--rig", "B2-G2-A2", "--free", "stiffness,damping,gap",
-             "--starts", "1", "--output", str(tmp_path), "--json"]  # fmt: skip
+    words = ["identify", str(file), "--rig", "B2-G2-A2", "--free",
+             "isolator.stiffness,isolator.damping,gap", "--starts", "1",
+             "--output", str(tmp_path), "--json"]  # fmt: skip
     assert main(words) == 0
     told = json.loads(capsys.readouterr().out)
-    found = told["parameters"]["stiffness"]
+    found = told["parameters"]["isolator.stiffness"]
     assert abs(found["value"] - 31900.0) < 4.0 * found["standard_error"]
     low, high = found["interval"]
     assert low < found["value"] < high
@@ -78,15 +79,33 @@ def test_a_study_need_not_say_the_amplitude_that_the_file_says(file, tmp_path, c
         left = { stiffness = "510 kN/m", damping = "0.9 kN s/m", gap = "10 mm" }
         """
     )
-    words = ["identify", str(file), "--rig", str(guess), "--free", "stiffness", "--starts", "1"]
+    words = [
+        "identify",
+        str(file),
+        "--rig",
+        str(guess),
+        "--free",
+        "isolator.stiffness",
+        "--starts",
+        "1",
+    ]
     assert main([*words, "-o", str(tmp_path), "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)["parameters"]["stiffness"]
+    found = json.loads(capsys.readouterr().out)["parameters"]["isolator.stiffness"]
     assert found["value"] == pytest.approx(31900.0, rel=0.01)
 
 
 @pytest.mark.full
 def test_an_amplitude_of_the_study_that_the_file_replaces_is_reported(file, tmp_path, capsys):
-    words = ["identify", str(file), "--rig", "B2-G2-A3", "--free", "stiffness", "--starts", "1"]
+    words = [
+        "identify",
+        str(file),
+        "--rig",
+        "B2-G2-A3",
+        "--free",
+        "isolator.stiffness",
+        "--starts",
+        "1",
+    ]
     assert main([*words, "-o", str(tmp_path)]) == 0
     printed = capsys.readouterr()
     line = "the amplitude is 0.04 g, from test.csv; the amplitude of the rig, 0.05 g, is not used"
@@ -98,7 +117,16 @@ def test_an_amplitude_of_the_study_that_the_file_replaces_is_reported(file, tmp_
 def test_an_amplitude_without_a_unit_is_asked_for(file, tmp_path, capsys):
     path = tmp_path / "bare.csv"
     path.write_text(file.read_text().replace("0.04 g", "0.04", 1))
-    words = ["identify", str(path), "--rig", "B2-G2-A2", "--free", "stiffness", "--starts", "1"]
+    words = [
+        "identify",
+        str(path),
+        "--rig",
+        "B2-G2-A2",
+        "--free",
+        "isolator.stiffness",
+        "--starts",
+        "1",
+    ]
     assert main([*words, "-o", str(tmp_path)]) == 2
     told = " ".join(capsys.readouterr().err.split())
     assert "amplitude = 0.04 has no unit; pass amplitude= (--amplitude) with a unit" in told
@@ -130,9 +158,9 @@ def test_the_model_that_wins_has_values_a_report_and_a_study(tmp_path, capsys):
         "--rig",
         str(guess),
         "--free",
-        "stiffness",
+        "isolator.stiffness",
         "--bounds",
-        "stiffness",
+        "isolator.stiffness",
         "20e3:50e3",
         "--compare",
         "softening",
@@ -143,13 +171,13 @@ def test_the_model_that_wins_has_values_a_report_and_a_study(tmp_path, capsys):
     told = json.loads(capsys.readouterr().out)
     best = told["best_model"]
     assert best["model"] == "softening"
-    for name, value in (("stiffness", 31900.0), ("cubic", 4e7)):
+    for name, value in (("isolator.stiffness", 31900.0), ("isolator.cubic", 4e7)):
         found = best["parameters"][name]
         low, high = found["interval"]
         assert low < found["value"] < high
         assert abs(found["value"] - value) < 4.0 * found["standard_error"]
     assert {"softening: report", "softening: data"} < set(told["files"])
-    assert "cubic" in (tmp_path / "guess-fit-softening.toml").read_text()
+    assert "isolator.cubic" in (tmp_path / "guess-fit-softening.toml").read_text()
 
 
 def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_path, capsys):
@@ -169,7 +197,7 @@ def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_pa
     [
         (["--free", "gap", "--compare", "plastic"], "--compare"),
         (
-            ["--free", "gap", "--bounds", "stiffness", "1:2"],
+            ["--free", "gap", "--bounds", "isolator.stiffness", "1:2"],
             "is not one of the free parameters, gap",
         ),
         (
@@ -177,7 +205,8 @@ def test_a_model_that_the_rig_cannot_have_is_refused_before_the_fit(file, tmp_pa
             "pass the lowest and the highest value with a colon",
         ),
         (["--free", "nothing"], "free: 'nothing'"),
-        (["--free", "bumper-stifness,gap"], "did you mean bumper_stiffness?"),
+        (["--free", "stops.stifness,gap"], "did you mean stops.stiffness?"),
+        (["--free", "stiffness"], "did you mean 'isolator.stiffness' or 'stops.stiffness'?"),
     ],
 )
 def test_wrong_words_are_told(file, tmp_path, capsys, words, told):

@@ -35,13 +35,11 @@ def test_help_of_a_command_names_its_options(capsys):
     told = capsys.readouterr().out
     for option in ("--from", "--to", "--step", "--frequencies", "--direction", "--parameters"):
         assert option in told
-    for option in ("--mass", "--stiffness", "--damping", "--bumper-stiffness", "--bumper-damping"):
-        assert option in told
-    for option in ("--gap", "--right-gap", "--left-gap", "--no-right", "--no-left", "--amplitude"):
+    for option in ("--set", "PATH=VALUE", "--gap", "--amplitude"):
         assert option in told
     for option in ("--output", "-o", "--json", "--threads", "--tolerance", "--max-cycles"):
         assert option in told
-    for hidden in ("--no-json", "--no-no-right", "--changes", "--start"):
+    for hidden in ("--no-json", "--no-set", "--changes", "--start"):
         assert hidden not in told
 
 

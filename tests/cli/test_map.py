@@ -14,11 +14,11 @@ import pytest
 import xarray as xr
 
 from samples import sample
-from vibroimpact.cli.ranges import map_axis
+from vibroimpact.cli.map import _axis
 
 COMMAND = "map"
 STEP = ("--step", sample("0.02", "0.04"))
-WORDS = ("--x", "stiffness-ratio", "1:64:log:4", "--y", "gap-ratio", "0.2:1:3", *STEP)
+WORDS = ("--vary", "stiffness_ratio=1:64:log:4", "--vary", "gap_ratio=0.2:1:3", *STEP)
 NAME = "published-stiffness-ratio-gap-ratio-map"
 
 
@@ -60,7 +60,7 @@ def test_without_the_border(run):
 
 @pytest.mark.full
 def test_physical_axes_of_a_case(run, tmp_path):
-    words = ("--x", "gap", "5mm:15mm:3", "--y", "proportional-stiffness", "100kN/m:1MN/m:log:3")
+    words = ("--vary", "gap=5mm:15mm:3", "--vary", "proportional_stiffness=100kN/m:1MN/m:log:3")
     code, out, _ = run("B2-G1-A3", *words, "--refine", "0", *STEP, "--json")
     assert code == 0
     data = xr.open_zarr(tmp_path / json.loads(out)["files"]["data"], consolidated=False)
@@ -72,7 +72,7 @@ def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
     (tmp_path / "moved.toml").write_text(
         'case = "B2-G1-A3"\n[excitation]\namplitude = "5 mm"\n', encoding="utf-8"
     )
-    words = ("--x", "amplitude", "2mm:4mm:2", "--y", "damping-ratio", "0.15:0.2:2", *STEP)
+    words = ("--vary", "amplitude=2mm:4mm:2", "--vary", "damping_ratio=0.15:0.2:2", *STEP)
     code, out, _ = run("moved", *words, "--refine", "0", "--no-border")
     assert code == 0
     assert "constant: gap 7.5 mm, bumpers 510 kN/m, τ = 0.01" in out
@@ -80,9 +80,9 @@ def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
     data = xr.open_zarr(tmp_path / "out" / name, consolidated=False)
     np.testing.assert_allclose(data["amplitude"], [2e-3, 4e-3])
     assert data["amplitude"].attrs["units"] == "m"
-    code, out, errors = run("moved", "--x", "amplitude", "0.1g:0.2g", "--refine", "0")
+    code, out, errors = run("moved", "--vary", "amplitude=0.1g:0.2g", "--refine", "0")
     assert (code, out) == (2, "")
-    assert errors.startswith("vibroimpact: error: --x: '0.1g' is a mass; a length")
+    assert errors.startswith("vibroimpact: error: --vary: amplitude: '0.1g' is a mass; a length")
     assert errors.count("\n") == 1
 
 
@@ -129,7 +129,7 @@ def test_another_map_in_the_same_place_is_refused(run):
     ],
 )
 def test_ranges(text, expected):
-    name, values, spacing = map_axis("--x", "gap-ratio", text, "acceleration")
+    name, values, spacing = _axis("gap-ratio", text, "acceleration")
     assert (name, spacing) == ("gap_ratio", "log" if "log" in text else "linear")
     np.testing.assert_allclose(values, expected, rtol=1e-12)
 
@@ -138,37 +138,53 @@ def test_ranges(text, expected):
     ("words", "named"),
     [
         (
-            ["--x", "gip", "0:1"],
-            "--x: 'gip' is not an axis of a map; pass one of gap, amplitude, bumper-stiffness",
-        ),
-        (["--x", "gap", "0:1"], "--y: 'gap_ratio' varies the same quantity as 'gap'"),
-        (["--x", "gap-ratio", "0:1"], "--y: 'gap_ratio' is also the parameter of x"),
-        (
-            ["--x", "stiffness-ratio", "1"],
-            "--x: '1' is not a range; pass LOW:HIGH[:log][:NUMBER], such as",
+            ["--vary", "gip=0:1"],
+            "--vary: 'gip' is not an axis of a map; pass one of gap, amplitude, stops.stiffness",
         ),
         (
-            ["--x", "stiffness-ratio", "1:2:lag"],
-            "--x: the number of values, 'lag', is not a whole number",
+            ["--vary", "gap=0:1", "--vary", "gap_ratio=0:1"],
+            "'gap_ratio' varies the same quantity as 'gap'",
+        ),
+        (["--vary", "gap=0:1"], "--vary: a map has two axes; pass the option twice"),
+        (["--vary", "gap=0:1", "--vary", "gap=0:1"], "--vary: 'gap' is given twice"),
+        (
+            ["--vary", "stiffness_ratio=1", "--vary", "gap_ratio=0:1"],
+            "--vary: stiffness_ratio: '1' is not a range; pass LOW:HIGH[:log][:NUMBER], such as",
         ),
         (
-            ["--x", "stiffness-ratio", "1:2:1"],
-            "--x: the number of values, '1', is not a whole number",
+            ["--vary", "stiffness_ratio=1:2:lag", "--vary", "gap_ratio=0:1"],
+            "--vary: stiffness_ratio: the number of values, 'lag', is not a whole number",
         ),
         (
-            ["--x", "stiffness-ratio", "1:2:²"],
-            "--x: the number of values, '²', is not a whole number",
+            ["--vary", "stiffness_ratio=1:2:1", "--vary", "gap_ratio=0:1"],
+            "--vary: stiffness_ratio: the number of values, '1', is not a whole number",
         ),
         (
-            ["--x", "stiffness-ratio", "2:1"],
-            "--x: the lower end of the range, 2, is not below the upper end, 1",
+            ["--vary", "stiffness_ratio=1:2:²", "--vary", "gap_ratio=0:1"],
+            "--vary: stiffness_ratio: the number of values, '²', is not a whole number",
         ),
-        (["--x", "stiffness-ratio", "0:1"], "--x"),
-        (["--x", "damping-ratio", "0.1:0.9"], "at a damping ratio of 0.9"),
-        (["--x", "stiffness-ratio", "1:2", "--refine", "-1"], "--refine: -1"),
-        (["--x", "stiffness-ratio", "1:2:999999", "--refine", "4"], "more than the maximum of"),
-        (["--x", "stiffness-ratio", "1:2", "--step", "0"], "--step"),
-        (["--x", "stiffness-ratio", "1:2", "--extent", "7"], "--extent: 7.0"),
+        (
+            ["--vary", "stiffness_ratio=2:1", "--vary", "gap_ratio=0:1"],
+            "--vary: stiffness_ratio: the lower end of the range, 2, is not below the upper end, 1",
+        ),
+        (["--vary", "stiffness_ratio=0:1", "--vary", "gap_ratio=0:1"], "--vary: stiffness_ratio"),
+        (
+            ["--vary", "damping_ratio=0.1:0.9", "--vary", "gap_ratio=0:1"],
+            "at a damping ratio of 0.9",
+        ),
+        (
+            ["--vary", "stiffness_ratio=1:2", "--vary", "gap_ratio=0:1", "--refine", "-1"],
+            "--refine: -1",
+        ),
+        (
+            ["--vary", "stiffness_ratio=1:2:999999", "--vary", "gap_ratio=0:1", "--refine", "4"],
+            "more than the maximum of",
+        ),
+        (["--vary", "stiffness_ratio=1:2", "--vary", "gap_ratio=0:1", "--step", "0"], "--step"),
+        (
+            ["--vary", "stiffness_ratio=1:2", "--vary", "gap_ratio=0:1", "--extent", "7"],
+            "--extent: 7.0",
+        ),
         (["B2-Ginf-A3"], "CASE|STUDY.toml: there is no stop"),
     ],
 )

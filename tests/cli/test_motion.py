@@ -287,7 +287,17 @@ def test_rig_without_bumpers(run, tmp_path):
 
 @pytest.mark.full
 def test_rig_with_one_bumper(run):
-    words = ("--no-left", "--gap", "2mm", "--frequency", "2.8Hz", "--random", "0", "--json")
+    words = (
+        "--set",
+        "left=none",
+        "--gap",
+        "2mm",
+        "--frequency",
+        "2.8Hz",
+        "--random",
+        "0",
+        "--json",
+    )
     code, out, _ = run("B2-G1-A3", *words)
     assert code == 0
     rig = CASE.oscillator.replace(left=None, right=CASE.oscillator.right.replace(gap=2e-3))
@@ -305,7 +315,7 @@ def test_rig_with_one_bumper(run):
 
 @pytest.mark.full
 def test_study(run, tmp_path):
-    words = ("--frequency", "2.2Hz", "--left-gap", "8mm", "--branch", "forward", "--json")
+    words = ("--frequency", "2.2Hz", "--set", "left.gap=8mm", "--branch", "forward", "--json")
     code, out, _ = run(str(STUDY), *words)
     assert code == 0
     facts = json.loads(out)
@@ -359,7 +369,7 @@ def test_an_isolator_without_stiffness(run, tmp_path):
 @pytest.mark.full
 def test_a_motion_that_is_given_up(run, tmp_path):
     """Nothing takes the energy of a mass that bounces through half of a very slow cycle."""
-    words = ("--damping", "0", "--bumper-damping", "0", "--frequency", "0.0001Hz")
+    words = ("--set", "isolator.damping=0", "--set", "stops.damping=0", "--frequency", "0.0001Hz")
     code, out, errors = run("B2-G1-A3", *words, "--branch", "backward")
     assert code == 0
     assert "undecided" in out

@@ -38,12 +38,12 @@ def told(tmp_path, monkeypatch):
 @pytest.mark.parametrize(
     "line",
     [
-        ("sweep", "B2-G1-A3", "--step", "0.05Hz", "--left-damping", "1234567.89 N s/m"),
+        ("sweep", "B2-G1-A3", "--step", "0.05Hz", "--set", "left.damping=1234567.89 N s/m"),
         *sample(
             [
-                ("simulate", "B2-G1-A3", "--frequency", "2.5Hz", "--left-gap", "9.12345mm"),
+                ("simulate", "B2-G1-A3", "--frequency", "2.5Hz", "--set", "left.gap=9.12345mm"),
                 ("motion", "B3-10mm-A3", "--frequency", "1.12Hz", "--random", "0"),
-                ("branch", "B2-G1-A3", "--from", "1.6Hz", "--to", "1.8Hz"),
+                ("branch", "B2-G1-A3", "--vary", "frequency=1.6Hz:1.8Hz"),
                 ("classify", "B2-G1-A3"),
             ],
             [],

@@ -36,47 +36,50 @@ def test_name():
 
 def test_every_option_replaces_its_value_and_nothing_else():
     for options, expected in [
-        (RigOptions(mass="600kg"), CASE.replace(mass=600.0)),
+        (RigOptions(values=("mass=600kg",)), CASE.replace(mass=600.0)),
         (
-            RigOptions(stiffness="20 kN/m"),
+            RigOptions(values=("isolator.stiffness=20 kN/m",)),
             CASE.replace(isolator=CASE.isolator.replace(stiffness=20e3)),
         ),
         (
-            RigOptions(damping="1 kN s/m"),
+            RigOptions(values=("isolator.damping=1 kN s/m",)),
             CASE.replace(isolator=CASE.isolator.replace(damping=1e3)),
         ),
-        (RigOptions(right_gap="1mm"), CASE.replace(right=CASE.right.replace(gap=1e-3))),
-        (RigOptions(left_damping="0"), CASE.replace(left=CASE.left.replace(damping=0.0))),
-        (RigOptions(left_stiffness="1MN/m"), CASE.replace(left=CASE.left.replace(stiffness=1e6))),
-        (RigOptions(no_left=True), CASE.replace(left=None)),
-        (RigOptions(no_left=True, no_right=True), CASE.without_bumpers()),
+        (RigOptions(values=("right.gap=1mm",)), CASE.replace(right=CASE.right.replace(gap=1e-3))),
+        (RigOptions(values=("left.damping=0",)), CASE.replace(left=CASE.left.replace(damping=0.0))),
+        (
+            RigOptions(values=("stops.left.stiffness=1MN/m",)),
+            CASE.replace(left=CASE.left.replace(stiffness=1e6)),
+        ),
+        (RigOptions(values=("left=none",)), CASE.replace(left=None)),
+        (RigOptions(values=("left=none", "stops.right=none")), CASE.without_bumpers()),
     ]:
         assert changed(CASE, options) == expected
     assert changed(CASE, RigOptions()) == CASE
 
 
 def test_options_of_both_sides():
-    both = changed(CASE, RigOptions(gap="9mm", bumper_stiffness="1MN/m", bumper_damping="5"))
+    both = changed(CASE, RigOptions(gap="9mm", values=("stops.stiffness=1MN/m", "stops.damping=5")))
     assert both.right == both.left == vi.Bumper(1e6, 5.0, 9e-3)
     # One side's option comes before that of both.
-    assert changed(CASE, RigOptions(gap="9mm", left_gap="3mm")).left.gap == 3e-3
+    assert changed(CASE, RigOptions(gap="9mm", values=("left.gap=3mm",))).left.gap == 3e-3
     # They change what is there, and make no bumper beside it.
     one_sided = CASE.replace(left=None)
     assert changed(one_sided, RigOptions(gap="9mm")).left is None
-    assert changed(CASE, RigOptions(gap="9mm", no_right=True)).right is None
+    assert changed(CASE, RigOptions(gap="9mm", values=("right=none",))).right is None
 
 
 def test_new_bumpers_need_all_three_values():
     free = CASE.without_bumpers()
-    made = changed(free, RigOptions(gap="9mm", bumper_stiffness="1MN/m", bumper_damping="5"))
+    made = changed(free, RigOptions(gap="9mm", values=("stops.stiffness=1MN/m", "stops.damping=5")))
     assert made.right == made.left == vi.Bumper(1e6, 5.0, 9e-3)
-    values = {"left_gap": "9mm", "left_stiffness": "1MN/m", "left_damping": "5"}
-    made = changed(free, RigOptions(**values))
+    values = ("left.gap=9mm", "left.stiffness=1MN/m", "left.damping=5")
+    made = changed(free, RigOptions(values=values))
     assert (made.right, made.left) == (None, vi.Bumper(1e6, 5.0, 9e-3))
-    with pytest.raises(vi.InputError, match="--right-stiffness: missing"):
+    with pytest.raises(vi.InputError, match=r"--set: right\.stiffness: missing"):
         changed(free, RigOptions(gap="9mm"))
-    with pytest.raises(vi.InputError, match="--left-damping: missing"):
-        changed(CASE.replace(left=None), RigOptions(left_gap="9mm", left_stiffness="5"))
+    with pytest.raises(vi.InputError, match=r"--set: left\.damping: missing"):
+        changed(CASE.replace(left=None), RigOptions(values=("left.gap=9mm", "left.stiffness=5")))
 
 
 WALL = vi.RigidStop(0.8, 0.01)
@@ -84,26 +87,23 @@ WALL = vi.RigidStop(0.8, 0.01)
 
 def test_options_of_bumpers_pass_rigid_stops_by():
     mixed = CASE.replace(left=WALL)
-    made = changed(mixed, RigOptions(gap="-9mm", bumper_stiffness="1MN/m"))
+    made = changed(mixed, RigOptions(gap="-9mm", values=("stops.stiffness=1MN/m",)))
     assert made.left == WALL.replace(gap=-9e-3)
     assert made.right == CASE.right.replace(gap=-9e-3, stiffness=1e6)
-    assert changed(mixed, RigOptions(left_gap="3mm")).left.gap == 3e-3
+    assert changed(mixed, RigOptions(values=("left.gap=3mm",))).left.gap == 3e-3
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (
-            {"bumper_damping": "5"},
-            "--bumper-damping: no stop of this rig has a damping; remove this option",
-        ),
-        ({"left_stiffness": "5"}, "--left-stiffness: the left stop is RigidStop"),
+        ("stops.damping=5", "--set: (right|left).damping: unknown key"),
+        ("left.stiffness=5", "--set: left.stiffness: unknown key"),
     ],
 )
 def test_rigid_stops_have_no_stiffness(options, message):
     walls = CASE.replace(right=WALL, left=WALL)
     with pytest.raises(vi.InputError, match=message):
-        changed(walls, RigOptions(**options))
+        changed(walls, RigOptions(values=(options,)))
 
 
 def test_gravity():
@@ -113,25 +113,32 @@ def test_gravity():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"mass": "-5kg"}, "--mass: '-5kg' is not greater than 0"),
-        ({"mass": "5m"}, "--mass: '5m' is a length; a mass"),
-        ({"stiffness": "nan"}, "--stiffness: 'nan' is not finite"),
-        ({"damping": "-1"}, "--damping: '-1' is less than 0"),
-        ({"gap": "15 kg"}, "--gap: '15 kg' is a mass; a length is accepted"),
-        ({"right_damping": "-1"}, "--right-damping: '-1' is less than 0"),
-        ({"bumper_stiffness": "0"}, "--bumper-stiffness: '0' is not greater than 0"),
+        ({"mass": "-5kg"}, "--set: mass: '-5kg' is not greater than 0"),
+        ({"mass": "5m"}, "--set: mass: '5m' is a length; a mass"),
+        ({"isolator.stiffness": "nan"}, "--set: isolator.stiffness: 'nan' is not finite"),
+        ({"isolator.damping": "-1"}, "--set: isolator.damping: '-1' is less than 0"),
+        ({"gap": "15 kg"}, "gap: '15 kg' is a mass; a length is accepted"),
+        ({"stops.right.damping": "-1"}, "--set: right.damping: '-1' is less than 0"),
+        ({"stops.stiffness": "0"}, "--set: right.stiffness: '0' is not greater than 0"),
         ({"amplitude": "0g"}, "--amplitude: 0; set it in the study, or pass"),
         ({"amplitude": "5 kg"}, "--amplitude: '5 kg' is a mass"),
-        ({"left_gap": "1mm", "no_left": True}, "--left-gap: given together with --no-left"),
-        (
-            {"gap": "1mm", "no_left": True, "no_right": True},
-            "--gap: given together with --no-right and",
-        ),
+        ({"left.gap": "1mm", "left": "none"}, "--set: left.gap: the part is removed"),
+        ({"nothing": "1"}, "--set: 'nothing' is unknown; one of frequency, .*isolator.stiffness"),
+        ({"stiffness": "1"}, "--set: 'stiffness' is not a path; use 'isolator.stiffness' or"),
+        ({"frequency": "1Hz"}, "use --frequency"),
+        ({"right.gap": ""}, "pass PATH=VALUE in one word, such as gap=9mm"),
     ],
 )
 def test_what_cannot_be_used(options, message):
     with pytest.raises(vi.InputError, match=message):
-        subject("B2-G1-A3", RigOptions(**options))
+        subject("B2-G1-A3", of(**options))
+
+
+def of(gap=None, amplitude=None, **values):
+    """Options with these values."""
+    return RigOptions(
+        gap=gap, amplitude=amplitude, values=tuple(f"{k}={v}" for k, v in values.items())
+    )
 
 
 HERTZ = vi.PowerBumper("2 GN/m^1.5", "7.5 mm", dissipation=0.4)
@@ -139,20 +146,20 @@ HERTZ = vi.PowerBumper("2 GN/m^1.5", "7.5 mm", dissipation=0.4)
 
 def test_options_are_read_by_the_laws_of_the_rig():
     fluid = vi.Oscillator(550, vi.Isolator(3e4, 1e3, 0.5), HERTZ, CASE.left)
-    made = changed(fluid, RigOptions(damping="2 kN (s/m)^0.5", right_stiffness="3 GN/m^1.5"))
+    made = changed(
+        fluid, of(**{"isolator.damping": "2 kN (s/m)^0.5", "right.stiffness": "3 GN/m^1.5"})
+    )
     assert made.isolator == fluid.isolator.replace(damping=2e3)
     assert made.right == HERTZ.replace(stiffness=3e9)
-    with pytest.raises(vi.InputError, match=r"--damping: '2 kN s/m' is a damping; a damping in N"):
-        changed(fluid, RigOptions(damping="2 kN s/m"))
-    with pytest.raises(vi.InputError, match=r"--bumper-stiffness: '1 MN/m' is a stiffness"):
-        changed(fluid, RigOptions(bumper_stiffness="1 MN/m"))
-    assert changed(fluid, RigOptions(bumper_damping="5")).right == HERTZ
-    assert changed(fluid, RigOptions(bumper_damping="5")).left.damping == 5.0
+    with pytest.raises(vi.InputError, match=r"damping: '2 kN s/m' is a damping; a damping in N"):
+        changed(fluid, of(**{"isolator.damping": "2 kN s/m"}))
+    with pytest.raises(vi.InputError, match=r"--set: right.stiffness: '1 MN/m' is a stiffness"):
+        changed(fluid, of(**{"stops.stiffness": "1 MN/m"}))
+    assert changed(fluid, of(**{"stops.damping": "5"})).right == HERTZ
+    assert changed(fluid, of(**{"stops.damping": "5"})).left.damping == 5.0
     yielding = CASE.replace(isolator=vi.BilinearIsolator(1e5, 3e4, 400, 0))
-    with pytest.raises(
-        vi.InputError, match=r"--stiffness: the isolator is Bilinear.*, which has no stiffness"
-    ):
-        changed(yielding, RigOptions(stiffness="3"))
+    with pytest.raises(vi.InputError, match=r"is not a parameter of this rig; .*elastic_stiffness"):
+        changed(yielding, of(**{"isolator.stiffness": "3"}))
 
 
 STUDY = """
@@ -208,53 +215,59 @@ def test_a_law_is_told_with_all_its_numbers():
 
 
 def test_a_period_and_a_damping_ratio_stand_for_stiffness_and_damping():
-    made = changed(CASE, RigOptions(mass="5000t", isolator_period="2.5s", damping_ratio="15 %"))
+    made = changed(CASE, of(mass="5000t", isolator_period="2.5s", damping_ratio="15 %"))
     assert made.isolator == vi.Isolator.from_period("5000 t", 2.5, 0.15)
     # A period alone keeps the damping ratio, whatever becomes of the mass.
-    kept = changed(CASE, RigOptions(mass="5000t", isolator_period="2.5s"))
+    kept = changed(CASE, of(mass="5000t", isolator_period="2.5s"))
     assert kept.damping_ratio == pytest.approx(CASE.damping_ratio, rel=1e-14)
     assert 1.0 / kept.natural_frequency == pytest.approx(2.5, rel=1e-14)
     # Beside the other two, each sets its own.
-    assert changed(CASE, RigOptions(isolator_period="2s", damping="5")).isolator.damping == 5.0
-    stiff = changed(CASE, RigOptions(stiffness="20kN/m", damping_ratio="0.1"))
+    assert (
+        changed(CASE, of(**{"isolator_period": "2s", "isolator.damping": "5"})).isolator.damping
+        == 5.0
+    )
+    stiff = changed(CASE, of(**{"isolator.stiffness": "20kN/m", "damping_ratio": "0.1"}))
     assert (stiff.isolator.stiffness, round(stiff.damping_ratio, 14)) == (20e3, 0.1)
-    damped = changed(CASE, RigOptions(damping_ratio="0.1"))
+    damped = changed(CASE, of(damping_ratio="0.1"))
     assert damped.isolator.stiffness == CASE.isolator.stiffness
 
 
 def test_a_weight_stands_for_a_mass():
-    assert changed(CASE, RigOptions(weight="9806.65 N")).mass == 1000.0
+    assert changed(CASE, of(weight="9806.65 N")).mass == 1000.0
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
         (
-            {"isolator_period": "2s", "stiffness": "1"},
-            "--isolator-period: given together with --stiffness",
+            {"isolator_period": "2s", "isolator.stiffness": "1"},
+            "--set: isolator_period and isolator.stiffness set the same quantity",
         ),
         (
-            {"damping_ratio": "0.1", "damping": "1"},
-            "--damping-ratio: given together with --damping; remove one",
+            {"damping_ratio": "0.1", "isolator.damping": "1"},
+            "--set: damping_ratio and isolator.damping set the same quantity; remove one",
         ),
         (
             {"weight": "1 N", "mass": "1"},
-            "--weight: given together with --mass; remove one of the two options",
+            "--set: weight and mass set the same quantity; remove one of the two",
         ),
-        ({"isolator_period": "2 Hz"}, "--isolator-period: '2 Hz' is a frequency; a time"),
-        ({"damping_ratio": "-1"}, "--damping-ratio: '-1' is less than 0"),
-        ({"weight": "5 t"}, "--weight: '5 t' is a mass; a force greater than 0"),
-        ({"mass": "5000g"}, "--mass: '5000g' has a g, which is gravity here; write gram, kg or t"),
-        ({"mass": "50MN"}, "--mass: '50MN' is a force, the weight of 5098.58 t; a mass"),
+        ({"isolator_period": "2 Hz"}, "--set: isolator_period: '2 Hz' is a frequency; a time"),
+        ({"damping_ratio": "-1"}, "--set: damping_ratio: '-1' is not greater than 0"),
+        ({"weight": "5 t"}, "--set: weight: '5 t' is a mass; a force greater than 0"),
+        (
+            {"mass": "5000g"},
+            "--set: mass: '5000g' has a g, which is gravity here; write gram, kg or t",
+        ),
+        ({"mass": "50MN"}, "--set: mass: '50MN' is a force, the weight of 5098.58 t; a mass"),
     ],
 )
 def test_two_ways_at_once_are_refused(options, message):
     with pytest.raises(vi.InputError) as caught:
-        changed(CASE, RigOptions(**options))
+        changed(CASE, of(**options))
     assert str(caught.value).startswith(message)
 
 
 def test_a_yielding_isolator_has_no_one_period():
     yielding = CASE.replace(isolator=vi.BilinearIsolator(2e5, 1e5, 100, 0))
-    with pytest.raises(vi.InputError, match="--isolator-period: the isolator is Bilinear"):
-        changed(yielding, RigOptions(isolator_period="2s"))
+    with pytest.raises(vi.InputError, match="--set: 'isolator_period' sets the stiffness"):
+        changed(yielding, of(isolator_period="2s"))

@@ -28,25 +28,25 @@ FEW = ("--frequencies", "1Hz,2Hz")
     ("options", "name", "slug"),
     [
         ({"gap": "9mm"}, "B2-G1-A3, gap 9 mm", "B2-G1-A3-gap-9mm"),
-        ({"left_gap": "0.009"}, "B2-G1-A3, left gap 9 mm", "B2-G1-A3-left-gap-9mm"),
+        ({"values": ("left.gap=0.009",)}, "B2-G1-A3, left gap 9 mm", "B2-G1-A3-left-gap-9mm"),
         (
-            {"no_right": True, "mass": "600kg"},
-            "B2-G1-A3, mass 600 kg, no right bumper",
-            "B2-G1-A3-mass-600kg-no-right",
+            {"values": ("mass=600kg", "right=none")},
+            "B2-G1-A3, mass 600 kg, no right stop",
+            "B2-G1-A3-mass-600kg-no-right-stop",
         ),
         (
-            {"amplitude": "0.04g", "bumper_damping": "1.2 kN s/m"},
-            "B2-G1-A3, amplitude 0.04 g, bumper damping 1.2 kN s/m",
-            "B2-G1-A3-amplitude-0.04g-bumper-damping-1.2kNs_m",
+            {"amplitude": "0.04g", "values": ("stops.damping=1.2 kN s/m",)},
+            "B2-G1-A3, amplitude 0.04 g, stops damping 1.2 kN s/m",
+            "B2-G1-A3-amplitude-0.04g-stops-damping-1.2kNs_m",
         ),
         (
-            {"stiffness": "20 kN/m", "parameters": "identified"},
-            "B2-G1-A3, identified parameters, stiffness 20 kN/m",
-            "B2-G1-A3-identified-stiffness-20kN_m",
+            {"values": ("isolator.stiffness=20 kN/m",), "parameters": "identified"},
+            "B2-G1-A3, identified parameters, isolator stiffness 20 kN/m",
+            "B2-G1-A3-identified-isolator-stiffness-20kN_m",
         ),
         # What is as it was is no change.
-        ({"gap": "7.5 mm", "amplitude": "0.05 g", "mass": "550"}, "B2-G1-A3", "B2-G1-A3"),
-        ({"gap": "9mm", "right_gap": "9mm"}, "B2-G1-A3, gap 9 mm", "B2-G1-A3-gap-9mm"),
+        ({"gap": "7.5 mm", "amplitude": "0.05 g", "values": ("mass=550",)}, "B2-G1-A3", "B2-G1-A3"),
+        ({"gap": "9mm", "values": ("right.gap=9mm",)}, "B2-G1-A3, gap 9 mm", "B2-G1-A3-gap-9mm"),
     ],
 )
 def test_a_changed_case_says_so(options, name, slug):
@@ -59,20 +59,24 @@ def test_a_name_names_the_files_and_the_title_tells_the_changes():
 
 
 def test_a_long_title_is_broken_between_changes():
-    options = RigOptions(mass="560kg", left_stiffness="500kN/m", left_damping="1.234 kN s/m")
+    options = RigOptions(
+        values=("mass=560kg", "left.stiffness=500kN/m", "left.damping=1.234 kN s/m")
+    )
     assert subject("B2-G1-A3", options).title == (
         "B2-G1-A3, mass 560 kg, left stiffness 500 kN/m,\nleft damping 1.234 kN s/m"
     )
 
 
 def test_many_changes_make_a_file_name_that_any_disk_takes():
-    options = {
-        name: "123456.789e-3"
-        for name in RigOptions.__dataclass_fields__
-        if not name.startswith(("no_", "parameters", "weight", "isolator_period", "damping_ratio"))
-    }
-    what = subject("B2-G1-A3", RigOptions(**options))
-    other = subject("B2-G1-A3", RigOptions(**{**options, "left_gap": "5"}))
+    paths = [
+        "mass",
+        *(f"isolator.{name}" for name in ("stiffness", "damping")),
+        *(f"{whose}.stiffness" for whose in ("right", "left")),
+        *(f"{whose}.damping" for whose in ("right", "left")),
+    ]
+    values = tuple(f"{path}=123456.789e-{3 + i}" for i, path in enumerate(paths))
+    what = subject("B2-G1-A3", RigOptions(gap="123456.789e-3", values=(*values, "left.gap=4")))
+    other = subject("B2-G1-A3", RigOptions(gap="123456.789e-3", values=(*values, "left.gap=5")))
     assert len(what.slug) < 160
     assert what.slug != other.slug
 

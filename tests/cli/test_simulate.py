@@ -52,9 +52,7 @@ def test_the_start_chooses_the_motion(run):
     for start in ("0", "25mm"):
         _, told, _ = run(
             *words,
-            "--right-gap",
-            "30mm",
-            "--left-gap",
+            "--gap",
             "30mm",
             "--name",
             start,

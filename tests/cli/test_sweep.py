@@ -88,8 +88,26 @@ def test_listed_frequencies_are_held_as_they_are(run, tmp_path):
 
 
 def test_options_reach_the_sweep(run, tmp_path):
-    options = ("--max-cycles", "60", "--tolerance", "1e-8", "--threads", "1", "--mass", "600 kg")
-    rest = ("--left-gap", "9mm", "--no-right", "--name", "one sided", "--figure", "svg")
+    options = (
+        "--max-cycles",
+        "60",
+        "--tolerance",
+        "1e-8",
+        "--threads",
+        "1",
+        "--set",
+        "mass=600 kg",
+    )
+    rest = (
+        "--set",
+        "left.gap=9mm",
+        "--set",
+        "right=none",
+        "--name",
+        "one sided",
+        "--figure",
+        "svg",
+    )
     code, _, _ = run("B2-G1-A3", *COARSE, *options, *rest)
     assert code == 0
     assert (tmp_path / "out/one_sided-sweep.svg").is_file()
@@ -133,9 +151,9 @@ def test_no_bar_where_nobody_sees_it(monkeypatch, capsys):
 
 
 WRONG = [
-    (["--mass", "-5kg"], "--mass"),
-    (["--stiffness", "-1"], "--stiffness"),
-    (["--bumper-stiffness", "nan"], "--bumper-stiffness"),
+    (["--set", "mass=-5kg"], "--set: mass"),
+    (["--set", "isolator.stiffness=-1"], "--set: isolator.stiffness"),
+    (["--set", "stops.stiffness=nan"], "--set: right.stiffness"),
     (["--gap", "15 kg"], "'15 kg' is a mass"),
     (["--gap", "nan"], "--gap"),
     (["--amplitude", "0.05 kg"], "is a mass"),
@@ -160,8 +178,20 @@ WRONG = [
     (["--gap"], "--gap"),
     (["--gup", "1mm"], "--gup"),
     (["more"], "more"),
-    (["--no-right", "--right-gap", "1mm"], "--right-gap"),
-    (["--damping", "0", "--no-right", "--no-left", "--frequencies", "1Hz,1.1003621Hz"], None),
+    (["--set", "right=none", "--set", "right.gap=1mm"], "--set: right.gap"),
+    (
+        [
+            "--set",
+            "isolator.damping=0",
+            "--set",
+            "right=none",
+            "--set",
+            "left=none",
+            "--frequencies",
+            "1Hz,1.1003621Hz",
+        ],
+        None,
+    ),
 ]
 
 
@@ -243,7 +273,7 @@ def test_a_rigid_stop_and_a_preload_from_a_study_file(run, tmp_path):
 
 @pytest.mark.full
 def test_own_outputs_are_computed_printed_and_drawn(run, tmp_path):
-    power = "power [W] = mean(damping*velocity**2)"
+    power = "power [W] = mean(isolator.damping*velocity**2)"
     words = ("B2-G1-A3", "--frequencies", "1.5Hz,2Hz", "--compute", power)
     code, out, errors = run(*words, "--compute", "touch=mean(abs(contact) > 0)")
     assert (code, errors) == (0, "")

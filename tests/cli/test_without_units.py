@@ -33,24 +33,18 @@ def study(tmp_path_factory):
     return path
 
 
-GAPS = ("--parameter", "gap", "--from", "1", "--to", "3")
-
-
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
         (("sweep", "--from", "0.1", "--to", "0.3", "--step", "0.02"), "frequencies from ω = 0.628"),
         (("simulate", "--frequency", "0.2", "--cycles", "5"), "State after 5 cycles (25)"),
-        (("branch", "--from", "0.1", "--to", "0.25"), "the range ends at ω = 1.57079633"),
+        (("branch", "--vary", "frequency=0.1:0.25"), "the range ends at ω = 1.57079633"),
         *sample(
             [
                 (("motion", "--frequency", "1 rad/s", "--random", "2"), "ω = 1: "),
-                (("branch", "--frequency", "0.2", *GAPS), "gap"),
+                (("branch", "--vary", "gap=1:3", "--frequency", "0.2"), "gap"),
                 (("basins", "--frequency", "0.2", "--nodes", "12"), "excursion "),
-                (
-                    ("bifurcation", "--from", "0.1", "--to", "0.2", "--steps", "4"),
-                    "largest exponent\n",
-                ),
+                (("bifurcation", "--vary", "frequency=0.1:0.2:4"), "largest exponent\n"),
             ],
             [],
         ),
@@ -108,8 +102,8 @@ def _none(tmp_path):
     [
         ("sweep", "--amplitude", "5mm"),
         ("sweep", "--gap", "2 m"),
-        ("branch", "--frequency", "0.2", "--parameter", "gap", "--from", "5mm", "--to", "3"),
-        ("design", "--vary", "gap", "5mm:6mm"),
+        ("branch", "--frequency", "0.2", "--vary", "gap=5mm:3"),
+        ("design", "--vary", "gap=5mm:6mm"),
     ],
 )
 def test_stated_none_refuses_a_unit_of_an_option(tmp_path, capsys, words):
@@ -124,7 +118,7 @@ def test_stated_none_refuses_a_unit_of_an_option(tmp_path, capsys, words):
 def test_designs_and_records_without_units(tmp_path, capsys):
     rig, record = str(_none(tmp_path)), tmp_path / "shake.txt"
     record.write_text("".join(f"{0.1 * n:.1f} {0.8 * (n % 7 - 3)}\n" for n in range(200)))
-    assert main(["design", rig, "--vary", "gap", "1:3", "-o", str(tmp_path)]) == 0
+    assert main(["design", rig, "--vary", "gap=1:3", "-o", str(tmp_path)]) == 0
     summary = capsys.readouterr().out.partition("\nFiles\n")[0]
     assert "Required gap: 5" in summary
     assert not UNIT.findall(summary)

@@ -105,7 +105,7 @@ def test_records_against_responses_one_by_one(name: str) -> None:
 def test_what_no_other_beats_on_the_whole_grid() -> None:
     data = vi.design_chart(
         BUILDING,
-        {"gap": np.linspace(0.01, 0.3, 8), "bumper_stiffness": np.geomspace(1e7, 1e9, 6)},
+        {"gap": np.linspace(0.01, 0.3, 8), "stops.stiffness": np.geomspace(1e7, 1e9, 6)},
         records=RECORDS,
     )
     u, a = (data[name].values.ravel() for name in PEAKS[:2])
@@ -119,7 +119,7 @@ def test_what_no_other_beats_on_the_whole_grid() -> None:
 
 
 def test_what_exceeds_a_limit_beats_nobody() -> None:
-    vary = {"gap": np.linspace(0.01, 0.3, 8), "bumper_stiffness": np.geomspace(1e7, 1e9, 6)}
+    vary = {"gap": np.linspace(0.01, 0.3, 8), "stops.stiffness": np.geomspace(1e7, 1e9, 6)}
     every = vi.design_chart(BUILDING, vary, records=RECORDS)
     limits = {"penetration": "10 mm", "peak-force": 2e7}
     data = vi.design_chart(BUILDING, vary, records=RECORDS, limits=limits)
@@ -144,14 +144,14 @@ def test_what_exceeds_a_limit_beats_nobody() -> None:
 
 def test_designs_that_hit_nothing_count_once() -> None:
     data = vi.design_chart(
-        BUILDING, {"gap": [2.0, 3.0], "bumper_stiffness": [1e7, 1e8]}, records=RECORDS
+        BUILDING, {"gap": [2.0, 3.0], "stops.stiffness": [1e7, 1e8]}, records=RECORDS
     )
     assert not data["hitting"].any()
     assert data["pareto"].values.tolist() == [[True, False], [False, False]]
 
 
 def test_threads_change_no_bit_and_it_is_saved(tmp_path) -> None:
-    vary = {"gap": ["100 mm", "200 mm"], "bumper_damping": [1e6, 1e7]}
+    vary = {"gap": ["100 mm", "200 mm"], "stops.damping": [1e6, 1e7]}
     one = vi.design_chart(
         vi.Rig(BUILDING, "0.05 g"), vary, frequency_span=("0.2 Hz", "0.8 Hz"), threads=1
     )
@@ -166,7 +166,7 @@ def test_threads_change_no_bit_and_it_is_saved(tmp_path) -> None:
 def test_what_has_no_bound_is_infinite() -> None:
     soft = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 0.5, -50.0, 0.0))
     with pytest.warns(RuntimeWarning, match=r"design: 1 of 2 designs could not be computed: "):
-        data = vi.design_chart(vi.Rig(soft, 3.0), {"damping": [1.0, 40.0]})
+        data = vi.design_chart(vi.Rig(soft, 3.0), {"isolator.damping": [1.0, 40.0]})
     assert np.isinf(data["peak_acceleration"].values[0])
     assert np.isfinite(data["peak_acceleration"].values[1])
     assert data["pareto"].values.tolist() == [False, True]
@@ -176,13 +176,13 @@ def test_what_has_no_bound_is_infinite() -> None:
     ("arguments", "line"),
     [
         ({"vary": {}}, "vary: {}; pass the values of at least one parameter"),
-        ({"vary": {"length": [1.0]}}, "vary: 'length'; one of "),
+        ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; one of frequency, "),
         (
             {"vary": {"amplitude": [1.0]}},
             "vary: 'amplitude' depends on the shaking, which is not varied here; remove it",
         ),
         ({"vary": {"gap": []}}, "gaps: the list is empty"),
-        ({"vary": {"yield_force": [1.0]}}, "yield_force: unknown key"),
+        ({"vary": {"yield_force": [1.0]}}, "vary: 'yield_force' is not a parameter of this rig; "),
         ({"records": []}, "records: missing; pass at least one Record"),
         ({"records": [RECORDS["a"], 3]}, r"records\['1'\]: 3 is not a record; pass a Record"),
         ({"shaking": "3 s"}, "shaking: '3 s'"),

@@ -16,7 +16,7 @@ RIG = vi.Oscillator(
     vi.Bumper("100 kN/m", "1 kN s/m", "20 mm"),
     vi.Bumper("100 kN/m", "1 kN s/m", "20 mm"),
 )
-RANGES = {"bumper_stiffness": (5e3, 5e5), "bumper_damping": (100.0, 2e4)}
+RANGES = {"stops.stiffness": (5e3, 5e5), "stops.damping": (100.0, 2e4)}
 RECORDS = [noise(seed, 1.5, 150) for seed in (1, 2)]
 NODES = sample(30, 14)
 
@@ -48,14 +48,14 @@ def test_no_node_of_a_grid_is_better(limits: dict) -> None:
 
 def test_of_sines() -> None:
     """One parameter, whose valley a grid shows."""
-    ranges = {"bumper_damping": RANGES["bumper_damping"]}
-    values = np.geomspace(*RANGES["bumper_damping"], 41)
-    grid = vi.design_chart(vi.Rig(RIG, "0.05 g"), {"bumper_damping": values})["peak_acceleration"]
+    ranges = {"stops.damping": RANGES["stops.damping"]}
+    values = np.geomspace(*RANGES["stops.damping"], 41)
+    grid = vi.design_chart(vi.Rig(RIG, "0.05 g"), {"stops.damping": values})["peak_acceleration"]
     found = vi.least_acceleration(vi.Rig(RIG, "0.05 g"), ranges)
     least = int(grid.values.argmin())
     assert 0 < least < 40
     assert float(found["peak_acceleration"]) == pytest.approx(float(grid.min()), rel=2e-3)
-    assert values[least - 1] < float(found["bumper_damping"]) < values[least + 1]
+    assert values[least - 1] < float(found["stops.damping"]) < values[least + 1]
 
 
 def test_a_wide_gap_leaves_nothing_to_choose() -> None:
@@ -85,15 +85,15 @@ def test_what_binds_and_what_does_not_is_noted() -> None:
     (note,) = found.attrs["notes"].splitlines()
     assert note.startswith("the design stays below the limit of peak force: ")
     assert note.endswith(" N of 1 MN")
-    stiff = {"bumper_stiffness": (2e6, 3e6)}
+    stiff = {"stops.stiffness": (2e6, 3e6)}
     ended = vi.least_acceleration(RIG, stiff, records=RECORDS, gap="10 mm")
-    assert ended.attrs["notes"] == "bumper_stiffness lies at the lower end of its range, 2000 kN/m"
+    assert ended.attrs["notes"] == "stops.stiffness lies at the lower end of its range, 2000 kN/m"
 
 
 def test_it_is_repeatable() -> None:
     first, again = (vi.least_acceleration(RIG, records=RECORDS, gap="10 mm") for _ in range(2))
     assert first.identical(again)
-    assert first["bumper_damping"].attrs["units"] == "N s m-1"
+    assert first["stops.damping"].attrs["units"] == "N s m-1"
     assert float(first["evaluations"]) > 24
 
 

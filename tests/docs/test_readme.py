@@ -32,11 +32,28 @@ def test_pictures_are_there():
             assert (page.parent / target).is_file(), f"{page.name} shows {target}"
 
 
-def test_its_picture_is_made_by_the_script_that_it_names():
-    picture, strip = PICTURE.findall(README)
+def test_its_pictures_are_made_by_what_it_names():
+    picture, fitted = PICTURE.findall(README)
     (script,) = re.findall(r"\]\((examples/\w+\.py)\)", README)
-    for drawn, by in ((picture, script), (strip, "tests/explorer/strip.py")):
+    for drawn, by in ((picture, script), (fitted, "docs/tutorials/experimenter.md")):
         assert drawn.rsplit("/", 1)[1] in (ROOT / by).read_text(encoding="utf-8")
+        assert f"]({by})" in README
+
+
+def test_the_numbers_of_its_building_stand_in_the_tutorial_that_computes_them():
+    (building,) = re.findall(r"^\*\*A building.*?^$", README, re.M | re.S)
+    (tutorial,) = re.findall(r"\]\((docs/tutorials/\w+\.md)\)", building)
+    printed = (ROOT / tutorial).read_text(encoding="utf-8")
+    numbers = re.findall(r"\d[\d.,]*\d", building)
+    assert len(numbers) >= 7
+    for number in numbers:
+        assert re.search(rf"(?<![\d.]){re.escape(number)}\b", printed), number
+
+
+def test_the_strip_of_the_explorer_is_drawn_by_its_script():
+    page = (ROOT / "docs/how-to/explore.md").read_text(encoding="utf-8")
+    script = (ROOT / "tests/explorer/strip.py").read_text(encoding="utf-8")
+    assert PICTURE.findall(page)[-1].rsplit("/", 1)[1] in script
 
 
 def test_citations():

@@ -30,9 +30,9 @@ PEAKS = (
 
 
 def test_every_run_is_the_response_by_itself() -> None:
-    vary = {"bumper_stiffness": [200.0, 900.0]}
+    vary = {"stops.stiffness": [200.0, 900.0]}
     data = vi.demands(RIGS["bumpers"], RECORDS, SCALES, gaps=["20 mm", 0.05], vary=vary)
-    assert data["peak_force"].dims == ("record", "scale", "gap", "bumper_stiffness")
+    assert data["peak_force"].dims == ("record", "scale", "gap", "stops.stiffness")
     assert data["gap"].attrs["units"] == "m"
     assert (data["status"] == 0).all()
     np.testing.assert_array_equal(data["factor"], np.tile(SCALES, (3, 1)))
@@ -43,7 +43,7 @@ def test_every_run_is_the_response_by_itself() -> None:
                     rig = RIGS["bumpers"].replace(
                         right=vi.Bumper(stiffness, 3.0, gap), left=vi.Bumper(stiffness, 1.5, gap)
                     )
-                    here = {"scale": scale, "gap": gap, "bumper_stiffness": stiffness}
+                    here = {"scale": scale, "gap": gap, "stops.stiffness": stiffness}
                     one = data.sel(record=name, **here)
                     direct = vi.seismic_response(vi.Rig(rig, record.scaled(scale)))
                     for peak in PEAKS:
@@ -200,12 +200,12 @@ def test_it_is_saved_and_read(tmp_path) -> None:
         ({"gaps": [0.01, 0.01]}, "gaps: 10 mm is given twice"),
         ({"gaps": ["1 kg"]}, r"gaps\[0\]: "),
         ({"gaps": [0.1], "vary": {"gap": [0.1]}}, "gaps: given together with"),
-        ({"vary": {"length": [1.0]}}, "vary: 'length'; one of "),
+        ({"vary": {"length": [1.0]}}, "vary: 'length' is unknown; one of "),
         (
             {"vary": {"amplitude": [1.0]}},
             "vary: 'amplitude' depends on the shaking, which is not varied here; remove it",
         ),
-        ({"vary": {"restitution": [0.5]}}, "parameter: "),
+        ({"vary": {"restitution": [0.5]}}, "vary: 'restitution' is not a parameter of this rig"),
         ({"tail": -1.0}, "tail: -1"),
         ({"block": 0}, "block: 0"),
         ({"threads": 0}, "threads: 0"),

@@ -31,7 +31,7 @@ PERIODS = np.geomspace(0.05, 2.0, 20)
 SCALES = np.linspace(0.2, 3.0, 10)
 OUTPUT = {
     "power": vi.Output(
-        "mean(damping*velocity**2)",
+        "mean(isolator.damping*velocity**2)",
         units="W",
         long_name="mean power of the dashpot of the isolator over one period",
     )
@@ -64,7 +64,7 @@ def designs(first: str = "gap", *others: str) -> xr.Dataset:
     """Return designs, of which some exceed a limit."""
     values = {
         "gap": np.linspace(0.01, 0.3, 5),
-        "bumper_stiffness": np.geomspace(100.0, 2000.0, 4),
+        "stops.stiffness": np.geomspace(100.0, 2000.0, 4),
     }
     vary = {name: values[name] for name in (first, *others)}
     limits = {"peak_displacement": 0.12}
@@ -83,7 +83,7 @@ def fit() -> xr.Dataset:
         error = np.random.default_rng(number).standard_normal(swept[name].shape)
         swept[name] = swept[name] * (1.0 + 0.02 * error)
     history = vi.steady(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)), samples=64)
-    free = {"bumper_stiffness": None, "bumper_damping": None}
+    free = {"stops.stiffness": None, "stops.damping": None}
     return vi.identify(
         rig, {"curves": swept, "history": history}, free, tried=0, starts=1, profiles=True
     )
@@ -270,10 +270,10 @@ EVERY: dict[str, Drawn] = {
     "incremental_curves": Drawn(_over(demands, figures.incremental_curves, limit=1.5)),
     "fragility_curves": Drawn(_over(fragility, figures.fragility_curves)),
     "design_chart": Drawn(
-        _over(partial(designs, "gap", "bumper_stiffness"), figures.design_chart), 2
+        _over(partial(designs, "gap", "stops.stiffness"), figures.design_chart), 2
     ),
     "design_chart, one parameter": Drawn(_over(designs, figures.design_chart), 2),
-    "pareto_front": Drawn(_over(partial(designs, "gap", "bumper_stiffness"), figures.pareto_front)),
+    "pareto_front": Drawn(_over(partial(designs, "gap", "stops.stiffness"), figures.pareto_front)),
     "resonance_bands": Drawn(_over(ensembles.drawn, figures.resonance_bands), 2),
     "sensitivity_bars": Drawn(
         lambda **how: figures.sensitivity_bars(ensembles.indices().isel(frequency=1), **how)

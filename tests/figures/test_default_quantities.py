@@ -66,12 +66,12 @@ FIGURES = {
 COMMANDS = {
     "sweep": (("--frequencies", "1.5Hz,2Hz"), "eta_a", "(g)"),
     "branch": (
-        ("--from", "1.95Hz", "--to", "2.05Hz", "--longest", "1", "--random", "0"),
+        ("--vary", "frequency=1.95Hz:2.05Hz", "--longest", "1", "--random", "0"),
         "eta_d",
         "largest displacement (mm)",
     ),
     "ensemble": (
-        ("--uncertain", "gap", "normal:5%", "--draws", "4", "--frequencies", "1.5Hz,2Hz"),
+        ("--uncertain", "gap=normal:5%", "--draws", "4", "--frequencies", "1.5Hz,2Hz"),
         "eta_a",
         "(g)",
     ),

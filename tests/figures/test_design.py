@@ -18,7 +18,7 @@ GAPS, STIFFNESSES = np.linspace(0.01, 0.3, 5), np.geomspace(100.0, 2000.0, 4)
 
 @pytest.fixture(scope="module")
 def data():
-    vary = {"gap": GAPS, "bumper_stiffness": STIFFNESSES}
+    vary = {"gap": GAPS, "stops.stiffness": STIFFNESSES}
     return vi.design_chart(RIGS["bumpers"], vary, records=noise(8, count=120))
 
 
@@ -30,7 +30,7 @@ def test_contours_over_two_parameters(data) -> None:
     assert left.get_ylabel() == "stiffness of both bumpers (kN/m)"
     assert left.get_yscale() == "log"
     dots = left.lines[-1]
-    at = np.argwhere(data["pareto"].transpose("bumper_stiffness", "gap").values)
+    at = np.argwhere(data["pareto"].transpose("stops.stiffness", "gap").values)
     np.testing.assert_allclose(dots.get_xdata(), 1e3 * GAPS[at[:, 1]])
     np.testing.assert_allclose(dots.get_ydata(), 1e-3 * STIFFNESSES[at[:, 0]])
 
@@ -56,7 +56,7 @@ def test_the_line_where_nothing_is_hit_is_on_the_safe_side(data) -> None:
     left, _ = design_chart(data)
     at = [p.vertices for one in left.collections if _red(one) for p in one.get_paths()]
     assert at
-    safe = data["hitting"].transpose("gap", "bumper_stiffness").values == 0.0
+    safe = data["hitting"].transpose("gap", "stops.stiffness").values == 0.0
     first = 1e3 * GAPS[safe.argmax(axis=0)].min()
     assert min(points[:, 0].min() for points in at if len(points)) > first - 0.01 * first
 
@@ -67,7 +67,7 @@ def _red(drawn) -> bool:
 
 
 def test_curves_over_one(data) -> None:
-    one = data.isel(bumper_stiffness=1)
+    one = data.isel({"stops.stiffness": 1})
     (ax,) = design_chart(one, quantities=("peak_force",))
     np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e-3 * one["peak_force"])
 
@@ -93,12 +93,12 @@ def test_the_present_design_is_marked_where_it_was_computed() -> None:
     gap, stiffness = stop.gap, stop.stiffness
     own = vi.design_chart(
         rig,
-        {"gap": [0.5 * gap, gap, 2.0 * gap], "bumper_stiffness": [stiffness, 3.0 * stiffness]},
+        {"gap": [0.5 * gap, gap, 2.0 * gap], "stops.stiffness": [stiffness, 3.0 * stiffness]},
         records=noise(8, count=120),
     )
     ax = pareto_front(own)
     (star,) = (line for line in ax.lines if line.get_label() == "present design")
-    here = own.sel(gap=gap, bumper_stiffness=stiffness)
+    here = own.sel({"gap": gap, "stops.stiffness": stiffness})
     assert star.get_xdata() == pytest.approx(1e3 * float(here["peak_displacement"]))
     assert star.get_ydata() == pytest.approx(float(here["peak_acceleration"]) / GRAVITY)
     assert "present design" in [text.get_text() for text in ax.get_legend().get_texts()]
@@ -123,7 +123,7 @@ def test_of_a_long_front_some_are_numbered() -> None:
 def test_what_exceeds_a_limit_is_marked(data) -> None:
     limited = vi.design_chart(
         RIGS["bumpers"],
-        {"gap": GAPS, "bumper_stiffness": STIFFNESSES},
+        {"gap": GAPS, "stops.stiffness": STIFFNESSES},
         records=noise(8, count=120),
         limits={"peak_displacement": float(data["peak_displacement"].median())},
     )
@@ -135,7 +135,7 @@ def test_what_exceeds_a_limit_is_marked(data) -> None:
     )
     for panel in design_chart(limited):
         assert "exceeds a limit" in [text.get_text() for text in panel.get_legend().get_texts()]
-    one = limited.isel(bumper_stiffness=1)
+    one = limited.isel({"stops.stiffness": 1})
     (ax,) = design_chart(one, quantities=("peak_force",))
     (crosses,) = (line for line in ax.lines if line.get_label() == "exceeds a limit")
     assert len(crosses.get_xdata()) == (~one["within_limits"].values).sum()
@@ -173,7 +173,7 @@ def test_what_is_hatched_ends_where_the_interpolated_value_is_the_limit(data) ->
     """As the contour lines do, and not half-way between two designs."""
     limit = 0.025
     some = limited(data, penetration=limit)
-    values = data["penetration"].transpose("gap", "bumper_stiffness").values
+    values = data["penetration"].transpose("gap", "stops.stiffness").values
     looked_at = 0
     for panel in design_chart(some):
         inside = hatched(panel)
@@ -224,7 +224,7 @@ def test_what_exceeds_any_of_several_limits_is_hatched_up_to_its_own_edge(data) 
 def test_designs_that_were_not_done_are_hatched_half_way_to_the_next(data) -> None:
     for value in (np.nan, np.inf):
         broken = data.copy(deep=True)
-        at = {"gap": 2, "bumper_stiffness": 1}
+        at = {"gap": 2, "stops.stiffness": 1}
         for name in ("peak_displacement", "peak_acceleration", "peak_force", "penetration"):
             broken[name][at] = value
         inside = hatched(design_chart(limited(broken, penetration=1.0))[0])
@@ -256,7 +256,7 @@ def test_limits_that_all_or_none_exceed(data) -> None:
         assert not any(any(getattr(one, "hatches", [None])) for one in panel.collections)
     # Only what hits nothing presses no bumper: such designs are not hatched, and end it.
     inside = hatched(design_chart(limited(data, penetration=0.0))[0])
-    first = GAPS[(data["hitting"] == 0.0).all("bumper_stiffness").values.argmax()]
+    first = GAPS[(data["hitting"] == 0.0).all("stops.stiffness").values.argmax()]
     for stiffness in (110.0, 500.0, 1900.0):
         assert inside(first - 1e-3, stiffness)
         assert not inside(first + 1e-3, stiffness)
@@ -266,7 +266,7 @@ def test_limits_that_all_or_none_exceed(data) -> None:
 def test_without_its_limits_a_design_is_hatched_half_way_to_the_next(data) -> None:
     unknown = limited(data, penetration=0.025).assign_attrs(parameters="{}")
     inside = hatched(design_chart(unknown)[0])
-    within = unknown["within_limits"].transpose("gap", "bumper_stiffness").values
+    within = unknown["within_limits"].transpose("gap", "stops.stiffness").values
     changes = 0
     for gap, row in zip(GAPS[1:-1], within[1:-1], strict=True):
         for k in np.flatnonzero(row[1:] != row[:-1]):
@@ -298,7 +298,7 @@ def test_a_fractile_over_the_records_is_named() -> None:
     assert front.get_xlabel().endswith(words)
     assert front.get_ylabel().endswith(words)
     both = vi.design_chart(
-        RIGS["bumpers"], {**vary, "bumper_stiffness": STIFFNESSES}, records=records, fractile=0
+        RIGS["bumpers"], {**vary, "stops.stiffness": STIFFNESSES}, records=records, fractile=0
     )
     assert design_chart(both)[0].get_title().endswith("\n0 % fractile over the records")
     for one in (
@@ -324,13 +324,13 @@ def test_the_present_design_is_marked() -> None:
     """The rig has gaps of 80 mm and bumpers of 400 N/m: a star in the plane, a line over one."""
     wall = vi.Bumper(400.0, 1.0, 0.08)
     rig = RIGS["bumpers"].replace(right=wall, left=wall)
-    vary = {"gap": [0.02, 0.05, 0.1], "bumper_stiffness": [300.0, 500.0, 900.0]}
+    vary = {"gap": [0.02, 0.05, 0.1], "stops.stiffness": [300.0, 500.0, 900.0]}
     found = vi.design_chart(rig, vary, records=noise(8, count=60))
     for ax in design_chart(found):
         (star,) = [line for line in ax.lines if line.get_marker() == "*"]
         assert star.get_xydata().tolist() == [[80.0, 400.0]]
         assert "present design" in [text.get_text() for text in ax.get_legend().get_texts()]
-    for ax in design_chart(found.isel(bumper_stiffness=0).drop_vars("bumper_stiffness")):
+    for ax in design_chart(found.isel({"stops.stiffness": 0}).drop_vars("stops.stiffness")):
         (line,) = [line for line in ax.lines if line.get_label() == "present design"]
         assert line.get_xdata() == [80.0, 80.0]
     beyond = design_chart(found.isel(gap=[0, 1]))[0]
@@ -346,7 +346,7 @@ def test_gaps_that_differ_are_no_present_design(data) -> None:
 
 @pytest.mark.full
 def test_a_rig_with_one_stop_has_a_chart_of_this_stop() -> None:
-    vary = {"gap": [0.02, 0.05], "bumper_stiffness": [300.0, 500.0]}
+    vary = {"gap": [0.02, 0.05], "stops.stiffness": [300.0, 500.0]}
     found = vi.design_chart(RIGS["elastic"], vary, records=noise(8, count=60))
     ax = design_chart(found)[0]
     assert ax.get_xlabel() == "gap of the left side (mm)"

@@ -13,7 +13,7 @@ from vibroimpact.figures import resonance_bands, sensitivity_bars
 
 CASE = vi.laboratory.case("B2-G1-A3")
 GRID = [1.0, 2.0, 2.4]
-SPREAD = {"gap": "normal:5%", "damping": "lognormal:0.2"}
+SPREAD = {"gap": "normal:5%", "isolator.damping": "lognormal:0.2"}
 
 
 @cache

@@ -101,7 +101,9 @@ def test_a_branch_in_engineers_units() -> None:
         assert ax.get_ylabel().endswith(unit)
         most = max(line.get_ydata().max() for line in ax.lines if len(line.get_ydata()) > 1)
         assert most == pytest.approx(factor * float(data[quantity].max()), rel=1e-12)
-    stiff = vi.branch(vi.Rig(BUILDING, shaken), start, span=(31e6, 32e6), parameter="stiffness")
+    stiff = vi.branch(
+        vi.Rig(BUILDING, shaken), start, span=(31e6, 32e6), parameter="isolator.stiffness"
+    )
     assert branch_diagram(stiff).get_xlabel().endswith("(MN/m)")
 
 

@@ -96,9 +96,9 @@ def test_border_marks_and_lines():
 
 
 def test_physical_axes_have_units():
-    data = made().rename(stiffness_ratio="bumper_stiffness", gap_ratio="gap")
-    other = vi.scenario_map(None, ("bumper_stiffness", [1.0, 2.0]), ("gap", [0.5, 1.0]), step=0.05)
-    for name in ("bumper_stiffness", "gap"):
+    data = made().rename(stiffness_ratio="stops.stiffness", gap_ratio="gap")
+    other = vi.scenario_map(None, ("stops.stiffness", [1.0, 2.0]), ("gap", [0.5, 1.0]), step=0.05)
+    for name in ("stops.stiffness", "gap"):
         data[name].attrs = other[name].attrs
     ax = scenario_map(data)
     assert ax.get_ylabel() == "gap of each side (mm)"

@@ -106,7 +106,7 @@ def test_bifurcations_of_branches_are_marked():
 
 def test_a_logarithmic_axis():
     data = vi.bifurcation_diagram(
-        CASE, "bumper_stiffness", (1e4, 1e6), 5, frequency=3.5, log=True, directions="up"
+        CASE, "stops.stiffness", (1e4, 1e6), 5, frequency=3.5, log=True, directions="up"
     )
     top, _, _ = section_diagram(data)
     assert top.get_xscale() == "log"

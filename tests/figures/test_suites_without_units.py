@@ -107,7 +107,7 @@ def test_accelerogram_of_a_spectrum_without_units():
 
 def test_fit():
     measured = vi.sweep(RIG, np.linspace(0.12, 0.24, 13))[["displacement_excursion"]]
-    fit = vi.identify(RIG, measured, {"stiffness": (0.8, 1.2)}, profiles=True)
+    fit = vi.identify(RIG, measured, {"isolator.stiffness": (0.8, 1.2)}, profiles=True)
     assert has_no_units(fit)
     drawn = figures.fit_residuals(fit)
     assert drawn[0].get_xlabel() == "excitation frequency $\\omega$"

@@ -53,7 +53,8 @@ def test_a_csv_of_a_noisy_history_with_uneven_gaps(tmp_path):
     path.write_text("\n".join(rows))
     bumper = vi.Bumper("500 kN/m", "1 kN s/m", "7 mm")
     guess = vi.Oscillator(MASS, vi.Isolator("27 kN/m", "1.1 kN s/m"), bumper, bumper)
-    free = "stiffness,damping,right_stiffness,right_gap,left_stiffness,left_gap"
+    stops = [f"stops.{side}.{name}" for side in ("right", "left") for name in ("stiffness", "gap")]
+    free = ["isolator.stiffness", "isolator.damping", *stops]
     with pytest.warns(vi.InputWarning, match="the displacement of the mass"):
         found = vi.identify(
             guess, path, f"{free},right_damping,left_damping", profiles=False, tried=0, starts=1
@@ -82,7 +83,7 @@ def test_frequencies_that_were_held_twice_count_twice(tmp_path):
     found = vi.identify(
         vi.Rig(case.oscillator, case.amplitude),
         path,
-        "stiffness,gap",
+        "isolator.stiffness,gap",
         tried=0,
         starts=1,
         profiles=False,

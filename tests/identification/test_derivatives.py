@@ -77,11 +77,11 @@ def by_the_fit(case, grid, name):
 @pytest.mark.parametrize(
     ("frequency", "name"),
     [
-        (2.0, "stiffness"),
-        (2.0, "bumper_damping"),
-        (2.65, "bumper_stiffness"),  # the forward fold is at 2.66
+        (2.0, "isolator.stiffness"),
+        (2.0, "stops.damping"),
+        (2.65, "stops.stiffness"),  # the forward fold is at 2.66
         (2.65, "gap"),
-        (1.69, "damping"),
+        (1.69, "isolator.damping"),
     ],
 )
 def test_differences_agree_with_the_implicit_function_theorem(frequency, name):
@@ -104,7 +104,7 @@ def grazing():
 
 
 @pytest.mark.parametrize("share", [1e-4, 1e-2])
-@pytest.mark.parametrize("name", ["stiffness", "bumper_stiffness", "bumper_damping", "gap"])
+@pytest.mark.parametrize("name", ["isolator.stiffness", "stops.stiffness", "stops.damping", "gap"])
 def test_differences_behind_a_grazing(share, name):
     frequency = grazing() * (1.0 + share)
     rig = SteppedRig(vi.Rig(GRAZED.oscillator, shaken(GRAZED)))
@@ -124,11 +124,11 @@ def test_differences_before_a_grazing_are_those_of_free_flight():
     # |u| = m a/|k - m w² + i c w|, and |ü + a| = |u| |k + i c w| / m.
     displacement = np.array([-k * real, -c * omega * imaginary]) / size
     force = np.array([k * k, (c * omega) ** 2]) / (k * k + imaginary**2)
-    for i, name in enumerate(("stiffness", "damping")):
+    for i, name in enumerate(("isolator.stiffness", "isolator.damping")):
         found = by_the_fit(GRAZED, np.array([frequency]), name)
         exact = [displacement[i], displacement[i] + force[i]]
         assert found == pytest.approx(exact, rel=1e-6)
-    for name in ("bumper_stiffness", "bumper_damping", "gap"):
+    for name in ("stops.stiffness", "stops.damping", "gap"):
         assert (by_the_fit(GRAZED, np.array([frequency]), name) == 0.0).all()
 
 
@@ -155,7 +155,7 @@ def test_what_has_not_settled_has_no_derivative_and_spoils_none():
     data = curves(case.oscillator, case.amplitude, frequencies=grid)
     settings = {"one": vi.Rig(case.oscillator, shaken(case))}
     test = CurveTest("one", data, settings["one"], 0.02)
-    problem = Problem([test], frees("bumper_stiffness", settings, (), {}), {}, [0.02], np.inf)
+    problem = Problem([test], frees("stops.stiffness", settings, (), {}), {}, [0.02], np.inf)
     here = problem.values(problem.start)
     slopes = problem.jacobian(problem.start, fine=True)[:, 0]
     assert not here.smooth[: test.points_count].all()

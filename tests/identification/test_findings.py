@@ -20,28 +20,28 @@ GRID = np.arange(0.8, 3.0, 0.1)
 def test_right_and_left_exchanged_fit_excursions_as_well_and_are_reported():
     data = curves(UNEVEN, "0.04 g", 0.01, frequencies=GRID)
     start = UNEVEN.replace(right=FAR, left=NEAR)
-    found = vi.identify(start, data, "right_gap,left_gap", **QUICK)
+    found = vi.identify(start, data, "stops.right.gap,stops.left.gap", **QUICK)
     # The fit keeps to the sides of the start: the truth lies outside both intervals.
     low, high = found.interval.values.T
     assert ((np.array([0.009, 0.012]) < low) | (np.array([0.009, 0.012]) > high)).all()
     (other,) = found.alternative_value.values
     assert other == pytest.approx(found.fitted_value.values[::-1], rel=1e-9)
     assert float(found.alternative_rise[0]) < 0.01
-    told = "with right and left exchanged, the rig fits equally well: right_gap 9."
+    told = "with right and left exchanged, the rig fits equally well: stops.right.gap 9."
     assert told in found.findings
-    assert "left_gap 12." in found.findings or "left_gap 11.9" in found.findings
+    assert "stops.left.gap 12." in found.findings or "stops.left.gap 11.9" in found.findings
 
 
 def test_maxima_and_minima_tell_the_sides():
     data = curves(UNEVEN, "0.04 g", 0.01, names=PEAKS, frequencies=GRID)
-    found = vi.identify(UNEVEN, data, "right_gap,left_gap", **QUICK)
+    found = vi.identify(UNEVEN, data, "stops.right.gap,stops.left.gap", **QUICK)
     assert "exchanged" not in found.findings
     assert "alternative_value" not in found
 
 
 def test_sides_that_only_the_given_values_tell_are_reported():
     data = curves(UNEVEN, "0.04 g", 0.01, frequencies=GRID)
-    found = vi.identify(UNEVEN, data, "right_gap", **QUICK)
+    found = vi.identify(UNEVEN, data, "stops.right.gap", **QUICK)
     assert "only the values that you passed determine which side is the right one" in found.findings
 
 
@@ -55,7 +55,7 @@ def undamped():
 def test_a_damping_at_its_bound_is_zero_and_as_uncertain_from_there(undamped, start):
     bumper = CASE.oscillator.right.replace(damping=start)
     rig = CASE.oscillator.replace(right=bumper, left=bumper)
-    found = vi.identify(rig, undamped, "bumper_damping", tried=0, starts=1)
+    found = vi.identify(rig, undamped, "stops.damping", tried=0, starts=1)
     assert found.fitted_value.values[0] == 0.0
     assert vi.fitted_rig(found).oscillator.right.damping == 0.0
     assert 100.0 < found.standard_error.values[0] < 300.0
@@ -68,7 +68,7 @@ def test_a_contact_of_hertz_inherits_no_certainty(undamped):
     bumper = CASE.oscillator.right.replace(damping=3.4e-26)
     contact = hertzian(CASE.oscillator.replace(right=bumper, left=bumper), 2e-3)
     few = undamped.sel(frequency=[1.5, 1.7, 1.9], method="nearest")
-    found = vi.identify(contact, few, "dissipation", **QUICK)
+    found = vi.identify(contact, few, "stops.dissipation", **QUICK)
     # That of the dashpot, over the force of the spring at that depth.
     assert 0.01 < found.standard_error.values[0] < 10.0
 
@@ -105,12 +105,12 @@ def test_of_a_bumper_that_is_never_touched_only_the_least_gap_is_known():
     rig = CASE.oscillator.replace(right=wide, left=wide)
     data = curves(rig, "0.04 g", 0.02, frequencies=grid)
     farthest = 0.5 * float(vi.sweep(vi.Rig(rig, "0.04 g"), grid).displacement_excursion.max())
-    free = "stiffness,bumper_stiffness,bumper_damping,gap"
+    free = "isolator.stiffness,stops.stiffness,stops.damping,gap"
     found = vi.identify(rig, data, free, tried=0, starts=1)
     low = float(found.interval.sel(parameter="gap", bound="low"))
     assert 0.9 * farthest < low < farthest
     assert found.interval_open.sel(parameter="gap").values.tolist() == [0, 1]
-    for name in ("bumper_stiffness", "bumper_damping"):
+    for name in ("stops.stiffness", "stops.damping"):
         assert found.interval_open.sel(parameter=name).values.all()
     known = (
         "gap (gap of each side) has only a lower limit: in these tests the mass does not touch "
@@ -127,9 +127,9 @@ def test_of_a_bumper_that_is_never_touched_only_the_least_gap_is_known():
 
 def test_the_cost_tells_a_right_fit_from_a_wrong_one():
     data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
-    right = vi.identify(CASE.oscillator, data, "stiffness", **QUICK)
+    right = vi.identify(CASE.oscillator, data, "isolator.stiffness", **QUICK)
     harder = data.assign_attrs(amplitude=0.06 * 9.80665)
-    wrong = vi.identify(CASE.oscillator, harder, "stiffness", **QUICK)
+    wrong = vi.identify(CASE.oscillator, harder, "isolator.stiffness", **QUICK)
     assert wrong.attrs["cost"] > 100.0 * right.attrs["cost"]
     assert right.attrs["cost"] == pytest.approx(0.5 * 0.01**2 * data[EXCURSIONS[0]].size * 2, 0.5)
 
@@ -140,11 +140,11 @@ def test_a_shaking_of_the_rig_that_the_data_replace_is_reported(shaking):
     with pytest.warns(
         vi.InputWarning, match=r"the amplitude is 0\.04 g, from the data; .* not used"
     ):
-        found = vi.identify(vi.Rig(CASE.oscillator, shaking), data, "stiffness", **QUICK)
+        found = vi.identify(vi.Rig(CASE.oscillator, shaking), data, "isolator.stiffness", **QUICK)
     assert "test 1: the amplitude is 0.04 g, from the data; " in found.findings
     assert found.fitted_value.values[0] == pytest.approx(31900.0, rel=0.01)
     rounded = data.assign_attrs(amplitude=0.3923)
-    same = vi.identify(vi.Rig(CASE.oscillator, "0.04 g"), rounded, "stiffness", **QUICK)
+    same = vi.identify(vi.Rig(CASE.oscillator, "0.04 g"), rounded, "isolator.stiffness", **QUICK)
     assert "not used" not in same.findings
 
 
@@ -152,7 +152,7 @@ def test_the_amplitude_of_a_computed_sweep_is_its_own():
     data = vi.sweep(vi.Rig(CASE.oscillator, "0.04 g"), GRID)
     told = r"the amplitude is 0\.04 g, from the data; the amplitude of"
     with pytest.warns(vi.InputWarning, match=told):
-        found = vi.identify(vi.Rig(CASE.oscillator, "0.05 g"), data, "stiffness", **QUICK)
+        found = vi.identify(vi.Rig(CASE.oscillator, "0.05 g"), data, "isolator.stiffness", **QUICK)
     assert found.fitted_value.values[0] == pytest.approx(31900.0, rel=1e-6)
     assert vi.fitted_rig(found).amplitude == pytest.approx(0.04 * 9.80665)
 
@@ -162,17 +162,17 @@ def test_a_measured_base_and_its_frequency_replace_those_of_the_rig():
     given = vi.Rig(CASE.oscillator, vi.Harmonic("0.06 g", 1.7))
     told = "the frequency is 1.5 Hz, from the data; the frequency of the"
     with pytest.warns(vi.InputWarning, match=told):
-        found = vi.identify(given, data, "stiffness", **QUICK)
+        found = vi.identify(given, data, "isolator.stiffness", **QUICK)
     assert "the amplitude is 0.04 g, from the measured base; the amplitude of the rig, 0.06 g" in (
         found.findings
     )
-    same = vi.identify(vi.Rig(CASE.oscillator, "0.04 g"), data, "stiffness", **QUICK)
+    same = vi.identify(vi.Rig(CASE.oscillator, "0.04 g"), data, "isolator.stiffness", **QUICK)
     assert "not used" not in same.findings
 
 
 def test_the_table_of_a_fit_has_its_intervals(tmp_path):
     data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
-    found = vi.identify(CASE.oscillator, data, "stiffness,gap", tried=0, starts=1)
+    found = vi.identify(CASE.oscillator, data, "isolator.stiffness,gap", tried=0, starts=1)
     table = vi.to_table(found)
     assert list(table["interval_low"]) == found.interval.sel(bound="low").values.tolist()
     assert list(table["interval_high"]) == found.interval.sel(bound="high").values.tolist()
@@ -200,13 +200,13 @@ def test_nonsense_is_refused_in_one_line(field, nonsense):
         ({"free": {"gap": {"begin": 1}}}, "free['gap']: the key 'begin' is unknown"),
         ({"free": {"gap": [1, 2, 3]}}, "a range (low, high)"),
         ({"free": {"gap": b"1"}}, "free['gap'].start"),
-        ({"free": {"bumper_stiffness": 0.0}}, "is not greater than 0"),
+        ({"free": {"stops.stiffness": 0.0}}, "is not greater than 0"),
         ({"priors": {"gap": 3}}, "priors['gap']: 3; a pair (mean, standard deviation)"),
         ({"priors": {"gap": "10 mm"}}, "(mean, standard deviation)"),
         ({"priors": {"gap": ("10 mm", 0)}}, "is not greater than 0"),
-        ({"each": "damping"}, "each: 'damping' is not free"),
+        ({"each": "isolator.damping"}, "each: 'isolator.damping' is not free"),
         ({"each": ["nothing"]}, "each: 'nothing'"),
-        ({"ties": {"left_gap": 3}}, "ties: 3"),
+        ({"ties": {"stops.left.gap": 3}}, "ties: 3"),
         ({"window": 0}, "window: 0"),
     ],
 )
@@ -219,25 +219,25 @@ def test_what_is_nearly_right_is_refused_with_what_is_accepted(asked, told):
 
 def test_names_of_each_may_be_a_text_with_commas():
     settings = {name: vi.Rig(CASE.oscillator, vi.Harmonic(0.4, 1.0)) for name in ("A", "B")}
-    found = frees("gap, stiffness", settings, "gap", None)
-    assert [one.key for one in found] == ["gap[A]", "gap[B]", "stiffness"]
+    found = frees("gap, isolator.stiffness", settings, "gap", None)
+    assert [one.key for one in found] == ["gap[A]", "gap[B]", "isolator.stiffness"]
     assert set(SENSORS) & set(PARAMETERS) == set()
 
 
 def test_what_is_asked_of_another_model_keeps_its_bounds_where_it_means_the_same():
     asked = {
-        "free": {"gap": ("5 mm", "9 mm"), "bumper_stiffness": (1e5, 1e6), "bumper_damping": None},
-        "each": ["bumper-damping"],
-        "ties": {"left-damping": "right_damping"},
-        "priors": {"gap": (7e-3, 1e-3), "bumper-damping": (1.0, 1.0)},
+        "free": {"gap": ("5 mm", "9 mm"), "stops.stiffness": (1e5, 1e6), "stops.damping": None},
+        "each": ["stops.damping"],
+        "ties": {"left.damping": "stops.right.damping"},
+        "priors": {"gap": (7e-3, 1e-3), "stops.damping": (1.0, 1.0)},
         "seed": 3,
     }
     assert asked_of("hertz", asked) == {
-        "free": {"gap": ("5 mm", "9 mm"), "bumper_stiffness": None, "dissipation": None},
-        "each": ["dissipation"],
-        "ties": {"left_dissipation": "right_dissipation"},
+        "free": {"gap": ("5 mm", "9 mm"), "stops.stiffness": None, "stops.dissipation": None},
+        "each": ["stops.dissipation"],
+        "ties": {"stops.left.dissipation": "stops.right.dissipation"},
         "priors": {"gap": (7e-3, 1e-3)},
         "seed": 3,
     }
-    assert asked_of("softening", asked)["free"] == {**asked["free"], "cubic": None}
+    assert asked_of("softening", asked)["free"] == {**asked["free"], "isolator.cubic": None}
     assert asked_of("softening", asked)["priors"].keys() == asked["priors"].keys()

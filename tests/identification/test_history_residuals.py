@@ -16,7 +16,13 @@ START = RIG.replace(
     right=RIGHT.replace(stiffness=4.3e5, gap=8.5e-3),
     left=LEFT.replace(stiffness=4e5, gap=6.5e-3),
 )
-FREE = ("stiffness", "right_stiffness", "right_gap", "left_stiffness", "left_gap")
+FREE = (
+    "isolator.stiffness",
+    "stops.right.stiffness",
+    "stops.right.gap",
+    "stops.left.stiffness",
+    "stops.left.gap",
+)
 TRUE = np.array([26.8e3, 510e3, 9e-3, 350e3, 6e-3])
 CHANNELS = ("displacement", "acceleration", "base_acceleration")
 
@@ -91,7 +97,7 @@ def test_a_base_that_is_no_sine_is_followed_as_it_was_measured():
 def test_a_sensor_with_an_offset_and_a_wrong_scale():
     data = record(motion(1.5, 16, skip=8), 0.002)
     data["displacement"] = 1.04 * data.displacement + 5e-4
-    free = ["left_gap", "displacement_scale", "displacement_offset"]
+    free = ["stops.left.gap", "displacement_scale", "displacement_offset"]
     found = vi.identify(
         RIG.replace(left=LEFT.replace(gap="7 mm")), data, free, profiles=False, tried=0, starts=1
     )

@@ -87,10 +87,16 @@ def test_two_tests_share_a_bumper_and_have_their_own_isolator():
         "A3": curves(one.oscillator, one.amplitude, 0.01, seed=1),
         "A2": curves(other.oscillator, other.amplitude, 0.01, seed=2),
     }
-    free = {"stiffness": "29 kN/m", "bumper_stiffness": "450 kN/m"}
+    free = {"isolator.stiffness": "29 kN/m", "stops.stiffness": "450 kN/m"}
     rigs = {"A3": one.oscillator, "A2": other.oscillator}
-    found = vi.identify(rigs, tests, free, each=["stiffness"], tried=0, starts=1, profiles=False)
-    assert found.parameter.values.tolist() == ["stiffness[A3]", "stiffness[A2]", "bumper_stiffness"]
+    found = vi.identify(
+        rigs, tests, free, each=["isolator.stiffness"], tried=0, starts=1, profiles=False
+    )
+    assert found.parameter.values.tolist() == [
+        "isolator.stiffness[A3]",
+        "isolator.stiffness[A2]",
+        "stops.stiffness",
+    ]
     assert found.fitted_value.values == pytest.approx([26800.0, 31900.0, 510000.0], rel=0.02)
     assert vi.fitted_rig(found, "A2").oscillator.isolator.stiffness == found.fitted_value.values[1]
     with pytest.raises(vi.InputError, match="test: missing"):
@@ -107,7 +113,7 @@ def test_an_outlier_does_little():
         found = vi.identify(
             case.oscillator,
             data,
-            "stiffness,damping,gap",
+            "isolator.stiffness,isolator.damping,gap",
             robust=robust,
             tried=0,
             starts=1,
@@ -121,32 +127,32 @@ def test_an_outlier_does_little():
 def test_priors_ties_and_bounds():
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, seed=7)
-    wide = vi.identify(case.oscillator, data, "bumper_damping", tried=0, starts=1)
+    wide = vi.identify(case.oscillator, data, "stops.damping", tried=0, starts=1)
     tight = vi.identify(
         case.oscillator,
         data,
-        "bumper_damping",
+        "stops.damping",
         tried=0,
         starts=1,
-        priors={"bumper_damping": ("0.9 kN s/m", 20.0)},
+        priors={"stops.damping": ("0.9 kN s/m", 20.0)},
     )
     assert float(tight.standard_error[0]) < 20.0 < float(wide.standard_error[0])
     tied = vi.identify(
         case.oscillator,
         data,
-        "right_gap",
-        ties={"left_gap": "right_gap"},
+        "stops.right.gap",
+        ties={"stops.left.gap": "stops.right.gap"},
         tried=0,
         starts=1,
         profiles=False,
     )
     rig = vi.fitted_rig(tied).oscillator
     assert rig.left.gap == rig.right.gap == tied.fitted_value.values[0]
-    held = vi.identify(case.oscillator, data, {"bumper_damping": (0, 800)}, tried=0, starts=1)
+    held = vi.identify(case.oscillator, data, {"stops.damping": (0, 800)}, tried=0, starts=1)
     low, high = held.interval.values[0]
     assert 0.0 <= low < high <= 800.0
     assert held.interval_open.values[0].any()
-    assert "bumper_damping (damping of both bumpers)" in held.attrs["findings"]
+    assert "stops.damping (damping of both bumpers)" in held.attrs["findings"]
 
 
 def test_maxima_minima_and_eta_with_a_sensor_that_is_off():
@@ -157,7 +163,7 @@ def test_maxima_minima_and_eta_with_a_sensor_that_is_off():
     data["displacement_max"] = 1.03 * data.displacement_max + 4e-4
     data["displacement_min"] = 1.03 * data.displacement_min + 4e-4
     start = rig.replace(right=stiff.replace(gap="10 mm"), left=soft.replace(gap="10 mm"))
-    free = ["right_gap", "left_gap", "displacement_scale", "displacement_offset"]
+    free = ["stops.right.gap", "stops.left.gap", "displacement_scale", "displacement_offset"]
     found = vi.identify(start, data, free, tried=0, starts=1, profiles=False)
     assert found.fitted_value.values == pytest.approx([0.009, 0.012, 1.03, 4e-4], rel=1e-6)
 
@@ -175,7 +181,7 @@ def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
     start = off(case.oscillator, (1.02, 1.0, 0.97, 1.0, 1.01))
     for one in (data, turned):
         found = vi.identify(
-            start, one, "stiffness,bumper_stiffness,gap", tried=0, starts=1, profiles=False
+            start, one, "isolator.stiffness,stops.stiffness,gap", tried=0, starts=1, profiles=False
         )
         away = found.fitted_value.values / truth(case.oscillator)[[0, 2, 4]] - 1.0
         assert np.abs(away).max() < 1e-6
@@ -188,9 +194,9 @@ def test_a_motion_and_its_mirror_image_are_one_to_a_symmetric_rig():
         ({"free": ""}, "free: ''"),
         ({"free": {"gap": (0.02, 0.01)}}, "low, 0.02 m, is not below high, 0.01 m"),
         ({"free": {"gap": "3 kg"}}, "is a mass"),
-        ({"each": ["damping"]}, "each: 'damping' is not free"),
-        ({"priors": {"damping": (1, 2)}}, "priors: 'damping' is not free"),
-        ({"ties": {"left_gap": "nothing"}}, "ties: 'nothing'"),
+        ({"each": ["isolator.damping"]}, "each: 'isolator.damping' is not free"),
+        ({"priors": {"isolator.damping": (1, 2)}}, "priors: 'isolator.damping' is not free"),
+        ({"ties": {"stops.left.gap": "nothing"}}, "ties: 'nothing'"),
         ({"noise": -1}, "noise"),
         ({"data": {}}, "data: missing"),
         ({"data": 3}, "int is not a measurement"),
@@ -256,6 +262,6 @@ def test_a_column_that_was_not_understood_is_named(tmp_path):
     with pytest.warns(
         vi.InputWarning, match="columns were not understood and were left out: Kanal 7"
     ):
-        fit = vi.identify(rig, path, "stiffness", tried=0, starts=1, profiles=False)
+        fit = vi.identify(rig, path, "isolator.stiffness", tried=0, starts=1, profiles=False)
     told = "own: columns of the file were not understood and were left out: 'Kanal 7'"
     assert told in fit.attrs["findings"]

@@ -24,7 +24,7 @@ def test_a_hertzian_bumper_fitted_by_a_linear_one_is_noticed():
     again = vi.identify(
         right,
         data,
-        "stiffness,damping,bumper_stiffness,dissipation,gap",
+        "isolator.stiffness,isolator.damping,stops.stiffness,stops.dissipation,gap",
         profiles=False,
         tried=0,
         starts=1,
@@ -38,10 +38,12 @@ def test_a_hertzian_bumper_fitted_by_a_linear_one_is_noticed():
 def test_a_bumper_that_is_never_touched_is_not_determined():
     grid = np.arange(3.0, 5.0, 0.1)
     data = curves(CASE.oscillator, CASE.amplitude, 0.02, frequencies=grid)
-    found = vi.identify(CASE.oscillator, data, "stiffness,bumper_damping", tried=0, starts=1)
-    assert "bumper_damping (damping of both bumpers) is" in found.attrs["findings"]
-    assert found.interval_open.sel(parameter="bumper_damping").values.any()
-    assert not found.interval_open.sel(parameter="stiffness").values.any()
+    found = vi.identify(
+        CASE.oscillator, data, "isolator.stiffness,stops.damping", tried=0, starts=1
+    )
+    assert "stops.damping (damping of both bumpers) is" in found.attrs["findings"]
+    assert found.interval_open.sel(parameter="stops.damping").values.any()
+    assert not found.interval_open.sel(parameter="isolator.stiffness").values.any()
 
 
 @pytest.mark.full
@@ -50,7 +52,13 @@ def test_the_posterior_is_as_wide_as_the_covariance():
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, 0.02, seed=1)
     found = vi.identify(
-        case.oscillator, data, "stiffness,gap", tried=0, starts=1, posterior=600, profiles=False
+        case.oscillator,
+        data,
+        "isolator.stiffness,gap",
+        tried=0,
+        starts=1,
+        posterior=600,
+        profiles=False,
     )
     drawn = found.posterior_value.std("posterior_draw").values
     assert drawn == pytest.approx(found.standard_error.values, rel=0.3)
@@ -68,7 +76,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
         found = vi.identify(
             case.oscillator,
             data,
-            "stiffness,damping,bumper_stiffness,gap",
+            "isolator.stiffness,isolator.damping,stops.stiffness,gap",
             tried=0,
             starts=1,
             profiles=False,

@@ -29,7 +29,7 @@ STOPPED = vi.Oscillator(3, vi.Isolator(2, 0.3), vi.Bumper(40, 1, 0.7), units="no
 def test_the_next_test_has_the_units_of_the_rig(of, units):
     rig = vi.Rig(STOPPED.replace(units=units), vi.Harmonic(0.9, 0.1, of=of))
     swept = vi.sweep(rig, np.linspace(0.08, 0.2, 9))
-    fit = vi.identify(rig, swept, ["damping"], starts=1)
+    fit = vi.identify(rig, swept, ["isolator.damping"], starts=1)
     data = vi.next_test(fit, [0.1, 0.15])
     bare = units == "none"
     assert (

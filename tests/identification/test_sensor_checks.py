@@ -12,7 +12,7 @@ from vibroimpact.identification import fit_inputs
 from vibroimpact.identification.sensor_channel import corrected, sensed
 from vibroimpact.measurements.read import as_measured
 
-FREE = sample("right_gap,left_gap,stiffness", "right_gap,left_gap")
+FREE = sample("stops.right.gap,stops.left.gap,isolator.stiffness", "stops.right.gap,stops.left.gap")
 QUICK = {"tried": 0, "starts": 1, "profiles": False}
 CHANGES = {
     "displacement": (lambda d: -d, "the sign of the displacement reversed"),
@@ -42,16 +42,16 @@ def test_a_gap_that_no_displacement_comes_near_is_absurd_beside_a_reversed_senso
     """A gap of 5 m is never touched, so that the fit stays there: 494 times the displacement."""
     far = START.replace(right=RIGHT.replace(gap="5 m"))
     turned = data.assign(displacement=-data.displacement)
-    found = vi.identify(far, turned, "right_gap,left_gap", **QUICK)
+    found = vi.identify(far, turned, "stops.right.gap,stops.left.gap", **QUICK)
     lines = found.findings.splitlines()
     assert "the sign of the displacement reversed" in lines[0]
-    gaps = found.fitted_value.sel(parameter=["right_gap", "left_gap"]).values
+    gaps = found.fitted_value.sel(parameter=["stops.right.gap", "stops.left.gap"]).values
     swing = np.ptp(turned["displacement"].values) / 2.0
     absurd = np.abs(gaps) > 100.0 * swing
     assert absurd.tolist() == [True, False]
     (line,) = [line for line in lines if "is implausible" in line]
     assert line == lines[1]
-    assert line.startswith("right_gap 5 m is implausible: ")
+    assert line.startswith("stops.right.gap 5 m is implausible: ")
     assert float(line.split(": ")[1].split()[0]) == pytest.approx(5.0 / swing, rel=5e-3)
 
 
@@ -63,11 +63,11 @@ def test_a_right_sensor_is_not_suspected(data):
 @pytest.mark.full
 def test_an_offset_is_suggested_as_the_cause(data):
     moved = data.assign(displacement=data.displacement + 2e-3)
-    found = vi.identify(RIG, moved, "right_gap,left_gap", **QUICK)
+    found = vi.identify(RIG, moved, "stops.right.gap,stops.left.gap", **QUICK)
     (line,) = [line for line in found.findings.splitlines() if "offset" in line]
     assert "displacement_offset 2" in line or "displacement_offset 1.99" in line
     assert "its offset free" in line
-    free = ["right_gap", "left_gap", "displacement_offset"]
+    free = ["stops.right.gap", "stops.left.gap", "displacement_offset"]
     again = vi.identify(RIG, moved, free, **QUICK)
     assert again.fitted_value.values == pytest.approx([9e-3, 6e-3, 2e-3], rel=0.02)
     assert "check this sensor" not in again.findings
@@ -75,7 +75,7 @@ def test_an_offset_is_suggested_as_the_cause(data):
 
 def test_a_scale_below_zero_is_that_of_a_sensor_turned_round(data):
     turned = data.assign(displacement=-1.02 * data.displacement)
-    free = {"right_gap": None, "displacement_scale": {"start": -1}}
+    free = {"stops.right.gap": None, "displacement_scale": {"start": -1}}
     rig = RIG.replace(right=RIGHT.replace(gap="8.5 mm"))
     found = vi.identify(rig, turned, free, **QUICK)
     assert found.fitted_value.values == pytest.approx([9e-3, -1.02], rel=0.01)
@@ -90,7 +90,7 @@ def test_maxima_of_a_sensor_turned_round_are_minima():
     )
     start = rig.replace(right=RIGHT.replace(gap="8.7 mm"))
     found = vi.identify(
-        start, turned, {"right_gap": None, "displacement_scale": {"start": "-1"}}, **QUICK
+        start, turned, {"stops.right.gap": None, "displacement_scale": {"start": "-1"}}, **QUICK
     )
     assert found.fitted_value.values == pytest.approx([9e-3, -1.03], rel=1e-4)
 

@@ -9,7 +9,7 @@ import vibroimpact as vi
 from vibroimpact.measurements.read import as_measured
 
 FREQUENCIES = np.round(np.arange(0.5, 5.01, 0.1), 10)
-FREE = ("stiffness", "damping", "bumper_stiffness", "bumper_damping", "gap")
+FREE = ("isolator.stiffness", "isolator.damping", "stops.stiffness", "stops.damping", "gap")
 EXCURSIONS = ("displacement_excursion", "acceleration_excursion")
 PEAKS = ("displacement_max", "displacement_min", "acceleration_max", "acceleration_min")
 

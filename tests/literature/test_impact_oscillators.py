@@ -69,7 +69,7 @@ def test_budd_and_dux_period_doubling(r: float, sigma: float) -> None:
     assert abs(budd_dux_doubling_found(one) - budd_dux_doubling(one)) < 1e-10
 
 
-@pytest.mark.parametrize("other", ["gap", "restitution", "amplitude", "damping"])
+@pytest.mark.parametrize("other", ["gap", "stops.restitution", "amplitude", "isolator.damping"])
 def test_budd_and_dux_curves_of_period_doublings(other: str) -> None:
     one = Oscillator(2.3 / math.tau, 0.0, 0.8, 0.05)
     rig, shaken, data = _followed(one, (0.9 * one.frequency, 1.2 * one.frequency))
@@ -81,7 +81,7 @@ def test_budd_and_dux_curves_of_period_doublings(other: str) -> None:
         )
 
 
-@pytest.mark.parametrize("other", ["gap", "restitution", "amplitude", "damping"])
+@pytest.mark.parametrize("other", ["gap", "stops.restitution", "amplitude", "isolator.damping"])
 def test_curves_of_folds_in_closed_form(other: str) -> None:
     """Where the two (1, 1) orbits meet."""
     one = Oscillator(1.49 / math.tau, 0.1, 0.8, 2.5)
@@ -109,9 +109,14 @@ def _curve(
     shares: tuple[float, float],
 ) -> xr.Dataset:
     """One bifurcation followed over the frequency and another parameter, to both ends of it."""
-    values = {"gap": rig.right.gap, "restitution": 0.8, "amplitude": 1.0, "damping": 0.1}
+    values = {
+        "gap": rig.right.gap,
+        "stops.restitution": 0.8,
+        "amplitude": 1.0,
+        "isolator.damping": 0.1,
+    }
     low, high = (share * values[other] for share in shares)
-    if other == "damping":
+    if other == "isolator.damping":
         low, high = 0.0, 0.2
     i = int(np.flatnonzero(data["bifurcation_kind"].values == kind)[0])
     found = vi.bifurcation_curve(

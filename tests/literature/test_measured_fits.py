@@ -45,11 +45,15 @@ def test_a_foam_pad_is_a_spring_to_a_fortieth_of_its_force_and_no_dashpot():
     stiffness = mass * (np.pi / 0.25) ** 2  # half a period is the time of contact
     pad = vi.Bumper(stiffness, 0.1 * np.sqrt(stiffness * mass), 0.06)
     cart = vi.Oscillator(mass, vi.Isolator(0.0, 0.0), pad, None)
-    free = {"right_stiffness": None, "right_damping": None, "right_gap": (0.0, 0.2)}
+    free = {
+        "stops.right.stiffness": None,
+        "stops.right.damping": None,
+        "stops.right.gap": (0.0, 0.2),
+    }
     fit = vi.identify(cart, data, free, tried=0, starts=1)
     value = dict(zip(fit.parameter.values.tolist(), fit.fitted_value.values, strict=True))
-    assert value["right_stiffness"] == pytest.approx(83.0, abs=4.0)
-    assert 0.0 <= value["right_damping"] < 2.0
+    assert value["stops.right.stiffness"] == pytest.approx(83.0, abs=4.0)
+    assert 0.0 <= value["stops.right.damping"] < 2.0
     seen = fit.isel(point=fit.point_variable.values == "acceleration")
     left = mass * (seen.modelled_value - seen.measured_value)
     peak = mass * float(abs(seen.measured_value).max())
@@ -66,7 +70,7 @@ def test_a_pad_that_is_struck_through_is_no_spring():
     data, mass = impact("pad_4mm", "Run 2")
     stiffness = mass * (np.pi / 0.25) ** 2
     cart = vi.Oscillator(mass, vi.Isolator(0.0, 0.0), vi.Bumper(stiffness, 0.5, 0.06), None)
-    free = {"right_stiffness": None, "right_gap": (0.0, 0.2)}
+    free = {"stops.right.stiffness": None, "stops.right.gap": (0.0, 0.2)}
     fit = vi.identify(cart, data, free, tried=0, starts=1, profiles=False)
     # The samples beside the leap of the force count less: when it came is not known better.
     assert float(fit.residual_excess[0]) > 3.5
@@ -88,5 +92,7 @@ def test_anothers_simulator_with_a_rigid_stop():
     rig = vi.Oscillator(
         1e-3, vi.Isolator(95.0, 0.0), None, vi.RigidStop(0.85, 0.0), force=-1e-3 * 9.81
     )
-    fit = vi.identify(rig, data, "stiffness,left_restitution", profiles=False, tried=32, starts=4)
+    fit = vi.identify(
+        rig, data, "isolator.stiffness,stops.left.restitution", profiles=False, tried=32, starts=4
+    )
     assert fit.fitted_value.values == pytest.approx([100.0, 0.9], rel=1e-3)

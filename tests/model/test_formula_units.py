@@ -7,7 +7,8 @@ import pytest
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.model.parameters import PARAMETERS, parameter
+from vibroimpact import figures
+from vibroimpact.model.parameters import parameter
 
 ISOLATOR = vi.Law("k*u + q*u**7 + c*v", k="26 kN/m", q=1e9, c="1.1 kN s/m")
 STOP = vi.Law("ks*d + k5*d**5 + cs*v", gap="7.5 mm", ks="400 kN/m", k5=1e12, cs="900 N s/m")
@@ -37,11 +38,11 @@ def test_units_follow_from_the_formula(law: vi.Law, units: dict[str, str]) -> No
 
 
 def parameter_units(law: vi.Law, name: str) -> str:
-    whose = "bumper" if law.is_stop else "isolator"
+    whose = "stops" if law.is_stop else "isolator"
     stop = law if law.is_stop else None
     isolator = vi.Isolator(1.0, 0.0) if law.is_stop else law
     rig = vi.Oscillator(1.0, isolator, stop, stop)
-    return parameter(f"{whose}_{name}").of(rig).units
+    return parameter(f"{whose}.{name}", rig).units
 
 
 def test_numbers_print_with_their_units() -> None:
@@ -52,17 +53,17 @@ def test_numbers_print_with_their_units() -> None:
 @pytest.mark.parametrize(
     ("name", "span"),
     [
-        *sample([("isolator_k", ("20 kN/m", "30 kN/m")), ("isolator_q", (1e8, 1e10))], []),
-        *sample([("right_k5", (1e11, 1e13))], []),
-        ("bumper_ks", ("300 kN/m", "600 kN/m")),
+        *sample([("isolator.k", ("20 kN/m", "30 kN/m")), ("isolator.q", (1e8, 1e10))], []),
+        *sample([("stops.right.k5", (1e11, 1e13))], []),
+        ("stops.ks", ("300 kN/m", "600 kN/m")),
     ],
 )
 def test_points_of_a_branch_are_motions_of_rigs_with_that_number(
     name: str, span: tuple[float, float]
 ) -> None:
     found = vi.branch(RIG, parameter=name, span=span, frequency="1.2 Hz")
-    whose, _, number = name.partition("_")
-    fields = ("right", "left") if whose == "bumper" else (whose,)
+    whose, _, number = name.rpartition(".")
+    fields = ("right", "left") if whose == "stops" else (whose.removeprefix("stops."),)
     for point in (0, found.sizes["point"] // 2, -1):
         at = found.isel(point=point)
         old = RIG.oscillator
@@ -71,16 +72,24 @@ def test_points_of_a_branch_are_motions_of_rigs_with_that_number(
         again = vi.orbit(other, start=at["section"], frequency="1.2 Hz")
         for one in ("displacement_max", "displacement_min"):
             np.testing.assert_allclose(again[one], at[one], rtol=1e-9)
-    assert found[name].attrs["units"] == parameter(name).of(RIG.oscillator).units
+    assert found[name].attrs["units"] == parameter(name, RIG).units
     assert found[name].attrs["long_name"].startswith(f"number {number} in the formula of ")
 
 
 @pytest.mark.parametrize(
     ("name", "span", "told"),
     [
-        ("isolator_k9", (1.0, 2.0), "'isolator_k' or 'isolator_q' or 'isolator_c' is accepted"),
-        ("left_foo", (1.0, 2.0), "'left_ks' or 'left_k5' or 'left_cs' is accepted"),
-        ("isolator_q", ("1 kN/m", "2 kN/m"), "is a stiffness"),
+        (
+            "isolator.k9",
+            (1.0, 2.0),
+            r"is unknown; did you mean isolator\.k\w*\? .*isolator\.k, isolator\.q, isolator\.c",
+        ),
+        (
+            "left.foo",
+            (1.0, 2.0),
+            r"is unknown; .*stops\.left\.ks, stops\.left\.k5, stops\.left\.cs",
+        ),
+        ("isolator.q", ("1 kN/m", "2 kN/m"), "is a stiffness"),
     ],
 )
 def test_refused(name: str, span: tuple[float, float], told: str) -> None:
@@ -92,30 +101,68 @@ def test_a_formula_of_a_built_in_law_has_the_parameters_of_that_law() -> None:
     cubic = vi.Law("k*u + k3*u**3", k=1.0, k3=2.0)
     rig = vi.Rig(vi.Oscillator(1.0, cubic), 1.0)
     with pytest.raises(
-        vi.InputError, match="isolator is of the class PolynomialIsolator, not a formula"
+        vi.InputError, match=r"'isolator.k3' is unknown; .*isolator.stiffness, .*isolator.cubic"
     ):
-        vi.branch(rig, parameter="isolator_k3", span=(1.0, 2.0), frequency=0.1)
+        vi.branch(rig, parameter="isolator.k3", span=(1.0, 2.0), frequency=0.1)
+
+
+def named_like_built_in() -> vi.Rig:
+    """A rig whose formulas have numbers with the names of numbers of built-in laws."""
+    stop = vi.Law(
+        "2*stiffness*d + damping*v + stiffness*d*(d/e)**4", 0.01, stiffness=1e5, damping=9.0, e=0.1
+    )
+    isolator = vi.Law(
+        "2*stiffness*u/(1 + abs(u)/friction) + damping*v", stiffness=3e4, damping=9.0, friction=0.1
+    )
+    return RIG.with_parts(RIG.oscillator.replace(isolator=isolator, right=stop, left=stop))
+
+
+@pytest.mark.parametrize(
+    ("name", "units"),
+    [("isolator.friction", "m"), ("isolator.stiffness", "N m-1"), ("stops.damping", "N s m-1")],
+)
+def test_a_number_with_the_name_of_one_of_a_built_in_law_is_varied(name: str, units: str) -> None:
+    rig = named_like_built_in()
+    found = parameter(name, rig)
+    assert found.units == units
+    owner, _, number = name.rpartition(".")
+    field = "right" if owner == "stops" else owner
+    law = getattr(found.vary(rig, 7.0).oscillator, field)
+    assert law == getattr(rig.oscillator, field).replace(**{number: 7.0})
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "isolator_period",
+        "damping_ratio",
+        "proportional_stiffness",
+        "stiffness_at_restitution",
+        "stiffness_ratio",
+        "relaxation_time",
+    ],
+)
+def test_a_number_of_a_formula_has_no_meaning_by_its_name(name: str) -> None:
+    rig = named_like_built_in()
+    found = parameter(name, rig)
+    with pytest.raises(vi.InputError, match=r"has none|has no |no stop with"):
+        found.read(rig)
+    with pytest.raises(vi.InputError, match=r"has none|has no |no stop with"):
+        found.vary(rig, 0.5)
 
 
 def test_unequal_stops_have_no_common_number() -> None:
     unequal = RIG.with_parts(RIG.oscillator.replace(left=STOP.replace(ks=1e5)))
-    with pytest.raises(vi.InputError, match="'right_ks' or 'left_ks'"):
-        vi.branch(unequal, parameter="bumper_ks", span=(1e5, 2e5), frequency="1.2 Hz")
+    with pytest.raises(vi.InputError, match=r"'right\.ks' or 'left\.ks'"):
+        vi.branch(unequal, parameter="stops.ks", span=(1e5, 2e5), frequency="1.2 Hz")
 
 
 def test_stops_whose_numbers_have_other_units_have_no_common_number() -> None:
     right = vi.Law("q*d + p*d**3", gap=0.01, q=1e5, p=1e5)
     left = vi.Law("p*d + q*d**3", gap=0.01, q=1e5, p=1e5)
     rig = RIG.with_parts(RIG.oscillator.replace(right=right, left=left))
-    with pytest.raises(vi.InputError, match=r"units of q, N/m and N/m.*'right_q' or 'left_q'"):
-        vi.branch(rig, parameter="bumper_q", span=(1e5, 2e5), frequency="1.2 Hz")
-
-
-def test_other_names_are_no_parameters() -> None:
-    assert "isolator_k3" in PARAMETERS
-    assert "isolator_3" not in PARAMETERS
-    assert "stop_k3" not in PARAMETERS
-    assert PARAMETERS.get("stop_k3") is None
+    with pytest.raises(vi.InputError, match=r"units of q, N/m and N/m.*'right.q' or 'left.q'"):
+        vi.branch(rig, parameter="stops.q", span=(1e5, 2e5), frequency="1.2 Hz")
 
 
 @pytest.mark.parametrize(
@@ -140,10 +187,10 @@ SOFT = RIG.with_parts(RIG.oscillator.replace(isolator=SOFTENING))
 @pytest.mark.full
 def test_a_branch_ends_at_the_bound_beyond_which_there_is_no_such_law() -> None:
     least = sample(1e-4, 0.03)
-    found = vi.branch(SOFT, parameter="isolator_a", span=(least, 0.1), frequency="1.2 Hz")
-    assert float(found["isolator_a"].min()) == least
-    with pytest.raises(vi.InputError, match="'isolator_a' at 0: formula: column 17"):
-        vi.branch(SOFT, parameter="isolator_a", span=(0.0, 0.1), frequency="1.2 Hz")
+    found = vi.branch(SOFT, parameter="isolator.a", span=(least, 0.1), frequency="1.2 Hz")
+    assert float(found["isolator.a"].min()) == least
+    with pytest.raises(vi.InputError, match=r"isolator\.a at 0: isolator\.formula: column 17"):
+        vi.branch(SOFT, parameter="isolator.a", span=(0.0, 0.1), frequency="1.2 Hz")
 
 
 @pytest.mark.full
@@ -152,24 +199,24 @@ def test_designs_and_basins_vary_numbers_of_formulas() -> None:
         SOFT,
         ("-20 mm", "20 mm"),
         ("-0.1 m/s", "0.1 m/s"),
-        parameter="isolator_a",
+        parameter="isolator.a",
         values=["4 cm", "6 cm"],
         states=16,
         frequency="1.2 Hz",
     )
-    assert stability["isolator_a"].attrs["units"] == "m"
-    chart = vi.design_chart(SOFT, {"isolator_a": ["4 cm", "6 cm"]}, frequency_span=(1.0, 1.4))
-    assert chart["isolator_a"].attrs["units"] == "m"
+    assert stability["isolator.a"].attrs["units"] == "m"
+    chart = vi.design_chart(SOFT, {"isolator.a": ["4 cm", "6 cm"]}, frequency_span=(1.0, 1.4))
+    assert chart["isolator.a"].attrs["units"] == "m"
+    figures.pareto_front(chart)
 
 
-def test_a_number_called_as_that_of_a_bumper_is_not_varied_as_such() -> None:
-    """The parameter of a bumper keeps what belongs to it, which a formula does not have."""
+def test_a_number_called_as_that_of_a_bumper_is_varied_alone() -> None:
     stop = vi.Law("stiffness*d*(1 + d/a)", gap=0.01, stiffness=1e5, a=0.1)
     rig = RIG.with_parts(RIG.oscillator.replace(right=stop, left=stop))
-    with pytest.raises(vi.InputError, match="has no stiffness that can be varied"):
-        vi.branch(rig, parameter="bumper_stiffness", span=(1e5, 2e5), frequency="1.2 Hz")
+    moved = parameter("stops.stiffness", rig).vary(rig, 2e5).oscillator
+    assert moved.right == moved.left == stop.replace(stiffness=2e5)
 
 
 def test_a_misspelt_parameter_gets_a_suggestion() -> None:
-    with pytest.raises(vi.InputError, match=r"did you mean bumper_stiffness\?"):
-        vi.branch("B2-G1-A3", parameter="bumper_stifness", span=(1.0, 2.0), frequency=1.0)
+    with pytest.raises(vi.InputError, match=r"did you mean stops.stiffness\?"):
+        vi.branch("B2-G1-A3", parameter="stops.stifness", span=(1.0, 2.0), frequency=1.0)

@@ -24,7 +24,7 @@ def data(case):
 
 @pytest.fixture(scope="module")
 def fit(case, data):
-    return vi.identify(case.oscillator, data, "bumper_stiffness,bumper_damping", tried=0, starts=1)
+    return vi.identify(case.oscillator, data, "stops.stiffness,stops.damping", tried=0, starts=1)
 
 
 def test_the_report_and_the_rig(fit, tmp_path):
@@ -64,8 +64,8 @@ def test_figures_of_a_fit(fit):
     assert np.sort(drawn) == pytest.approx(np.sort(fit.fit_residual.values / fit.noise.values[0]))
     panels = fit_profiles(fit)
     assert [ax.get_xlabel().split(" (")[0] for ax in panels] == [
-        "bumper stiffness",
-        "bumper damping",
+        "stops.stiffness",
+        "stops.damping",
     ]
     with pytest.raises(vi.InputError, match="has no time history"):
         fit_history(fit)
@@ -76,7 +76,7 @@ def test_figures_of_a_fit(fit):
 def test_the_next_test_reduces_every_error(case, fit):
     advice = vi.next_test(fit, np.arange(0.5, 5.01, 0.1), [case.amplitude])
     assert "next test: a measurement at" in advice.attrs["findings"]
-    error = advice.remaining_error.sel(parameter="bumper_damping").isel(candidate_amplitude=0)
+    error = advice.remaining_error.sel(parameter="stops.damping").isel(candidate_amplitude=0)
     best = error.isel(error.argmin(...))
     assert 0.3 < float(best) < 1.0
     assert (advice.remaining_error.values[np.isfinite(advice.remaining_error.values)] <= 1.0).all()
@@ -103,7 +103,7 @@ def test_the_next_test_keeps_away_from_a_jump(case, fit):
 
 def test_models_are_compared(case, data, fit):
     asked = {"tried": 0, "starts": 1, "profiles": False}
-    again = vi.identify(case.oscillator, data, "bumper_stiffness", **asked)
+    again = vi.identify(case.oscillator, data, "stops.stiffness", **asked)
     found = vi.compare_fits({"two": fit, "one": again})
     assert float(found.akaike_weight.sum()) == pytest.approx(1.0)
     assert abs(float(found.akaike[1] - found.akaike[0])) < 10.0  # both are right
@@ -121,7 +121,7 @@ def test_names_of_tests_are_no_markdown_and_no_html(tmp_path):
     data = curves(case.oscillator, case.amplitude, 0.02, frequencies=np.arange(1.0, 2.0, 0.1))
     names = ["<script>alert(1)</script> | x", "<script>alert(1)</script> / x", "[a](b) *c* `d`"]
     found = vi.identify(
-        case, dict.fromkeys(names, data), "stiffness", tried=0, starts=1, profiles=False
+        case, dict.fromkeys(names, data), "isolator.stiffness", tried=0, starts=1, profiles=False
     )
     files = vi.fit_report(found, tmp_path)
     text = files["markdown"].read_text()
@@ -140,4 +140,4 @@ def test_a_name_that_a_terminal_would_obey_is_refused():
     case = vi.laboratory.case("B2-G2-A2", "identified")
     data = curves(case.oscillator, case.amplitude, frequencies=np.array([1.0, 1.1]))
     with pytest.raises(vi.InputError, match=r"^data: .*control character"):
-        vi.identify(case, {"a\x1b[2J": data}, "stiffness")
+        vi.identify(case, {"a\x1b[2J": data}, "isolator.stiffness")

@@ -16,7 +16,9 @@ from vibroimpact.response.output_formula import HISTORIES, read_output_formula
 RIG = vi.laboratory.case("B2-G1-A3").rig
 FREE = vi.Rig(vi.Oscillator(2.0, vi.Isolator(50.0, 3.0)), 1.5)
 GRID = [0.7, 0.9, 1.3]
-POWER = vi.Output("mean(damping*velocity**2)", units="W", long_name="mean power of the dashpot")
+POWER = vi.Output(
+    "mean(isolator.damping*velocity**2)", units="W", long_name="mean power of the dashpot"
+)
 
 
 def top_speed(motion: xr.Dataset) -> float:
@@ -28,10 +30,10 @@ def test_a_formula_of_free_flight_has_the_value_of_its_closed_form():
         "power": POWER,
         "fed": "mean(-mass*base_acceleration*velocity)",
         "size": "rms(displacement)*sqrt(2)",
-        "work": "integral(damping*velocity**2)",
+        "work": "integral(isolator.damping*velocity**2)",
         "up": "mean(displacement > 0)",
         "least": "min(min(displacement, -1))",
-        "ratio": "2*pi*frequency*mass/damping",
+        "ratio": "2*pi*frequency*mass/isolator.damping",
     }
     data = vi.sweep(FREE, GRID, "forward", outputs=outputs).isel(direction=0)
     omega = 2.0 * np.pi * np.array(GRID)
@@ -149,6 +151,7 @@ def test_branches_have_outputs_of_orbits_and_bifurcations(function):
     [
         ("", "it has 0 characters"),
         ("max(velocty)", "'velocty' is neither a time history nor .* did you mean velocity"),
+        ("max(damping*velocity)", "did you mean 'isolator.damping'"),
         ("max(applied_force)", "'applied_force' is neither"),
         ("max(friction*velocity)", "'friction' is neither"),
         ("velocity", "'velocity' is a time history, not a number; apply max, min, mean"),

@@ -30,7 +30,7 @@ def test_physical_parameters():
 def test_a_name_means_in_maps_what_it_means_along_branches(name):
     varied = PARAMETERS[name]
     oscillator = CASE.oscillator
-    if name == "restitution":
+    if name == "stops.restitution":
         oscillator = oscillator.replace(left=vi.RigidStop(0.5, oscillator.left.gap))
         assert Base(vi.Rig(oscillator, SINE)).rig({name: 0.7}).oscillator.left.restitution == 0.7
         return
@@ -42,7 +42,7 @@ def test_a_name_means_in_maps_what_it_means_along_branches(name):
 
 def test_a_stiffness_keeps_the_dashpot_and_a_proportional_one_the_relaxation_time():
     stiffness = 2.0 * CASE.oscillator.right.stiffness
-    alone = BASE.rig({"bumper_stiffness": stiffness}).oscillator.right
+    alone = BASE.rig({"stops.stiffness": stiffness}).oscillator.right
     scaled = BASE.rig({"proportional_stiffness": stiffness}).oscillator.right
     assert alone.stiffness == scaled.stiffness == stiffness
     assert alone.damping == CASE.oscillator.right.damping

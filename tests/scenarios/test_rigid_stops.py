@@ -42,12 +42,14 @@ def test_a_map_over_what_a_rigid_stop_has() -> None:
     )
     assert data["scenario"].sel(gap_ratio=1.2).values.tolist() == [0, 0]
     assert (data["scenario"].sel(gap_ratio=0.7).values > 0).all()
-    assert data["restitution"].attrs["units"] == "1"
+    assert data["stops.restitution"].attrs["units"] == "1"
 
 
 def test_nodes_change_what_each_stop_has() -> None:
     both = between(0.5).replace(left=vi.Bumper(20.0, 0.4, 0.5))
-    rig = Base(vi.Rig(both, SINE)).rig({"restitution": 0.2, "stiffness_ratio": 30.0}).oscillator
+    rig = (
+        Base(vi.Rig(both, SINE)).rig({"stops.restitution": 0.2, "stiffness_ratio": 30.0}).oscillator
+    )
     assert rig.right == vi.RigidStop(0.2, rig.right.gap)
     assert rig.right.gap == pytest.approx(0.5 * PEAK)
     assert rig.left.stiffness == pytest.approx(30.0)
@@ -56,7 +58,7 @@ def test_nodes_change_what_each_stop_has() -> None:
     assert (rig.right, rig.left) == (vi.RigidStop(0.6, 0.1), vi.Bumper(30.0, 0.6, 0.1))
 
 
-@pytest.mark.parametrize("name", ["bumper_stiffness", "proportional_stiffness", "relaxation_time"])
+@pytest.mark.parametrize("name", ["stops.stiffness", "proportional_stiffness", "relaxation_time"])
 def test_a_rigid_stop_has_no_stiffness_to_map_over(name: str) -> None:
     axes = (name, [1.0, 2.0]), ("gap_ratio", [0.5, 1.0])
     with pytest.raises(
@@ -68,7 +70,9 @@ def test_a_rigid_stop_has_no_stiffness_to_map_over(name: str) -> None:
 def test_a_bumper_has_no_restitution_to_map_over() -> None:
     rig = FREE.replace(right=vi.Bumper(20.0, 0.4, 0.5))
     axes = ("restitution", [0.1, 0.2]), ("gap_ratio", [0.5, 1.0])
-    with pytest.raises(vi.InputError, match=r"^rig: .restitution. applies to rigid stops, but"):
+    with pytest.raises(
+        vi.InputError, match=r"^rig: .stops\.restitution. applies to rigid stops, but"
+    ):
         vi.scenario_map(vi.Rig(rig, 1.0), *axes)
     with pytest.raises(vi.InputError, match=r"^x\[1\]: 1\.2"):
         vi.scenario_map(vi.Rig(rig, 1.0), ("restitution", [0.1, 1.2]), axes[1])

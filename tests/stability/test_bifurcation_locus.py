@@ -234,14 +234,16 @@ def test_a_parameter_of_one_side_takes_the_symmetry():
         vi.Rig(oscillator, shaken),
         found.isel(bifurcation=row),
         spans=((0.3, 6.0), (0.5 * gap, 1.5 * gap)),
-        parameters=("frequency", "right_gap"),
+        parameters=("frequency", "stops.right.gap"),
     )
     for wide in (0.6 * gap, 1.3 * gap):
         other = oscillator.replace(right=oscillator.right.replace(gap=wide))
         beside = vi.branch(vi.Rig(other, vi.Harmonic(CASE.amplitude, 4.0)), span=(1.0, 4.0))
         folds = beside["bifurcation_value"].values[beside["bifurcation_kind"].values == "fold"]
-        order = np.argsort(data["right_gap"].values)
-        here = np.interp(wide, data["right_gap"].values[order], data["frequency"].values[order])
+        order = np.argsort(data["stops.right.gap"].values)
+        here = np.interp(
+            wide, data["stops.right.gap"].values[order], data["frequency"].values[order]
+        )
         assert np.abs(folds - here).min() < 2e-3  # between two points of the curve
 
 

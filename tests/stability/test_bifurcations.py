@@ -31,8 +31,8 @@ def test_no_pair_passes_the_circle_at_no_damping(left):
     stop = vi.Bumper(10.0, 0.0, 1.0)
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop, stop if left else None)
     shaken = vi.Harmonic(0.3, 1.3 / (2 * np.pi))
-    data = vi.branch(vi.Rig(rig, shaken), span=(0.0, 0.5), parameter="damping")
-    assert float(data["damping"].min()) == 0.0
+    data = vi.branch(vi.Rig(rig, shaken), span=(0.0, 0.5), parameter="isolator.damping")
+    assert float(data["isolator.damping"].min()) == 0.0
     assert len(values(data, "Neimark-Sacker")) == 0
 
 

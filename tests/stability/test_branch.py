@@ -114,13 +114,13 @@ def test_ends_are_told():
 @pytest.mark.parametrize(
     ("wrong", "told"),
     [
-        ({"parameter": "mass"}, "parameter: 'mass'"),
+        ({"parameter": "colour"}, "parameter: 'colour' is unknown"),
         ({"span": (3.0, 4.0)}, "does not contain"),
         ({"span": (2.5, 2.4)}, "is not greater than"),
         ({"span": ("1 mm", 4.0)}, r"span\[0\]"),
         ({"period": 0}, "period"),
         ({"most_points": 1.5}, "most_points"),
-        ({"parameter": "right_gap", "span": (0.0, 1e-3)}, "does not contain"),
+        ({"parameter": "stops.right.gap", "span": (0.0, 1e-3)}, "does not contain"),
     ],
 )
 def test_refused(wrong, told):
@@ -135,9 +135,11 @@ def test_refused(wrong, told):
 def test_a_parameter_that_the_bumpers_do_not_share():
     case = vi.laboratory.case("B2-G1-A3")
     rig = case.oscillator.replace(left=case.oscillator.left.replace(gap=6e-3))
-    with pytest.raises(vi.InputError, match="'right_gap' or 'left_gap'"):
+    with pytest.raises(vi.InputError, match=r"'right\.gap' or 'left\.gap'"):
         vi.branch(vi.Rig(rig, vi.Harmonic(0.5, 2.0)), span=(1e-3, 1e-2), parameter="gap")
-    data = vi.branch(vi.Rig(rig, vi.Harmonic(0.5, 2.0)), span=(1e-3, 1e-2), parameter="left_gap")
+    data = vi.branch(
+        vi.Rig(rig, vi.Harmonic(0.5, 2.0)), span=(1e-3, 1e-2), parameter="stops.left.gap"
+    )
     assert data.sizes["point"] > 5
 
 

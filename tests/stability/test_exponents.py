@@ -142,13 +142,19 @@ def test_over_any_parameters():
     rig = case.oscillator
     ratios, springs = [0.05, 0.2], [20e3, 30e3, 40e3]
     data = vi.lyapunov_exponents(
-        [case], [2.0, 3.0], 640, vary={"damping_ratio": ratios, "stiffness": springs}
+        [case], [2.0, 3.0], 640, vary={"damping_ratio": ratios, "isolator.stiffness": springs}
     )
-    assert data["exponents"].dims == ("rig", "frequency", "damping_ratio", "stiffness", "exponent")
+    assert data["exponents"].dims == (
+        "rig",
+        "frequency",
+        "damping_ratio",
+        "isolator.stiffness",
+        "exponent",
+    )
     known = -np.outer(ratios, np.sqrt(np.array(springs) / rig.mass))
     for k in range(2):
         np.testing.assert_allclose(data["exponents"][0, k].mean("exponent"), known, rtol=1e-12)
-    assert data["stiffness"].attrs["units"] == "N m-1"
+    assert data["isolator.stiffness"].attrs["units"] == "N m-1"
     case = vi.laboratory.case("B3-10mm-A3")
     data = vi.lyapunov_exponents([case], [1.06], 200, vary={"gap": ["4 mm", "5 mm"]})
     alone = vi.lyapunov_exponents([case], [1.06], 200)

@@ -65,8 +65,8 @@ def test_over_the_restitution_to_its_end():
     data = vi.branch(
         vi.Rig(rig, vi.Harmonic("0.05 g", "1.1 Hz")), span=(0.0, 1.0), parameter="restitution"
     )
-    assert float(data["restitution"].min()) == 0.0
-    assert float(data["restitution"].max()) == 1.0
+    assert float(data["stops.restitution"].min()) == 0.0
+    assert float(data["stops.restitution"].max()) == 1.0
     assert data.attrs["ended_high"] == "the range ends at 1"
     assert (data["impacts_right"] == 1.0).all()
 

@@ -17,16 +17,16 @@ def test_from_no_dashpot_and_to_none():
     ends = []
     for damping in (0.0, 1.0):
         data = vi.branch(
-            vi.Rig(between_stops(damping), shaken), span=(0.0, 2.0), parameter="bumper_damping"
+            vi.Rig(between_stops(damping), shaken), span=(0.0, 2.0), parameter="stops.damping"
         )
-        ends.append(data.isel(point=int(data["bumper_damping"].values.argmin())))
-        ends.append(data.isel(point=int(data["bumper_damping"].values.argmax())))
+        ends.append(data.isel(point=int(data["stops.damping"].values.argmin())))
+        ends.append(data.isel(point=int(data["stops.damping"].values.argmax())))
     for one, other in ((ends[0], ends[2]), (ends[1], ends[3])):
-        assert float(one["bumper_damping"]) == float(other["bumper_damping"])
+        assert float(one["stops.damping"]) == float(other["stops.damping"])
         np.testing.assert_allclose(one["section"], other["section"], atol=1e-12)
 
 
-@pytest.mark.parametrize("parameter", ["gap", "amplitude", "bumper_stiffness", "stiffness_ratio"])
+@pytest.mark.parametrize("parameter", ["gap", "amplitude", "stops.stiffness", "stiffness_ratio"])
 def test_other_parameters(parameter):
     """Each orbit belongs to the rig that the parameter says."""
     case = vi.laboratory.case("B2-G1-A3")
@@ -34,7 +34,7 @@ def test_other_parameters(parameter):
     ranges = {
         "gap": (1e-3, 15e-3),
         "amplitude": (0.1, 1.0),
-        "bumper_stiffness": (1e5, 1e6),
+        "stops.stiffness": (1e5, 1e6),
         "stiffness_ratio": (1.0, 50.0),
     }
     low, high = ranges[parameter]
@@ -48,7 +48,7 @@ def test_other_parameters(parameter):
         elif parameter == "gap":
             rig = rig.replace(right=rig.right.replace(gap=value), left=rig.left.replace(gap=value))
         else:
-            stiffness = value if parameter == "bumper_stiffness" else value * rig.isolator.stiffness
+            stiffness = value if parameter == "stops.stiffness" else value * rig.isolator.stiffness
             damping = rig.right.damping
             if parameter == "stiffness_ratio":  # the relaxation time is kept
                 damping *= stiffness / rig.right.stiffness
@@ -100,12 +100,12 @@ def test_over_the_restitution_of_a_wall():
         return case.oscillator.replace(right=vi.RigidStop(restitution, "2 mm"), left=None)
 
     data = vi.branch(vi.Rig(rig(0.6), shaken), span=(0.5, 0.95), parameter="restitution")
-    assert data.attrs["parameter"] == "restitution"
+    assert data.attrs["parameter"] == "stops.restitution"
     ends = {data.attrs["ended_low"], data.attrs["ended_high"]}
     assert ends == {"the range ends at 0.5", "the range ends at 0.95"}
     for i in np.linspace(0, data.sizes["point"] - 1, 6).astype(int):
         here = data.isel(point=i)
-        alone = vi.orbit(vi.Rig(rig(float(here["restitution"])), shaken), here["section"])
+        alone = vi.orbit(vi.Rig(rig(float(here["stops.restitution"])), shaken), here["section"])
         assert float(alone["displacement_min"]) == pytest.approx(
             float(here["displacement_min"]), rel=1e-9
         )
@@ -114,7 +114,7 @@ def test_over_the_restitution_of_a_wall():
 
 @pytest.mark.parametrize(
     ("parameter", "low", "high"),
-    [*sample([("elastic_stiffness", 2.0, 6.0)], []), ("right_restitution", 0.4, 0.9)],
+    [*sample([("elastic_stiffness", 2.0, 6.0)], []), ("stops.right.restitution", 0.4, 0.9)],
 )
 def test_parameters_that_do_not_count_in_proportion(parameter, low, high):
     """Each orbit belongs to the rig that the parameter says, and closes there."""

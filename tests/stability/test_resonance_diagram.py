@@ -103,7 +103,7 @@ def test_two_parameters_meet_in_the_same_orbits():
 
 @pytest.mark.parametrize(
     ("parameter", "low", "high"),
-    [("amplitude", 1.0, 4.0), ("bumper_stiffness", 2.0, 50.0), ("damping_ratio", 0.01, 0.2)],
+    [("amplitude", 1.0, 4.0), ("stops.stiffness", 2.0, 50.0), ("damping_ratio", 0.01, 0.2)],
 )
 def test_what_settles_lies_on_a_branch(parameter, low, high):
     """Each motion of a bifurcation diagram of period 1 to 4 is near an orbit of its period."""

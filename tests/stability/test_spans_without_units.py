@@ -20,7 +20,7 @@ BOX = {"velocity": (-1, 1)}
 CALLS = {
     "branch": lambda rig, five: vi.branch(rig, parameter="gap", span=(1, five)),
     "branch of a damping": lambda rig, five: vi.branch(
-        rig, parameter="damping", span=(0.2, five.replace("m", "N s/m"))
+        rig, parameter="isolator.damping", span=(0.2, five.replace("m", "N s/m"))
     ),
     "bifurcation_diagram": lambda rig, five: vi.bifurcation_diagram(rig, "gap", (five, 6), 2),
     "bifurcation_curve": lambda rig, five: vi.bifurcation_curve(

@@ -18,12 +18,12 @@ CASE = vi.laboratory.case("B2-G1-A3")
     [
         (("frequency", "gap"), True),
         (("stiffness_ratio", "gap_ratio"), True),
-        (("amplitude", "damping"), True),
+        (("amplitude", "isolator.damping"), True),
         (("gap", "gap_ratio"), False),
         (("amplitude", "gap_ratio"), False),
-        (("stiffness", "stiffness_ratio"), False),
-        (("bumper_damping", "stiffness_ratio"), False),
-        (("gap", "right_gap"), False),
+        (("isolator.stiffness", "stiffness_ratio"), False),
+        (("stops.damping", "stiffness_ratio"), False),
+        (("gap", "stops.right.gap"), False),
     ],
 )
 def test_pairs_of_parameters(pair, independent):

@@ -96,7 +96,7 @@ def test_everything_else_of_many_tasks(cluster, computed):
 @pytest.mark.full
 def test_from_the_command_line(cluster, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    words = ("bifurcation", "B3-10mm-A3", "--from", "1Hz", "--to", "1.2Hz", "--steps", "3")
+    words = ("bifurcation", "B3-10mm-A3", "--vary", "frequency=1Hz:1.2Hz:3")
     found = []
     for where in ("threads", cluster.scheduler.address):
         assert main((*words, "--where", where, "--output", where[:3])) == 0

@@ -65,10 +65,10 @@ def test_refused(wrong):
     ("name", "value", "accepted"),
     [
         ("gap", np.inf, "finite values"),
-        ("damping", -1.0, "at least 0"),
-        ("bumper_stiffness", 0.0, "more than 0"),
-        ("restitution", 1.1, "at least 0 and at most 1"),
-        ("bumper_exponent", 0.5, "more than 0"),
+        ("isolator.damping", -1.0, "at least 0"),
+        ("stops.stiffness", 0.0, "more than 0"),
+        ("stops.restitution", 1.1, "at least 0 and at most 1"),
+        ("stops.exponent", 0.5, "at least 1"),
     ],
 )
 def test_draws_that_cannot_be(name, value, accepted):

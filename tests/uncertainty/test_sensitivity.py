@@ -29,7 +29,7 @@ def test_ishigami():
     seen = []
     found = vi.sensitivity(
         vi.Rig(RIG, 1.0),
-        {"force": TURN, "gap": TURN, "damping": stats.uniform(0.0, 2.0 * np.pi)},
+        {"force": TURN, "gap": TURN, "isolator.damping": stats.uniform(0.0, 2.0 * np.pi)},
         ishigami,
         "y",
         sample(4096, 1024),
@@ -42,7 +42,7 @@ def test_ishigami():
     both = 8.0 * b**2 * pi**8 / 225.0
     whole = parts.sum() + both
     first, total = parts / whole, (parts + np.array([both, 0.0, both])) / whole
-    assert list(found["uncertain_parameter"].values) == ["force", "gap", "damping"]
+    assert list(found["uncertain_parameter"].values) == ["force", "gap", "isolator.damping"]
     for name, known in (("first_order", first), ("total_order", total)):
         assert found[name].dims == ("multiple", "uncertain_parameter")
         for k in range(2):
@@ -65,7 +65,11 @@ def test_near_the_static_limit():
         data = vi.sweeps(rigs, [1e-3], ["forward"])
         return np.log(data[["peak_displacement"]].isel(direction=0, frequency=0))
 
-    spread = {"stiffness": "lognormal:0.1", "amplitude": "lognormal:0.2", "damping": "normal:5%"}
+    spread = {
+        "isolator.stiffness": "lognormal:0.1",
+        "amplitude": "lognormal:0.2",
+        "isolator.damping": "normal:5%",
+    }
     found = vi.sensitivity(vi.Rig(rig, 1.0), spread, response, "peak_displacement", 256)
     np.testing.assert_allclose(found["first_order"], [0.2, 0.8, 0.0], atol=0.02)
     np.testing.assert_allclose(found["total_order"], [0.2, 0.8, 0.0], atol=0.02)

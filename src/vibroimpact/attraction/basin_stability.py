@@ -118,7 +118,7 @@ def basin_stability(
         If a value is invalid, or if the rig has no dissipation.
     """
     rig = as_rig(rig, frequency)
-    named = None if parameter is None else registered(parameter).name
+    named = None if parameter is None else registered(parameter, rig).name
     if rig.frequency is None and named == "frequency" and isinstance(values, Iterable):
         values = list(values)
         rig = rig.at(values[0]) if values else rig
@@ -192,7 +192,7 @@ def _values(
                 'that has these values, such as "gap"'
             )
         return None, [0.0]
-    varied = registered(name, of=rig.periodic.of).of(rig.oscillator)
+    varied = registered(name, rig)
     listed = check_list(values, "values", MOST_VALUES, f"a list of values of {varied.name}")
     given = [to_si(one, varied.quantity, f"values[{i}]") for i, one in enumerate(listed)]
     if not given:

@@ -28,7 +28,7 @@ def basins_along(
     InputError
         If the number is below 0.
     """
-    varied = registered(parameter, of=rig.harmonic.of).of(rig.oscillator)
+    varied = registered(parameter, rig)
     step = (span[1] - span[0]) / max(whole(count, "basins", 0), 1)
     values = [span[0] + (i + 0.5) * step for i in range(count)]
     return [basins(varied.vary(rig, one), nodes=_NODES, progress=progress) for one in values]

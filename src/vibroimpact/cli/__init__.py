@@ -2,6 +2,13 @@
 
 A command reads its arguments and calls one function of the library. Its module imports the
 computing parts only when the command runs, so that ``vibroimpact --help`` responds at once.
+
+A new command is a module with one function, and an entry of `_COMMANDS`. The decorator `calls` of
+`cli/function_options.py` names the library function, from which it copies help and defaults. The
+rig comes from `subject` of `cli/rig.py`, shared options from `cli/options.py`; `results` of
+`cli/results.py` writes and prints, and its `draw` saves a further figure. A command checks no
+values and composes no sentences: the library function checks, and `facts` composes.
+`tests/cli/test_function_options.py` lists the options whose default differs, with the reasons.
 """
 
 from __future__ import annotations
@@ -45,18 +52,18 @@ For example:
     vibroimpact sweep study.toml --gap 12mm --output results
     vibroimpact motion B2-G1-A3 --frequency 2.6Hz
     vibroimpact branch B2-G1-A3
-    vibroimpact bifurcation B3-10mm-A3 --from 0.9Hz --to 1.3Hz
+    vibroimpact bifurcation B3-10mm-A3 --vary frequency=0.9Hz:1.3Hz
     vibroimpact basins B3-10mm-A3 --frequency 0.7Hz
     vibroimpact manifolds B3-10mm-A3 --frequency 0.7Hz
-    vibroimpact basin-stability B2-G1-A3 --from 1.5Hz --to 2.7Hz
+    vibroimpact basin-stability B2-G1-A3 --vary frequency=1.5Hz:2.7Hz
     vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
     vibroimpact record quake.AT2
     vibroimpact earthquake B2-G1-A3 quake.AT2
     vibroimpact design B2-G1-A3
-    vibroimpact identify test.csv --rig B2-G1-A3 --free stiffness,damping
-    vibroimpact ensemble B2-G1-A3 --uncertain gap normal:5%
+    vibroimpact identify test.csv --rig B2-G1-A3 --free isolator.stiffness,gap
+    vibroimpact ensemble B2-G1-A3 --uncertain gap=normal:5%
     vibroimpact classify B2-G1-A3
-    vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
+    vibroimpact map --vary stiffness_ratio=0.5:100:log --vary gap_ratio=0:1
     vibroimpact explore B2-G1-A3
     vibroimpact cache --clean others
 

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
+from cyclopts import Parameter
+
 import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import ANY_STATES, StateOptions
+from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, NUMBER_HELP, Vary, read_one
+
+_STEPS = 25
 
 
-@calls("basin_stability", "Parameter and samples", samples="states", steps="values")
+@calls("basin_stability", "Parameter and samples", samples="states", vary="values")
 def basin_stability(
     rig: opt.RigName,
     /,
     *,
-    parameter: Varied = "frequency",
-    start: Least = None,
-    stop: Largest = None,
-    steps: opt.Whole = 25,
+    vary: Annotated[
+        Vary,
+        Parameter(help=f"{HELP} The range has 25 values. {NUMBER_HELP} {FREQUENCY_HELP}"),
+    ] = (),
     samples: opt.Whole,
     seed: opt.Whole,
     states: StateOptions = ANY_STATES,
@@ -45,40 +51,31 @@ def basin_stability(
 
     For example:
 
-        vibroimpact basin-stability B2-G1-A3 --from 1.5Hz --to 2.7Hz
-        vibroimpact basin-stability B3-10mm-A3 --parameter gap --from 3mm --to 7mm --frequency 0.7Hz
-
-    Parameters
-    ----------
-    steps
-        Number of values of the parameter, including both ends of the range.
+        vibroimpact basin-stability B2-G1-A3 --vary frequency=1.5Hz:2.7Hz
+        vibroimpact basin-stability B3-10mm-A3 --vary gap=3mm:7mm:11 --frequency 0.7Hz
     """
-    import numpy as np
-
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import basin_stability as facts
-    from vibroimpact.model.count_checks import whole
 
     what = subject(rig, changes, output.name)
-    along = parameter.replace("-", "_")
-    span = option_range(what, along, start, stop)
+    varied = read_one(what, vary)
+    along = varied.name
     shaken, window = states.rig(what, along), states.window()
-    values = np.linspace(*span, whole(steps, "steps", 2))
     with results(what, output) as written:
         with progress_bar("computing shares") as progress:
             data = vi.basin_stability(
                 shaken,
                 *window,
                 parameter=along,
-                values=values,
+                values=varied.values(_STEPS),
                 states=samples,
                 seed=seed,
                 threads=threads,
                 where=where,
                 progress=progress,
             )
-        ending = f"{along.replace('_', '-')}-basin-stability"
+        ending = f"{varied.ending}-basin-stability"
         written.write(data, ending, figures.basin_shares)
     return written.tell(facts.facts(data), facts.text(data))

@@ -11,9 +11,10 @@ from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
 from vibroimpact.cli.own_outputs import Compute, own_outputs
-from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import rig_at
+from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, NUMBER_HELP, Vary, read_one
 
+_STEPS = 401
 _SHOWN = {
     "displacement": "section_displacement",
     "velocity": "section_velocity",
@@ -23,16 +24,15 @@ _SHOWN = {
 _DIRECTIONS = {"both": ("up", "down"), "up": ("up",), "down": ("down",), "none": ()}
 
 
-@calls("bifurcation_diagram", "Diagram", direction="directions", compute="outputs")
+@calls("bifurcation_diagram", "Diagram", vary="span", direction="directions", compute="outputs")
 def bifurcation(
     rig: opt.RigName,
     /,
     *,
-    parameter: Varied = "frequency",
-    start: Least = None,
-    stop: Largest = None,
-    steps: opt.Whole = 401,
-    log: opt.Flag,
+    vary: Annotated[
+        Vary,
+        Parameter(help=f"{HELP} The range has 401 values. {NUMBER_HELP} {FREQUENCY_HELP}"),
+    ] = (),
     frequency: opt.Frequency = None,
     direction: Literal["up", "down", "both", "none"] = "both",
     random: opt.Whole,
@@ -63,14 +63,12 @@ def bifurcation(
 
     For example:
 
-        vibroimpact bifurcation B3-10mm-A3 --from 0.9Hz --to 1.3Hz
-        vibroimpact bifurcation B3-10mm-A3 --parameter gap --from 3mm --to 7mm --frequency 1.12Hz
-        vibroimpact bifurcation B2-G1-A3 --from 1Hz --to 3Hz --quantity impact-velocity
+        vibroimpact bifurcation B3-10mm-A3 --vary frequency=0.9Hz:1.3Hz
+        vibroimpact bifurcation B3-10mm-A3 --vary gap=3mm:7mm:200 --frequency 1.12Hz
+        vibroimpact bifurcation B2-G1-A3 --vary frequency=1Hz:3Hz --quantity impact-velocity
 
     Parameters
     ----------
-    log
-        Space the values of the parameter evenly on a logarithmic axis.
     frequency
         Forcing frequency, such as 2Hz. It has no effect if the frequency is varied. Default: the
         frequency in the study file (table [simulate]). If there is none, the option is required.
@@ -95,8 +93,8 @@ def bifurcation(
     from vibroimpact.facts import branch
 
     what = subject(rig, changes, output.name)
-    along = parameter.replace("-", "_")
-    span = option_range(what, along, start, stop)
+    varied = read_one(what, vary)
+    along, span = varied.name, varied.span
     shaken = rig_at(what, frequency, phase, along)
     outputs = own_outputs(compute)
     with results(what, output) as written:
@@ -105,11 +103,11 @@ def bifurcation(
                 shaken,
                 along,
                 span,
-                steps,
+                varied.number or _STEPS,
                 directions=_DIRECTIONS[direction],
                 random=random,
                 section="impacts" if quantity.startswith("impact") else "stroboscopic",
-                log=log,
+                log=varied.logarithmic,
                 max_cycles=max_cycles,
                 outputs=outputs,
                 threads=threads,
@@ -122,7 +120,7 @@ def bifurcation(
             orbits = vi.resonance_diagram(shaken, span, parameter=along, phase=start_phase)
         written.write(
             data,
-            f"{along.replace('_', '-')}-diagram",
+            f"{varied.ending}-diagram",
             figures.section_diagram,
             quantity=_SHOWN[quantity],
             branches=orbits,

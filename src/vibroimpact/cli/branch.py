@@ -11,8 +11,8 @@ from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
 from vibroimpact.cli.own_outputs import Compute, own_outputs
-from vibroimpact.cli.parameters import Largest, Least, Varied, option_range
 from vibroimpact.cli.states import rig_at, state
+from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, Vary, read_one
 from vibroimpact.stability.branch_styles import Quantity
 
 _PHYSICAL: dict[Quantity, Quantity] = {
@@ -23,14 +23,12 @@ _HOLDS = 120
 """Number of frequencies of the stepped sweep in the figure."""
 
 
-@calls("resonance_diagram", "Branch", start="span", compute="outputs")
+@calls("resonance_diagram", "Branch", vary="span", compute="outputs")
 def branch(
     rig: opt.RigName,
     /,
     *,
-    parameter: Varied,
-    start: Least = None,
-    stop: Largest = None,
+    vary: Annotated[Vary, Parameter(help=f"{HELP} {FREQUENCY_HELP}")] = (),
     frequency: opt.Frequency = None,
     quantity: Quantity | None = None,
     physical: opt.Physical = None,
@@ -67,8 +65,8 @@ def branch(
     For example:
 
         vibroimpact branch B2-G1-A3
-        vibroimpact branch B3-10mm-A3 --from 0.9Hz --to 1.3Hz --quantity eccentricity
-        vibroimpact branch B2-G1-A3 --parameter gap --from 1mm --to 20mm --frequency 2Hz
+        vibroimpact branch B3-10mm-A3 --vary frequency=0.9Hz:1.3Hz --quantity eccentricity
+        vibroimpact branch B2-G1-A3 --vary gap=1mm:20mm --frequency 2Hz
 
     Parameters
     ----------
@@ -110,8 +108,8 @@ def branch(
     from vibroimpact.facts import branch as facts
 
     what = subject(rig, changes, output.name)
-    along = parameter.replace("-", "_")
-    span = option_range(what, along, start, stop)
+    varied = read_one(what, vary, number=False)
+    along, span = varied.name, varied.span
     is_one = begin is not None or period is not None
     shaken = rig_at(what, frequency, along="" if is_one else along)
     near = None if begin is None else state("--start", begin)
@@ -149,7 +147,7 @@ def branch(
         shown = quantity or "eta_d"
         if draws_physical(data, units):
             shown = _PHYSICAL.get(shown, shown)
-        ending = f"{along.replace('_', '-')}-branches"
+        ending = f"{varied.ending}-branches"
         written.write(data, ending, figures.branch_diagram, quantity=shown, sweep=swept)
         for name in outputs or ():
             drawn = figures.branch_diagram(data, quantity=name, sweep=swept, title=what.title)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Annotated, Literal
+
+from cyclopts import Parameter
 
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.parameters import option_range
 from vibroimpact.cli.states import rig_at
+from vibroimpact.cli.vary import HELP, Vary, check_continuous, read_vary
 from vibroimpact.errors import InputError
-
-if TYPE_CHECKING:
-    from vibroimpact.cli.rig import Subject
 
 _KINDS = {
     "fold": "fold",
@@ -27,9 +26,7 @@ _KINDS = {
     "bifurcation_curve",
     "Curve",
     bifurcation="kind",
-    over="parameters",
-    first="spans[0]",
-    second="spans[1]",
+    vary="spans",
 )
 def curve(
     rig: opt.RigName,
@@ -38,9 +35,16 @@ def curve(
     bifurcation: Literal[
         "fold", "symmetry-breaking", "period-doubling", "neimark-sacker", "grazing"
     ] = "fold",
-    over: str = "frequency,gap",
-    first: opt.Text = None,
-    second: opt.Text = None,
+    vary: Annotated[
+        Vary,
+        Parameter(
+            help=f"{HELP} Pass the option twice: first the parameter along which the bifurcations "
+            "are found, and then the other. The second range must contain the rig's own value. "
+            "--vary frequency, without a range, means the range in the study file (table [sweep]). "
+            "If the file states none, it is from 0.27 to 4.5 × the natural frequency, and for "
+            "laboratory cases from 0.3 to 5 Hz."
+        ),
+    ] = (),
     frequency: opt.Frequency = None,
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
@@ -57,25 +61,14 @@ def curve(
 
     For example:
 
-        vibroimpact curve B2-G1-A3 --bifurcation fold --over frequency,gap --second 1mm:20mm
-        vibroimpact curve B2-G1-A3 --over frequency,stiffness-ratio --second 0.5:100
+        vibroimpact curve B2-G1-A3 --bifurcation fold --vary frequency --vary gap=1mm:20mm
+        vibroimpact curve B2-G1-A3 --vary frequency=1Hz:4Hz --vary stiffness_ratio=0.5:100
 
     Parameters
     ----------
     bifurcation
         Kind of bifurcation that is followed. At a fold, a branch of periodic orbits turns back. At
         a grazing, an orbit just touches a bumper.
-    over
-        Names of the first and the second parameter, separated by a comma. For all names, see
-        --parameter of vibroimpact branch.
-    first
-        Range of the first parameter, LOW:HIGH, such as 0.5Hz:4Hz. Only the frequency has a default:
-        the range in the study file (table [sweep]). If the file states none, the default is from
-        0.27 to 4.5 × the natural frequency. For laboratory cases it is from 0.3 to 5 Hz.
-    second
-        Range of the second parameter, LOW:HIGH, such as 1mm:20mm. It is required, unless this
-        parameter is the frequency, which has the same default as in --first. The range must contain
-        the rig's own value of the parameter.
     frequency
         Forcing frequency at which the bifurcations along the first parameter are found, such as
         2Hz. It has no effect if the first parameter is the frequency. Default: the frequency in the
@@ -88,29 +81,20 @@ def curve(
     from vibroimpact.stability.curves_of_kind import curves_of_kind
 
     what = subject(rig, changes, output.name)
-    names = [name.strip().replace("-", "_") for name in over.split(",")]
-    if len(names) != 2:
+    found = read_vary(what, vary)
+    if len(found) != 2:
         raise InputError(
-            f"--over: {over!r} is not a pair of parameters; pass two names with a comma between "
-            "them, such as frequency,gap"
+            f"--vary: given {len(found)} times; pass two parameters, such as --vary frequency "
+            "--vary gap=1mm:20mm"
         )
-    kind, pair = _KINDS[bifurcation], (names[0], names[1])
-    shaken = rig_at(what, frequency, along=names[0])
-    spans = _range(what, "--first", pair[0], first), _range(what, "--second", pair[1], second)
+    for one in found:
+        check_continuous(one)
+    first, second = found
+    kind, pair, spans = _KINDS[bifurcation], (first.name, second.name), (first.span, second.span)
+    shaken = rig_at(what, frequency, along=first.name)
     with results(what, output) as written:
         with progress_bar("following curves") as progress:
-            found = curves_of_kind(shaken, kind, parameters=pair, spans=spans, progress=progress)
-        ending = f"{bifurcation}-{'-'.join(names).replace('_', '-')}"
-        written.write(found, ending, figures.bifurcation_curves, f"{what.title}, {kind}")
-    return written.tell(facts.facts(kind, pair, found), facts.text(kind, pair, found))
-
-
-def _range(what: Subject, option: str, name: str, text: str | None) -> tuple[float, float]:
-    """Read LOW:HIGH. The frequency has a default."""
-    if text is None and name == "frequency":
-        return option_range(what, name, None, None, (option, option), "--over")
-    low, colon, high = (text or "").partition(":")
-    if not (low and colon and high):
-        wrong = "missing" if text is None else f"{text!r} is not a range"
-        raise InputError(f"{option}: {wrong}; pass the lowest and the highest {name} as LOW:HIGH")
-    return option_range(what, name, low, high, (option, option), "--over")
+            curves = curves_of_kind(shaken, kind, parameters=pair, spans=spans, progress=progress)
+        ending = f"{bifurcation}-{first.ending}-{second.ending}"
+        written.write(curves, ending, figures.bifurcation_curves, f"{what.title}, {kind}")
+    return written.tell(facts.facts(kind, pair, curves), facts.text(kind, pair, curves))

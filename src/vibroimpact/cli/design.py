@@ -18,6 +18,10 @@ from vibroimpact.cli.records import (
     records_of_design,
     records_or_sines,
 )
+from vibroimpact.cli.vary import Vary, read_vary
+
+_VALUES = 15
+"""Default number of values of a parameter."""
 
 
 @calls("design_chart", "Design", limit="limits", start="frequency_span[0]", to="frequency_span[1]")
@@ -25,7 +29,7 @@ def design(
     rig: opt.RigName,
     /,
     *records: Annotated[opt.FileName, Parameter(name="RECORD")],
-    vary: opt.Pairs = (),
+    vary: Vary = (),
     best: opt.Flag = False,
     limit: opt.Pairs = (),
     fractile: opt.Text = None,
@@ -58,8 +62,8 @@ def design(
     For example:
 
         vibroimpact design building.toml
-        vibroimpact design building.toml a.AT2 b.AT2 --vary gap 100mm:500mm
-        vibroimpact design building.toml --vary gap 100mm:500mm --vary damping-ratio 0.05:0.3
+        vibroimpact design building.toml a.AT2 b.AT2 --vary gap=100mm:500mm
+        vibroimpact design building.toml --vary gap=100mm:500mm --vary damping_ratio=0.05:0.3
         vibroimpact design building.toml --best --gap 250mm --limit penetration 50mm
 
     Parameters
@@ -69,15 +73,15 @@ def design(
         in the study file. If it has none, the rig is shaken by sines. Their amplitude is the value
         of --amplitude or, by default, the value in the laboratory case or study file.
     vary
-        Parameter that is varied and its range, NAME LOW:HIGH, such as gap 100mm:500mm. The option
+        Parameter that is varied and its range, PATH=LOW:HIGH, such as gap=100mm:500mm. The option
         may be used once or twice. The range has 15 evenly spaced values. To change the number or
         the spacing, write LOW:HIGH:NUMBER, LOW:HIGH:log or LOW:HIGH:log:NUMBER (log: logarithmic
-        spacing). Examples of names: gap, bumper-stiffness (at constant damping),
-        stiffness-at-restitution (stiffness of the bumpers at constant coefficient of restitution),
-        bumper-damping, isolator-period, damping-ratio, yield-force. Default: the parameters in the
-        study file (table [design]). If the file states none, the gap is varied. Its largest value
-        is then slightly larger than the smallest gap at which the rig hits no stop. If all stops
-        are linear bumpers, their stiffness is varied, too.
+        spacing). Examples of paths: gap, stops.stiffness (at constant damping),
+        stiffness_at_restitution (stiffness of the bumpers at constant coefficient of restitution),
+        stops.damping, isolator_period, damping_ratio, isolator.yield_force. Default:
+        the parameters in the study file (table [design]). If the file states none, the gap is
+        varied. Its largest value is then slightly larger than the smallest gap at which the rig
+        hits no stop. If all stops are linear bumpers, their stiffness is varied, too.
     best
         Also search for the bumper that gives the smallest acceleration of the mass. The search does
         not change the gap of the rig.
@@ -100,7 +104,6 @@ def design(
     """
     from vibroimpact.cli.frequency_grid import sine_span
     from vibroimpact.cli.output import progress_bar
-    from vibroimpact.cli.ranges import parameter_values
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.study import DesignTable
@@ -112,7 +115,7 @@ def design(
     what = subject(rig, changes, output.name, shaken=next(iter(found.values()), None))
     suite = records_or_sines(what, found, scale, peak)
     table = what.study.design if what.study else DesignTable()
-    ranges = parameter_values(what, "--vary", opt.by_name("--vary", vary) or table.vary or {})
+    ranges = {one.name: one.values(_VALUES) for one in read_vary(what, vary or table.vary or {})}
     limits: dict[str, Any] = {name.replace("-", "_"): v for name, v in (table.limits or {}).items()}
     limits |= opt.by_name("--limit", limit)
     designed = what.oscillator if suite else what.rig
@@ -137,7 +140,7 @@ def design(
         if data["pareto"].ndim <= 2 and min(data["pareto"].shape) > 1:
             written.draw("chart", "design", figures.design_chart(data, title=what.title))
         written.draw("front", "pareto", figures.pareto_front(data, title=what.title))
-    chosen = any((changes.gap, changes.right_gap, changes.left_gap))
+    chosen = changes.gap is not None or any("gap" in one for one in changes.values)
     text = facts.text(what.oscillator, gap, data, least, list(suite or ()), chosen=chosen)
     about = rig_facts.text(what.rig, shaking=not suite)
     return written.tell(facts.facts(gap, data, least), *text, about=about, shaking=False)

@@ -22,7 +22,7 @@ def ensemble(
     rig: opt.RigName,
     /,
     *,
-    uncertain: opt.Pairs = (),
+    uncertain: opt.Paths = (),
     draws: opt.Whole | None = None,
     method: Literal["sobol", "latin", "random"] | None = None,
     seed: opt.Whole | None = None,
@@ -53,14 +53,14 @@ def ensemble(
 
     For example:
 
-        vibroimpact ensemble B2-G1-A3 --uncertain gap normal:5% --uncertain damping lognormal:0.2
+        vibroimpact ensemble B2-G1-A3 --uncertain gap=normal:5% --uncertain mass=normal:2%
         vibroimpact ensemble building.toml --draws 1024 --sensitivity --physical
 
     Parameters
     ----------
     uncertain
-        Parameter and its distribution, such as gap normal:7.5mm:0.5mm. The option may be repeated.
-        For the names of parameters, see --parameter of vibroimpact branch. The distributions are
+        Parameter and its distribution, such as gap=normal:7.5mm:0.5mm. The option may be repeated.
+        An unknown path lists those of the rig. The distributions are
         normal:MEAN:DEVIATION, normal:MEAN:DEVIATION:LOW:HIGH (truncated to the range from LOW to
         HIGH), uniform:LOW:HIGH, triangular:LOW:MODE:HIGH and lognormal:MEDIAN:SIGMA. SIGMA is the
         standard deviation of the natural logarithm of the parameter. Three short forms use the
@@ -111,11 +111,11 @@ def ensemble(
 
     what = subject(rig, changes, output.name)
     table = what.study.ensemble if what.study else EnsembleTable()
-    given = opt.by_name("--uncertain", uncertain or tuple((table.uncertain or {}).items()))
+    given = opt.by_path("--uncertain", uncertain) or table.uncertain or {}
     if not given:
         raise InputError(
             "--uncertain: missing; pass a parameter and its distribution, such as "
-            "--uncertain gap normal:5%, or set the key uncertain in the table [ensemble] of the "
+            "--uncertain gap=normal:5%, or set the key uncertain in the table [ensemble] of the "
             "study"
         )
     default = default_range(what, _COARSER)

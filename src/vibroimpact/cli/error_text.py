@@ -21,8 +21,11 @@ _ELSEWHERE = {
     "--unbalance": ("--amplitude", 'write it as --amplitude "0.4 kg m"'),
     "--acceleration": ("--amplitude", "write it as --amplitude 0.05g"),
     "--displacement": ("--amplitude", "write it as --amplitude 5mm"),
-    "--period": ("--isolator-period", "write the period of the isolator as --isolator-period 2.5s"),
-    "--natural-frequency": ("--isolator-period", "write its reciprocal as --isolator-period 2.5s"),
+    "--period": ("--set", "write the period of the isolator as --set isolator_period=2.5s"),
+    "--natural-frequency": ("--set", "write its reciprocal as --set isolator_period=2.5s"),
+    "--stiffness": ("--set", "write it as --set isolator.stiffness=30kN/m"),
+    "--damping": ("--set", 'write it as --set "isolator.damping=1 kN s/m"'),
+    "--mass": ("--set", "write it as --set mass=550kg"),
 }
 """Options that users expect, the option of the command that replaces each, and what to do."""
 
@@ -58,7 +61,7 @@ def _elsewhere(error: UnknownOptionError) -> str:
 
 
 def _as_two_words(option: str, words: Sequence[str]) -> str:
-    """Describe an option whose name and value are not two words, such as ``--vary gap=5mm``."""
+    """Describe an option whose name and value are one word: ``--limit penetration=5mm``."""
     after = [words[i + 1] for i, word in enumerate(words[:-1]) if word == option]
     after += [word.partition("=")[2] for word in words if word.startswith(f"{option}=")]
     for written in after:
@@ -94,17 +97,14 @@ def _in_options(message: str, renamed: Mapping[str, str]) -> str:
 
 
 def _options(field: str) -> list[str]:
-    """Return the options that set a field. Options for one side come first."""
-    part, _, name = field.replace("_", "-").rpartition(".")
-    if part in ("right", "left"):
-        return [f"--{part}-{name}", f"--{name}" if name == "gap" else f"--bumper-{name}"]
-    return [f"--{name}"]
+    """Return the options that set a field."""
+    return [f"--{field.replace('_', '-').rpartition('.')[2]}"]
 
 
 def _quoting(words: Sequence[str]) -> str:
     """Return a hint about quotes if the shell has split a value and its unit into words."""
     for i, option in enumerate(words[:-2]):
-        if not (option.startswith("--") and _NUMBER.fullmatch(words[i + 1])):
+        if not (option.startswith("--") and _NUMBER.fullmatch(words[i + 1].rpartition("=")[2])):
             continue
         unit = []
         for word in words[i + 2 :]:

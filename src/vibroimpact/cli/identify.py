@@ -53,9 +53,9 @@ def identify(
 
     For example:
 
-        vibroimpact identify test.csv --rig B2-G1-A3 --free stiffness,damping,gap
+        vibroimpact identify test.csv --rig B2-G1-A3 --free isolator.stiffness,gap
         vibroimpact identify up.csv down.csv --rig study.toml --free gap --compare hertz
-        vibroimpact identify shaken.mat --rig study.toml --free right-gap,left-gap
+        vibroimpact identify shaken.mat --rig study.toml --free right.gap,left.gap
 
     Parameters
     ----------
@@ -67,8 +67,7 @@ def identify(
         parameters.
     free
         Names of the parameters that are fitted (free parameters), separated by commas, such as
-        stiffness,damping,bumper-stiffness,gap. For all names, see --parameter of vibroimpact
-        branch.
+        isolator.stiffness,isolator.damping,stops.stiffness,gap. An unknown name lists all.
     each
         Free parameters that are fitted separately for each test, separated by commas, such as gap.
         All other free parameters have the same value in all tests. Default: none.
@@ -76,7 +75,7 @@ def identify(
         Bounds of a free parameter, NAME LOW:HIGH, such as gap 5mm:10mm. The option may be repeated.
         Default: none.
     tie
-        Two parameters, separated by a space, such as left-gap right-gap. The first parameter is
+        Two parameters, separated by a space, such as left.gap right.gap. The first parameter is
         kept equal to the second parameter. The option may be repeated. Default: none.
     prior
         Prior knowledge of a free parameter: mean and standard deviation of a normal distribution,

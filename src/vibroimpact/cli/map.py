@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
@@ -10,20 +10,24 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
+from vibroimpact.cli.vary import Vary, read_range
+from vibroimpact.errors import InputError
 
-_AxisOption: TypeAlias = Annotated[
-    tuple[str, str], Parameter(allow_leading_hyphen=True, negative="")
-]
+if TYPE_CHECKING:
+    from vibroimpact.model.excitation import Of
+
+_NODES = 21
+"""Default number of values on an axis."""
+_AXES = ("stiffness_ratio=0.5:100:log", "gap_ratio=0:1")
 _PUBLISHED = "B3-10mm-A3"
 
 
-@calls("scenario_map", "Map", rig="rig", x="x", y="y", output="store")
+@calls("scenario_map", "Map", rig="rig", vary="x", output="store")
 def scenario_map(
     rig: opt.RigName | None = None,
     /,
     *,
-    x: _AxisOption = ("stiffness-ratio", "0.5:100:log"),
-    y: _AxisOption = ("gap-ratio", "0:1"),
+    vary: Vary = (),
     refine: opt.Whole = 2,
     step: float = 0.01,
     border: bool = True,
@@ -60,9 +64,9 @@ def scenario_map(
 
     For example:
 
-        vibroimpact map --x stiffness-ratio 0.5:100:log --y gap-ratio 0:1
-        vibroimpact map B2-G1-A3 --x gap 2mm:20mm:10 --y proportional-stiffness 50kN/m:2MN/m:log
-        vibroimpact map --x stiffness-ratio 1:100:log:41 --y damping-ratio 0.05:0.3 --refine 1
+        vibroimpact map --vary stiffness_ratio=0.5:100:log --vary gap_ratio=0:1
+        vibroimpact map B2-G1-A3 --vary gap=2mm:20mm:10 --vary amplitude=0.01g:0.1g:log
+        vibroimpact map --vary stiffness_ratio=1:100:log:41 --vary damping_ratio=0.05:0.3
 
     Parameters
     ----------
@@ -71,19 +75,18 @@ def scenario_map(
         Pass the code of a laboratory case, which is a rig of the published tests, or the path of a
         study file (TOML), which describes your own rig. For the parts of a code, see vibroimpact
         sweep. Default: B3-10mm-A3.
-    x
-        Parameter of the horizontal axis and its range, NAME LOW:HIGH, such as gap 2mm:20mm. The
-        range has 21 evenly spaced values. To change the number or the spacing, write
-        LOW:HIGH:NUMBER, LOW:HIGH:log or LOW:HIGH:log:NUMBER (log: logarithmic spacing). Physical
-        parameters: gap, amplitude, bumper-stiffness (at constant damping), proportional-stiffness
-        (bumper stiffness at a constant ratio of damping to stiffness), isolator-period.
-        Dimensionless parameters: stiffness-ratio (bumper stiffness divided by isolator stiffness),
-        gap-ratio (gap divided by the largest displacement without bumpers), relaxation-time
-        (natural angular frequency of the rig × bumper damping / bumper stiffness), damping-ratio
-        (of the isolator), restitution (coefficient of restitution of a stop). Default:
-        stiffness-ratio 0.5:100:log.
-    y
-        Parameter of the vertical axis and its range, as for --x. Default: gap-ratio 0:1.
+    vary
+        Parameters of the horizontal and of the vertical axis, each with its range, PATH=LOW:HIGH,
+        such as gap=2mm:20mm. Pass the option twice. The range has 21 evenly spaced values. To
+        change the number or the spacing, write LOW:HIGH:NUMBER, LOW:HIGH:log or
+        LOW:HIGH:log:NUMBER (log: logarithmic spacing). Physical parameters: gap, amplitude,
+        stops.stiffness (at constant damping), proportional_stiffness (bumper stiffness at a
+        constant ratio of damping to stiffness), isolator_period. Dimensionless parameters:
+        stiffness_ratio (bumper stiffness divided by isolator stiffness), gap_ratio (gap divided by
+        the largest displacement without bumpers), relaxation_time (natural angular frequency of
+        the rig × bumper damping / bumper stiffness), damping_ratio (of the isolator),
+        stops.restitution (coefficient of restitution). Default: stiffness_ratio=0.5:100:log and
+        gap_ratio=0:1.
     border
         Also draw the exact border between rigs whose resonance curves jump and rigs whose curves do
         not. This is the default.
@@ -95,7 +98,6 @@ def scenario_map(
     from rich.text import Text
 
     from vibroimpact.cli.output import progress_bar
-    from vibroimpact.cli.ranges import map_axis
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import scenario_map as facts
@@ -108,10 +110,15 @@ def scenario_map(
             slug=what.slug.replace(_PUBLISHED, "published"),
         )
     of = what.repeated.of
-    axes = map_axis("--x", *x, of), map_axis("--y", *y, of)
+    axes = [_axis(path, text, of) for path, text in opt.by_path("--vary", vary or _AXES).items()]
+    if len(axes) != 2:
+        raise InputError(
+            "--vary: a map has two axes; pass the option twice, such as --vary gap=2mm:20mm "
+            "--vary amplitude=0.01g:0.1g"
+        )
     used = thresholds.thresholds()
-    names = [name for name, *_ in axes]
-    ending = f"{'-'.join(names).replace('_', '-')}-map"
+    names = [str(name) for name, *_ in axes]
+    ending = f"{'-'.join(names).replace('_', '-').replace('.', '-')}-map"
     with results(what, output) as written:
         written.files["data"] = store = written.path(ending, "zarr")
         with progress_bar("computing the map") as progress:
@@ -137,3 +144,17 @@ def scenario_map(
     return written.tell(
         facts.facts(data, edge), *about[1:], facts.text(data, refine), about=about[0]
     )
+
+
+def _axis(path: str, text: str, of: Of) -> tuple[str, list[float], str]:
+    """Read an axis: its name, its values in SI units, and "log" or "linear"."""
+    from vibroimpact.model.parameters import canonical, usual
+    from vibroimpact.scenarios.axes import NAMES
+
+    name = canonical(path, NAMES)
+    if name not in NAMES:
+        raise InputError(
+            f"--vary: {path!r} is not an axis of a map; pass one of {', '.join(NAMES)}"
+        )
+    one = read_range(f"--vary: {path}", usual(name, of), text)
+    return name, one.values(_NODES), "log" if one.logarithmic else "linear"

@@ -59,6 +59,10 @@ def _whole(_type: Any, tokens: Sequence[Token]) -> int:
 Whole: TypeAlias = Annotated[int, Parameter(converter=_whole)]
 Text: TypeAlias = Annotated[str | None, Parameter(allow_leading_hyphen=True)]
 """A value with a unit, which may begin with a minus sign. The library function checks it."""
+Paths: TypeAlias = Annotated[
+    tuple[str, ...], Parameter(allow_leading_hyphen=False, negative="", consume_multiple=False)
+]
+"""An option PATH=TEXT, which may be repeated."""
 Pairs: TypeAlias = Annotated[
     tuple[tuple[str, str], ...], Parameter(allow_leading_hyphen=True, negative="")
 ]
@@ -121,6 +125,25 @@ def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
     return found
 
 
+def by_path(option: str, texts: Sequence[str]) -> dict[str, str]:
+    """Return the values of an option PATH=TEXT that may be repeated, by path.
+
+    Raises
+    ------
+    InputError
+        If a text has no ``=``, or if a path occurs twice.
+    """
+    found: dict[str, str] = {}
+    for text in texts:
+        path, equals, value = (part.strip() for part in text.partition("="))
+        if not (path and equals and value):
+            raise InputError(f"{option}: {text!r}; pass PATH=VALUE in one word, such as gap=9mm")
+        if path in found:
+            raise InputError(f"{option}: {path!r} is given twice; remove one of the two")
+        found[path] = value
+    return found
+
+
 def stated(**options: Any) -> dict[str, Any]:
     """Return the options that have a value. The others get the defaults of the function."""
     return {name: value for name, value in options.items() if value is not None}
@@ -144,43 +167,15 @@ class RigOptions:
     or 0.49m/s^2), peak displacement of the base (5mm), peak force on the mass (120N), or
     rotating unbalance (0.4kg*m). With 0, nothing shakes the rig; only vibroimpact simulate accepts
     it."""
-    mass: _OfRig = None
-    """Mass, such as 550kg or 5000t."""
-    weight: _OfRig = None
-    """Weight of the mass, such as 50MN. Use it instead of --mass."""
-    stiffness: _OfRig = None
-    """Stiffness of the isolator, such as 26.8kN/m."""
-    damping: _OfRig = None
-    """Damping of the isolator, such as '1.1 kN s/m'."""
-    isolator_period: _OfRig = None
-    """Natural period of the mass on the isolator, such as 2.5s. Use it instead of --stiffness. The
-    damping ratio does not change, unless --damping or --damping-ratio changes it."""
-    damping_ratio: _OfRig = None
-    """Damping ratio of the isolator, such as 0.15. Use it instead of --damping."""
-    bumper_stiffness: _OfRig = None
-    """Stiffness of both bumpers, such as 510kN/m."""
-    bumper_damping: _OfRig = None
-    """Damping of both bumpers, such as '0.9 kN s/m'."""
     gap: _OfRig = None
     """Gap on each side, such as 7.5mm. It is half of GAP, the total gap in a case code."""
-    right_stiffness: _OfRig = None
-    """Stiffness of the right bumper, such as 510kN/m."""
-    right_damping: _OfRig = None
-    """Damping of the right bumper, such as '0.9 kN s/m'."""
-    right_gap: _OfRig = None
-    """Gap on the right side, such as 7.5mm."""
-    left_stiffness: _OfRig = None
-    """Stiffness of the left bumper, such as 510kN/m."""
-    left_damping: _OfRig = None
-    """Damping of the left bumper, such as '0.9 kN s/m'."""
-    left_gap: _OfRig = None
-    """Gap on the left side, such as 7.5mm."""
-    no_isolator: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False
-    """Remove the isolator, so that the mass is free between its stops."""
-    no_right: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False
-    """Remove the right bumper."""
-    no_left: Annotated[bool, Parameter(group=RIG, negative="", show_default=False)] = False
-    """Remove the left bumper."""
+    values: Annotated[
+        tuple[str, ...], Parameter(name="--set", group=RIG, negative="", consume_multiple=False)
+    ] = ()
+    """Another value of the rig, PATH=VALUE, such as mass=550kg, isolator.stiffness=30kN/m,
+    stops.stiffness=1MN/m (both stops), right.gap=9mm, isolator_period=2.5s or damping_ratio=0.15.
+    The option may be repeated. left=none removes the left stop, and isolator=none the isolator.
+    An unknown path lists those of the rig."""
 
 
 _Threshold: TypeAlias = Annotated[

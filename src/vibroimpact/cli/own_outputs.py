@@ -18,9 +18,9 @@ Compute: TypeAlias = Annotated[
     Parameter(
         negative="",
         help="Compute an own output of each motion, such as 'power [W] = "
-        "mean(damping*velocity**2)': its name, its units, and a formula of time histories, numbers "
-        "of the rig, and max, min, mean, rms and integral over one period. The option may be "
-        "repeated.",
+        "mean(isolator.damping*velocity**2)': its name, its units, and a formula of time "
+        "histories, numbers of the rig, and max, min, mean, rms and integral over one period. The "
+        "option may be repeated.",
     ),
 ]
 
@@ -28,7 +28,7 @@ _WRITTEN = re.compile(r"\s*(\w+)\s*(?:\[([^\]]*)\])?\s*=(?!=)\s*(.+)", re.DOTALL
 
 
 def own_outputs(texts: Iterable[str]) -> dict[str, vi.Output] | None:
-    """Read outputs such as ``power [W] = mean(damping*velocity**2)``; None if there are none.
+    """Read outputs such as ``power [W] = mean(isolator.damping*velocity**2)``, or return None.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def own_outputs(texts: Iterable[str]) -> dict[str, vi.Output] | None:
         if match is None:
             raise InputError(
                 f"--compute: {text!r} is not a name with a formula; write it as 'power [W] = "
-                "mean(damping*velocity**2)'"
+                "mean(isolator.damping*velocity**2)'"
             )
         name, units, formula = match.groups()
         if name in found:

@@ -3,45 +3,42 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import fields
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.options import RigOptions, by_path
 from vibroimpact.cli.rig_changes import changes, joined
 from vibroimpact.cli.study import SimulateTable, Study, SweepTable, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
     GRAVITY,
-    AnyIsolator,
-    Bumper,
     Harmonic,
     Model,
     Oscillator,
     Periodic,
     Record,
     Repeated,
-    Stop,
     laboratory,
 )
+from vibroimpact.model.derived_parameters import DERIVED
 from vibroimpact.model.excitation import sized
-from vibroimpact.model.isolators.law import spring_and_dashpot
 from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.names import check_name, file_stem, literal
+from vibroimpact.model.parameters import (
+    PARAMETERS,
+    canonical,
+    parameter,
+    parameters,
+    set_values,
+)
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
-from vibroimpact.model.quantities import DIMENSIONLESS, FORCE, PERIOD
+from vibroimpact.model.quantities import FORCE
 from vibroimpact.model.rig import Rig, with_stated_units
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.units import to_si
+from vibroimpact.model.varied import turn
 from vibroimpact.model.written_units import NONE, write_for
 from vibroimpact.response.plausibility import doubt_stops
-
-_SHARED = {"stiffness": "bumper_stiffness", "damping": "bumper_damping", "gap": "gap"}
-"""Options that set a field of both bumpers, by field."""
-
-
-_ANY_BUMPER = Bumper(1.0, 0.0, 0.0)
-"""Placeholder that reads the fields of a new bumper."""
 
 
 class Subject(NamedTuple):
@@ -159,8 +156,10 @@ def subject(
         shaking = found.shaking
         if given.amplitude is not None:
             shaking = _of_size(shaking, given.amplitude, found.oscillator.units == NONE)
-        stated = {_flag(one.name): getattr(given, one.name) for one in fields(given)}
-        return with_stated_units(changed(found.oscillator, given), stated), shaking
+        stated: dict[str, Any] = {"--amplitude": given.amplitude, "--gap": given.gap}
+        stated |= {f"--set: {k}": v for k, v in by_path("--set", given.values).items()}
+        scale = otherwise if shaking is None else shaking
+        return with_stated_units(changed(found.oscillator, given, scale), stated), shaking
 
     oscillator, shaking = rig_of(options)
     write_for(oscillator)  # until the end of the command
@@ -254,153 +253,105 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
     return _Named(title, first, oscillator, shaking, study, study.case is not None)
 
 
-def changed(oscillator: Oscillator, options: RigOptions) -> Oscillator:
+def changed(
+    oscillator: Oscillator, options: RigOptions, shaking: Repeated | Record | None = None
+) -> Oscillator:
     """Return the oscillator with the values that the options replace.
+
+    A new period keeps the damping ratio, unless a damping is set. The shaking scales a gap ratio.
 
     Raises
     ------
     InputError
-        If a value is invalid, or if a new bumper is not completely described.
+        If a path does not exist, if a value is invalid, or if a new stop is not described
+        completely.
     """
-    if options.no_isolator:
-        oscillator = _without_isolator(oscillator, options)
-    changes: dict[str, Any] = {
-        "mass": _mass(oscillator, options),
-        "isolator": _isolator(oscillator, options),
-    }
-    removed = {"right": options.no_right, "left": options.no_left}
-    shared = [field for field, option in _SHARED.items() if getattr(options, option) is not None]
-    # Options for both sides change existing stops. They make bumpers only if there are none.
-    present = [
-        side for side in removed if getattr(oscillator, side) is not None and not removed[side]
-    ]
-    targets = present or [side for side in removed if not removed[side]]
-    if shared and not targets:
-        option = _SHARED[shared[0]]
-        raise InputError(
-            f"{_flag(option)}: given together with --no-right and --no-left, which remove both "
-            "stops; remove one of these three options"
-        )
-    for field in shared:
-        if not any(_has(getattr(oscillator, side), field) for side in targets):
+    values = new_values(oscillator, options)
+    for one, other in _SAME:
+        if one in values and other in values:
             raise InputError(
-                f"{_flag(_SHARED[field])}: no stop of this rig has a {field}; remove this option, "
-                f"or use a rig whose stops have a {field}"
+                f"--set: {one} and {other} set the same quantity; remove one of the two"
             )
-    for side in removed:
-        own = [field for field in _SHARED if getattr(options, f"{side}_{field}") is not None]
-        if removed[side] and own:
-            raise InputError(
-                f"{_flag(f'{side}_{own[0]}')}: given together with --no-{side}; remove one of the "
-                "two options"
-            )
-        bumper: Stop | None = None if removed[side] else getattr(oscillator, side)
-        for field in own:
-            if not _has(bumper, field):
+    if "weight" in values:
+        values["mass"] = to_si(values.pop("weight"), FORCE, "--set: weight", above=0.0) / GRAVITY
+    derived = {name: text for name, text in values.items() if name in DERIVED}
+    fields = {name: text for name, text in values.items() if name not in DERIVED}
+    if "isolator_period" in derived and "mass" in fields and "isolator.damping" not in fields:
+        derived.setdefault("damping_ratio", oscillator.damping_ratio)  # that of the old mass
+    # A derived parameter keeps a damping ratio or a relaxation time, unless the damping is set.
+    late = {name for name in fields if derived and name.endswith(".damping")}
+    oscillator = _set(oscillator, {k: v for k, v in fields.items() if k not in late})
+    for name in sorted(derived, key=turn):
+        if turn(name) > 0:
+            oscillator = _set(oscillator, {k: fields[k] for k in late})
+            late = set()
+        rig = Rig.of_open_frequency(oscillator, shaking)
+        varied = parameter(name, rig, "--set")
+        limits: dict[str, Any] = {"minimum": varied.least} if varied.zero else {"above": 0.0}
+        value = to_si(derived[name], varied.quantity, f"--set: {name}", **limits)
+        try:
+            varied.read(rig)
+        except InputError as error:
+            raise InputError(f"--set: {str(error).removeprefix('parameter: ')}") from None
+        oscillator = varied.vary(rig, value).oscillator
+    return _set(oscillator, {k: fields[k] for k in late})
+
+
+_SAME = (
+    ("isolator_period", "isolator.stiffness"),
+    ("damping_ratio", "isolator.damping"),
+    ("weight", "mass"),
+)
+"""Pairs of paths that set the same quantity."""
+
+
+def new_values(oscillator: Oscillator, options: RigOptions) -> dict[str, Any]:
+    """Return the values of the options by path. "none" removes a part.
+
+    Raises
+    ------
+    InputError
+        If a path is set twice.
+    """
+    found: dict[str, Any] = {}
+    known = [*parameters(Rig(oscillator)), *PARAMETERS]
+    for path, text in by_path("--set", options.values).items():
+        name = canonical(path, known)
+        if name in ("amplitude", "frequency"):
+            raise InputError(f"--set: {path!r} is that of the shaking; use --{name}")
+        if name in found or (name == "gap" and options.gap is not None):
+            raise InputError(f"--set: {path!r} is given twice; remove one of the two")
+        found[name] = None if text.lower() == "none" else text
+    for part in (path for path, value in found.items() if value is None):
+        for path in found:
+            if path.removeprefix("stops.").startswith(f"{part.removeprefix('stops.')}."):
                 raise InputError(
-                    f"{_flag(f'{side}_{field}')}: the {side} stop is {bumper}, which has no "
-                    f"{field}; remove this option"
+                    f"--set: {path.removeprefix('stops.')}: the part is removed by {part}=none; "
+                    "remove one of the two"
                 )
-        values = {
-            field: _value(bumper or _ANY_BUMPER, field, option, options)
-            for field, option in (
-                *((f, _SHARED[f]) for f in shared if side in targets and _has(bumper, f)),
-                *((f, f"{side}_{f}") for f in own),
-            )
-        }
-        if bumper is not None:
-            bumper = bumper.replace(**values)
-        elif values and not removed[side]:
-            bumper = _new_bumper(side, values)
-        changes[side] = bumper
-    return oscillator.replace(**changes)
+    # A value of one side replaces that of both.
+    both = {} if options.gap is None else {"gap": options.gap}
+    return {**both, **dict(sorted(found.items(), key=lambda item: item[0].count(".")))}
 
 
-def _without_isolator(oscillator: Oscillator, options: RigOptions) -> Oscillator:
-    """Return the oscillator without its isolator."""
-    for option in ("stiffness", "damping", "isolator_period", "damping_ratio"):
-        if getattr(options, option) is not None:
-            raise InputError(
-                f"{_flag(option)}: given together with --no-isolator; remove one of the two options"
-            )
-    return oscillator.replace(isolator=None)
-
-
-def _mass(oscillator: Oscillator, options: RigOptions) -> float:
-    """Return the mass (kg), from the option for the mass or from the option for the weight."""
-    _one_of_two("weight", "mass", options)
-    if options.weight is not None:
-        return to_si(options.weight, FORCE, "--weight", above=0.0) / GRAVITY
-    return oscillator.mass if options.mass is None else _value(oscillator, "mass", "mass", options)
-
-
-def _isolator(oscillator: Oscillator, options: RigOptions) -> AnyIsolator:
-    """Return the isolator. A new period keeps the damping ratio, unless an option states it."""
-    _one_of_two("isolator_period", "stiffness", options)
-    _one_of_two("damping_ratio", "damping", options)
-    isolator = oscillator.isolator
-    values: dict[str, float] = {}
-    for field in ("stiffness", "damping"):
-        option = "isolator_period" if field == "stiffness" and options.isolator_period else field
-        if getattr(options, option) is None:
-            continue
-        if field not in type(isolator).model_fields:
-            raise InputError(
-                f"{_flag(option)}: the isolator is {isolator}, which has no {field}; remove this "
-                "option"
-            )
-        if option == field:
-            values[field] = _value(isolator, field, field, options)
-    mass = _mass(oscillator, options)
-    if options.isolator_period is not None:
-        period = to_si(options.isolator_period, PERIOD, "--isolator-period", above=0.0)
-        kept = options.damping is options.damping_ratio is None
-        ratio = oscillator.damping_ratio if kept else 0.0
-        values = {**spring_and_dashpot(mass, period, ratio), **values}
-    if values:
-        isolator = isolator.replace(**values)
-    if options.damping_ratio is not None:
-        ratio = to_si(options.damping_ratio, DIMENSIONLESS, "--damping-ratio", minimum=0.0)
-        critical = oscillator.replace(mass=mass, isolator=isolator).critical_damping
-        isolator = isolator.replace(damping=ratio * critical)
-    return isolator
-
-
-def _one_of_two(one: str, other: str, options: RigOptions) -> None:
-    """Raise an error if two options state the same quantity."""
-    if getattr(options, one) is not None and getattr(options, other) is not None:
-        raise InputError(
-            f"{_flag(one)}: given together with {_flag(other)}; remove one of the two options"
-        )
-
-
-def _has(stop: Stop | None, field: str) -> bool:
-    """Return whether a stop has a field. Without a stop, a new bumper is assumed."""
-    return field in (Bumper if stop is None else type(stop)).model_fields
-
-
-def _new_bumper(side: str, values: dict[str, float]) -> Bumper:
-    missing = [field for field in _SHARED if field not in values]
-    if missing:
-        flags = [f"--{side}-{field}" for field in missing]
-        raise InputError(
-            f"{flags[0]}: missing; the rig has no {side} stop, and a new one also needs "
-            f"{' and '.join(flags)}"
-        )
-    return Bumper(**values)
-
-
-def _value(part: Model, field: str, option: str, options: RigOptions) -> float:
-    """Read an option as the part of the rig reads its field. Errors name the option."""
-    accepts = part.accepts(field)
-    assert accepts is not None
+def _set(oscillator: Oscillator, values: dict[str, Any]) -> Oscillator:
+    """Set values by path. Errors name the option."""
+    if not values:
+        return oscillator
+    rig = Rig(oscillator)
+    for path in values:
+        first, _, field = path.rpartition(".")
+        part = getattr(oscillator, first.removeprefix("stops."), None)
+        keys = type(part).table_keys() if isinstance(part, Model) else []
+        whole = path.removeprefix("stops.") in ("isolator", "right", "left")
+        absent = first in ("right", "left", "stops.right", "stops.left")
+        shared = path in PARAMETERS and (first == "stops" or path == "gap")
+        if not (whole or absent or shared or field in keys):
+            parameter(path, rig, "--set")  # names the nearest
     try:
-        value = accepts(getattr(options, option))
+        return set_values(oscillator, values)
     except InputError as error:
-        raise InputError(f"{_flag(option)}: {error}") from None
-    assert value is not None
-    return value
-
-
-def _flag(option: str) -> str:
-    return f"--{option.replace('_', '-')}"
+        path, _, rest = str(error).partition(": ")
+        if "gap" in values and path in ("right.gap", "left.gap") and f"stops.{path}" not in values:
+            raise InputError(f"gap: {rest}") from None
+        raise InputError(f"--set: {error}") from None

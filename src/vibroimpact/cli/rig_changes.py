@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any, NamedTuple
 
-from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.options import RigOptions, by_path
 from vibroimpact.errors import InputError
 from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.names import kept_letters
-from vibroimpact.model.quantities import FORCE, MASS
+from vibroimpact.model.parameters import canonical, parameters
+from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import unitless
 
 _LONGEST = 120
 """Largest number of bytes of a file name, without the ending that a command adds. File systems
 allow 255."""
-
-
-_OTHERS = {"mass": MASS, "weight": FORCE}
-"""Quantities of options that are not parameters of the registry."""
 
 
 class Change(NamedTuple):
@@ -35,7 +33,7 @@ class Change(NamedTuple):
 
 
 def changes(
-    options: RigOptions, rig_of: Callable[[RigOptions], Any], rig: Oscillator | None = None
+    options: RigOptions, rig_of: Callable[[RigOptions], Any], rig: Oscillator
 ) -> tuple[Change, ...]:
     """Return the options that change the rig.
 
@@ -50,43 +48,48 @@ def changes(
     """
     wanted = rig_of(options)
     kept = options
-    # Start with the last option: if --gap is set, --left-gap may be superfluous.
-    for field in reversed(fields(RigOptions)):
-        if field.name == "parameters" or getattr(kept, field.name) == field.default:
-            continue
-        without = replace(kept, **{field.name: field.default})
-        try:
-            if rig_of(without) == wanted:
-                kept = without
-        except InputError:  # a new bumper requires all its values
-            pass
-    return tuple(
-        _change(field.name, getattr(kept, field.name), rig)
-        for field in fields(RigOptions)
-        if field.name != "parameters" and getattr(kept, field.name) != field.default
-    )
+    # Start with the last value: if that of both sides is set, that of one may be superfluous.
+    for text in reversed(options.values):
+        without = replace(kept, values=tuple(one for one in kept.values if one != text))
+        if _same(rig_of, without, wanted):
+            kept = without
+    if _same(rig_of, replace(kept, gap=None), wanted):
+        kept = replace(kept, gap=None)
+    if _same(rig_of, replace(kept, amplitude=None), wanted):
+        kept = replace(kept, amplitude=None)
+    found = {} if kept.amplitude is None else {"amplitude": kept.amplitude}
+    found |= {} if kept.gap is None else {"gap": kept.gap}
+    found |= by_path("--set", kept.values)
+    return tuple(_change(path, text, rig) for path, text in found.items())
 
 
-def _change(option: str, value: str | bool, rig: Oscillator | None) -> Change:
-    flag = option.replace("_", "-")
-    if isinstance(value, bool):
-        what = "" if option == "no_isolator" else " bumper"
-        return Change(f"{flag.replace('-', ' ')}{what}", flag)
-    if option == "amplitude":
-        size, of = sized(value, None, option)
+def _same(rig_of: Callable[[RigOptions], Any], options: RigOptions, wanted: Any) -> bool:
+    try:
+        return bool(rig_of(options) == wanted)
+    except InputError:  # a new stop requires all its values
+        return False
+
+
+def _change(path: str, value: str, rig: Oscillator) -> Change:
+    known = parameters(Rig(rig))
+    name = canonical(path, known)
+    words = name.removeprefix("oscillator.")
+    if words.count(".") == 2 or words in ("stops.right", "stops.left"):
+        words = words.removeprefix("stops.")
+    words = re.sub(r"[._-]", " ", words)
+    if name == "amplitude":
+        size, of = sized(value, None, path)
         in_g = of == "acceleration" and not unitless()
         text = f"{size / GRAVITY:.6g} g" if in_g else pretty(size, QUANTITIES[of])
+    elif value.lower() == "none":
+        words, text = "no", words if words == "isolator" else f"{words} stop"
+    elif name in known:
+        quantity = known[name].quantity
+        text = pretty(to_si(value, quantity, path), quantity)
     else:
-        from vibroimpact.model.parameters import PARAMETERS
-
-        varied = PARAMETERS.get(option)
-        if varied is not None and rig is not None:
-            varied = varied.of(rig)
-        quantity = _OTHERS[option] if varied is None else varied.quantity
-        text = pretty(to_si(value, quantity, option), quantity)
-    return Change(
-        f"{flag.replace('-', ' ')} {text}", f"{flag}-{kept_letters(text.replace(' ', ''))}"
-    )
+        text = value
+    slug = "-".join((words.replace(" ", "-"), text.replace(" ", "-" if words == "no" else "")))
+    return Change(f"{words} {text}", kept_letters(slug))
 
 
 def joined(first: str, found: tuple[Change, ...]) -> str:

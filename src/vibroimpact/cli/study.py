@@ -21,10 +21,11 @@ A study file names a laboratory case or describes an oscillator. All other table
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
-from pydantic import Field, create_model, model_validator
+from pydantic import BeforeValidator, Field, create_model, model_validator
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Model, study
@@ -87,6 +88,19 @@ class SimulateTable(Model):
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
 
 
+def _flat(table: Any) -> Any:
+    """Join the keys of nested tables: in TOML, ``right.gap = "5 mm:9 mm"`` makes two tables."""
+    if not isinstance(table, Mapping):
+        return table
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, Mapping):
+            found |= {f"{key}.{rest}": text for rest, text in _flat(value).items()}
+        else:
+            found[key] = value
+    return found
+
+
 class DesignTable(Model):
     """Table ``[design]``: the records, the parameters that are varied, and the limits.
 
@@ -95,7 +109,9 @@ class DesignTable(Model):
     """
 
     records: list[str] | None = Field(None, examples=['records = ["first.csv", "second.csv"]'])
-    vary: dict[str, str] | None = Field(None, examples=['vary = { gap = "5 mm:9 mm:5" }'])
+    vary: Annotated[dict[str, str] | None, BeforeValidator(_flat)] = Field(
+        None, examples=['vary = { gap = "5 mm:9 mm:5" }']
+    )
     limits: dict[str, NumberOrText] | None = Field(
         None, examples=['limits = { peak_force = "5 MN" }']
     )
@@ -110,7 +126,9 @@ class EnsembleTable(Model):
     A distribution is a text such as ``"normal:5%"`` or ``"uniform:5 mm:8 mm"``.
     """
 
-    uncertain: dict[str, str] | None = Field(None, examples=['uncertain = { gap = "7 mm:8 mm" }'])
+    uncertain: Annotated[dict[str, str] | None, BeforeValidator(_flat)] = Field(
+        None, examples=['uncertain = { gap = "7 mm:8 mm" }']
+    )
     draws: Annotated[WholeNumber | None, Field(ge=1, le=_MOST)] = None
     method: Literal["sobol", "latin", "random"] | None = None
     seed: Annotated[WholeNumber | None, Field(ge=0, le=_MOST)] = None

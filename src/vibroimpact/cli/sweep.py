@@ -45,9 +45,9 @@ def sweep(
 
         vibroimpact sweep B2-G1-A3 --parameters identified
         vibroimpact sweep B3-10mm-A3 --from 0.3Hz --to 4Hz --step 0.01Hz
-        vibroimpact sweep B2-G1-A3 --left-gap 9mm --no-right --output one-sided
+        vibroimpact sweep B2-G1-A3 --set left.gap=9mm --set right=none --output one-sided
         vibroimpact sweep building.toml --normalised --direction forward --json
-        vibroimpact sweep B2-G1-A3 --compute 'power [W] = mean(damping*velocity**2)'
+        vibroimpact sweep B2-G1-A3 --compute 'power [W] = mean(isolator.damping*velocity**2)'
 
     Parameters
     ----------

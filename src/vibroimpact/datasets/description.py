@@ -13,8 +13,8 @@ from vibroimpact.datasets.variable import Described, Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Harmonic, Oscillator, Periodic, Repeated, Rig, State
-from vibroimpact.model.excitation import ON_THE_MASS
-from vibroimpact.model.parameters import parameter
+from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
+from vibroimpact.model.parameters import written_units
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
 COMPONENTS = [*State.model_fields]
@@ -57,8 +57,9 @@ def describe(
         dataset.variables[name].attrs.update(attributes)  # as of dataset[name], sooner
     for name, which in (("amplitude", ""), ("candidate_amplitude", " of the next test")):
         if name in dataset.variables and parameters and "of" in parameters:
-            size = parameter("amplitude", of=parameters["of"])
-            dataset[name].attrs.update(units=size.units, long_name=f"{size.long_name}{which}")
+            of = amplitude_of(parameters["of"])
+            units = written_units(of.quantity)
+            dataset[name].attrs.update(units=units, long_name=f"{of.meaning}{which}")
     for name, variable in known.items():
         dataset[name].attrs.update(units=variable.units, long_name=variable.long_name)
     if "status" in dataset.variables:

@@ -1,4 +1,16 @@
-"""Units and meaning of every output variable."""
+"""Units and meaning of every output variable.
+
+A new variable is an entry here (sweeps), or in `motion_variables` (one motion, contacts, orbits and
+branches), `fit_variables` (measurements and fits), `design_variables` (earthquakes, stops,
+ensembles), `batch_variables` (basins, manifolds, maps) or `assembly_variables`. `describe` of
+`datasets/description.py` raises an error if a dataset has an unknown one.
+
+Histories are computed in `response/simulate.py`, steady motions in `sizes` of
+`response/sweep_dataset.py` (sweeps, branches, diagrams, maps) and in `_measured` of
+`stability/steady.py` (also for `coexisting_motions` and `basins`). List the variable in the
+docstring of `sweep` and in `VARIABLES` of `tests/response/test_sweep.py`. A row of `_ROWS` of
+`facts/largest.py` prints its largest value. CONTRIBUTING states what the engine needs.
+"""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
 
 _STIFFNESSES = {
-    "bumper_stiffness",
+    "stops.stiffness",
     "proportional_stiffness",
     "stiffness_at_restitution",
     "stiffness_ratio",
@@ -52,18 +52,18 @@ def design_chart(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file. If a sine shakes the rig, the frequency is swept up and down, and the
-        largest steady response over all frequencies is reported. If a record shakes the rig, the
-        response of the motion from rest is reported.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
+        If a sine shakes the rig, the frequency is swept up and down, and the largest steady
+        response over all frequencies is reported. If a record shakes the rig, the response of the
+        motion from rest is reported.
     vary
         Parameters that are varied, as a mapping from names to values. All combinations of the
-        values are computed. Names are, for example, ``"gap"``, ``"bumper_stiffness"``,
-        ``"bumper_damping"``, ``"isolator_period"``, ``"damping_ratio"`` and ``"yield_force"``. A
-        parameter of stops is set on both sides, if the stop there has this parameter. If
-        ``"bumper_stiffness"`` is varied, the damping of the bumpers stays constant. If
-        ``"stiffness_at_restitution"`` is varied, the damping changes so that the coefficient of
-        restitution stays constant.
+        values are computed. Names are, for example, ``"gap"``, ``"stops.stiffness"``,
+        ``"stops.damping"``, ``"isolator_period"``, ``"damping_ratio"`` and
+        ``"isolator.yield_force"``. A parameter of stops is set on both sides, if the stop there has
+        this parameter. If ``"stops.stiffness"`` is varied, the damping of the bumpers stays
+        constant. If ``"stiffness_at_restitution"`` is varied, the damping changes so that the
+        coefficient of restitution stays constant.
     records
         One record, or several as a list or as a mapping from names to records. They replace the
         shaking of the rig, and the rig may then be an `Oscillator` alone. The motion through each
@@ -87,13 +87,14 @@ def design_chart(
     tail
         Duration of free vibration after the record, in s; see `seismic_response`.
     threads
-        Number of threads (default: one per processor). The number does not affect the result.
+        Number of threads (default: one per processor).
     where
-        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster, as in
-        `scenario_map`. The choice does not affect the result.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). Neither ``where`` nor ``threads`` affects
+        the result.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed designs and the number of all designs.
+        A `progress_bar`, or a function that is called in the calling thread with the completed and
+        the total number of designs.
 
     Returns
     -------
@@ -111,7 +112,7 @@ def design_chart(
           less acceleration without more displacement. Among designs with equal responses, such as
           designs without contact, only the first one is marked;
         - ``within_limits``, if there are limits: whether the design keeps all of them;
-        - ``bumper_damping`` (N s/m), if a stiffness of both bumpers is varied;
+        - ``stops.damping`` (N s/m), if a stiffness of both bumpers is varied;
         - ``status``: 0 for a completed design. If the computation of a design was given up, its
           values are NaN. If a motion is unbounded, the values are infinite.
 
@@ -164,12 +165,12 @@ def _designs(oscillator: Oscillator, vary: Any) -> Runs:
 def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
     """Return the damping of both bumpers along the varied stiffness, if they share one."""
     names = {one.name for one in plan.varied}
-    if "bumper_damping" in names or not names & _STIFFNESSES:
+    if "stops.damping" in names or not names & _STIFFNESSES:
         return {}
     every = [{stop.damping for stop in rig.stops if isinstance(stop, Bumper)} for rig in rigs]
     if any(len(one) != 1 for one in every):
         return {}
-    return {"bumper_damping": np.array([one.pop() for one in every])}
+    return {"stops.damping": np.array([one.pop() for one in every])}
 
 
 def _dataset(

@@ -21,7 +21,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown, warn_of_input
 from vibroimpact.model import Bumper, Oscillator
 from vibroimpact.model.count_checks import whole
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import parameter
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.units import pretty
 from vibroimpact.tasks.executors import THREADS, placed
@@ -225,7 +225,7 @@ def least_acceleration(
         "seed": seed,
         **what.parameters(),
     }
-    varied = [PARAMETERS[name].of(oscillator) for name in space.names]
+    varied = [parameter(name, oscillator) for name in space.names]
     told = [*what.notes(), *notes]
     return describe(data, "vibroimpact.least_acceleration", parameters, told, varied)
 
@@ -235,7 +235,7 @@ def _space(rig: Oscillator, ranges: Any) -> _Space:
     if not isinstance(given, Mapping) or not given:
         raise InputError(
             f"ranges: {shown(given)}; pass the lowest and the highest value of at least one "
-            'parameter, such as {"bumper_stiffness": ("1 MN/m", "1 GN/m")}'
+            'parameter, such as {"stops.stiffness": ("1 MN/m", "1 GN/m")}'
         )
     for name, ends in given.items():
         if isinstance(ends, str) or not isinstance(ends, Sequence) or len(ends) != 2:
@@ -247,7 +247,7 @@ def _space(rig: Oscillator, ranges: Any) -> _Space:
     low, high = (np.array([one.values[i] for one in plan.varied]) for i in (0, 1))
     for one in plan.varied:
         if not one.values[0] < one.values[1]:
-            quantity = PARAMETERS[one.name].of(rig).quantity
+            quantity = parameter(one.name, rig).quantity
             first, last = (pretty(float(value), quantity) for value in one.values[:2])
             raise InputError(
                 f"ranges[{one.name!r}]: the second value, {last}, is not above the first, "
@@ -273,8 +273,8 @@ def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
         )
     critical = 2.0 * math.sqrt(spring * rig.mass)
     return {
-        "bumper_stiffness": (_STIFFNESSES[0] * spring, _STIFFNESSES[1] * spring),
-        "bumper_damping": (_DAMPINGS[0] * critical, _DAMPINGS[1] * critical),
+        "stops.stiffness": (_STIFFNESSES[0] * spring, _STIFFNESSES[1] * spring),
+        "stops.damping": (_DAMPINGS[0] * critical, _DAMPINGS[1] * critical),
     }
 
 
@@ -304,7 +304,7 @@ def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
         share = (at - first) / (last - first)
         if not _NEAR < share < 1.0 - _NEAR:
             end = pretty(
-                float(low if share <= _NEAR else high), PARAMETERS[name].of(space.rig).quantity
+                float(low if share <= _NEAR else high), parameter(name, space.rig).quantity
             )
             which = "lower" if share <= _NEAR else "upper"
             yield f"{name} lies at the {which} end of its range, {end}"

@@ -20,11 +20,11 @@ def usual_ranges(oscillator: Oscillator, gap: float) -> dict[str, list[float]]:
     if not stops:
         raise InputError(
             "vary: missing; for a rig without stops there is no default; pass a parameter and its "
-            "range, such as --vary damping-ratio 0.05:0.3"
+            "range, such as --vary damping_ratio=0.05:0.3"
         )
     gaps = [gap * (i + 1) / 12.0 for i in range(14)]
     bumpers = [stop for stop in stops if isinstance(stop, Bumper)]
     if len(bumpers) < len(stops):
         return {"gap": gaps}
     middle = max(bumper.stiffness for bumper in bumpers)
-    return {"gap": gaps, "bumper_stiffness": [middle * 10.0 ** (i / 6.0) for i in range(-6, 7)]}
+    return {"gap": gaps, "stops.stiffness": [middle * 10.0 ** (i / 6.0) for i in range(-6, 7)]}

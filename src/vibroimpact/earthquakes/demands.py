@@ -97,9 +97,10 @@ def demands(
         Gaps on each side (m). This is a short form of ``vary={"gap": …}``.
     vary
         Parameters that are varied, as a mapping from names to values. All combinations of the
-        values are computed. Names are, for example, ``"bumper_stiffness"``, ``"restitution"``,
-        ``"right_gap"``, ``"damping_ratio"`` and ``"yield_force"``. A parameter of stops is set on
-        both sides, if the stop there has this parameter.
+        values are computed. Names are, for example, ``"stops.stiffness"``,
+        ``"stops.restitution"``, ``"right.gap"``, ``"damping_ratio"`` and
+        ``"isolator.yield_force"``. A parameter of stops is set on both sides, if the stop there has
+        this parameter.
     tail
         As in `seismic_response`.
     max_events

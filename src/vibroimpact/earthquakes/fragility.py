@@ -14,7 +14,7 @@ from vibroimpact.earthquakes.credible_curves import begin_to_exceed, credible_cu
 from vibroimpact.earthquakes.suites import described, exceedance, known, limit_of
 from vibroimpact.errors import InputError, outside
 from vibroimpact.model.count_checks import share
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import in_units
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS
 from vibroimpact.model.units import pretty
 
@@ -248,9 +248,11 @@ def _named(coordinate: xr.DataArray, at: int) -> str:
     """Return one value of a varied parameter in words, such as gap 200 mm."""
     name, value = str(coordinate.name), coordinate.values[at]
     words = name.replace("_", " ")
-    if name not in PARAMETERS or PARAMETERS[name].measured is not None:
+    try:
+        quantity = in_units(str(coordinate.attrs.get("units")))
+    except StopIteration:  # the unit depends on an exponent
         return f"{words} {value}"
-    return f"{words} {pretty(float(value), PARAMETERS[name].quantity)}"
+    return f"{words} {pretty(float(value), quantity)}"
 
 
 def _curve(

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from vibroimpact.arguments import VALUES, check_list, check_mapping, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, Rig
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import parameter
 from vibroimpact.model.read_rig import as_rigs, is_one_rig
 from vibroimpact.model.rig import with_stated_units
 from vibroimpact.model.varied import Varied, varied, vary_all
@@ -57,8 +57,9 @@ class Runs(NamedTuple):
         names = list(self.rigs)
         rig = self.rigs[names[at[0] if self.several else 0]]
         values = dict(zip((one.name for one in self.varied), at[self.several :], strict=True))
-        pairs = [(PARAMETERS[v.name], float(v.values[values[v.name]])) for v in self.varied]
-        return vary_all(Rig(rig), pairs).oscillator
+        whole = Rig(rig)
+        pairs = [(parameter(v.name, whole), float(v.values[values[v.name]])) for v in self.varied]
+        return vary_all(whole, pairs).oscillator
 
 
 def runs(

@@ -20,12 +20,12 @@ from vibroimpact.design.limits import QUANTITIES
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.facts.number_format import plain
 from vibroimpact.model import GRAVITY, Oscillator
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import PARAMETERS, usual
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import unitless
 
-_HEADS = {"stiffness_at_restitution": "bumper stiffness"}
+_HEADS = {"stiffness_at_restitution": "stops.stiffness"}
 _SIDES = ("right", "left")
 _ROWS = 8
 """Largest number of designs of the front that are printed."""
@@ -84,12 +84,12 @@ def text(
             f"All values are {_percent(share)} fractiles over the records, for each quantity "
             "separately; limits apply to these fractiles."
         )
-    dampings = data["bumper_damping"].values if "bumper_damping" in data.data_vars else np.zeros(1)
-    beside = ["bumper_damping"] if np.ptp(dampings) > 0.0 else []
+    dampings = data["stops.damping"].values if "stops.damping" in data.data_vars else np.zeros(1)
+    beside = ["stops.damping"] if np.ptp(dampings) > 0.0 else []
     if not beside and dampings.any():
         yield Text(
             "All designs keep the bumpers' damping of "
-            f"{_value('bumper_damping', dampings.flat[0])}; --vary stiffness-at-restitution keeps "
+            f"{_value('stops.damping', dampings.flat[0])}; --vary stiffness_at_restitution keeps "
             "their restitution instead."
         )
     if len(rows) > _ROWS:
@@ -100,7 +100,7 @@ def text(
         best = ", ".join(
             f"{_words(name)} {_value(name, float(least[name]))}"
             for name in map(str, least.data_vars)
-            if name in PARAMETERS
+            if name in PARAMETERS or "." in name
         )
         yield Text()
         of = "" if share is None else f", as {_percent(share)} fractiles"
@@ -268,7 +268,7 @@ def _words(name: str) -> str:
 
 
 def _value(name: str, value: float) -> str:
-    return pretty(float(f"{value:.4g}"), PARAMETERS[name].quantity)
+    return pretty(float(f"{value:.4g}"), usual(name).quantity)
 
 
 def _length(value: float) -> str:

@@ -61,10 +61,10 @@ def constants(rig: Rig, x: str, y: str) -> str:
     walls = [stop for stop in stops if isinstance(stop, RigidStop)]
     for pair in ONE_QUANTITY:
         varied |= pair if varied & pair else set()
-    if "bumper_stiffness" in (x, y):
+    if "stops.stiffness" in (x, y):
         varied.add("relaxation_time")  # the damping is held
     rest = {
-        "restitution": ("e =", [f"{stop.restitution:.3g}" for stop in walls]),
+        "stops.restitution": ("e =", [f"{stop.restitution:.3g}" for stop in walls]),
         "relaxation_time": (
             "τ =",
             [f"{rig.oscillator.angular_frequency * b.damping / b.stiffness:.3g}" for b in bumpers],

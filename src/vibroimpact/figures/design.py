@@ -26,7 +26,7 @@ from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit, without_unit
 from vibroimpact.figures.style import panels
 from vibroimpact.model import GRAVITY, Oscillator, Rig
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import parameter, usual
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.written_units import unitless
 from vibroimpact.scenarios.axes import logarithmic
@@ -143,7 +143,7 @@ def quantity_label(data: xr.Dataset, name: str) -> tuple[float, str]:
 
 def _unit(name: str, values: _Array) -> tuple[float, str]:
     """Return factor and unit of a parameter: mm for lengths, a unit of fitting size for others."""
-    quantity = PARAMETERS[name].quantity
+    quantity = usual(name).quantity
     if unitless():
         return 1.0, ""
     if quantity is LENGTH:
@@ -185,7 +185,7 @@ def present_values(data: xr.Dataset, dims: list[str]) -> list[float]:
     found = []
     for dim in dims:
         try:
-            value = PARAMETERS[dim].read(rig)
+            value = parameter(dim, rig).read(rig)
         except InputError:
             value = math.nan
         found.append(value)

@@ -21,7 +21,7 @@ from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import MOTIONS, SWEEPS, fit_x_axis, panels
 from vibroimpact.model import Oscillator
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import parameter
 
 _HATCHES = {"forward": "", "backward": "////"}
 _FULL = 0.9
@@ -235,4 +235,4 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
 def _words(data: xr.Dataset, name: str) -> str:
     """Return the name of a parameter in words, as it is in the rig of the dataset."""
     rig = Oscillator.model_validate(json.loads(data.attrs["parameters"])["oscillator"])
-    return PARAMETERS[name].of(rig).long_name
+    return parameter(name, rig).long_name

@@ -23,7 +23,7 @@ from vibroimpact.figures.design import (
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import usual
 from vibroimpact.model.units import pretty
 
 _Array = NDArray[np.float64]
@@ -182,4 +182,4 @@ def _name_points(
 
 
 def _told(name: str, value: float) -> str:
-    return pretty(float(f"{value:.3g}"), PARAMETERS[name].quantity)
+    return pretty(float(f"{value:.3g}"), usual(name).quantity)

@@ -14,6 +14,7 @@ from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.identification.residual_structure import CERTAIN
 from vibroimpact.model import Bumper, Isolator, Oscillator, PolynomialIsolator, PowerBumper
+from vibroimpact.model.parameters import PARAMETERS, canonical
 
 _CLEAR = 10.0
 """Difference of Akaike's criterion from which on a model has no support (Burnham and Anderson)."""
@@ -99,11 +100,9 @@ def compare_fits(fits: Mapping[str, xr.Dataset]) -> xr.Dataset:
 MODELS = ("hertz", "softening")
 """Names of the laws that are tried beside the one of a rig."""
 
-_DISSIPATION = {
-    f"{side}_damping": f"{'' if side == 'bumper' else side + '_'}dissipation"
-    for side in ("bumper", "right", "left")
-}
-_OTHER_UNITS = {f"{side}_stiffness" for side in ("bumper", "right", "left")}
+_STOPS = ("stops", "stops.right", "stops.left")
+_DISSIPATION = {f"{whose}.damping": f"{whose}.dissipation" for whose in _STOPS}
+_OTHER_UNITS = {f"{whose}.stiffness" for whose in _STOPS}
 
 
 def remodelled(model: str, oscillator: Oscillator, depth: float) -> Oscillator:
@@ -134,13 +133,16 @@ def asked_of(model: str, asked: Mapping[str, Any]) -> dict[str, Any]:
     """
     names = _DISSIPATION if model == "hertz" else {}
     changed = _OTHER_UNITS | set(names) if model == "hertz" else set()
-    added = {} if model == "hertz" else {"cubic": None}
+    added = {} if model == "hertz" else {"isolator.cubic": None}
 
     def of(name: str) -> str:
-        key = name.replace("-", "_")
+        key = canonical(name, PARAMETERS)
         return names.get(key, key)
 
-    free = {of(name): None if name in changed else value for name, value in asked["free"].items()}
+    free = {
+        of(name): None if canonical(name, PARAMETERS) in changed else value
+        for name, value in asked["free"].items()
+    }
     return {
         **asked,
         "free": free | added,
@@ -149,7 +151,7 @@ def asked_of(model: str, asked: Mapping[str, Any]) -> dict[str, Any]:
         "priors": {
             name: prior
             for name, prior in asked["priors"].items()
-            if name.replace("-", "_") not in changed
+            if canonical(name, PARAMETERS) not in changed
         },
     }
 

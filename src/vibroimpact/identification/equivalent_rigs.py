@@ -15,6 +15,7 @@ from vibroimpact.identification.global_search import Ended, local
 from vibroimpact.identification.least_squares import Array, Problem
 from vibroimpact.identification.robust_loss import moments
 
+_MIRRORED = {"stops.right": "stops.left", "stops.left": "stops.right"}
 _MOST = 3
 """Ends of other starts that are refined."""
 _HOPELESS = 100.0
@@ -96,8 +97,8 @@ def mirror_image(problem: Problem, x: Array) -> Array | None:
             continue
         if name == "force":
             image[number] = -x[number]
-        side, _, rest = name.partition("_")
-        other = column.get(({"right": "left", "left": "right"}.get(side, "") + f"_{rest}", test))
+        owner, _, field = name.rpartition(".")
+        other = column.get((f"{_MIRRORED.get(owner, '')}.{field}", test))
         if other is not None:
             image[number] = x[other] * scale[other] / scale[number]
     image = np.clip(image, problem.low, problem.high)

@@ -120,7 +120,7 @@ def _alternatives(data: xr.Dataset, problem: Problem, x: Array) -> list[str]:
                 if mirrored
                 else f"another rig fits equally well: {told}"
             )
-    asked = any(one.name.partition("_")[0] in ("right", "left") for one in problem.free)
+    asked = any(one.name.startswith(("stops.right.", "stops.left.")) for one in problem.free)
     uneven = any(not problem.rig_of(x, test)[0].oscillator.symmetric for test in problem.tests)
     if asked and uneven and not exchanged and all(test.blind for test in problem.tests):
         lines.append(

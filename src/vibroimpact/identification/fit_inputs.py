@@ -9,14 +9,14 @@ from typing import Any
 
 import xarray as xr
 
-from vibroimpact.errors import InputError, in_one_line, shown, unknown
+from vibroimpact.errors import InputError, in_one_line, shown
 from vibroimpact.identification.curve_residuals import CurveTest
 from vibroimpact.identification.history_residuals import HistoryTest
 from vibroimpact.identification.least_squares import Test
 from vibroimpact.measurements.read import as_measured
 from vibroimpact.model.excitation import Harmonic, Periodic, Repeated
 from vibroimpact.model.names import check_name
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import parameter
 from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.read_rig import as_rig
@@ -184,8 +184,8 @@ def _size(shaking: Repeated) -> str:
     return pretty(shaking.amplitude, shaking.quantity, 4)
 
 
-def ties_of(ties: Mapping[str, str] | None) -> dict[str, str]:
-    """Read which parameters follow which.
+def ties_of(ties: Mapping[str, str] | None, rig: Rig) -> dict[str, str]:
+    """Read which parameters of a rig follow which.
 
     Raises
     ------
@@ -194,12 +194,9 @@ def ties_of(ties: Mapping[str, str] | None) -> dict[str, str]:
     """
     if not isinstance(ties, Mapping | None):
         raise InputError(
-            f"ties: {shown(ties)}; a mapping such as {{'left_gap': 'right_gap'}} is accepted"
+            f"ties: {shown(ties)}; a mapping such as {{'left.gap': 'right.gap'}} is accepted"
         )
     found = {}
     for tied, to in (ties or {}).items():
-        for name in (tied, to):
-            if not isinstance(name, str) or name.replace("-", "_") not in PARAMETERS:
-                raise InputError(f"ties: {unknown(name, PARAMETERS)}")
-        found[tied.replace("-", "_")] = to.replace("-", "_")
+        found[parameter(tied, rig, "ties").name] = parameter(to, rig, "ties").name
     return found

@@ -9,8 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.errors import InputError, meant, shown
-from vibroimpact.model.parameters import PARAMETERS, Parameter, parameter
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model.parameters import (
+    Parameter,
+    canonical,
+    parameter,
+    parameters,
+    suggestion,
+)
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, Quantity
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import to_si, with_si_unit
@@ -97,14 +103,15 @@ def frees(
         given = dict.fromkeys(_names(given, "free"))
     if not given:
         raise InputError("free: empty; pass the name of at least one parameter, such as 'gap'")
-    wanted = {_name(name): value for name, value in given.items()}
-    own = {_name(name, "each") for name in _names(each, "each")}
+    known_names = parameters(next(iter(rigs.values())))
+    wanted = {_name(name, known_names): value for name, value in given.items()}
+    own = {_name(name, known_names, "each") for name in _names(each, "each")}
     if not isinstance(priors, Mapping | None):
         raise InputError(
             f"priors: {shown(priors)}; a mapping from names of parameters to pairs (mean, standard "
             "deviation) is accepted"
         )
-    known = {_name(name, "priors"): value for name, value in (priors or {}).items()}
+    known = {_name(name, known_names, "priors"): value for name, value in (priors or {}).items()}
     for field, names in (("each", own), ("priors", set(known))):
         if strange := names - set(wanted):
             raise InputError(
@@ -129,20 +136,20 @@ def _names(given: Any, field: str) -> list[str]:
     names = list(given) if isinstance(given, Iterable) else [given]
     if not all(isinstance(name, str) for name in names):
         raise InputError(
-            f"{field}: {shown(given)}; a list of names, or a text such as 'gap, stiffness', is "
-            "accepted"
+            f"{field}: {shown(given)}; a list of names, or a text such as 'gap, mass', is accepted"
         )
     return names
 
 
-def _name(name: Any, field: str = "free") -> str:
-    key = name.replace("-", "_") if isinstance(name, str) else ""
-    if key in SENSORS or key in PARAMETERS:
+def _name(name: Any, known: Iterable[str], field: str = "free") -> str:
+    known = list(known)
+    key = canonical(name, [*known, *SENSORS])
+    if key in SENSORS or key in known:
         return key
-    hint = meant(name, [*PARAMETERS, *SENSORS])
+    hint = suggestion(name, [*known, *SENSORS])
     raise InputError(
-        f"{field}: {shown(name)}; {hint}{'A' if hint else 'a'} parameter of a rig "
-        f"({', '.join(PARAMETERS)}) or of a sensor ({', '.join(SENSORS)}) is accepted"
+        f"{field}: {shown(name)}; {hint}{'A' if hint else 'a'} parameter of the rig "
+        f"({', '.join(known)}) or of a sensor ({', '.join(SENSORS)}) is accepted"
     )
 
 
@@ -240,7 +247,7 @@ def _prior(name: str, prior: Any, quantity: Quantity) -> tuple[float, float]:
 
 
 def _parameter(name: str, rig: Rig) -> Parameter:
-    return parameter(name, of=rig.periodic.of).of(rig.oscillator)
+    return parameter(name, rig, "free")
 
 
 def size_of(quantity: Quantity, rig: Rig, swing: float = 0.0) -> float:
@@ -277,7 +284,7 @@ def written(
         if one.name in SENSORS:
             sensors[one.name] = float(value)
         else:
-            rig = PARAMETERS[one.name].vary(rig, float(value))
+            rig = parameter(one.name, rig).vary(rig, float(value))
     for tied, to in ties.items():
-        rig = PARAMETERS[tied].vary(rig, PARAMETERS[to].read(rig))
+        rig = parameter(tied, rig).vary(rig, parameter(to, rig).read(rig))
     return rig, sensors

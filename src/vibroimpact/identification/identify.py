@@ -64,17 +64,17 @@ def identify(
     ----------
     rig
         The tested rig, with its known values and guesses of the unknown values. It is a `Rig`, a
-        published laboratory case or its code such as ``"B2-G1-A3"``, or the path of a study file.
-        If each test has its own rig, pass a list of rigs, or a mapping from the names of the tests
-        to rigs. If the data state or contain the shaking, this shaking is used, and ``rig`` may be
-        an `Oscillator` alone. If the shaking of the rig differs from the shaking of the data, a
+        published case or its code such as ``"B2-G1-A3"``, or the path of a study file. If each test
+        has its own rig, pass a list of rigs, or a mapping from the names of the tests to rigs. If
+        the data state or contain the shaking, this shaking is used, and ``rig`` may be an
+        `Oscillator` alone. If the shaking of the rig differs from the shaking of the data, a
         warning and a finding report it.
     data
         The measured data: a dataset of `read_measurement`, `sweep` or `simulate`, or the path of a
         file. For several tests, pass a list, or a mapping from the names of the tests to their
         data.
     free
-        Parameters that are fitted. Pass their names, such as ``"stiffness,bumper_damping"``, or a
+        Parameters that are fitted. Pass their names, such as ``"isolator.stiffness,gap"``, or a
         mapping from their names to settings. A setting is a starting value, bounds (low, high),
         both (``{"start": ..., "low": ...}``), or None. With None the fit starts from the value of
         the rig. Parameters of sensors are ``displacement_scale``, ``acceleration_scale``,
@@ -83,7 +83,7 @@ def identify(
         Free parameters that are fitted separately for each test. All other free parameters have the
         same value in all tests. Default: none.
     ties
-        Parameters that are kept equal to another parameter, such as ``{"left_gap": "right_gap"}``.
+        Parameters that are kept equal to another parameter, such as ``{"left.gap": "right.gap"}``.
     priors
         Prior knowledge: mean and standard deviation of a normal prior, by the name of the
         parameter. Default: none.
@@ -121,8 +121,8 @@ def identify(
     threads
         Number of threads (default: one per processor).
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called with the
-        number of completed steps and the number of all steps.
+        A `progress_bar`, or a function that is called with the completed and the total number of
+        steps.
 
     Returns
     -------
@@ -169,7 +169,9 @@ def identify(
         warn_of_input(f"data {test.name!r}", test.data.attrs["unused_shaking"].splitlines())
     for test in tests:
         test.calibrate(written(given, [one.start for one in given], test.rig, test.name, {})[1])
-    problem = Problem(tests, given, ties_of(ties), [max(t.noise, _COARSE) for t in tests], _TAIL)
+    problem = Problem(
+        tests, given, ties_of(ties, tests[0].rig), [max(t.noise, _COARSE) for t in tests], _TAIL
+    )
     _enough(problem)
     steps = 3 + (len(given) if profiles else 0) + (1 if draws else 0)
     done = 0

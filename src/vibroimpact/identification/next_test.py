@@ -24,7 +24,7 @@ from vibroimpact.identification.results import rig_of
 from vibroimpact.model.count_checks import share as fraction
 from vibroimpact.model.excitation import Repeated, sized
 from vibroimpact.model.frequency_text import forcing
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import parameter
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty, to_si
@@ -183,12 +183,12 @@ def _slopes(
         motions settle.
     """
     own = [
-        (row, PARAMETERS[bare])
+        (row, parameter(bare, rig))
         for row, (bare, _, whose) in enumerate(key.partition("[") for key in keys)
         if bare not in SENSORS and (not whose or whose == f"{test}]")
     ]
     now = np.array([of.read(rig) for _, of in own])
-    size = np.array([size_of(of.of(rig.oscillator).quantity, rig) for _, of in own])
+    size = np.array([size_of(of.quantity, rig) for _, of in own])
     most = np.where(np.abs(now) < NEAR_ZERO * size, size, _MOST * np.abs(now))
     here = _swept(rig, grid)
     slopes = np.zeros((2, len(grid), 2, axes.shape[1]))

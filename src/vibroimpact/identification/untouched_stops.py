@@ -8,7 +8,7 @@ from typing import NamedTuple
 from vibroimpact.errors import InputError
 from vibroimpact.identification.free_parameters import SENSORS, Free
 from vibroimpact.identification.least_squares import Array, Problem, Test
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import parameter
 
 
 class Untouched(NamedTuple):
@@ -62,8 +62,8 @@ def _moved(problem: Problem, x: Array, number: int, one: Free, test: Test) -> se
         return set()
     other = x.copy()
     value = float(x[number] * problem.scale[number])
-    other[number] = PARAMETERS[one.name].beside(value) / problem.scale[number]
     rig, _ = problem.rig_of(x, test)
+    other[number] = parameter(one.name, rig).beside(value) / problem.scale[number]
     try:
         changed, _ = problem.rig_of(other, test)
     except InputError:

@@ -20,7 +20,7 @@ import math
 from typing import Annotated, ClassVar, TypeAlias
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.access import scale_of
+from vibroimpact.model.derived_parameters import scale_of
 from vibroimpact.model.isolators import Isolator
 from vibroimpact.model.largest_free_response import peak_displacement, peak_of
 from vibroimpact.model.law_registry import Kinds, Named
@@ -253,9 +253,9 @@ def to_dimensionless(rig: AnyRig) -> Dimensionless:
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file. It must be shaken by one sine, because the gaps are divided by the
-        response to this sine without stops.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
+        It must be shaken by one sine, because the gaps are divided by the response to this sine
+        without stops.
 
     Returns
     -------

@@ -44,6 +44,19 @@ QUANTITIES: dict[Of, Quantity] = {
     "unbalance": UNBALANCE,
 }
 
+FREQUENCY_WORDS = "excitation frequency"
+_PEAKS: dict[Of, str] = {
+    "acceleration": "peak base acceleration",
+    "displacement": "peak base displacement",
+    "force": "peak force on the mass",
+    "unbalance": "rotating unbalance of the mass",
+}
+
+
+def amplitude_of(of: Of) -> Accepts:
+    """Return what an amplitude accepts that is varied."""
+    return Accepts(QUANTITIES[of], above=0.0, meaning=_PEAKS[of])
+
 
 MOST = 32
 """Largest number of harmonics."""
@@ -59,6 +72,10 @@ class _Repeated(Model):
         phase: float
         of: Of
         on: str | None
+
+        @property
+        def amplitude(self) -> float:
+            """Amplitude, or the largest one of several harmonics."""
 
     @model_validator(mode="after")
     def _acts_on_a_mass(self) -> Self:
@@ -114,6 +131,13 @@ class _Repeated(Model):
     ) -> NDArray[np.float64]:
         size = size if self.moves_base else size / mass
         return np.asarray(size * omega**2 if self.grows_with_frequency else size + 0.0 * omega)
+
+    def knobs(self) -> dict[str, tuple[float, Accepts]]:
+        """Return the frequency and the amplitude: the phase only moves the origin of time."""
+        return {
+            "frequency": (self.frequency, Accepts(FREQUENCY, above=0.0, meaning=FREQUENCY_WORDS)),
+            "amplitude": (self.amplitude, amplitude_of(self.of)),
+        }
 
     def _read(self) -> Iterator[tuple[str, Any, str]]:
         for name, value, text in super()._read():

@@ -84,7 +84,7 @@ class Oscillator(Model):
     isolator: Annotated[AnyIsolator, ISOLATORS] = Isolator(0.0, 0.0)
     right: Annotated[Stop | None, STOPS] = None
     left: Annotated[Stop | None, STOPS] = None
-    force: Annotated[float, Accepts(FORCE)] = 0.0
+    force: Annotated[float, Accepts(FORCE, meaning="constant force on the mass")] = 0.0
     units: Units = Field(default=cast("Units", None), validate_default=True)
 
     @constructor

@@ -29,7 +29,7 @@ from vibroimpact.model.formula_terms import (
 )
 from vibroimpact.model.formula_units import check_numbers, units_of_numbers
 from vibroimpact.model.law_registry import Named
-from vibroimpact.model.quantities import LENGTH, STIFFNESS, TIME, Quantity
+from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, STIFFNESS, TIME, Quantity
 from vibroimpact.model.units import plain, pretty, to_si_of_any
 from vibroimpact.model.validation import Accepts, constructor
 
@@ -203,6 +203,20 @@ class Law(Named):
     def quantities(self) -> dict[str, Quantity]:
         """The quantities of the numbers, as far as the units of the formula determine them."""
         return units_of_numbers(self.formula, self.numbers, _variables(self.is_stop))
+
+    def knobs(self) -> dict[str, tuple[float, Accepts]]:
+        """Return the gap and the numbers of the formula, with what they accept."""
+        quantities = self.quantities
+        numbers = {
+            name: (
+                value,
+                Accepts(
+                    quantities.get(name, DIMENSIONLESS), meaning=f"number {name} in the formula"
+                ),
+            )
+            for name, value in self.numbers
+        }
+        return {**super().knobs(), **numbers}
 
     @property
     def read(self) -> Formula:

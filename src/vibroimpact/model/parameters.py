@@ -1,22 +1,27 @@
-"""The registry of the parameters of a rig and its shaking.
+"""The parameters of a rig and its shaking, named by path.
 
-For each parameter, the registry contains the name, the unit and the meaning, and functions that
-read its value from a rig and set another value. Branches, curves, maps and the command line use
-this registry. A new parameter is a new entry of `PARAMETERS`.
+A path walks the fields of the oscillator: ``mass``, ``isolator.stiffness``, ``stops.right.gap``.
+Units, bounds and words are those of the annotations of the laws. A path without the name of a stop,
+``stops.stiffness``, means all stops that have this number. ``stops.`` may be left out before a side
+(``right.gap``), and the name of the part where only one part can have the number (``gap``,
+``friction``). ``frequency`` and ``amplitude`` are those of the shaking. A few parameters set
+several numbers at once; they are listed in `derived_parameters`.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, cast
 
 from vibroimpact.arguments import is_pair
-from vibroimpact.errors import InputError, shown, unknown
-from vibroimpact.model import access
-from vibroimpact.model.access import Read, Vary
-from vibroimpact.model.excitation import QUANTITIES, Of
+from vibroimpact.errors import InputError, meant, shown
+from vibroimpact.model.derived_parameters import DERIVED
+from vibroimpact.model.excitation import FREQUENCY_WORDS, Of, amplitude_of
+from vibroimpact.model.isolators import ISOLATORS
+from vibroimpact.model.law_registry import Kinds
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.paths import Place, Steps, put, walk
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DAMPING,
@@ -33,7 +38,10 @@ from vibroimpact.model.quantities import (
     Quantity,
     power_stiffness,
 )
+from vibroimpact.model.rig import Rig
+from vibroimpact.model.stops import STOPS
 from vibroimpact.model.units import to_si, with_si_unit
+from vibroimpact.model.validation import Accepts
 
 _UNITS = {
     FREQUENCY: "Hz",
@@ -51,7 +59,15 @@ _UNITS = {
     power_stiffness(3.0): "N m-3",
     power_stiffness(5.0): "N m-5",
 }
-"""Units as they are written in datasets. For other quantities, the symbol is written."""
+"""Units as they are written in datasets. For other quantities, the symbol is written, or 1."""
+
+_BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
+"""Words in names of parameters that refer to the stops on both sides."""
+
+
+def written_units(quantity: Quantity) -> str:
+    """Return the SI unit of a quantity, as it is written in datasets."""
+    return _UNITS.get(quantity, quantity.symbol) or "1"
 
 
 def in_units(units: str) -> Quantity:
@@ -59,26 +75,13 @@ def in_units(units: str) -> Quantity:
     return next(quantity for quantity, text in _UNITS.items() if text == units)
 
 
-_BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
-"""Words in names of parameters that refer to the stops on both sides."""
-
-_PEAKS = {
-    "displacement": "peak base displacement",
-    "force": "peak force on the mass",
-    "unbalance": "rotating unbalance of the mass",
-}
-
-
 class Parameter(NamedTuple):
     """A parameter of a rig that can be varied."""
 
     name: str
+    """Its path."""
     quantity: Quantity
     long_name: str
-    read: Read
-    """Function that returns the value in a rig, or raises an error if the rig has no such value."""
-    vary: Vary
-    """Function that returns the rig with another value."""
     zero: bool = True
     """Whether the value 0 is accepted."""
     comment: str = ""
@@ -86,31 +89,53 @@ class Parameter(NamedTuple):
     least: float | None = 0.0
     most: float | None = None
     """Lowest and highest accepted value. None if there is no bound."""
-    measured: Callable[[Oscillator], Quantity] | None = None
-    """Function that returns the quantity in a rig, if an exponent of the rig sets the unit."""
-    straight: bool = True
-    """Whether the numbers of the rig depend linearly on the parameter. Branches require this."""
 
     @property
     def units(self) -> str:
         """The SI unit, as it is written in datasets."""
-        return _UNITS.get(self.quantity, self.quantity.symbol)
+        return written_units(self.quantity)
 
-    def of(self, rig: Oscillator) -> Parameter:
-        """Return the parameter with its unit and its name in a rig.
+    def read(self, rig: Rig) -> float:
+        """Return the value in a rig.
 
-        An exponent of the rig may set the unit. If the rig has only one stop, a name that refers to
-        both stops becomes that of this stop.
+        Raises
+        ------
+        InputError
+            If the rig has no such parameter, or if it is that of several stops, which differ.
         """
-        found = self if self.measured is None else self._replace(quantity=self.measured(rig))
-        sides = [side for side in ("right", "left") if getattr(rig, side) is not None]
-        if len(sides) != 1:
-            return found
-        return found._replace(
-            long_name=_BOTH_STOPS.sub(
-                lambda both: f"the {sides[0]} {both[1].removesuffix('s')}", found.long_name
-            )
-        )
+        if self.name in DERIVED:
+            return DERIVED[self.name].read(rig)
+        if self.name in ("frequency", "amplitude"):
+            return float(getattr(rig.periodic, self.name))
+        places = _places(rig.oscillator).get(self.name, [])
+        if not places:
+            raise _unknown(self.name, rig, "parameter")
+        first = places[0]
+        if any((one.value, one.accepts.quantity) != (first.value, first.accepts.quantity)
+               for one in places):  # fmt: skip
+            raise _uneven(self.name, places)
+        return first.value
+
+    def vary(self, rig: Rig, value: float) -> Rig:
+        """Return the rig with another value.
+
+        Raises
+        ------
+        InputError
+            If the value is invalid.
+        """
+        if self.name in DERIVED:
+            return DERIVED[self.name].vary(rig, value)
+        if self.name in ("frequency", "amplitude"):
+            changed = rig.periodic.replace(**{self.name: value})
+            keep_open = self.name != "frequency"
+            return rig.with_parts(rig.oscillator, changed, keep_open=keep_open)
+        places = _places(rig.oscillator).get(self.name, [])
+        try:
+            oscillator = put(rig.oscillator, {one.steps: value for one in places})
+        except InputError as error:
+            raise InputError(f"parameter: {self.name} at {value:.6g}: {error}") from None
+        return rig.with_parts(oscillator)
 
     def beside(self, value: float, factor: float = 2.0) -> float:
         """Return another accepted value: `factor` times as large or as small, or for 0 near 1."""
@@ -124,26 +149,242 @@ class Parameter(NamedTuple):
         """Whether the parameter has a unit."""
         return self.quantity is not DIMENSIONLESS
 
+    @property
+    def sides(self) -> tuple[str, ...]:
+        """Side of the stop whose number it is, if it is that of one stop."""
+        owner, _, side = self.name.rpartition(".")[0].partition(".")
+        return (side,) if owner == "stops" and side else ()
 
-def parameter(name: str, field: str = "parameter", of: Of = "acceleration") -> Parameter:
-    """Return the parameter with a given name. `of` is the quantity of an amplitude.
+
+def parameter(path: str, rig: Rig | Oscillator, field: str = "parameter") -> Parameter:
+    """Return the parameter of a rig with a path, with its unit and its words in this rig.
 
     Raises
     ------
     InputError
-        If no parameter has this name.
+        If the rig has no such parameter. The message names the nearest one, and all of them.
     """
-    key = name.replace("-", "_") if isinstance(name, str) else ""
-    if key not in PARAMETERS:
-        symbol = name.strip().lower().replace("_", "") if isinstance(name, str) else ""
-        if symbol in _SYMBOLS:
-            raise InputError(
-                f"{field}: {name!r} is not a name of a parameter; use {_SYMBOLS[symbol]}"
+    rig = Rig(rig) if isinstance(rig, Oscillator) else rig
+    known = parameters(rig)
+    name = canonical(path, known)
+    if name not in known:
+        raise _unknown(path, rig, field)
+    return known[name]
+
+
+def usual(name: str, of: Of = "acceleration") -> Parameter:
+    """Return a parameter with its usual unit, and an amplitude with that of its quantity.
+
+    A number of a formula has no usual unit.
+    """
+    if name == "amplitude":
+        return _of(name, amplitude_of(of))
+    return PARAMETERS.get(name) or _of(name, Accepts(DIMENSIONLESS))
+
+
+def parameters(rig: Rig) -> dict[str, Parameter]:
+    """Return the parameters of a rig by their paths."""
+    of: Of = getattr(rig.shaking, "of", "acceleration")
+    sides = [side for side in ("right", "left") if getattr(rig.oscillator, side, None) is not None]
+    found = {name: one for name, one in PARAMETERS.items() if name == "frequency"}
+    found["amplitude"] = _of("amplitude", amplitude_of(of))
+    for name, (first, *_) in _places(rig.oscillator).items():
+        found[name] = _of(name, first.accepts, rigid=getattr(first.owner, "kind", "") == "rigid")
+    found |= {name: PARAMETERS[name] for name in DERIVED}
+    if len(sides) != 1:
+        return found
+    return {
+        name: one._replace(
+            long_name=_BOTH_STOPS.sub(
+                lambda both: f"the {sides[0]} {both[1].removesuffix('s')}", one.long_name
             )
-        raise InputError(f"{field}: {unknown(name, PARAMETERS)}")
-    if key == "amplitude" and of != "acceleration":
-        return PARAMETERS[key]._replace(quantity=QUANTITIES[of], long_name=_PEAKS[of])
-    return PARAMETERS[key]
+        )
+        for name, one in found.items()
+    }
+
+
+def canonical(path: object, known: Iterable[str]) -> str:
+    """Return the path under which a parameter is known, such as ``stops.right.gap``.
+
+    A path that is not known is returned as it is written.
+    """
+    known = list(known)
+    text = path.strip() if isinstance(path, str) else ""
+    for name in (text, text.replace("-", "_")):
+        name = name.removeprefix("oscillator.").removeprefix("shaking.")
+        whole = "gap" if name == "stops.gap" else name
+        stop = [f"stops.{whole}"] if "." in whole else []
+        for one in (whole, *stop, *_only(whole)):
+            if one in known:
+                return one
+    return text
+
+
+def _only(name: str) -> list[str]:
+    """Return the path of a number that only the isolator, or only a stop, can have."""
+    owners = [owner for owner, fields in _FIELDS.items() if name in fields]
+    return [f"{owners[0]}.{name}"] if len(owners) == 1 else []
+
+
+def set_values(oscillator: Oscillator, values: Mapping[str, Any]) -> Oscillator:
+    """Return an oscillator with other values at some paths, all set at once.
+
+    The values are numbers in SI units, texts with units, or whole parts. A path may name any field,
+    and the fields of an absent stop, which is then made.
+
+    Raises
+    ------
+    InputError
+        If a path does not exist, or if a value is invalid.
+    """
+    changes: dict[Steps, Any] = {}
+    for path, value in values.items():
+        for steps in _steps(oscillator, path):
+            changes[steps] = value
+    return cast("Oscillator", put(oscillator, changes))
+
+
+def _steps(oscillator: Oscillator, path: str) -> list[Steps]:
+    name = canonical(path, PARAMETERS)
+    first, _, rest = name.removeprefix("stops.").partition(".")
+    if first in ("right", "left"):
+        return [(first, *rest.split("."))] if rest else [(first,)]
+    if name != "gap" and not name.startswith("stops."):
+        return [tuple(name.split("."))]
+    field = name.removeprefix("stops.")
+    present = [side for side in ("right", "left") if getattr(oscillator, side) is not None]
+    having = [side for side in present if field in type(getattr(oscillator, side)).table_keys()]
+    return [(side, field) for side in having or present or ("right", "left")]
+
+
+def _places(oscillator: Any) -> dict[str, list[Place]]:
+    """Return where the numbers of an oscillator stand, by path; several for the path of all stops.
+
+    A path without the name of a stop comes before those of each stop.
+    """
+    each = {_path(one.steps): one for one in walk(oscillator)}
+    found: dict[str, list[Place]] = {}
+    shared: dict[str, list[Place]] = {}
+    for name, one in each.items():
+        owner, _, field = name.rpartition(".")
+        if owner.startswith("stops."):
+            shared.setdefault("gap" if field == "gap" else f"stops.{field}", []).append(one)
+        else:
+            found[name] = [one]
+    return {**found, **shared, **{n: [one] for n, one in each.items() if n not in found}}
+
+
+def _path(steps: Steps) -> str:
+    """Return the path of a number: the two sides of an oscillator are its stops."""
+    return ".".join(("stops", *steps) if steps[0] in ("right", "left") else steps)
+
+
+def _fields_named(name: str, known: Iterable[str]) -> str:
+    """Return the paths of a field, as words, or ""."""
+    paths = [one for one in known if one.endswith(f".{name}") and one.count(".") == 1]
+    return " or ".join(map(repr, paths))
+
+
+def suggestion(path: object, known: Iterable[str]) -> str:
+    """Return the paths that a wrong name may mean, such as ``did you mean right.gap?``, or ""."""
+    known = list(known)
+    if isinstance(path, str) and (meanings := _fields_named(path.strip().lower(), known)):
+        return f"did you mean {meanings}? "
+    return meant(path, [*known, *(one.removeprefix("stops.") for one in known)])
+
+
+def _unknown(path: object, rig: Rig, field: str) -> InputError:
+    name = path.strip().lower() if isinstance(path, str) else ""
+    if (symbol := name.replace("_", "")) in _SYMBOLS:
+        return InputError(f"{field}: {path!r} is not a name of a parameter; use {_SYMBOLS[symbol]}")
+    known = list(parameters(rig))
+    if meanings := _fields_named(name, known):
+        return InputError(f"{field}: {path!r} is not a path; use {meanings}")
+    hint = suggestion(path, known)
+    elsewhere = canonical(path, PARAMETERS) in PARAMETERS
+    why = " is not a parameter of this rig" if elsewhere else " is unknown"
+    return InputError(
+        f"{field}: {shown(path)}{why}; {hint}{'One' if hint else 'one'} of {', '.join(known)} is "
+        "accepted"
+    )
+
+
+def _uneven(name: str, places: list[Place]) -> InputError:
+    field = places[0].steps[-1]
+    symbols = sorted({one.accepts.quantity.symbol for one in places})
+    told = (
+        f"values of {field}, "
+        f"{' and '.join(map(str, sorted({one.value for one in places})))} {symbols[0]}".rstrip()
+        if len(symbols) == 1
+        else f"units of {field}, {' and '.join(symbols)}"
+    )
+    own = " or ".join(repr(f"{'.'.join(one.steps)}") for one in places)
+    return InputError(
+        f"parameter: the stops have different {told}, so {name!r} has no value; use {own}, or a "
+        "rig with equal stops"
+    )
+
+
+def _of(name: str, accepts: Accepts, rigid: bool = False) -> Parameter:
+    """Return the parameter of a number."""
+    owner, _, field = name.rpartition(".")
+    words = accepts.meaning or field.replace("_", " ")
+    kind = "stop" if rigid or field == "restitution" else "bumper"
+    _, _, side = owner.partition(".")
+    if field == "gap":
+        words = f"gap of the {side} side" if side else "gap of each side"
+    elif owner == "stops":
+        words = f"{words} of both {kind}s"
+    elif side and owner.startswith("stops."):
+        words = f"{words} of the {side} {kind}"
+    elif owner:
+        words = f"{words} of the {owner.replace('.', ' ')}"
+    return Parameter(
+        name,
+        accepts.quantity,
+        words,
+        accepts.above is None,
+        "in SI units" if "in the formula" in accepts.meaning else "",
+        accepts.minimum if accepts.above is None else accepts.above,
+        accepts.maximum,
+    )
+
+
+def _fields(kinds: Kinds) -> dict[str, Accepts]:
+    """Return the numbers that laws can have, with their usual quantity."""
+    found: dict[str, Accepts] = {}
+    for law in kinds.classes.values():
+        for name, field in law.model_fields.items():
+            accepts = next((one for one in field.metadata if isinstance(one, Accepts)), None)
+            if accepts is not None:
+                found.setdefault(name, accepts)
+    return found
+
+
+_FIELDS = {"isolator": _fields(ISOLATORS), "stops": _fields(STOPS)}
+del _FIELDS["isolator"]["gap"]  # a formula has a gap if it is a stop
+
+
+def _every() -> Iterator[Parameter]:
+    yield _of("frequency", Accepts(FREQUENCY, above=0.0, meaning=FREQUENCY_WORDS))
+    yield _of("amplitude", amplitude_of("acceleration"))
+    for name, field in Oscillator.model_fields.items():
+        for accepts in field.metadata:
+            if isinstance(accepts, Accepts):
+                yield _of(name, accepts)
+    for name, accepts in _FIELDS["isolator"].items():
+        yield _of(f"isolator.{name}", accepts)
+    for name, accepts in _FIELDS["stops"].items():
+        yield _of("gap" if name == "gap" else f"stops.{name}", accepts)
+    for side in ("right", "left"):
+        for name, accepts in _FIELDS["stops"].items():
+            yield _of(f"stops.{side}.{name}", accepts)
+    for name, one in DERIVED.items():
+        yield Parameter(name, one.quantity, one.long_name, one.zero, one.comment, one.least)
+
+
+PARAMETERS: dict[str, Parameter] = {one.name: one for one in _every()}
+"""All parameters that an `Oscillator` can have, with their usual units."""
 
 
 _SYMBOLS = {
@@ -156,13 +397,13 @@ _SYMBOLS = {
         ("a", "a0", "f0", "p", "p0", "pga", "forceamplitude", "forcingamplitude", "acceleration"),
         "'amplitude', the amplitude of the shaking: of an acceleration, a displacement or a force",
     ),
-    "k": "'stiffness' (isolator) or 'bumper_stiffness'",
-    "c": "'damping' (isolator) or 'bumper_damping'",
+    "k": "'isolator.stiffness' or 'stops.stiffness'",
+    "c": "'isolator.damping' or 'stops.damping'",
     **dict.fromkeys(("xi", "ξ", "zeta", "ζ"), "'damping_ratio'"),
     **dict.fromkeys(("lambda", "λ"), "'stiffness_ratio'"),
     **dict.fromkeys(("delta", "δ", "delta0", "δ0"), "'gap_ratio'"),
     **dict.fromkeys(("tau", "τ"), "'relaxation_time'"),
-    **dict.fromkeys(("e", "cor", "coefficientofrestitution"), "'restitution'"),
+    **dict.fromkeys(("e", "cor", "coefficientofrestitution"), "'stops.restitution'"),
     **dict.fromkeys(("g", "g0", "clearance"), "'gap'"),
     **dict.fromkeys(("t", "period", "naturalperiod"), "'isolator_period'"),
 }
@@ -194,227 +435,3 @@ def read_span(varied: Parameter, span: object, field: str = "span") -> tuple[flo
             "first, and then the highest"
         )
     return low, high
-
-
-def _of_stops(
-    field: str,
-    both: str,
-    quantity: Quantity,
-    zero: bool = True,
-    stop: str = "bumper",
-    least: float = 0.0,
-    most: float | None = None,
-    powers: bool = False,
-) -> Iterator[Parameter]:
-    """Yield the parameters of a field of both stops and of each; an exponent may set the unit."""
-
-    def measured(side: str) -> Callable[[Oscillator], Quantity] | None:
-        def of(rig: Oscillator) -> Quantity:
-            stops = [getattr(rig, side)] if side in ("right", "left") else rig.stops
-            having = (stop for stop in stops if stop and field in type(stop).model_fields)
-            return next((access.quantity(stop, field) for stop in having), quantity)
-
-        return of if powers else None
-
-    words = field.replace("_", " ")
-
-    def made(name: str, whose: str, how: tuple[Read, Vary], side: str) -> Parameter:
-        named = f"{words} of {whose}"
-        return Parameter(
-            name, quantity, named, *how, zero, least=least, most=most, measured=measured(side)
-        )
-
-    yield made(both, f"both {stop}s", access.bumpers(field), "both")
-    for side in ("right", "left"):
-        how = access.one_bumper(side, field)
-        yield made(f"{side}_{field}", f"the {side} {stop}", how, side)
-
-
-def _of_isolator(
-    field: str,
-    quantity: Quantity,
-    zero: bool = True,
-    least: float | None = 0.0,
-    long_name: str = "",
-    powers: bool = False,
-) -> Parameter:
-    """Return the parameter of a field of the isolator; the unit may depend on an exponent."""
-
-    def measured(rig: Oscillator) -> Quantity:
-        return access.quantity(rig.isolator, field, "isolator has")
-
-    named = f"{long_name or field.replace('_', ' ')} of the isolator"
-    read, write = access.isolator(field)
-    return Parameter(
-        field,
-        quantity,
-        named,
-        read,
-        write,
-        zero,
-        least=least,
-        measured=measured if powers else None,
-    )
-
-
-def _of_formula(name: str) -> Parameter | None:
-    """The parameter of a number of a user's formula, such as ``isolator_k3``."""
-    whose, _, number = name.partition("_")
-    if whose not in _FORMULAS or not number.isidentifier():
-        return None
-
-    def registered() -> list[str]:
-        return list(PARAMETERS)
-
-    def measured(rig: Oscillator) -> Quantity:
-        law = next(iter(access.formulas(rig, whose, number, registered).values()))
-        return law.quantities.get(number, DIMENSIONLESS)
-
-    return Parameter(
-        name,
-        DIMENSIONLESS,
-        f"number {number} in the formula of {_FORMULAS[whose]}",
-        *access.formula_number(whose, number, registered),
-        comment="in SI units",
-        least=None,
-        measured=measured,
-        straight=False,
-    )
-
-
-_FORMULAS = {
-    "isolator": "the isolator",
-    "bumper": "both stops",
-    "right": "the right stop",
-    "left": "the left stop",
-}
-
-
-class Registry(dict[str, Parameter]):
-    """Parameters by name. An iteration leaves out the parameters for the numbers of formulas."""
-
-    def __contains__(self, name: object) -> bool:
-        return dict.__contains__(self, name) or (isinstance(name, str) and bool(_of_formula(name)))
-
-    def __missing__(self, name: str) -> Parameter:
-        found = _of_formula(name)
-        if found is None:
-            raise KeyError(name)
-        return found
-
-    def get(self, name: str, default: Any = None) -> Any:
-        """Return the parameter with this name, or the default if there is none."""
-        return dict.get(self, name) or _of_formula(name) or default
-
-
-PARAMETERS = Registry(
-    (p.name, p)
-    for p in (
-        Parameter(
-            "frequency", FREQUENCY, "excitation frequency", *access.forcing("frequency"), False
-        ),
-        Parameter(
-            "amplitude", ACCELERATION, "peak base acceleration", *access.forcing("amplitude"), False
-        ),
-        Parameter(
-            "force",
-            FORCE,
-            "constant force on the mass",
-            *access.oscillator_number("force"),
-            least=None,
-        ),
-        Parameter("gap", LENGTH, "gap of each side", *access.bumpers("gap"), least=None),
-        *(
-            Parameter(
-                f"{side}_gap",
-                LENGTH,
-                f"gap of the {side} side",
-                *access.one_bumper(side, "gap"),
-                least=None,
-            )
-            for side in ("right", "left")
-        ),
-        *_of_stops("stiffness", "bumper_stiffness", STIFFNESS, False, powers=True),
-        Parameter(
-            "proportional_stiffness",
-            STIFFNESS,
-            "stiffness of both bumpers, with damping in proportion",
-            *access.in_proportion(lambda rig: 1.0),
-            False,
-        ),
-        Parameter(
-            "stiffness_at_restitution",
-            STIFFNESS,
-            "stiffness of both bumpers, with constant restitution",
-            *access.at_restitution(),
-            False,
-            "C_j / √(K_j M) is kept",
-            straight=False,
-        ),
-        *_of_stops("damping", "bumper_damping", DAMPING),
-        *_of_stops("restitution", "restitution", DIMENSIONLESS, stop="stop", most=1.0),
-        *_of_stops("exponent", "bumper_exponent", DIMENSIONLESS, False, least=1.0),
-        *_of_stops("dissipation", "dissipation", DISSIPATION),
-        *_of_stops("mass", "bumper_mass", MASS, False),
-        _of_isolator("stiffness", STIFFNESS),
-        _of_isolator("damping", DAMPING, powers=True),
-        _of_isolator("damping_exponent", DIMENSIONLESS, False),
-        _of_isolator("friction", FORCE),
-        _of_isolator("elastic_stiffness", STIFFNESS, False),
-        _of_isolator("post_yield_stiffness", STIFFNESS, long_name="post-yield stiffness"),
-        _of_isolator("yield_force", FORCE, False),
-        _of_isolator("cubic", power_stiffness(3.0), least=None, long_name="cubic stiffness"),
-        _of_isolator("quintic", power_stiffness(5.0), least=None, long_name="quintic stiffness"),
-        _of_isolator("beta", DIMENSIONLESS, long_name="hysteresis number β"),
-        _of_isolator("gamma", DIMENSIONLESS, least=None, long_name="hysteresis number γ"),
-        _of_isolator("reversal_stiffness", STIFFNESS, False),
-        _of_isolator("final_stiffness", STIFFNESS),
-        _of_isolator("decay", DECAY, False),
-        _of_isolator("hardening", DECAY, least=None),
-        _of_isolator("hardening_force", FORCE),
-        Parameter(
-            "isolator_period",
-            PERIOD,
-            "natural period on the isolator",
-            *access.isolator_period(),
-            False,
-            "2π √(M/K); the damping ratio is kept",
-            straight=False,
-        ),
-        Parameter(
-            "stiffness_ratio",
-            DIMENSIONLESS,
-            "stiffness ratio of the bumpers",
-            *access.in_proportion(lambda rig: access.spring(rig, "stiffness_ratio")),
-            False,
-            "K_j / K",
-        ),
-        Parameter(
-            "gap_ratio",
-            DIMENSIONLESS,
-            "gap ratio of each side",
-            *access.gap_ratio(),
-            comment="G / u_max",
-            least=None,
-        ),
-        Parameter(
-            "relaxation_time",
-            DIMENSIONLESS,
-            "relaxation time of the bumpers",
-            *access.relaxation_time(),
-            comment="ω0 C_j / K_j",
-        ),
-        Parameter(
-            "damping_ratio",
-            DIMENSIONLESS,
-            "damping ratio of the isolator",
-            *access.damping_ratio(),
-            False,
-            "C / (2 √(K M))",
-        ),
-    )
-)
-"""Parameters by name. `bumper_stiffness` does not change the damping C_j of the bumpers.
-`proportional_stiffness` and `stiffness_ratio` do not change their C_j/K_j, and
-`stiffness_at_restitution` does not change their C_j/√K_j. `isolator_period` does not change the
-damping ratio. The ratios do not change the other quantities in their definitions."""

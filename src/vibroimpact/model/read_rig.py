@@ -45,8 +45,7 @@ def as_rig(
     Parameters
     ----------
     value
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     frequency
         Forcing frequency in Hz, or text with a unit. Default: the frequency of the rig.
     where
@@ -189,6 +188,6 @@ def from_lowest(rig: Rig, parameter: str, span: Any) -> Rig:
     InputError
         If the frequency is open, and no parameter has this name.
     """
-    if rig.frequency is None and registered(parameter).name == "frequency" and is_pair(span):
+    if rig.frequency is None and registered(parameter, rig).name == "frequency" and is_pair(span):
         return rig.at(next(iter(span)))
     return rig

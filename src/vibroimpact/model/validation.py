@@ -47,6 +47,8 @@ class Accepts:
     If the unit depends on an exponent, `by` is the name of the field with the exponent. The class
     must declare that field before. `family` returns the quantity for an exponent. `quantity` is the
     usual quantity.
+
+    `meaning` describes the field in words if its name does not, such as "cubic stiffness".
     """
 
     quantity: Quantity
@@ -56,6 +58,7 @@ class Accepts:
     optional: bool = False
     by: str | None = None
     family: Callable[[float], Quantity] | None = None
+    meaning: str = ""
 
     def of(self, values: Mapping[str, Any]) -> Accepts:
         """Return what is accepted, given the values of the other fields."""
@@ -260,6 +263,15 @@ class Model(BaseModel, metaclass=_Listed):
         metadata = type(self).model_fields[name].metadata
         found = next((m for m in metadata if isinstance(m, Accepts)), None)
         return None if found is None else found.of(dict(self))
+
+    def knobs(self) -> dict[str, tuple[float, Accepts]]:
+        """Return the numbers that can be varied, by name: their values and what they accept."""
+        found = {}
+        for name in in_order(type(self)):
+            value, accepts = getattr(self, name), self.accepts(name)
+            if accepts is not None and isinstance(value, float):
+                found[name] = value, accepts
+        return found
 
     def rows(self) -> list[tuple[str, str]]:
         """Return the paths of the fields, such as ``right.gap``, and their values with units."""

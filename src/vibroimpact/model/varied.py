@@ -53,7 +53,7 @@ def varied(
     InputError
         If there is no such parameter, or if a value is invalid or occurs twice.
     """
-    known = parameter(name, "vary").of(rig)
+    known = parameter(name, rig, "vary")
     if known.name in but:
         raise InputError(f"vary: {name!r} {why}; remove it")
     values = check_list(values, field, what="a list of values")
@@ -81,12 +81,12 @@ def vary_all(rig: Rig, values: Iterable[tuple[Parameter, float]]) -> Rig:
     InputError
         If the rig does not have a parameter, or if a value is invalid.
     """
-    for one, value in sorted(values, key=lambda pair: _turn(pair[0].name)):
+    for one, value in sorted(values, key=lambda pair: turn(pair[0].name)):
         rig = one.vary(rig, value)
         one.read(rig)  # refuses what the rig does not have
     return rig
 
 
-def _turn(name: str) -> int:
+def turn(name: str) -> int:
     """When a parameter is set."""
     return _LAST.index(name) + 1 if name in _LAST else -int(name in _FIRST)

@@ -55,7 +55,14 @@ class Channel(NamedTuple):
 class Format(NamedTuple):
     """A file format: its name, and functions that recognise and read its files.
 
-    If a line cannot be read, ``read`` raises an `InputError` that states this line.
+    ``recognises`` judges the content of a file. ``read`` returns its channels in the units of the
+    file. If a line cannot be read, it raises an `InputError` that states this line, as `File` does
+    for numbers in columns or rows.
+
+    A new format is a module with a `Format`, which stands in `FORMATS` of `records/read.py` before
+    any other that would recognise its files. `records/header.py` compares stated peaks, steps and
+    durations with the values. Add a synthetic file to `tests/records/layouts.py`, and one that
+    contradicts its header and a truncated one to `tests/records/test_networks.py`.
     """
 
     name: str

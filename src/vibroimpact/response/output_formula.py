@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, meant, shown
+from vibroimpact.model.parameters import canonical, suggestion
 
 _Value = NDArray[np.float64]
 
@@ -107,7 +108,7 @@ def read_output_formula(text: str, known: tuple[str, ...]) -> OutputFormula:
     Parameters
     ----------
     text
-        The formula, such as ``"mean(damping*velocity**2)"``.
+        The formula, such as ``"mean(isolator.damping*velocity**2)"``.
     known
         Names of the time histories and parameters that the rig has.
 
@@ -143,15 +144,16 @@ def _names(part: ast.AST, known: tuple[str, ...]) -> list[str]:
             pass
         case ast.Constant(value=int() | float()):
             return []
-        case ast.Name(id=name):
+        case ast.Name() | ast.Attribute():
+            name = ast.unparse(part)
             if name in CONSTANTS:
                 return []
-            if name not in known:
+            if name not in known and canonical(name, known) not in known:
                 histories = [one for one in known if one in HISTORIES]
                 raise InputError(
                     f"{name!r} is neither a time history nor a parameter of the rig; "
-                    f"{meant(name, known)}{', '.join(histories)}, and parameters such as mass, "
-                    "damping and frequency are accepted"
+                    f"{suggestion(name, known)}{', '.join(histories)}, and parameters such as "
+                    "mass, isolator.damping and frequency are accepted"
                 )
             return [name]
         case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=one):
@@ -183,7 +185,8 @@ def _value(part: ast.AST, time: _Value, values: Mapping[str, Any]) -> Any:
     match part:
         case ast.Constant(value=int() | float() as value):
             return np.float64(value)
-        case ast.Name(id=name):
+        case ast.Name() | ast.Attribute():  # a path, such as isolator.damping
+            name = ast.unparse(part)
             return CONSTANTS[name] if name in CONSTANTS else values[name]
         case ast.UnaryOp(op=op, operand=one):
             return _OPERATORS[type(op)](_value(one, time, values))

@@ -13,7 +13,7 @@ import xarray as xr
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Rig, State
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import parameter, parameters
 from vibroimpact.response.output_formula import HISTORIES, OutputFormula, read_output_formula
 from vibroimpact.response.simulate import compute_history
 
@@ -37,7 +37,8 @@ class Output:
           such as ``damping`` or ``frequency``, and ``mass``, all in SI units. ``max``, ``min``,
           ``mean``, ``rms`` and ``integral`` (over the time) make a number of a time history.
           Further functions are ``abs``, ``sqrt``, ``exp``, ``log``, ``sin``, ``cos``, ``tanh`` and
-          ``sign``. An example is ``"mean(damping*velocity**2)"``, the mean power of the dashpot.
+          ``sign``. An example is
+          ``"mean(isolator.damping*velocity**2)"``, the mean power of the dashpot.
         - A function receives the dataset of `simulate` over one period, and returns a number.
     units
         Units of the result, such as ``"W"``. Default: ``"1"``, no units.
@@ -52,7 +53,7 @@ class Output:
     Examples
     --------
     >>> import vibroimpact as vi
-    >>> power = vi.Output("mean(damping*velocity**2)", units="W", long_name="mean power")
+    >>> power = vi.Output("mean(isolator.damping*velocity**2)", units="W", long_name="mean power")
     >>> swept = vi.sweep("B2-G1-A3", [2.0], "forward", outputs={"power": power})
     >>> round(float(swept["power"][0, 0]), 2)
     9.14
@@ -207,14 +208,13 @@ def _known(rig: Rig) -> tuple[str, ...]:
         absent.add("isolator_memory")
     return (
         *(name for name in HISTORIES if name not in absent),
-        "mass",
-        *(name for name in PARAMETERS if name == "frequency" or _has(rig.hardest, name)),
+        *(name for name in parameters(rig) if name == "frequency" or _has(rig.hardest, name)),
     )
 
 
 def _has(rig: Rig, name: str) -> bool:
     try:
-        PARAMETERS[name].read(rig)
+        parameter(name, rig).read(rig)
     except InputError:
         return False
     return True
@@ -226,8 +226,6 @@ def _values(output: NamedOutput, rig: Rig, motion: xr.Dataset) -> dict[str, Any]
     for name in output.function.names:
         if name in HISTORIES:
             found[name] = motion[name].values
-        elif name == "mass":
-            found[name] = rig.oscillator.mass
         else:
-            found[name] = PARAMETERS[name].read(rig)
+            found[name] = parameter(name, rig).read(rig)
     return found

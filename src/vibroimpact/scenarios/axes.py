@@ -16,10 +16,10 @@ from vibroimpact.model import (
     RigidStop,
     to_si,
 )
-from vibroimpact.model.access import scale_of
+from vibroimpact.model.derived_parameters import scale_of
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.largest_free_response import peak_displacement
-from vibroimpact.model.parameters import PARAMETERS, parameter
+from vibroimpact.model.parameters import PARAMETERS, canonical, usual
 from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
@@ -30,9 +30,9 @@ _Array = NDArray[np.float64]
 NAMES = (
     "gap",
     "amplitude",
-    "bumper_stiffness",
+    "stops.stiffness",
     "proportional_stiffness",
-    "restitution",
+    "stops.restitution",
     "stiffness_ratio",
     "gap_ratio",
     "relaxation_time",
@@ -44,12 +44,12 @@ NAMES = (
 ONE_QUANTITY = (
     {"gap", "gap_ratio"},
     {"proportional_stiffness", "stiffness_ratio"},
-    {"bumper_stiffness", "stiffness_ratio"},
-    {"bumper_stiffness", "proportional_stiffness"},
+    {"stops.stiffness", "stiffness_ratio"},
+    {"stops.stiffness", "proportional_stiffness"},
 )
 """Pairs that say the same of one rig."""
 
-_OF_BUMPERS = ("bumper_stiffness", "proportional_stiffness", "stiffness_ratio", "relaxation_time")
+_OF_BUMPERS = ("stops.stiffness", "proportional_stiffness", "stiffness_ratio", "relaxation_time")
 
 
 class Axis(NamedTuple):
@@ -99,9 +99,10 @@ def axis(given: Any, field: str, of: Of = "acceleration") -> Axis:
             'such as ("gap_ratio", [0, 0.5, 1]); "log" or "linear" may be the third item'
         )
     name, values = given[:2]
+    name = canonical(name, NAMES)
     if name not in NAMES:
         raise InputError(f"{field}: {unknown(name, NAMES)}")
-    varied = parameter(name, of=of)
+    varied = usual(name, of)
     if isinstance(values, str) or not isinstance(values, Iterable):
         raise InputError(f"{field}: {shown(values)} is not a list; pass at least two values")
     limits: dict[str, Any] = {"minimum": 0.0} if varied.zero else {"above": 0.0}
@@ -228,10 +229,12 @@ class Base(NamedTuple):
             if name in _OF_BUMPERS and not any(isinstance(stop, Bumper) for stop in stops):
                 raise InputError(
                     f"rig: {name!r} applies to bumpers, but this rig has none; vary 'gap', "
-                    "'gap_ratio', 'restitution', 'amplitude' or 'damping_ratio' instead"
+                    "'gap_ratio', 'stops.restitution', 'amplitude' or 'damping_ratio' instead"
                 )
-            if name == "restitution" and not any(isinstance(stop, RigidStop) for stop in stops):
+            if name == "stops.restitution" and not any(
+                isinstance(stop, RigidStop) for stop in stops
+            ):
                 raise InputError(
-                    "rig: 'restitution' applies to rigid stops, but this rig has none; vary "
+                    "rig: 'stops.restitution' applies to rigid stops, but this rig has none; vary "
                     "another parameter, or pass a rig with a rigid stop"
                 )

@@ -75,7 +75,7 @@ def scenario_map(
         The parameters on the two axes. Each is a tuple of a name and rising values.
 
         Physical parameters are ``"gap"`` (m, on each side), ``"amplitude"`` (in the unit of the
-        amplitude of the rig), ``"bumper_stiffness"`` (N/m, at the damping C_j of the rig) and
+        amplitude of the rig), ``"stops.stiffness"`` (N/m, at the damping C_j of the rig) and
         ``"proportional_stiffness"`` (N/m, at the C_j/K_j of the rig). Dimensionless parameters are
         ``"stiffness_ratio"`` λ, ``"gap_ratio"`` δ0, ``"relaxation_time"`` τ, ``"damping_ratio"`` ξ
         and ``"restitution"`` e.

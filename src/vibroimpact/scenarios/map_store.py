@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.grids.refinement import UNKNOWN
 from vibroimpact.model.excitation import Of
-from vibroimpact.model.parameters import parameter
+from vibroimpact.model.parameters import usual
 from vibroimpact.scenarios.axes import Axis
 from vibroimpact.scenarios.map_node import COUNTS, VALUES
 from vibroimpact.scenarios.scenario import FLAGS
@@ -131,7 +131,7 @@ def map_store(
     InputError
         If the folder holds something else, cannot be written to, or is in use.
     """
-    of = parameters["base"].get("of", "acceleration")
+    of: Of = parameters["base"].get("of", "acceleration")
     make = partial(_make, axes=axes, chunk=chunk, levels=levels, of=of)
     rows, columns = (chunk_slices(len(one.values), chunk) for one in reversed(axes))
     blocks = (
@@ -159,7 +159,7 @@ def _make(group: zarr.Group, axes: tuple[Axis, Axis], chunk: int, levels: int, o
         array = group[one.name]
         assert isinstance(array, zarr.Array)
         array[:] = one.values
-        known = parameter(one.name, of=of)
+        known = usual(one.name, of)
         array.attrs.update(units=known.units, long_name=known.long_name)
     chunks = (min(chunk, shape[0]), min(chunk, shape[1]))
     create(group, "scenario", shape, chunks, "i1", UNKNOWN, dims)

@@ -110,7 +110,7 @@ def bifurcation_curve(
     if len(names) != 2:
         raise InputError(f"parameters: {shown(parameters)} is not a pair; {_NAMES}")
     for name in names:
-        parameter(name, "parameters")
+        parameter(name, rig, "parameters")
     oscillator, excitation = rig.oscillator, rig.harmonic
     parameters = (names[0], names[1])
     if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:

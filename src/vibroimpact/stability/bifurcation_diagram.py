@@ -154,7 +154,7 @@ def bifurcation_diagram(
     check_progress(progress)
     rig = from_lowest(as_rig(rig, frequency), parameter, span)
     oscillator, excitation = rig.oscillator, as_periodic(rig.harmonic, "shaking")[0]
-    varied = registered(parameter, of=excitation.of).of(oscillator)
+    varied = registered(parameter, rig)
     ends = read_span(varied, span)
     log = check_flag(log, "log")
     if log and ends[0] <= 0.0:

@@ -61,11 +61,11 @@ def branch(
         Name of the parameter that is varied:
 
         - of the excitation: "frequency", "amplitude" or "force" (a constant force);
-        - of the stops on both sides: "gap", "bumper_stiffness", "bumper_damping", "restitution",
-          "dissipation", "bumper_exponent" or "bumper_mass";
-        - of the stop on one side: "right_gap", "left_gap", "right_stiffness" and so on;
-        - of the isolator: "stiffness", "damping" or any other number of its law, such as
-          "yield_force";
+        - of the stops on both sides: "gap", "stops.stiffness", "stops.damping",
+          "stops.restitution", "stops.dissipation", "stops.exponent" or "stops.mass";
+        - of the stop on one side: "right.gap", "left.gap", "right.stiffness" and so on;
+        - of the isolator: "isolator.stiffness", "isolator.damping" or any other number of
+          its law, such as "isolator.yield_force";
         - the stiffness of the bumpers at a fixed C_j/K_j: "proportional_stiffness" or
           "stiffness_ratio" (λ);
         - the stiffness of the bumpers at a fixed coefficient of restitution:

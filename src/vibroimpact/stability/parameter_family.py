@@ -104,7 +104,7 @@ class Family(NamedTuple):
     def symmetric(self) -> bool:
         """Whether each motion's mirror image is a motion, all along."""
         here = self.rig.oscillator.symmetric and self.rig.periodic.half_wave
-        return here and not self.parameter.name.startswith(("right_", "left_", "force"))
+        return here and not (self.parameter.sides or self.parameter.name == "force")
 
     def at(self, value: float) -> Rig:
         """The rig at a value of the parameter."""
@@ -146,8 +146,8 @@ def family(rig: Rig, name: str) -> Family:
     InputError
         If there is no such parameter, or the rig has none.
     """
-    shaking, _ = as_periodic(rig.shaking, "shaking")
-    varied = parameter(name, of=shaking.of).of(rig.oscillator)
+    as_periodic(rig.shaking, "shaking")  # refuses a record
+    varied = parameter(name, rig)
     value = varied.read(rig)
     step = varied.beside(value) - value
     here = system_vector(rig)
@@ -159,8 +159,7 @@ def family(rig: Rig, name: str) -> Family:
     direction = difference / step
     base = np.subtract(here, value * direction, out=here.copy(), where=~same)
     made = Family(varied, rig, value, base, direction)
-    straight = varied.straight and (not here[par.CURVED] or _straight(made, step))
-    return made._replace(straight=straight)
+    return made._replace(straight=_straight(made, step))
 
 
 def _straight(made: Family, step: float) -> bool:

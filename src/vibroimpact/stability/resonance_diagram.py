@@ -14,8 +14,8 @@ from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.count_checks import MOST_CYCLES, MOST_STARTS, whole
-from vibroimpact.model.parameters import PARAMETERS, read_span
 from vibroimpact.model.parameters import parameter as registered
+from vibroimpact.model.parameters import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
@@ -108,13 +108,13 @@ def resonance_diagram(
     """
     check_progress(progress)
     rig = as_rig(rig, frequency)
-    if registered(parameter).name == "frequency":
+    if registered(parameter, rig).name == "frequency":
         if frequency is not None:
             raise InputError(
                 f"frequency: {shown(frequency)}, but the frequency is the varied parameter; remove "
                 "frequency, or vary another parameter"
             )
-        rig = rig.at(read_span(PARAMETERS["frequency"], span)[1])
+        rig = rig.at(read_span(registered("frequency", rig), span)[1])
     shaken = rig.with_parts(rig.oscillator, rig.harmonic.replace(phase=phase))
     fam = family(shaken, parameter)
     ends = read_span(fam.parameter, span)

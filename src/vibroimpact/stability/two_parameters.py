@@ -47,7 +47,7 @@ def plane(rig: Rig, names: tuple[str, str]) -> Plane:
         If there is no such parameter, the rig has none, or the two do not go together.
     """
     first = family(rig, names[0])
-    other = parameter(names[1], "parameters", rig.periodic.of).of(rig.oscillator)
+    other = parameter(names[1], rig, "parameters")
     if other.name == first.parameter.name:
         raise InputError(f"parameters: {names[0]!r} is given twice; pass two different parameters")
     second = family(rig, names[1])

@@ -124,13 +124,12 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     """
     alone = isinstance(rig, Oscillator)
     base = as_rig(rig, oscillator_alone=True)
-    oscillator, shaken = base.oscillator, None if alone else base.periodic
+    shaken = None if alone else base.periodic
     given = check_names(distributions)
     parameters, made = [], []
     for name, one in given.items():
         field = f"distributions[{name!r}]"
-        varied = parameter(name, "distributions", of=shaken.of if shaken else "acceleration")
-        varied = varied.of(oscillator)
+        varied = parameter(name, base, "distributions")
         if shaken is None and varied.name in ("frequency", "amplitude", "gap_ratio"):
             raise InputError(
                 f"{field}: {varied.name} requires sinusoidal shaking, but the rig is an oscillator "

@@ -2,4 +2,9 @@
 
 Each picture is a function of a state. It calls the public functions of the package. Its texts come
 from `vibroimpact.facts`, like those of the command line.
+
+A new picture is a module here, a `Stage` of `explorer/session.py`, whose key has all values on
+which the picture depends, and code in `explorer/page/` that draws it with `plot.js`.
+``python -m vibroimpact.explorer.family docs/explorer.html`` rebuilds the page without a server, and
+``python tests/explorer/strip.py`` the screenshots.
 """

@@ -70,8 +70,8 @@ class BoucWenIsolator(YieldingLaw):
     kind: ClassVar[str] = "bouc-wen"
 
     exponent: Annotated[int, BeforeValidator(_whole)] = 1
-    beta: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0)] = 0.5
-    gamma: Annotated[float, Accepts(DIMENSIONLESS)] = 0.5
+    beta: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0, meaning="hysteresis number β")] = 0.5
+    gamma: Annotated[float, Accepts(DIMENSIONLESS, meaning="hysteresis number γ")] = 0.5
 
     @constructor
     def __init__(

@@ -179,7 +179,9 @@ class YieldingLaw(IsolatorLaw):
     designs: ClassVar[tuple[str, ...]] = ("from_strength",)
 
     elastic_stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
-    post_yield_stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
+    post_yield_stiffness: Annotated[
+        float, Accepts(STIFFNESS, minimum=0.0, meaning="post-yield stiffness")
+    ]
     yield_force: Annotated[float, Accepts(FORCE, above=0.0)]
 
     @constructor

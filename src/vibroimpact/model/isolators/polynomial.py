@@ -38,8 +38,8 @@ class PolynomialIsolator(SpringLaw):
 
     kind: ClassVar[str] = "polynomial"
 
-    cubic: Annotated[float, Accepts(power_stiffness(3.0))] = 0.0
-    quintic: Annotated[float, Accepts(power_stiffness(5.0))] = 0.0
+    cubic: Annotated[float, Accepts(power_stiffness(3.0), meaning="cubic stiffness")] = 0.0
+    quintic: Annotated[float, Accepts(power_stiffness(5.0), meaning="quintic stiffness")] = 0.0
 
     @constructor
     def __init__(

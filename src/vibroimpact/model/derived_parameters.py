@@ -1,0 +1,279 @@
+"""Parameters that set several numbers of a rig at once, such as ratios and the period.
+
+Each is defined by a formula over the numbers of the rig, whose other parts are kept as the
+definition states.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from vibroimpact.errors import InputError
+from vibroimpact.model.excitation import Harmonic
+from vibroimpact.model.isolators.law import spring_and_dashpot
+from vibroimpact.model.largest_free_response import peak_displacement
+from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.quantities import DIMENSIONLESS, PERIOD, STIFFNESS, Quantity
+from vibroimpact.model.rig import Rig
+from vibroimpact.model.validation import Model
+
+
+class Derived(NamedTuple):
+    """A parameter that sets several numbers."""
+
+    quantity: Quantity
+    long_name: str
+    read: Callable[[Rig], float]
+    vary: Callable[[Rig, float], Rig]
+    zero: bool = True
+    comment: str = ""
+    least: float | None = 0.0
+
+
+def scale_of(rig: Rig) -> float:
+    """Return the peak base acceleration (m/s²) that scales the gaps.
+
+    For a displacement X of the base it is X ω0², for a force F on the mass F/M, and for an
+    unbalance m e it is m e ω0²/M. The largest displacement without stops is then the same as for
+    this base acceleration (see `peak_displacement`).
+
+    Raises
+    ------
+    InputError
+        If several harmonics shake the rig.
+    """
+    oscillator, shaken = rig.oscillator, rig.periodic
+    if not isinstance(shaken, Harmonic):
+        raise InputError(
+            "gap_ratio: gaps are scaled by the peak displacement without stops under one sine, "
+            "but several harmonics shake the mass; use a Harmonic, or pass the gap in metres"
+        )
+    return float(shaken.acceleration(oscillator.mass, oscillator.angular_frequency))
+
+
+def _fields(law: Model) -> dict[str, float]:
+    """Return the numbers of a law whose meaning the package knows.
+
+    A number in the formula of a user is none of them, whatever its name.
+    """
+    known = type(law).model_fields
+    return {name: value for name, (value, _) in law.knobs().items() if name in known}
+
+
+def _numbers(oscillator: Oscillator, name: str) -> dict[str, dict[str, float]]:
+    """Return the numbers of the stops that have a number of this name, by side.
+
+    Raises
+    ------
+    InputError
+        If no stop has it.
+    """
+    found = {}
+    for side in ("right", "left"):
+        stop = getattr(oscillator, side)
+        numbers = {} if stop is None else _fields(stop)
+        if name in numbers:
+            found[side] = numbers
+    if not found:
+        raise InputError(
+            f"parameter: the rig has no stop with a {name}; use a rig with such a stop"
+        )
+    return found
+
+
+def _common(oscillator: Oscillator, name: str) -> float:
+    values = sorted({one[name] for one in _numbers(oscillator, name).values()})
+    if len(values) > 1:
+        raise InputError(
+            f"parameter: the stops have different values of {name}, "
+            f"{' and '.join(map(str, values))}; use 'right.{name}' or 'left.{name}', or a rig with "
+            "equal stops"
+        )
+    return values[0]
+
+
+def _bumpers(oscillator: Oscillator) -> dict[str, dict[str, float]]:
+    """Return the numbers of the stops with a spring and a dashpot, by side."""
+    return {
+        side: one for side, one in _numbers(oscillator, "stiffness").items() if "damping" in one
+    }
+
+
+def _with_stops(rig: Rig, changes: dict[str, dict[str, float]]) -> Rig:
+    oscillator = rig.oscillator
+    changed = {side: getattr(oscillator, side).replace(**new) for side, new in changes.items()}
+    return rig.with_parts(oscillator.replace(**changed))
+
+
+def _with_stiffness(rig: Rig, stiffness: float) -> Rig:
+    """Return the rig with another stiffness of the bumpers at a constant C_j/K_j."""
+    return _with_stops(
+        rig,
+        {
+            side: {
+                "stiffness": stiffness,
+                "damping": stiffness * (one["damping"] / one["stiffness"]),
+            }
+            for side, one in _bumpers(rig.oscillator).items()
+        },
+    )
+
+
+def _spring(rig: Rig) -> float:
+    """Return the stiffness of the isolator, if all laws are linear."""
+    rig.oscillator.check_linear("'stiffness_ratio'")
+    return rig.oscillator.isolator.initial_stiffness
+
+
+def _at_restitution(rig: Rig) -> float:
+    for side, one in _numbers(rig.oscillator, "stiffness").items():
+        if "damping" not in one:
+            raise InputError(
+                f"parameter: {getattr(rig.oscillator, side)} has the same restitution at any "
+                "stiffness; use 'stops.stiffness'"
+            )
+    return _common(rig.oscillator, "stiffness")
+
+
+def _vary_at_restitution(rig: Rig, value: float) -> Rig:
+    return _with_stops(
+        rig,
+        {
+            side: {
+                "stiffness": value,
+                "damping": one["damping"] * math.sqrt(value / one["stiffness"]),
+            }
+            for side, one in _bumpers(rig.oscillator).items()
+        },
+    )
+
+
+def _peak(rig: Rig) -> float:
+    return peak_displacement(rig.oscillator, scale_of(rig))
+
+
+def _vary_gap_ratio(rig: Rig, value: float) -> Rig:
+    gap = value * _peak(rig)
+    return _with_stops(rig, {side: {"gap": gap} for side in _numbers(rig.oscillator, "gap")})
+
+
+def _relaxation_time(rig: Rig) -> float:
+    oscillator = rig.oscillator
+    oscillator.check_linear("'relaxation_time'")
+    numbers = _numbers(oscillator, "damping").values()
+    times = sorted(one["damping"] / one["stiffness"] for one in numbers)
+    if not math.isclose(times[0], times[-1], rel_tol=1e-12):
+        raise InputError(
+            "parameter: 'relaxation_time' applies to both bumpers, but their ratios of damping to "
+            f"stiffness are {' and '.join(f'{one:g}' for one in times)} s; use 'right.damping' or "
+            "'left.damping', or a rig with equal ratios"
+        )
+    return oscillator.angular_frequency * times[0]
+
+
+def _vary_relaxation_time(rig: Rig, value: float) -> Rig:
+    omega = rig.oscillator.angular_frequency
+    return _with_stops(
+        rig,
+        {
+            side: {"damping": value * one["stiffness"] / omega}
+            for side, one in _bumpers(rig.oscillator).items()
+        },
+    )
+
+
+def _check_isolator(oscillator: Oscillator, field: str, name: str) -> None:
+    """Refuse an isolator without a field that a parameter sets."""
+    if field not in _fields(oscillator.isolator):
+        kind = oscillator.isolator.kind
+        raise InputError(
+            f"parameter: {name!r} sets the {field} of the isolator, but its law, {kind}, has none; "
+            f"use an isolator with a {field}"
+        )
+
+
+def _period(rig: Rig) -> float:
+    _check_isolator(rig.oscillator, "stiffness", "isolator_period")
+    return 1.0 / rig.oscillator.natural_frequency
+
+
+def _vary_period(rig: Rig, value: float) -> Rig:
+    oscillator = rig.oscillator
+    _check_isolator(oscillator, "stiffness", "isolator_period")
+    made = spring_and_dashpot(oscillator.mass, value, oscillator.damping_ratio)
+    return rig.with_parts(oscillator.replace(isolator=oscillator.isolator.replace(**made)))
+
+
+def _damping_ratio(rig: Rig) -> float:
+    _check_isolator(rig.oscillator, "damping", "damping_ratio")
+    return rig.oscillator.damping_ratio
+
+
+def _vary_damping_ratio(rig: Rig, value: float) -> Rig:
+    oscillator = rig.oscillator
+    _check_isolator(oscillator, "damping", "damping_ratio")
+    damping = value * oscillator.critical_damping
+    return rig.with_parts(oscillator.replace(isolator=oscillator.isolator.replace(damping=damping)))
+
+
+DERIVED = {
+    "proportional_stiffness": Derived(
+        STIFFNESS,
+        "stiffness of both bumpers, with damping in proportion",
+        lambda rig: _common(rig.oscillator, "stiffness"),
+        _with_stiffness,
+        zero=False,
+    ),
+    "stiffness_at_restitution": Derived(
+        STIFFNESS,
+        "stiffness of both bumpers, with constant restitution",
+        _at_restitution,
+        _vary_at_restitution,
+        zero=False,
+        comment="C_j / √(K_j M) is kept",
+    ),
+    "isolator_period": Derived(
+        PERIOD,
+        "natural period on the isolator",
+        _period,
+        _vary_period,
+        zero=False,
+        comment="2π √(M/K); the damping ratio is kept",
+    ),
+    "stiffness_ratio": Derived(
+        DIMENSIONLESS,
+        "stiffness ratio of the bumpers",
+        lambda rig: _common(rig.oscillator, "stiffness") / _spring(rig),
+        lambda rig, value: _with_stiffness(rig, value * _spring(rig)),
+        zero=False,
+        comment="K_j / K",
+    ),
+    "gap_ratio": Derived(
+        DIMENSIONLESS,
+        "gap ratio of each side",
+        lambda rig: _common(rig.oscillator, "gap") / _peak(rig),
+        _vary_gap_ratio,
+        comment="G / u_max",
+        least=None,
+    ),
+    "relaxation_time": Derived(
+        DIMENSIONLESS,
+        "relaxation time of the bumpers",
+        _relaxation_time,
+        _vary_relaxation_time,
+        comment="ω0 C_j / K_j",
+    ),
+    "damping_ratio": Derived(
+        DIMENSIONLESS,
+        "damping ratio of the isolator",
+        _damping_ratio,
+        _vary_damping_ratio,
+        zero=False,
+        comment="C / (2 √(K M))",
+    ),
+}
+"""Derived parameters by name. `proportional_stiffness` and `stiffness_ratio` keep C_j/K_j,
+`stiffness_at_restitution` keeps C_j/√K_j, `isolator_period` keeps the damping ratio, and the ratios
+keep the other quantities in their definitions."""
