@@ -20,7 +20,7 @@ import math
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
-from vibroimpact.engine.motion import LIMIT
+from vibroimpact.engine.motion import LIMIT, PASSED
 from vibroimpact.engine.state import EVENT, LARGEST, STEP, T, copy, parts_room, put, room
 from vibroimpact.engine.state import stretch_room as ended_room
 
@@ -310,6 +310,8 @@ def _grow_in_pieces(
     put(plan, before, here)
     copy(logarithms, sums, count)
     event, length = int(ended[EVENT]), ended[STEP]
+    if event == PASSED:
+        event = LIMIT
     span = length if event == LIMIT else _BEFORE_EVENT * length
     done = _pass_time(plan, here, span, start, rest, count, weights, sums)
     if done and event != LIMIT:
@@ -344,7 +346,10 @@ def _pass_time(
     number = 1.0
     while done < span:
         length = min(number * piece, span - done)
-        if flow.advance(plan, here, length, ended, there) != LIMIT:
+        event = flow.advance(plan, here, length, ended, there)
+        if event == PASSED:
+            length, number = ended[STEP], 1.0
+        elif event != LIMIT:
             return False
         ended[EVENT], ended[T] = LIMIT, 0.0
         copy(rows, q, parts * parts)
