@@ -264,3 +264,28 @@ def test_a_pair_of_multipliers_leaves_the_unit_circle() -> None:
     start = critical["bifurcation_section"]
     for frequency, stable in ((0.998 * value, 1), (1.002 * value, 0)):
         assert int(vi.orbit(rig, start, 1, frequency=frequency)["stable"]) == stable
+
+
+def test_a_motion_that_does_not_settle_is_judged_by_its_exponents() -> None:
+    """The growth of two motions side by side is that of the first exponent."""
+    rig = damper(zeta=0.05, mass=0.1, e=0.6, clearance=8.0)
+    found = vi.steady(rig, samples=4, max_cycles=400, window=20, exponent_cycles=1500)
+    assert str(found["motion"].values) == "chaotic"
+    largest, spread = float(found["exponents"][0]), float(found["exponents_uncertainty"][0])
+    assert largest > 0.0
+    start = found["initial_state"]
+    grown, apart = 0.0, 1e-9
+    other = start.copy()
+    other[list(start["component"].values).index("velocity.host")] += apart
+    cycles = 400
+    for _ in range(cycles):
+        first, second = (
+            vi.simulate(rig, 1, one, samples=0)["final_state"] for one in (start, other)
+        )
+        away = (second - first).values[:4]
+        size = float(np.linalg.norm(away))
+        grown += math.log(size / apart)
+        start, other = first, first.copy()
+        other[:4] = first.values[:4] + away * (apart / size)
+    rate = grown / cycles * rig.periodic.frequency
+    assert rate == pytest.approx(largest, abs=0.25 * largest + 4.0 * spread)
