@@ -289,3 +289,18 @@ def test_a_motion_that_does_not_settle_is_judged_by_its_exponents() -> None:
         other[:4] = first.values[:4] + away * (apart / size)
     rate = grown / cycles * rig.periodic.frequency
     assert rate == pytest.approx(largest, abs=0.25 * largest + 4.0 * spread)
+
+
+def test_masses_without_stops_have_one_orbit() -> None:
+    for masses in (1, 3):
+        chain = vi.chain([2.0] * masses, [300.0] * masses, damping_ratio=0.03)
+        rig = vi.Rig(chain, vi.Harmonic("0.5 m/s2", 0.9))
+        found = vi.branch(rig, span=(0.5, 2.0))
+        assert found.sizes["stop"] == 0
+        assert found.sizes["bifurcation"] == 0
+        m, c, k = chain.mass_matrix, chain.damping_matrix, chain.stiffness_matrix
+        w = 2.0 * np.pi * 0.9
+        u = np.linalg.solve(k - w**2 * m + 1j * w * c, -0.5 * m @ np.ones(masses))
+        for motion in (vi.orbit(rig), vi.steady(rig), vi.sweep(rig, [0.9], "forward")):
+            values = motion["displacement_max"].values.reshape(masses)
+            np.testing.assert_allclose(values, abs(u), rtol=1e-12)

@@ -145,6 +145,8 @@ def _by_mass(
 
 def _own(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Array:
     """Own outputs of orbits over one period each."""
+    if not outputs:
+        return np.empty((len(orbits), 0))
     values = [
         computed(
             outputs,
