@@ -124,7 +124,7 @@ def test_the_help_of_a_command_ends_with_its_examples(name):
 
 
 def test_parameters_in_the_examples_of_the_help_are_paths():
-    texts = [cli.__doc__, *(one.__doc__ for one in COMMANDS.values())]
+    texts = [cli._HELP, *(one.__doc__ for one in COMMANDS.values())]
     found = [
         path
         for text in texts

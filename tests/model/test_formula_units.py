@@ -106,6 +106,51 @@ def test_a_formula_of_a_built_in_law_has_the_parameters_of_that_law() -> None:
         vi.branch(rig, vary={"isolator.k3": (1.0, 2.0)}, frequency=0.1)
 
 
+def named_like_built_in() -> vi.Rig:
+    """A rig whose formulas have numbers with the names of numbers of built-in laws."""
+    stop = vi.Law(
+        "2*stiffness*d + damping*v + stiffness*d*(d/e)**4", 0.01, stiffness=1e5, damping=9.0, e=0.1
+    )
+    isolator = vi.Law(
+        "2*stiffness*u/(1 + abs(u)/friction) + damping*v", stiffness=3e4, damping=9.0, friction=0.1
+    )
+    return RIG.with_parts(RIG.oscillator.replace(isolator=isolator, right=stop, left=stop))
+
+
+@pytest.mark.parametrize(
+    ("name", "units"),
+    [("isolator.friction", "m"), ("isolator.stiffness", "N m-1"), ("stops.damping", "N s m-1")],
+)
+def test_a_number_with_the_name_of_one_of_a_built_in_law_is_varied(name: str, units: str) -> None:
+    rig = named_like_built_in()
+    found = parameter(name, rig)
+    assert found.units == units
+    owner, _, number = name.rpartition(".")
+    field = "right" if owner == "stops" else owner
+    law = getattr(found.vary(rig, 7.0).oscillator, field)
+    assert law == getattr(rig.oscillator, field).replace(**{number: 7.0})
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "isolator_period",
+        "damping_ratio",
+        "proportional_stiffness",
+        "stiffness_at_restitution",
+        "stiffness_ratio",
+        "relaxation_time",
+    ],
+)
+def test_a_number_of_a_formula_has_no_meaning_by_its_name(name: str) -> None:
+    rig = named_like_built_in()
+    found = parameter(name, rig)
+    with pytest.raises(vi.InputError, match=r"has none|has no |no stop with"):
+        found.read(rig)
+    with pytest.raises(vi.InputError, match=r"has none|has no |no stop with"):
+        found.vary(rig, 0.5)
+
+
 def test_unequal_stops_have_no_common_number() -> None:
     unequal = RIG.with_parts(RIG.oscillator.replace(left=STOP.replace(ks=1e5)))
     with pytest.raises(vi.InputError, match=r"'right\.ks' or 'left\.ks'"):

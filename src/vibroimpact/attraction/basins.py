@@ -67,8 +67,7 @@ def basins(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     displacement, velocity
         Lowest and highest displacement (m) and velocity (m/s) of the grid. Default: 1.6 times the
         range of the steady motions, which are first searched from a coarse grid of initial states.
@@ -95,14 +94,14 @@ def basins(
         Largest number of contacts and detachments in one forcing cycle. When the motion from a
         state reaches this number, its simulation stops and the state is given up.
     threads
-        Number of threads (default: one per processor). The number does not affect the result.
+        Number of threads (default: one per processor).
     where
-        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster. A cluster is
-        passed as a ``distributed.Client`` or as the address of its scheduler
-        (docs/how-to/many-machines.md). The choice does not affect the result.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). Neither ``where`` nor ``threads`` affects
+        the result.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed states and the number of all states.
+        A `progress_bar`, or a function that is called in the calling thread with the completed and
+        the total number of states.
 
     Returns
     -------

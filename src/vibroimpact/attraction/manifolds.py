@@ -79,8 +79,7 @@ def manifolds(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     saddles
         Saddle orbits, as datasets of `orbit` or as states near the orbits. Default: up to four
         saddles, which are found along the borders between basins.
@@ -103,11 +102,11 @@ def manifolds(
     max_cycles, max_events, threads
         As in `basins`.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread. During the search for saddles it gets the number of completed states (then:
-        of places on borders) and the number of all. After that it gets the completed part and the
-        total of all curves, in hundredths of a curve. Default: `progress_bar` on a terminal or in a
-        notebook, if the computation takes more than two seconds; otherwise, nothing is shown.
+        A `progress_bar`, or a function that is called in the calling thread. During the search for
+        saddles it gets the number of completed states (then: of places on borders) and the number
+        of all. After that it gets the completed part and the total of all curves, in hundredths of
+        a curve. Default: `progress_bar` on a terminal or in a notebook, if the computation takes
+        more than two seconds; otherwise, nothing is shown.
 
     Returns
     -------

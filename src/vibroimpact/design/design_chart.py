@@ -53,19 +53,18 @@ def design_chart(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file. If a sine shakes the rig, the frequency is swept up and down, and the
-        largest steady response over all frequencies is reported. If a record shakes the rig, the
-        response of the motion from rest is reported.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
+        If a sine shakes the rig, the frequency is swept up and down, and the largest steady
+        response over all frequencies is reported. If a record shakes the rig, the response of the
+        motion from rest is reported.
     vary
         Parameters that are varied, as a mapping from names to values. All combinations of the
         values are computed. Names are, for example, ``"gap"``, ``"stops.stiffness"``,
         ``"stops.damping"``, ``"isolator_period"``, ``"damping_ratio"`` and
         ``"isolator.yield_force"``. A parameter of stops is set on both sides, if the stop there has
         this parameter. If ``"stops.stiffness"`` is varied, the damping of the bumpers stays
-        constant. If
-        ``"stiffness_at_restitution"`` is varied, the damping changes so that the coefficient of
-        restitution stays constant.
+        constant. If ``"stiffness_at_restitution"`` is varied, the damping changes so that the
+        coefficient of restitution stays constant.
     records
         One record, or several as a list or as a mapping from names to records. They replace the
         shaking of the rig, and the rig may then be an `Oscillator` alone. The motion through each
@@ -89,13 +88,14 @@ def design_chart(
     tail
         Duration of free vibration after the record, in s; see `seismic_response`.
     threads
-        Number of threads (default: one per processor). The number does not affect the result.
+        Number of threads (default: one per processor).
     where
-        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster, as in
-        `scenario_map`. The choice does not affect the result.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). Neither ``where`` nor ``threads`` affects
+        the result.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed designs and the number of all designs.
+        A `progress_bar`, or a function that is called in the calling thread with the completed and
+        the total number of designs.
 
     Returns
     -------

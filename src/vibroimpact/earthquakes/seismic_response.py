@@ -50,8 +50,7 @@ def seismic_response(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     tail
         Duration of free vibration after the record, in seconds or as text such as ``"10s"``.
         Default: two natural periods of the mass with the smallest stiffness of the isolator.
@@ -59,8 +58,8 @@ def seismic_response(
         Largest number of contacts and detachments in one step of the record. When the motion
         reaches this number, the computation is given up.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed steps of the record and the number of all steps.
+        A `progress_bar`, or a function that is called in the calling thread with the number of
+        completed steps of the record and the number of all steps.
 
     Returns
     -------

@@ -93,8 +93,7 @@ def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     height
         Height of the explorer in the notebook (pixels).
 

@@ -57,8 +57,7 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     name
         Name of the rig. Default: its own name; for a laboratory case, its code.
     span

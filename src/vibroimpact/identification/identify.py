@@ -64,10 +64,10 @@ def identify(
     ----------
     rig
         The tested rig, with its known values and guesses of the unknown values. It is a `Rig`, a
-        published laboratory case or its code such as ``"B2-G1-A3"``, or the path of a study file.
-        If each test has its own rig, pass a list of rigs, or a mapping from the names of the tests
-        to rigs. If the data state or contain the shaking, this shaking is used, and ``rig`` may be
-        an `Oscillator` alone. If the shaking of the rig differs from the shaking of the data, a
+        published case or its code such as ``"B2-G1-A3"``, or the path of a study file. If each test
+        has its own rig, pass a list of rigs, or a mapping from the names of the tests to rigs. If
+        the data state or contain the shaking, this shaking is used, and ``rig`` may be an
+        `Oscillator` alone. If the shaking of the rig differs from the shaking of the data, a
         warning and a finding report it.
     data
         The measured data: a dataset of `read_measurement`, `sweep` or `simulate`, or the path of a
@@ -121,8 +121,8 @@ def identify(
     threads
         Number of threads (default: one per processor).
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called with the
-        number of completed steps and the number of all steps.
+        A `progress_bar`, or a function that is called with the completed and the total number of
+        steps.
 
     Returns
     -------

@@ -17,6 +17,7 @@ from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.quantities import DIMENSIONLESS, PERIOD, STIFFNESS, Quantity
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.validation import Model
 
 
 class Derived(NamedTuple):
@@ -52,6 +53,15 @@ def scale_of(rig: Rig) -> float:
     return float(shaken.acceleration(oscillator.mass, oscillator.angular_frequency))
 
 
+def _fields(law: Model) -> dict[str, float]:
+    """Return the numbers of a law whose meaning the package knows.
+
+    A number in the formula of a user is none of them, whatever its name.
+    """
+    known = type(law).model_fields
+    return {name: value for name, (value, _) in law.knobs().items() if name in known}
+
+
 def _numbers(oscillator: Oscillator, name: str) -> dict[str, dict[str, float]]:
     """Return the numbers of the stops that have a number of this name, by side.
 
@@ -63,7 +73,7 @@ def _numbers(oscillator: Oscillator, name: str) -> dict[str, dict[str, float]]:
     found = {}
     for side in ("right", "left"):
         stop = getattr(oscillator, side)
-        numbers = {} if stop is None else {key: value for key, (value, _) in stop.knobs().items()}
+        numbers = {} if stop is None else _fields(stop)
         if name in numbers:
             found[side] = numbers
     if not found:
@@ -174,24 +184,36 @@ def _vary_relaxation_time(rig: Rig, value: float) -> Rig:
     )
 
 
-def _period(rig: Rig) -> float:
-    isolator = rig.oscillator.isolator
-    if "stiffness" not in isolator.knobs():
+def _check_isolator(oscillator: Oscillator, field: str, name: str) -> None:
+    """Refuse an isolator without a field that a parameter sets."""
+    if field not in _fields(oscillator.isolator):
+        kind = oscillator.isolator.kind
         raise InputError(
-            f"parameter: 'isolator_period' sets the stiffness of the isolator, but {isolator} has "
-            "none; use an isolator with a stiffness"
+            f"parameter: {name!r} sets the {field} of the isolator, but its law, {kind}, has none; "
+            f"use an isolator with a {field}"
         )
+
+
+def _period(rig: Rig) -> float:
+    _check_isolator(rig.oscillator, "stiffness", "isolator_period")
     return 1.0 / rig.oscillator.natural_frequency
 
 
 def _vary_period(rig: Rig, value: float) -> Rig:
     oscillator = rig.oscillator
+    _check_isolator(oscillator, "stiffness", "isolator_period")
     made = spring_and_dashpot(oscillator.mass, value, oscillator.damping_ratio)
     return rig.with_parts(oscillator.replace(isolator=oscillator.isolator.replace(**made)))
 
 
+def _damping_ratio(rig: Rig) -> float:
+    _check_isolator(rig.oscillator, "damping", "damping_ratio")
+    return rig.oscillator.damping_ratio
+
+
 def _vary_damping_ratio(rig: Rig, value: float) -> Rig:
     oscillator = rig.oscillator
+    _check_isolator(oscillator, "damping", "damping_ratio")
     damping = value * oscillator.critical_damping
     return rig.with_parts(oscillator.replace(isolator=oscillator.isolator.replace(damping=damping)))
 
@@ -246,7 +268,7 @@ DERIVED = {
     "damping_ratio": Derived(
         DIMENSIONLESS,
         "damping ratio of the isolator",
-        lambda rig: rig.oscillator.damping_ratio,
+        _damping_ratio,
         _vary_damping_ratio,
         zero=False,
         comment="C / (2 √(K M))",

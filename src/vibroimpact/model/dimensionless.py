@@ -253,9 +253,9 @@ def to_dimensionless(rig: AnyRig) -> Dimensionless:
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file. It must be shaken by one sine, because the gaps are divided by the
-        response to this sine without stops.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
+        It must be shaken by one sine, because the gaps are divided by the response to this sine
+        without stops.
 
     Returns
     -------

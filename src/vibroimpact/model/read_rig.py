@@ -45,8 +45,7 @@ def as_rig(
     Parameters
     ----------
     value
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     frequency
         Forcing frequency in Hz, or text with a unit. Default: the frequency of the rig.
     where

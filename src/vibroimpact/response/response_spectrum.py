@@ -53,8 +53,8 @@ def response_spectrum(
     damping
         One or several damping ratios ζ, at least 0 and less than 1.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called with the
-        number of completed oscillators and the number of all oscillators.
+        A `progress_bar`, or a function that is called with the completed and the total number of
+        oscillators.
 
     Returns
     -------

@@ -63,9 +63,9 @@ def simulate(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file. The system may be an `Assembly` whose links are linear and whose stops
-        are bumpers or rigid stops.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
+        The system may be an `Assembly` whose links are linear and whose stops are bumpers or rigid
+        stops.
     cycles
         Duration in forcing cycles, greater than 0. It need not be a whole number. If nothing shakes
         the rig, a cycle is one period of ``frequency``. If a record shakes the rig, do not pass
@@ -89,9 +89,8 @@ def simulate(
         Largest number of contacts and detachments in one forcing cycle, or in one step of a record.
         When the motion reaches this number, the computation is given up.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called from time
-        to time with the number of completed cycles (or steps of the record) and the number of all
-        of them.
+        A `progress_bar`, or a function that is called from time to time with the number of
+        completed cycles (or steps of the record) and the number of all of them.
 
     Returns
     -------

@@ -92,8 +92,7 @@ def classify_scenario(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     frequencies
         Rising frequencies of the sweeps, in Hz. Default: from 0.4 times the natural frequency to
         above the highest possible primary resonance, in steps of a hundredth of the natural

@@ -67,8 +67,7 @@ def coexisting_motions(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     frequency
         Forcing frequency (Hz). Default: the frequency of the rig.
     frequencies
@@ -86,9 +85,9 @@ def coexisting_motions(
     window, max_cycles, exponent_cycles, max_events
         As in `steady`.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called after
-        each initial state, with the number of completed initial states and the number of all
-        initial states. The latter is None as long as mirror images may be added.
+        A `progress_bar`, or a function that is called after each initial state, with the number of
+        completed initial states and the number of all initial states. The latter is None as long as
+        mirror images may be added.
 
     Returns
     -------

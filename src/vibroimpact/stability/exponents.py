@@ -69,9 +69,9 @@ def lyapunov_exponents(
     Parameters
     ----------
     rigs
-        One or several rigs. Each is a `Rig`, a published laboratory case or its code such as
-        ``"B2-G1-A3"``, or the path of a study file. If they are passed as a mapping, its keys are
-        the names of the rigs.
+        One or several rigs. Each is a `Rig`, a published case or its code such as ``"B2-G1-A3"``,
+        or the path of a study file. If they are passed as a mapping, its keys are the names of the
+        rigs.
     frequencies
         Rising forcing frequencies, in Hz.
     cycles
@@ -91,14 +91,15 @@ def lyapunov_exponents(
         Largest number of contacts and detachments in one forcing cycle. When a motion reaches this
         number, its computation is given up.
     threads
-        Number of threads (default: one per processor). The number does not affect the result.
+        Number of threads (default: one per processor).
     where
-        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster, as in
-        `scenario_map`. The choice does not affect the result.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). Neither ``where`` nor ``threads`` affects
+        the result.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed forcing cycles and the number of all forcing
-        cycles. Both include the cycles of ``transient`` and of the alignment.
+        A `progress_bar`, or a function that is called in the calling thread with the completed and
+        the total number of forcing cycles. Both include the cycles of ``transient`` and of the
+        alignment.
 
     Returns
     -------

@@ -59,7 +59,7 @@ def ensemble(
     Parameters
     ----------
     rig
-        The rig with the nominal values: a `Rig`, a published laboratory case or its code such as
+        The rig with the nominal values: a `Rig`, a published case or its code such as
         ``"B2-G1-A3"``, or the path of a study file. For a response to records, it may be an
         `Oscillator` alone.
     distributions
@@ -82,8 +82,8 @@ def ensemble(
         Number of rigs in each call of ``response``. Default: as many as can be computed in two
         seconds, but at least 64.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called with the
-        number of completed rigs and the number of all rigs.
+        A `progress_bar`, or a function that is called with the completed and the total number of
+        rigs.
 
     Returns
     -------

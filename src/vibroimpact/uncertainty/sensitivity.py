@@ -60,8 +60,8 @@ def sensitivity(
         Number of bootstrap samples from which 95 % intervals of the indices are computed. If it is
         0, there are no intervals.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called with the
-        number of completed rigs and the number of all rigs.
+        A `progress_bar`, or a function that is called with the completed and the total number of
+        rigs.
 
     Returns
     -------
