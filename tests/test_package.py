@@ -83,7 +83,7 @@ def test_public_names_are_documented():
 
 def test_the_table_of_parameters_has_them_all():
     page = (ROOT / "docs/names.md").read_text(encoding="utf-8")
-    rows = page.split("## Parameters that are varied")[1].split("Four parameters change")[0]
+    rows = page.split("| Path | Quantity | Unit | Of |")[1].split("Four parameters change")[0]
     cells = (row.split("|")[1] for row in rows.splitlines() if row.startswith("|"))
     listed = {name for cell in cells for name in re.findall(r"`([\w.]+)`", cell)} - {"stops.gap"}
     assert listed == {name for name in PARAMETERS if name.count(".") < 2}

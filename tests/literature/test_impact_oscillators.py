@@ -132,7 +132,7 @@ def _curve(
 def _with(one: Oscillator, other: str, value: float) -> Oscillator:
     if other == "amplitude":  # the gap over it is what counts
         return one._replace(gap=one.gap / value)
-    return one._replace(**{other: value})
+    return one._replace(**{other.rpartition(".")[2]: value})
 
 
 def test_budd_and_dux_chatter_ends_in_rest() -> None:

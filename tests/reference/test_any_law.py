@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import get_args
-
 import pytest
 from mpmath import mp, mpf
 
@@ -18,8 +16,8 @@ from reference.law_series import law_of
 from reference.public_motion import reference_shaking
 from reference.store_law_states import States, difference, marks
 from samples import sample
-from vibroimpact.model.isolators import AnyIsolator
-from vibroimpact.model.stops import Stop
+from vibroimpact.model.isolators import ISOLATORS
+from vibroimpact.model.stops import STOPS, Stop
 
 TINY = mpf(10) ** -36
 ONE_EACH = (
@@ -110,16 +108,16 @@ def test_stored_states_are_those_of_a_fresh_run(name: str) -> None:
                     assert abs(one - digits) <= mpf("1e-23") * abs(digits)
 
 
-BUILT_IN = {kind: set(get_args(kind)) - {vi.Law} for kind in (AnyIsolator, Stop)}
+BUILT_IN = {kinds: set(kinds.classes.values()) - {vi.Law} for kinds in (ISOLATORS, STOPS)}
 """A law given as a formula equals one of these to the bit: tests/engine/taylor/test_own_laws.py."""
 
 
 def test_every_law_has_three_stored_rigs_and_more() -> None:
     assert set(law_states.STATES) == set(CASES)
     laws_seen = [type(one.rig.isolator) for one in CASES.values()]
-    assert all(laws_seen.count(law) >= 3 for law in BUILT_IN[AnyIsolator])
+    assert all(laws_seen.count(law) >= 3 for law in BUILT_IN[ISOLATORS])
     stops = [type(stop) for one in CASES.values() for stop in one.rig.stops]
-    assert all(stops.count(law) >= 3 for law in BUILT_IN[Stop])
+    assert all(stops.count(law) >= 3 for law in BUILT_IN[STOPS])
 
 
 def test_every_law_is_under_every_shaking_on_either_side() -> None:
@@ -142,8 +140,8 @@ def test_every_law_is_under_every_shaking_on_either_side() -> None:
         (type(stop), getattr(stop, "relation", None))
         for stop in (made(0.01) for made in shaken_cases.STOPS.values())
     }
-    assert {law for law, _ in isolators} == BUILT_IN[AnyIsolator]
-    assert {law for law, _ in stops} == BUILT_IN[Stop]
+    assert {law for law, _ in isolators} == BUILT_IN[ISOLATORS]
+    assert {law for law, _ in stops} == BUILT_IN[STOPS]
     for kind in kinds:
         assert {one[2:] for one in seen if one[:2] == kind and len(one) == 4} == isolators
         for side in range(2):

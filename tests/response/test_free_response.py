@@ -42,7 +42,7 @@ def test_a_softening_fold_is_swept_from_above() -> None:
 def test_a_jump_stands_at_the_fold_of_the_branch() -> None:
     """Backward, a hardening resonance is largest where the motion jumps up."""
     rig = vi.Oscillator(1.0, vi.PolynomialIsolator(1.0, 0.02, 0.3))
-    branch = vi.branch(vi.Rig(rig, vi.Harmonic(0.3, 0.3)), span=(0.15, 0.3))
+    branch = vi.branch(vi.Rig(rig, vi.Harmonic(0.3, 0.3)), vary={"frequency": (0.15, 0.3)})
     (fold,) = branch["bifurcation_value"].values
     jump = resonance(vi.Rig(rig, SHAKEN))
     assert jump == pytest.approx(fold, abs=1e-6 * rig.natural_frequency)

@@ -73,8 +73,7 @@ def basin_stability(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     displacement, velocity
         Lowest and highest initial displacement (m) and velocity (m/s). Default: a range around all
         steady motions at all values of the parameter, chosen as in `basins`.
@@ -92,8 +91,8 @@ def basin_stability(
     max_cycles, max_events, threads, where
         As in `basins`.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed values and the number of all values.
+        A `progress_bar`, or a function that is called in the calling thread with the completed and
+        the total number of values.
 
     Returns
     -------

@@ -152,9 +152,8 @@ def least_acceleration(
     seed
         Random seed of the search.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of designs that were tried and None, because the total is
-        unknown.
+        A `progress_bar`, or a function that is called in the calling thread with the number of
+        designs that were tried and None, because the total is unknown.
 
     Returns
     -------

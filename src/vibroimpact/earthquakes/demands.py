@@ -111,14 +111,14 @@ def demands(
         Number of rigs and number of records in a block. A block contains all scales. If the
         computation is stopped, at most the unfinished blocks are lost.
     threads
-        Number of threads (default: one per processor). The number does not affect the result.
+        Number of threads (default: one per processor).
     where
-        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster. A cluster is
-        passed as a ``distributed.Client`` or as the address of its scheduler
-        (docs/how-to/many-machines.md). The choice does not affect the result.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). Neither ``where`` nor ``threads`` affects
+        the result.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed runs and the number of all runs.
+        A `progress_bar`, or a function that is called in the calling thread with the completed and
+        the total number of runs.
 
     Returns
     -------

@@ -14,7 +14,7 @@ from vibroimpact.earthquakes.credible_curves import begin_to_exceed, credible_cu
 from vibroimpact.earthquakes.suites import described, exceedance, known, limit_of
 from vibroimpact.errors import InputError, outside
 from vibroimpact.model.count_checks import share
-from vibroimpact.model.parameters import in_units
+from vibroimpact.model.parameters import in_units, usual
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS
 from vibroimpact.model.units import pretty
 
@@ -249,7 +249,7 @@ def _named(coordinate: xr.DataArray, at: int) -> str:
     name, value = str(coordinate.name), coordinate.values[at]
     words = name.replace("_", " ")
     try:
-        quantity = in_units(str(coordinate.attrs.get("units")))
+        quantity = in_units(str(coordinate.attrs.get("units", usual(name).units)))
     except StopIteration:  # the unit depends on an exponent
         return f"{words} {value}"
     return f"{words} {pretty(float(value), quantity)}"

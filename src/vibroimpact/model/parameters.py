@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, cast
 
 from vibroimpact.errors import InputError, meant, shown
+from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.derived_parameters import DERIVED
 from vibroimpact.model.excitation import FREQUENCY_WORDS, Of, amplitude_of
 from vibroimpact.model.isolators import ISOLATORS
@@ -183,6 +184,8 @@ def usual(name: str, of: Of = "acceleration") -> Parameter:
 def parameters(rig: Rig) -> dict[str, Parameter]:
     """Return the parameters of a rig by their paths."""
     of: Of = getattr(rig.shaking, "of", "acceleration")
+    if isinstance(rig.system, Assembly):  # whose links and stops have no paths so far
+        return {name: usual(name, of) for name in ("frequency", "amplitude")}
     sides = [side for side in ("right", "left") if getattr(rig.oscillator, side, None) is not None]
     found = {name: one for name, one in PARAMETERS.items() if name == "frequency"}
     found["amplitude"] = _of("amplitude", amplitude_of(of))

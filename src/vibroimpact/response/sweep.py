@@ -72,8 +72,7 @@ def sweep(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     frequencies
         Rising frequencies in Hz, or texts such as ``"2.5 Hz"``.
     directions
@@ -221,9 +220,9 @@ def sweeps(
     Parameters
     ----------
     rigs
-        One or several rigs. Each is a `Rig`, a published laboratory case or its code such as
-        ``"B2-G1-A3"``, or the path of a study file. If they are passed as a mapping, its keys are
-        the names of the rigs.
+        One or several rigs. Each is a `Rig`, a published case or its code such as ``"B2-G1-A3"``,
+        or the path of a study file. If they are passed as a mapping, its keys are the names of the
+        rigs.
     frequencies, directions
         As in `sweep`.
     start
@@ -248,14 +247,14 @@ def sweeps(
         ``{"top_speed": "max(abs(velocity))"}``. Each is computed from one period of the motion at
         each frequency, or from ``window`` cycles of a motion that did not settle.
     threads
-        Number of threads (default: one per processor). The number does not affect the result.
+        Number of threads (default: one per processor).
     where
-        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster. A cluster is
-        passed as a ``distributed.Client`` or as the address of its scheduler
-        (docs/how-to/many-machines.md). The choice does not affect the result.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). Neither ``where`` nor ``threads`` affects
+        the result.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the completed work and the total work.
+        A `progress_bar`, or a function that is called in the calling thread with the completed work
+        and the total work.
 
     Returns
     -------

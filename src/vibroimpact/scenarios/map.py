@@ -68,10 +68,9 @@ def scenario_map(
     Parameters
     ----------
     rig
-        The rig, which has all other parameters and is shaken by one sine: a `Rig`, a published
-        laboratory case or its code such as ``"B2-G1-A3"``, or the path of a study file. If it is
-        None, the rig has the dimensionless parameters ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on
-        both sides.
+        The rig, which has all other parameters and is shaken by one sine: a `Rig`, a published case
+        or its code such as ``"B2-G1-A3"``, or the path of a study file. If it is None, the rig has
+        the dimensionless parameters ξ = 0.15, τ = 0.01, λ = 25.9 and δ0 = 0.5 on both sides.
     vary
         The parameters on the two axes, x first, and rising values of each, such as
         ``{"gap_ratio": [0, 0.5, 1], "stiffness_ratio": [1, 10, 100]}``.
@@ -109,17 +108,15 @@ def scenario_map(
         Number of nodes of the first grid along each side of a block. If the computation is stopped,
         at most the unfinished blocks are lost. Only one block is kept in memory at a time.
     threads
-        Number of threads (default: one per processor). The number does not affect the result.
+        Number of threads (default: one per processor).
     where
-        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster. A cluster is
-        passed as a ``distributed.Client`` or as the address of its scheduler
-        (docs/how-to/many-machines.md). Default: processes if the first grid has at least 500 nodes
-        and more than one process may run, and threads otherwise. The choice does not affect the
-        result.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). Default: processes if the first grid has at
+        least 500 nodes and more than one process may run, and threads otherwise. Neither ``where``
+        nor ``threads`` affects the result.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed nodes and the number of nodes that are known to
-        be required so far.
+        A `progress_bar`, or a function that is called in the calling thread with the number of
+        completed nodes and the number of nodes that are known to be required so far.
 
     Returns
     -------

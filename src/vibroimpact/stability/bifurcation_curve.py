@@ -69,8 +69,7 @@ def bifurcation_curve(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     start
         One bifurcation of a dataset of `branch` or `resonance_diagram`, which was computed along
         one of the two parameters: ``data.isel(bifurcation=i)``.
@@ -82,8 +81,8 @@ def bifurcation_curve(
     most_points
         Largest number of points in each direction along the curve.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called with the
-        number of computed points and None, because the total is unknown until the end.
+        A `progress_bar`, or a function that is called with the number of computed points and None,
+        because the total is unknown until the end.
 
     Returns
     -------

@@ -81,8 +81,7 @@ def bifurcation_diagram(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     vary
         Parameter that is varied, and its lowest and highest value, as in `branch`.
     steps
@@ -120,13 +119,14 @@ def bifurcation_diagram(
         Own outputs, as in `sweeps`, of each motion: over one period, or over ``points`` cycles of a
         motion that did not become periodic.
     threads
-        Number of threads (default: one per processor). The number does not affect the result.
+        Number of threads (default: one per processor).
     where
-        Where the work is done: ``"threads"``, ``"processes"``, or a dask cluster, as in
-        `scenario_map`. The choice does not affect the result.
+        ``"threads"``, ``"processes"``, or a dask cluster: a ``distributed.Client`` or the address
+        of its scheduler (docs/how-to/many-machines.md). Neither ``where`` nor ``threads`` affects
+        the result.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed motions and the number of all motions.
+        A `progress_bar`, or a function that is called in the calling thread with the completed and
+        the total number of motions.
 
     Returns
     -------

@@ -47,8 +47,7 @@ def branch(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     start
         A state near the first orbit, at the initial phase of the excitation. Default: the steady
         motion that is reached from rest.
@@ -79,8 +78,8 @@ def branch(
     outputs
         Own outputs, as in `sweeps`, of one period of each orbit and of each bifurcation.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called with the
-        number of computed orbits and None, because the total is unknown until the end.
+        A `progress_bar`, or a function that is called with the number of computed orbits and None,
+        because the total is unknown until the end.
 
     Returns
     -------

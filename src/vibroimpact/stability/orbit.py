@@ -31,8 +31,7 @@ def orbit(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     start
         A state near the orbit, at the initial phase of the excitation. Default: the steady motion
         that is reached from rest.

@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.section_map import AMPLITUDE, FREQUENCY, PARAMETER
-from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, Oscillator, Repeated
-from vibroimpact.model.parameters import Parameter, parameter, usual
+from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
@@ -179,14 +178,7 @@ def family(rig: Rig, name: str) -> Family:
     as_periodic(rig.shaking, "shaking")  # refuses a record
     if isinstance(rig.system, Assembly):
         check_size(rig.system)
-        if name not in ("frequency", "amplitude"):
-            raise InputError(
-                f"parameter: {shown(name)}; orbits of an Assembly are followed along 'frequency' "
-                "or 'amplitude' so far; pass one of the two"
-            )
-        varied = usual(name, rig.periodic.of)
-    else:
-        varied = parameter(name, rig)
+    varied = parameter(name, rig)
     value = varied.read(rig)
     step = varied.beside(value) - value
     here = system_vector(rig)

@@ -59,8 +59,7 @@ def resonance_diagram(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     vary
         Parameter that is varied, and its lowest and highest value, as in `branch`.
     frequency
@@ -86,9 +85,8 @@ def resonance_diagram(
     outputs
         Own outputs, as in `sweeps`, of one period of each orbit and of each bifurcation.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called at each
-        point with the number of completed branches and the number of branches that are known so
-        far.
+        A `progress_bar`, or a function that is called at each point with the number of completed
+        branches and the number of branches that are known so far.
 
     Returns
     -------

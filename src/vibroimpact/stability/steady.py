@@ -78,8 +78,7 @@ def steady(
     Parameters
     ----------
     rig
-        The rig: a `Rig`, a published laboratory case or its code such as ``"B2-G1-A3"``, or the
-        path of a study file.
+        A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
     start
         Initial state. Default: the mass at rest.
     samples
@@ -95,10 +94,9 @@ def steady(
         required to classify the motion. It is not required for a periodic motion, whose exponents
         follow from one period.
     progress
-        Function that reports progress, such as the result of `progress_bar`. It is called in the
-        calling thread with the number of completed cycles and the largest possible number of
-        cycles. These are first counted until the motion is steady, and then counted again while the
-        exponents are averaged.
+        A `progress_bar`, or a function that is called in the calling thread with the number of
+        completed cycles and the largest possible number of cycles. These are first counted until
+        the motion is steady, and then counted again while the exponents are averaged.
 
     Returns
     -------

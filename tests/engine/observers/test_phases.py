@@ -15,8 +15,9 @@ from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers import record as written
 from vibroimpact.engine.observers.phases import ONE_MASS, begin_row
-from vibroimpact.engine.parameters import Drive, Law, PowerLaw, rig_vector
+from vibroimpact.engine.parameters import Drive, rig_vector
 from vibroimpact.engine.state import copy, room, width, wind
+from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
 
 STIFFNESS, DAMPING, GAP = 20.0, 2.0, 0.3
 BUMPER = (STIFFNESS, DAMPING, GAP)
@@ -25,7 +26,7 @@ OVERLAPPING = (STIFFNESS, DAMPING, -0.35)
 EXPONENT, DISSIPATION = 1.5, 1.5
 CURVED = PowerLaw(STIFFNESS, EXPONENT, DISSIPATION, 0.0, GAP)
 WALL = (0.7, GAP)
-YIELDS = Law(hysteretic=1.5, limit=0.3)
+YIELDS = IsolatorNumbers(hysteretic=1.5, limit=0.3)
 FRICTION = 0.2
 WEIGHTS = ((1.0, 0.0), (0.0, 0.3))
 
@@ -40,12 +41,12 @@ def rigs(base):
         "AnyStops, both pressed": (BUMPER, OVERLAPPING, one, None),
         "Several": (BUMPER, BUMPER, several, None),
         "Recorded": (BUMPER, BUMPER, line, None),
-        "Curved": (BUMPER, BUMPER, one, Law(cubic=1.0)),
-        "Curved, both pressed": (BUMPER, OVERLAPPING, one, Law(cubic=1.0)),
-        "Curved, friction": (BUMPER, BUMPER, one, Law(cubic=1.0, friction=FRICTION)),
+        "Curved": (BUMPER, BUMPER, one, IsolatorNumbers(cubic=1.0)),
+        "Curved, both pressed": (BUMPER, OVERLAPPING, one, IsolatorNumbers(cubic=1.0)),
+        "Curved, friction": (BUMPER, BUMPER, one, IsolatorNumbers(cubic=1.0, friction=FRICTION)),
         "Curved, powers": (CURVED, CURVED, one, None),
         "Yielding": (BUMPER, BUMPER, one, YIELDS),
-        "Yielding, friction": (BUMPER, BUMPER, one, Law(friction=FRICTION)),
+        "Yielding, friction": (BUMPER, BUMPER, one, IsolatorNumbers(friction=FRICTION)),
         "YieldingSeveral": (BUMPER, BUMPER, several, YIELDS),
         "YieldingRecorded": (BUMPER, BUMPER, line, YIELDS),
     }

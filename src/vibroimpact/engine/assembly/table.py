@@ -8,7 +8,7 @@ from vibroimpact.engine.assembly import advance as motion
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly import measures, section
 from vibroimpact.engine.assembly import tangent as disturbances
-from vibroimpact.engine.assembly.free_motion import undisturbed as in_closed_form
+from vibroimpact.engine.assembly.free_motion import stays_free as in_closed_form
 from vibroimpact.engine.jit import Vector, kernel
 
 begin, build, advance, cycle = motion.begin, motion.build, motion.advance, motion.cycle
