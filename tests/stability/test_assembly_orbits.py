@@ -298,7 +298,7 @@ def test_masses_without_stops_have_one_orbit() -> None:
     for masses in (1, 3):
         chain = vi.chain([2.0] * masses, [300.0] * masses, damping_ratio=0.03)
         rig = vi.Rig(chain, vi.Harmonic("0.5 m/s2", 0.9))
-        found = vi.branch(rig, span=(0.5, 2.0))
+        found = vi.branch(rig, vary={"frequency": (0.5, 2.0)})
         assert found.sizes["stop"] == 0
         assert found.sizes["bifurcation"] == 0
         m, c, k = chain.mass_matrix, chain.damping_matrix, chain.stiffness_matrix

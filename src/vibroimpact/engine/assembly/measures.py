@@ -96,7 +96,7 @@ def _turn(a: Vector, order: int, low: float, high: float) -> float:
 
 
 @apart
-def widen(plan: Vector, a: Vector, order: int, room: Vector) -> None:
+def extend_range(plan: Vector, a: Vector, order: int, room: Vector) -> None:
     """Widen a range, the two numbers of `room`, by the values of a power series on [0, 1].
 
     A part on which the differences of the Bernstein coefficients change their sign once has one
@@ -185,16 +185,16 @@ def extremes(plan: Vector, notes: Vector) -> None:
         open_piece(plan, piece)
         for i in range(n):
             order = series(plan, DISPLACEMENT, i, a)
-            widen(plan, a, order, beyond(notes, OF_MASS * i + U_LEAST))
+            extend_range(plan, a, order, beyond(notes, OF_MASS * i + U_LEAST))
             order = series(plan, ABSOLUTE_ACCELERATION, i, a)
-            widen(plan, a, order, beyond(notes, OF_MASS * i + A_LEAST))
+            extend_range(plan, a, order, beyond(notes, OF_MASS * i + A_LEAST))
         order = _force_on_base(plan, a, b)
-        widen(plan, b, order, beyond(notes, OF_MASS * n))
+        extend_range(plan, b, order, beyond(notes, OF_MASS * n))
         for f in range(stops):
             if mode >> f & 1:
                 order = series(plan, FORCE, f, a)
                 range_[0], range_[1] = -math.inf, of_stops[OF_STOP * f + PUSHED]
-                widen(plan, a, order, range_)
+                extend_range(plan, a, order, range_)
                 of_stops[OF_STOP * f + PUSHED] = range_[1]
     close_stretch(plan)
     event = int(plan[at.EVENT])
