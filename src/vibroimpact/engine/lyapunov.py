@@ -100,7 +100,7 @@ def growth(
     if anew:
         for i in range(parts * parts):
             q[i] = 0.0
-        observers.begin(plan, here, q, 0, count, of_section)
+        observers.begin_rows(plan, here, q, 0, count, of_section)
     outcome = DONE
     number = first
     while outcome == DONE and number < last:

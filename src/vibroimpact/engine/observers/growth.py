@@ -143,7 +143,9 @@ def orthonormalise(
 
 
 @apart
-def begin(plan: Vector, state: Vector, q: Vector, first: int, count: int, weights: Vector) -> None:
+def begin_rows(
+    plan: Vector, state: Vector, q: Vector, first: int, count: int, weights: Vector
+) -> None:
     """Let rows begin, from number `first` on: each in a direction that those before it leave."""
     parts = flow.parts(plan)
     units = _rows_room()
@@ -281,14 +283,14 @@ def add_up(
         if size > -math.inf:
             logarithms[at] += math.log(abs(size))
             if size == math.inf:  # a rigid stop is met without speed
-                begin(plan, after, q, at, at + 1, weights)
+                begin_rows(plan, after, q, at, at + 1, weights)
             elif at < i:
                 copy(beyond(q, i * parts), beyond(q, at * parts), parts)
             at += 1
     if at < count:
         for i in range(at, count):
             logarithms[i] = -math.inf
-        begin(plan, after, q, at, count, weights)
+        begin_rows(plan, after, q, at, count, weights)
 
 
 @apart
