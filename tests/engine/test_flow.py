@@ -89,7 +89,7 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
             found[0], found[1], found[2], found[3], found[4] = 0.0, 0.0, 0.0, 0.0, 0.0
             flow.units(plan, pointer(w))
             q[:] = 0.0
-            growth.begin(plan, state, pointer(q), 0, 2, pointer(w))
+            growth.begin_rows(plan, state, pointer(q), 0, 2, pointer(w))
             count = grown(
                 plan, state, S, C, period, MOST, found,
                 pointer(q), growth.work_room(), 2, pointer(w), beyond(found, 3),
