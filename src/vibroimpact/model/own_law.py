@@ -311,9 +311,9 @@ class Law(Named):
     def force(
         self, displacement: ArrayLike, direction: ArrayLike, velocity: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
-        """Return the force (N) along a path, see `IsolatorLaw.force`.
+        """Return the force (N) along a path.
 
-        Of a stop, `direction` is the velocity of the deformation, and the force is at least 0.
+        Of a stop, ``direction`` is the velocity of the deformation, and the force is at least 0.
         """
         u = np.asarray(displacement, dtype=np.float64)
         v = np.asarray(direction if self.is_stop else velocity, dtype=np.float64)

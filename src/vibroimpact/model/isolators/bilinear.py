@@ -62,7 +62,7 @@ class BilinearIsolator(YieldingLaw):
 
     @classmethod
     def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
-        """Return such an isolator, see `IsolatorLaw.like`."""
+        """Return such an isolator."""
         return cls(1.6 * stiffness, 0.9 * stiffness, 0.18 * stiffness * displacement, 0.5 * damping)
 
     def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:

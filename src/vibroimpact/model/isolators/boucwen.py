@@ -133,7 +133,7 @@ class BoucWenIsolator(YieldingLaw):
 
     @classmethod
     def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
-        """Return such an isolator, see `IsolatorLaw.like`."""
+        """Return such an isolator."""
         return cls(1.8 * stiffness, 0.9 * stiffness, 0.18 * stiffness * displacement, 0.5 * damping)
 
     def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:

@@ -116,13 +116,13 @@ class ExponentialIsolator(IsolatorLaw):
 
     @classmethod
     def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
-        """Return such an isolator, see `IsolatorLaw.like`."""
+        """Return such an isolator."""
         return cls(2.4 * stiffness, 0.83 * stiffness, 3.5 / displacement, 0.3 * damping)
 
     def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:
         """Return the numbers by which the engine follows the law.
 
-        z is the hysteretic force over k_a − k_b, with z′ = u′/2 − α |u′| z.
+        z is the hysteretic force over k_a - k_b, with ``z' = u'/2 - α |u'| z``.
         """
         force, rate = self.hardening_force, self.hardening
         law = IsolatorNumbers(

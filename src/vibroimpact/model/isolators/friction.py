@@ -149,7 +149,7 @@ class FrictionIsolator(SpringLaw):
 
     @classmethod
     def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
-        """Return such an isolator, see `IsolatorLaw.like`."""
+        """Return such an isolator."""
         return cls(stiffness, damping, 0.1 * stiffness * displacement)
 
     @property

@@ -50,7 +50,7 @@ class Isolator(SpringLaw):
 
     @classmethod
     def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
-        """Return such an isolator, see `IsolatorLaw.like`."""
+        """Return such an isolator."""
         return cls(stiffness, damping)
 
     def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:

@@ -61,7 +61,7 @@ class PolynomialIsolator(SpringLaw):
 
     @classmethod
     def like(cls, stiffness: float, damping: float, displacement: float) -> Self:
-        """Return such an isolator, see `IsolatorLaw.like`."""
+        """Return such an isolator."""
         return cls(stiffness, damping, 0.3 * stiffness / displacement**2, 0.0)
 
     def engine_numbers(self) -> tuple[float, float, IsolatorNumbers]:

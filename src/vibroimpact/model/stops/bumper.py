@@ -120,7 +120,7 @@ class Bumper(StopLaw):
     def like(
         cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
     ) -> Self:
-        """Return such a stop, with a τ of 0.01, as the published rig; see `StopLaw.like`."""
+        """Return such a stop, with a τ of 0.01, as the published rig."""
         return cls(force / depth, 0.01 * force / depth / omega, gap)
 
     @property
@@ -133,7 +133,7 @@ class Bumper(StopLaw):
         return self.stiffness, self.damping, self.gap
 
     def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
-        """Return the force (N, at least 0) along a contact, see `StopLaw.force`."""
+        """Return the force (N, at least 0) along a contact."""
         d, v = np.asarray(deformation, dtype=np.float64), np.asarray(velocity, dtype=np.float64)
         return np.maximum(self.stiffness * d + self.damping * v, 0.0)
 

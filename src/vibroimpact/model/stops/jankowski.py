@@ -86,7 +86,7 @@ class JankowskiBumper(StopLaw):
     def like(
         cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
     ) -> Self:
-        """Return such a stop, a Hertz contact; see `StopLaw.like`."""
+        """Return such a stop, a Hertz contact."""
         return cls(force / depth**1.5, gap, restitution, mass)
 
     def engine_numbers(self) -> PowerLaw:
@@ -96,7 +96,7 @@ class JankowskiBumper(StopLaw):
         return PowerLaw(self.stiffness, 1.5, 0.0, viscous, self.gap)
 
     def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
-        """Return the force (N, at least 0) along a contact, see `StopLaw.force`."""
+        """Return the force (N, at least 0) along a contact."""
         d, v = np.asarray(deformation, dtype=np.float64), np.asarray(velocity, dtype=np.float64)
         assert self.mass is not None  # which an oscillator requires
         damping = 2.0 * self.damping_ratio * np.sqrt(self.mass * self.stiffness * np.sqrt(d))

@@ -131,7 +131,7 @@ class PowerBumper(StopLaw):
     def like(
         cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
     ) -> Self:
-        """Return such a stop, a Hertz contact; see `StopLaw.like`."""
+        """Return such a stop, a Hertz contact."""
         return cls(force / depth**1.5, gap, restitution=restitution)
 
     def engine_numbers(self) -> PowerLaw:
@@ -141,7 +141,7 @@ class PowerBumper(StopLaw):
         return PowerLaw(self.stiffness, self.exponent, chi or 0.0, 0.0, self.gap)
 
     def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
-        """Return the force (N, at least 0) along a contact, see `StopLaw.force`.
+        """Return the force (N, at least 0) along a contact.
 
         The closing speed is the first velocity.
         """

@@ -44,7 +44,7 @@ class RigidStop(StopLaw):
     def like(
         cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
     ) -> Self:
-        """Return such a stop, see `StopLaw.like`."""
+        """Return such a stop."""
         return cls(restitution, gap)
 
     @property
