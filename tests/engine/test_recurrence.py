@@ -16,7 +16,9 @@ UNITS = np.ones(PARTS)
 
 def settled(motion, tolerance: float, cycles: int = 6000) -> tuple[int, int]:
     """The period that is found of states, and behind how many cycles."""
-    plan = plan_of(free_rig(), ("motion",))
+    rig = free_rig()
+    plan = plan_of(rig, ("motion",))
+    plan[: len(rig)] = rig  # whose stiffness makes velocities of displacements
     known = np.zeros(recurrence._PAST + recurrence.LONGEST * (FIRST + LARGEST))
     recurrence.start(known)
 
