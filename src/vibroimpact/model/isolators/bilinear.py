@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import ClassVar, Self
 
 from vibroimpact.law_numbers import IsolatorNumbers
@@ -74,12 +73,8 @@ class BilinearIsolator(YieldingLaw):
         )
         return self.post_yield_stiffness, self.damping, law
 
-    def _restoring(self, displacement: list[float], sign: list[float]) -> Iterator[float]:
-        z = last = 0.0
-        for u in displacement:
-            step, last = u - last, u
-            z = max(-self.yield_displacement, min(self.yield_displacement, z + step))
-            yield self.post_yield_stiffness * u + self.hysteretic_stiffness * z
+    def _moved_on(self, z: float, step: float) -> float:
+        return max(-self.yield_displacement, min(self.yield_displacement, z + step))
 
     def _loaded(self, displacement: float) -> float:
         limit = self.yield_displacement

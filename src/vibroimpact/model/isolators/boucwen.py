@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from numbers import Integral
 from typing import Annotated, Any, ClassVar, Self
 
@@ -148,15 +147,8 @@ class BoucWenIsolator(YieldingLaw):
         )
         return self.post_yield_stiffness, self.damping, law
 
-    def _restoring(self, displacement: list[float], sign: list[float]) -> Iterator[float]:
-        z = last = 0.0
-        for u in displacement:
-            step, last = u - last, u
-            z = self._moved_on(z, step)
-            yield self.post_yield_stiffness * u + self.hysteretic_stiffness * z
-
     def _moved_on(self, z: float, step: float) -> float:
-        """Return z after a step of u, by the classical Runge-Kutta method."""
+        # The classical Runge-Kutta method.
         limit, n = self.yield_displacement, self.exponent
         h = step / _STEPS
 

@@ -365,6 +365,17 @@ class YieldingLaw(IsolatorLaw):
         """Return the memory z (m) after a first loading to a displacement (m), or 0."""
         return self._loaded(displacement) if self.hysteretic_stiffness else 0.0
 
+    def _restoring(self, displacement: list[float], sign: list[float]) -> Iterator[float]:
+        z = last = 0.0
+        for u in displacement:
+            step, last = u - last, u
+            z = self._moved_on(z, step)
+            yield self.post_yield_stiffness * u + self.hysteretic_stiffness * z
+
+    def _moved_on(self, z: float, step: float) -> float:
+        """Return the z (m) after a step of u (m)."""
+        raise NotImplementedError
+
     def _loaded(self, displacement: float) -> float:
         """Return the z (m) of a first loading."""
         raise NotImplementedError
