@@ -22,7 +22,7 @@ from vibroimpact.engine.assembly.entries import follow_sections
 from vibroimpact.engine.assembly.plan import plan_of
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
-from vibroimpact.model import Assembly, Bumper, Periodic, Record, Repeated, equilibrium
+from vibroimpact.model import Assembly, Periodic, Record, Repeated, equilibrium
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.count_checks import check_samples
 from vibroimpact.model.rig import Rig
@@ -116,10 +116,10 @@ def _fastest(assembly: Assembly, shaking: Repeated | Record) -> float:
     of = numbers(assembly)
     k, c = of.stiffness.copy(), of.damping.copy()
     for stop in assembly.stops.values():
-        if isinstance(stop.stop, Bumper):
+        if (pair := stop.stop.spring_and_dashpot) is not None:
             w = assembly.closing(stop)
-            k += stop.stop.stiffness * np.outer(w, w)
-            c += stop.stop.damping * np.outer(w, w)
+            k += pair[0] * np.outer(w, w)
+            c += pair[1] * np.outer(w, w)
     stiff, damped = (np.abs(np.linalg.solve(of.mass, one)).sum(1) for one in (k, c))
     most = float((0.5 * (damped + np.sqrt(damped * damped + 4.0 * stiff))).max())
     if isinstance(shaking, Record):

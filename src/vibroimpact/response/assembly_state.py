@@ -200,9 +200,9 @@ def _parting(law: Bumper | RigidStop, d: float, closing: float, speeds: float) -
     The face of a relaxing bumper is left without relative speed, any other one at that of the
     bodies.
     """
-    if isinstance(law, Bumper) and d > 0.0:
-        spring = law.stiffness * d
-        return 2 if abs(spring + law.damping * closing) <= TOUCHING * spring else 0
+    if (pair := law.spring_and_dashpot) is not None and d > 0.0:
+        spring = pair[0] * d
+        return 2 if abs(spring + pair[1] * closing) <= TOUCHING * spring else 0
     if closing > 0.0 and closing > _AT_REST * speeds:
         return 0
     return 1 if closing < -_AT_REST * speeds else 2
