@@ -8,12 +8,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import numba
 from filelock import FileLock
-from numba.core import config
-from numba.core.sigutils import normalize_signature
 
-from vibroimpact.engine import cache, emission, jit
+from vibroimpact.engine import cache, jit, native
+from vibroimpact.engine.compiler import PLAIN
 
 
 @contextmanager
@@ -31,6 +29,9 @@ def _uncollected() -> Iterator[None]:
 class Compiled:
     """A function that is compiled for one signature and for each type of its first argument."""
 
+    FIRST = "f8[::1]"
+    """The first argument, as the others in the signature; of a tuple, its only field."""
+
     def __init__(self, function: Callable[..., Any], signature: str) -> None:
         self.function = function
         self.signature = signature
@@ -46,19 +47,34 @@ class Compiled:
             compiled = self._compiled[type(given)]
         return compiled
 
-    def _prepare(self, given: Any) -> None:
-        """Compile or load, one process at a time.
+    def symbol(self, flow: type) -> str:
+        """Name of the function for a type of its first argument in a library of machine code."""
+        module = self.function.__module__.partition("engine.")[2].replace(".", "_")
+        return f"{flow.__name__}_{module}_{self.__name__}"
 
-        Two processes that write numba's cache at once can leave a pair of files that do not
+    def _prepare(self, given: Any) -> None:
+        """Load from the library of machine code, else compile or load from the cache.
+
+        One process at a time:
+
+        two processes that write numba's cache at once can leave a pair of files that do not
         belong together, which crashes whoever loads them; hence the lock between processes.
         """
         flow = type(given)
         with jit.compiling:
             if flow in self._compiled:
                 return
-            if config.DISABLE_JIT:  # type: ignore[attr-defined]
+            if PLAIN:
                 self._compiled[flow] = self.function
                 return
+            if native.find_library() is not None:
+                self._compiled[flow] = native.function(
+                    self.symbol(flow), self.signature, self.FIRST
+                )
+                return
+            import numba
+            from numba.core.sigutils import normalize_signature
+
             arguments, result = normalize_signature(self.signature)  # type: ignore[no-untyped-call]
             signature = result(numba.typeof(given), *arguments)  # type: ignore[no-untyped-call]
             version = jit.cache_directory()
@@ -89,6 +105,9 @@ class Compiled:
             jit.say_refused(unsafe)
         if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
             jit.say()
+        import numba
+        from numba.core import config
+
         before = config.CACHE_DIR  # type: ignore[attr-defined]
         # Read when the decorator runs.
         config.CACHE_DIR = str(directory)  # type: ignore[attr-defined]
@@ -102,11 +121,15 @@ class Compiled:
         return compiled
 
     def _for_this_process(self, signature: Any) -> Callable[..., Any]:
+        import numba
+
         jit.say()
         return self._compiled_for(signature, numba.njit(**jit.OPTIONS)(self.function))
 
     def _compiled_for(self, signature: Any, dispatcher: Any) -> Callable[..., Any]:
         """Compile for this signature and refuse others, which would take half a minute unseen."""
+        from vibroimpact.engine import emission
+
         with emission.only(self.function.__qualname__), _uncollected():
             dispatcher.compile(signature)
         dispatcher.disable_compile()

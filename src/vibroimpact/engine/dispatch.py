@@ -35,8 +35,7 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
-from numba.extending import overload
-
+from vibroimpact.engine.compiler import overload
 from vibroimpact.engine.jit import CHOSEN
 from vibroimpact.engine.parameters import LINEAR, laws
 

@@ -22,10 +22,8 @@ from operator import attrgetter
 from typing import Any, TypeVar
 
 from llvmlite import ir
-from numba.core import cgutils, types
-from numba.core.callconv import excinfo_t
-from numba.extending import intrinsic, overload
 
+from vibroimpact.engine.compiler import cgutils, excinfo_t, intrinsic, overload, types
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.parameters import FORCING, MASSES
 

@@ -14,13 +14,11 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba.core import cgutils, types
-from numba.core.datamodel import models
-from numba.extending import intrinsic, overload, register_model
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as assembly
 from vibroimpact.engine.assembly.plan import write_plan
+from vibroimpact.engine.compiler import cgutils, intrinsic, models, overload, register_model, types
 from vibroimpact.engine.dispatch import answer
 from vibroimpact.engine.flow import OneMass
 from vibroimpact.engine.forcing import several
@@ -115,6 +113,8 @@ _YIELDING: dict[float, type] = {
     par.SEVERAL: YieldingSeveral,
     par.RAMP: YieldingRecorded,
 }
+FLOWS = (*_ADVANCE, Masses)
+"""Every flow."""
 _LAWS = {Curved: par.BENT, **dict.fromkeys(_YIELDING.values(), par.YIELDING)}
 _FORCING = {
     Apart: par.HARMONIC,

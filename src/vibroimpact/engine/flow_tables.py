@@ -6,12 +6,12 @@ import ctypes
 from typing import Any
 
 import numpy as np
-from numba.core import config
 from numpy.typing import NDArray
 
 from vibroimpact.engine import flow, one_mass
 from vibroimpact.engine.assembly import table as several_masses
 from vibroimpact.engine.compilation import Compiled
+from vibroimpact.engine.compiler import PLAIN
 from vibroimpact.engine.flow_dispatch import Masses, PlanType, flow_of
 from vibroimpact.engine.jit import Vector
 
@@ -61,7 +61,7 @@ def plan_of(rig: Vector, groups: tuple[str, ...]) -> Vector:
     kind = type(given)
     if lacking := set(groups).intersection(LACKING.get(kind, ())):
         raise NotImplementedError(f"{kind.__name__} has no functions {sorted(lacking)}")
-    if config.DISABLE_JIT:  # type: ignore[attr-defined]
+    if PLAIN:
         return memory
     table = _tables.setdefault(kind, np.zeros(len(flow.SIGNATURES), np.int64))
     for group in groups:

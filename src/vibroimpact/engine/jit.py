@@ -15,12 +15,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-import llvmlite
-import numba
 import numpy as np
 from numpy.typing import NDArray
 from platformdirs import user_cache_path
 
+from vibroimpact.engine.compiler import njit
 from vibroimpact.stderr import print_line
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -57,12 +56,12 @@ _distrusted = threading.Event()
 
 def kernel(function: F) -> F:
     """Compile a function that only other compiled functions call."""
-    return _within(numba.njit(**WITHIN)(function))  # type: ignore[no-any-return]
+    return _within(njit(**WITHIN)(function))  # type: ignore[no-any-return]
 
 
 def inlined(function: F) -> F:
     """As `kernel`, merged into each function that calls it: for what a hot loop consists of."""
-    return _within(numba.njit(**WITHIN, forceinline=True)(function))  # type: ignore[no-any-return]
+    return _within(njit(**WITHIN, forceinline=True)(function))  # type: ignore[no-any-return]
 
 
 APART: set[str] = set()
@@ -76,7 +75,7 @@ def apart(function: F) -> F:
     """
     APART.add(function.__name__)
     # What an inlined function calls would be inlined, too, unless it says otherwise.
-    return _within(numba.njit(**WITHIN, forceinline=False)(function))  # type: ignore[no-any-return]
+    return _within(njit(**WITHIN, forceinline=False)(function))  # type: ignore[no-any-return]
 
 
 def _within(dispatcher: Any) -> Any:
@@ -96,6 +95,9 @@ def cache_directory() -> Path:
     numba checks the file of an entry only, not at the kernels that it calls, and would run
     stale code after an edit elsewhere; a folder named after everything cannot be stale.
     """
+    import llvmlite
+    import numba
+
     here = Path(__file__).parent
     digest = hashlib.sha256(str(here).encode())  # numba's index names the folder, too
     for path in sorted(here.rglob("*.py")):

@@ -13,9 +13,8 @@ from typing import Any
 
 import numpy as np
 from llvmlite import ir
-from numba.core import cgutils, config, types
-from numba.extending import intrinsic, overload
 
+from vibroimpact.engine.compiler import PLAIN, cgutils, intrinsic, overload, types
 from vibroimpact.engine.jit import Vector
 
 TERMS = 12
@@ -38,7 +37,7 @@ def stack(size: int) -> Callable[[], Vector]:
 
     It is an intrinsic itself: behind a function the room would be gone with that function's frame.
     """
-    if config.DISABLE_JIT:  # type: ignore[attr-defined]
+    if PLAIN:
         return lambda: np.empty(size)
 
     @intrinsic

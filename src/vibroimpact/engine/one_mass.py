@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from numba.extending import overload
-
 from vibroimpact.engine import dispatch, event_loop, flow, flow_dispatch
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.compiler import overload
 from vibroimpact.engine.forcing import dispatch as forcing
 from vibroimpact.engine.jit import CHOSEN, Vector, kernel
 from vibroimpact.engine.motion import ISOLATOR as MEMORY

@@ -17,6 +17,8 @@ class Alone(NamedTuple):
 class Single(Compiled):
     """A compiled function of numbers and arrays; it gets an `Alone` as its first argument."""
 
+    FIRST = "f8"
+
     def __call__(self, *args: Any) -> Any:
         """Run, compiling or loading first if this is the first call of the process."""
         return self.of(Alone())(Alone(), *args)

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from llvmlite import ir
-from numba.core import cgutils, types
-from numba.extending import intrinsic, overload
 
+from vibroimpact.engine.compiler import cgutils, intrinsic, overload, types
 from vibroimpact.engine.jit import Vector
 
 _EIGHT = ir.VectorType(ir.DoubleType(), 8)

@@ -30,9 +30,8 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
-from numba.extending import overload
-
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.compiler import overload
 from vibroimpact.engine.forcing import harmonic, ramp, several
 from vibroimpact.engine.jit import CHOSEN, Vector, kernel
 

@@ -13,10 +13,9 @@ from typing import Any
 
 import numpy as np
 from llvmlite import binding, ir
-from numba.core import config, types
-from numba.extending import intrinsic, overload
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.compiler import PLAIN, intrinsic, overload, types
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program, root, slopes, step
@@ -185,7 +184,7 @@ def prepare(memory: Vector, rig: Vector) -> None:
             side = 0 if slot == Slot.ROOT_RIGHT else 1
             exponent = rig[par.BUMPER + par.WIDTH * side + par.EXPONENT]
             memory[at.ROOTS + 2 * side : at.ROOTS + 2 * side + 2] = exponent, shape.root
-        if not config.DISABLE_JIT:  # type: ignore[attr-defined]
+        if not PLAIN:
             for i, formula in enumerate(formulas):
                 addresses[at.KERNELS + slot + i] = address(formula, shape)
 

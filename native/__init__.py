@@ -1,0 +1,1 @@
+"""The engine as libraries of machine code: ``python -m native``."""

@@ -1,0 +1,112 @@
+"""The library of machine code: it gives what numba gives, and is used for its own sources only."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from vibroimpact.engine import native
+
+MOTIONS = """\
+import json, sys
+import vibroimpact as vi
+from vibroimpact.engine import native
+case = vi.laboratory.case("B2-G1-A3")
+yielding = vi.BoucWenIsolator("2 N/m", "0.5 N/m", "0.5 N", "0.1 N s/m")
+curved = vi.Rig(vi.Oscillator("1 kg", yielding, vi.PowerBumper("20 N/m^1.5", "0.5 m")), "1 N")
+pair = vi.Assembly(
+    masses={"a": "1 kg", "b": "2 kg"},
+    links={k: vi.Link("ground", k, vi.Isolator("1 N/m", "0.1 N s/m")) for k in "ab"},
+    stops={"s": vi.Link("a", "b", vi.Bumper("30 N/m", "0.3 N s/m", "0.2 m"))},
+)
+hexes = []
+def keep(*values):
+    hexes.extend(float(v).hex() for value in values for v in value.values.ravel())
+swept = vi.sweep(case, case.frequencies[::50])
+keep(swept["eta_a"], swept["section"])
+for rig, frequency in ((case, "2 Hz"), (curved, "0.3 Hz"), (vi.Rig(pair, "1 m/s^2"), "0.2 Hz")):
+    motion = vi.simulate(rig, 20, frequency=frequency)
+    keep(motion["final_state"], motion["event_time"])
+    if rig is not case:
+        keep(vi.steady(rig, frequency=frequency)["displacement_max"])
+print(json.dumps([native.find_library() is not None, "numba" in sys.modules, hexes]))
+"""
+
+here = pytest.mark.skipif(native.find_library() is None, reason="no library: make kernels")
+
+
+def motions(engine: str) -> tuple[bool, bool, list[str]]:
+    # numba for the same processors as the library
+    cpu = {"NUMBA_CPU_NAME": f"x86-64-{native.levels()[0]}", "NUMBA_CPU_FEATURES": ""}
+    environment = {**os.environ, "VIBROIMPACT_ENGINE": engine, **cpu}
+    environment.pop("VIBROIMPACT_KERNELS", None)
+    done = subprocess.run(
+        [sys.executable, "-c", MOTIONS], env=environment, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    native_code, numba, hexes = json.loads(done.stdout)
+    return native_code, numba, hexes
+
+
+@here
+def test_same_bits_as_numba_and_numba_is_not_imported() -> None:
+    library, compiled = motions(""), motions("numba")
+    assert library[:2] == (True, False)
+    assert compiled[:2] == (False, True)
+    assert library[2] == compiled[2]
+
+
+@here
+def test_arrays_that_the_code_cannot_read_are_refused() -> None:
+    from vibroimpact.engine import spectra
+    from vibroimpact.engine.plain_entries import Alone
+
+    symbol = spectra.respond.symbol(Alone)
+    respond = native.function(symbol, spectra.respond.signature, "f8")
+    one, counter, out = np.ones(2), np.array([0, 1]), np.zeros((2, spectra.FOUND))
+    with pytest.raises(TypeError, match="float32"):
+        respond(Alone(), one.astype(np.float32), 0.1, one, one, counter, out)
+    with pytest.raises(TypeError, match="C order"):
+        respond(Alone(), np.ones(4)[::2], 0.1, one, one, counter, out)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    made = tmp_path / "libraries"
+    made.mkdir(mode=0o755)
+    name = native.name_of(sys.platform, native.machine(), native.levels()[-1])
+    (made / name).write_bytes(b"")
+    (made / native.DIGEST).write_text(native.digest())
+    monkeypatch.setattr(native, "FOLDER", made)
+    monkeypatch.delenv("VIBROIMPACT_ENGINE", raising=False)
+    return made
+
+
+def found() -> Path | None:
+    return native.find_library.__wrapped__()
+
+
+def test_a_library_of_other_sources_is_not_used(folder: Path) -> None:
+    assert found() is not None
+    (folder / native.DIGEST).write_text("0")
+    assert found() is None
+
+
+def test_a_library_that_others_may_write_is_not_used(folder: Path) -> None:
+    (path,) = (one for one in folder.iterdir() if one.name != native.DIGEST)
+    path.chmod(0o666)
+    assert found() is None
+    path.chmod(0o644)
+    assert found() == path
+
+
+def test_a_processor_that_lacks_features_takes_a_lower_level(folder: Path, monkeypatch) -> None:
+    assert native.levels() == list(native.LEVELS[native.machine()])[-len(native.levels()) :]
+    monkeypatch.setattr(native, "levels", list)
+    assert found() is None
