@@ -21,7 +21,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 # One installation at a time, also under make -j.
 .NOTPARALLEL:
 .DEFAULT_GOAL := help
-.PHONY: help demo test test-full paper lint format docs bench dist pins clean
+.PHONY: help demo test test-full paper lint format docs bench kernels dist pins clean
 .SECONDARY:
 
 help:
@@ -33,6 +33,7 @@ help:
 	@echo 'make format   put the code into the style that make lint checks'
 	@echo 'make docs     build the documentation, gallery included; it begins at out/site/index.html'
 	@echo 'make bench    compare speed and accuracy with other solvers (benchmarks/README.md)'
+	@echo 'make kernels  make machine code of the engine for this machine; ARGS="linux-x86_64-v3.so ..." for others'
 	@echo 'make dist     build wheel and sdist into dist/, and try them out; PYTHONS="python3.11 python3.13"'
 	@echo 'make pins     renew constraints.txt (CONTRIBUTING.md)'
 	@echo 'make clean    remove .venv, all caches and the built documentation; the rest of out/ stays'
@@ -75,6 +76,10 @@ docs: $(VENV)/.installed-docs
 
 bench: $(VENV)/.installed-bench
 	$(BIN)/python -m benchmarks $(ARGS)
+
+# All targets are listed in native/__main__.py.
+kernels: $(VENV)/.installed-release
+	$(BIN)/python -m native $(ARGS)
 
 dist: $(VENV)/.installed-release
 	rm -rf dist

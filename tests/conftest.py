@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import os
+
 import pytest
 from hypothesis import settings
 
 import samples
+
+os.environ["VIBROIMPACT_KERNELS"] = "1"  # tests call kernels besides the entries
 from vibroimpact.engine import jit
+
+del os.environ["VIBROIMPACT_KERNELS"]
 
 jit.WITHIN["no_cpython_wrapper"] = False  # tests call kernels
 # The first example of a test imports and compiles: its time says nothing of the test.

@@ -75,3 +75,4 @@ from .tasks.progress import progress_bar as progress_bar
 from .uncertainty.ensemble import ensemble as ensemble
 from .uncertainty.ensemble import for_each_rig as for_each_rig
 from .uncertainty.sensitivity import sensitivity as sensitivity
+from .versions import show_versions as show_versions
