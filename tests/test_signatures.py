@@ -114,7 +114,7 @@ def test_names_lists_parameters_as_they_are():
         for part in name.split("."):
             thing = getattr(thing, part)
         parameters = inspect.signature(thing).parameters
-        words = [word.strip() for word in text.split(",")]
+        words = [word.strip() for word in text.split(",") if word.strip()]
         listed = [word for word in words if word not in {"*", "…"}]
         order = [parameter for parameter in parameters if parameter in listed]
         assert listed == order, name
