@@ -375,33 +375,3 @@ def integrate(
     out: Vector,
 ) -> None:
     integrate_stretch(plan, _stretch(before, ended, after), notes, lines, out)
-
-
-MOTION = (
-    begin,
-    build,
-    too_much_work,
-    stiff_rate,
-    parts,
-    coordinates,
-    stops,
-    numbers,
-    complete,
-    units,
-    size,
-    disturb,
-    place,
-    point,
-    at_point,
-    undisturbed,
-    advance,
-    cycle,
-    nothing,
-    look_again,
-    extremes,
-    measured,
-)
-"""What a sweep asks for."""
-RECORDED = (record, write)
-DISTURBED = (unit_disturbances, tangent, mirror, margin)
-MEASURED = (measure, integrate)
