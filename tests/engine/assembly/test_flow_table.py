@@ -18,7 +18,6 @@ from vibroimpact.engine import (
     orbit,
     section_map,
 )
-from vibroimpact.engine import one_mass as oscillators
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly import measures, table
 from vibroimpact.engine.assembly.entries import follow_sections, sections

@@ -9,7 +9,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.engine import lyapunov
-from vibroimpact.engine.observers.growth import LEAST, NOTHING, orthonormalise
+from vibroimpact.engine.observers.growth import LEAST, NOTHING, Rows, orthonormalise
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
 from vibroimpact.response.prepared_rig import prepare
 
@@ -33,14 +33,18 @@ def free(damping=0.3, right=None, left=None, **options):
     return vi.Oscillator(1.0, vi.Isolator(1.0, damping, **options), right, left)
 
 
+def made_orthonormal(q, weights, shares, count):
+    none = np.empty(0)
+    rows = Rows(q.ravel(), none, shares.ravel(), weights, none, count, DISTURBANCE)
+    return orthonormalise(rows, LEAST, NOTHING)
+
+
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_rows_become_orthonormal_and_span_what_they_did(count):
     given = np.random.default_rng(count).normal(size=(DISTURBANCE, DISTURBANCE))
     weights = np.array([2.0, 1.0, 0.5, 3.0, 0.0])
     q, shares = given.copy(), np.zeros((DISTURBANCE, DISTURBANCE))
-    assert orthonormalise(
-        q.ravel(), count, weights, DISTURBANCE, shares.ravel(), LEAST, NOTHING
-    ) == 0  # fmt: skip
+    assert made_orthonormal(q, weights, shares, count) == 0
     rows = q[:count]
     np.testing.assert_allclose((rows * weights) @ rows.T, np.eye(count), atol=1e-14)
     np.testing.assert_allclose(shares[:count, :count] @ rows, given[:count], rtol=1e-12)
@@ -55,9 +59,7 @@ def test_how_little_is_left_of_a_row_is_marked(apart, left):
     q = np.zeros((DISTURBANCE, DISTURBANCE))
     q[0, :2], q[1, :2] = (3.0, 4.0), (0.6 - 0.8 * apart, 0.8 + 0.6 * apart)
     shares = np.zeros((DISTURBANCE, DISTURBANCE))
-    unsure = orthonormalise(
-        q.ravel(), 2, np.ones(DISTURBANCE), DISTURBANCE, shares.ravel(), LEAST, NOTHING
-    )
+    unsure = made_orthonormal(q, np.ones(DISTURBANCE), shares, 2)
     assert unsure == int(left < 0.0)
     assert shares[1, 1] == pytest.approx(left, rel=1e-9)
     assert bool(q[1].any()) == (left > -math.inf)
@@ -67,9 +69,7 @@ def test_a_row_without_bound_is_not_one_that_vanished():
     q, shares = np.zeros((2, DISTURBANCE)), np.zeros((2, DISTURBANCE))
     q[0, 0], q[1, 1] = math.inf, math.nan
     with np.errstate(invalid="ignore"):
-        unsure = orthonormalise(
-            q.ravel(), 2, np.ones(DISTURBANCE), DISTURBANCE, shares.ravel(), LEAST, NOTHING
-        )
+        unsure = made_orthonormal(q, np.ones(DISTURBANCE), shares, 2)
     assert unsure == 2
     assert shares[0, 0] == shares[1, 1] == math.inf
     assert not q.any()

@@ -23,8 +23,10 @@ _TURN = 8.0
 """What a line may turn (rad) over the points of one quadrature, for 12 points to be exact to
 rounding."""
 
-BEGINS, COUNT = range(2)
-"""Of the notes: when the section is (s), since the motion's beginning, and the number of lines."""
+BEGINS, COUNT, INTERVAL = range(3)
+"""Of the notes: when the section is (s), since the motion's beginning, the number of lines, and the
+time between sections (s)."""
+NOTES = 3
 
 # Rows of what is found, a row a real number for each line: the integrals of u, u̇ and the absolute
 # acceleration times cos and −sin νt.
