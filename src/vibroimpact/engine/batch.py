@@ -166,4 +166,4 @@ def propagate(
         _, outcome = advance(plan, here, section, s, c, length, max_events)
         number += 1.0
     copy(here, at, width(plan))
-    return outcome
+    return outcome  # type: ignore[no-any-return]

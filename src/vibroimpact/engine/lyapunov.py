@@ -177,4 +177,4 @@ def monodromy(
         elif not finite(plan, here):
             outcome = NOT_FINITE
     copy(here, at, width(plan))
-    return outcome
+    return outcome  # type: ignore[no-any-return]

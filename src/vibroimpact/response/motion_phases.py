@@ -210,7 +210,7 @@ class _Course(NamedTuple):
                 end,
                 MOST_EVENTS,
                 notes,
-                _NO_LINES,
+                _NONE,
                 rows,
             )
             if next_one < end:

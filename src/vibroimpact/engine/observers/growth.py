@@ -57,7 +57,7 @@ class Rows(NamedTuple):
     """Disturbances and their growth."""
 
     q: Vector
-    """A row for each part of a state; those from `count` on are 0."""
+    """A row for each part of a state; those from `n` on are 0."""
     start: Vector
     """The rows with which a stretch begins."""
     shares: Vector
@@ -66,7 +66,7 @@ class Rows(NamedTuple):
     """Of the squares of the parts, in the norm."""
     logarithms: Vector
     """Of how much each row has grown beside those before it since the section."""
-    count: int
+    n: int
     parts: int
 
 
@@ -139,7 +139,7 @@ def orthonormalise(rows: Rows, least: float, nothing: float) -> int:
         The number of rows of which too little is left.
     """
     q, parts, unsure = rows.q, rows.parts, 0
-    for i in range(rows.count):
+    for i in range(rows.n):
         whole = _product(rows, i, i)
         for j in range(i):
             share = _product(rows, i, j)
@@ -202,21 +202,21 @@ def grow(
     ends otherwise when it is carried in pieces, as rounding may decide at a grazing, the growth is
     not known: the logarithms become NaN.
     """
-    copy(rows.q, rows.start, rows.count * rows.parts)
+    copy(rows.q, rows.start, rows.n * rows.parts)
     flow.tangent(plan, before, ended, after, notes, rows.q)
     if orthonormalise(rows, LEAST, NOTHING) <= _vanished(rows):
         add_up(plan, after, rows)
     elif not _grow_in_pieces(plan, before, ended, rows):
-        for i in range(rows.count):
+        for i in range(rows.n):
             rows.logarithms[i] = math.nan
-        begin_rows(plan, after, rows, 0, rows.count)
+        begin_rows(plan, after, rows, 0, rows.n)
 
 
 @kernel
 def _vanished(rows: Rows) -> int:
     """How many rows have vanished since the section; as many others are taken as vanished, too."""
     gone = 0
-    for i in range(rows.count):
+    for i in range(rows.n):
         if rows.logarithms[i] == -math.inf:
             gone += 1
     return gone
@@ -226,7 +226,7 @@ def _vanished(rows: Rows) -> int:
 def add_up(plan: Vector, after: Vector, rows: Rows) -> None:
     """Add the logarithms of what is left; what has vanished begins anew after the other rows."""
     q, parts, at = rows.q, rows.parts, 0
-    for i in range(rows.count):
+    for i in range(rows.n):
         size = rows.shares[i * parts + i]
         if size > -math.inf:
             rows.logarithms[at] += math.log(abs(size))
@@ -235,10 +235,10 @@ def add_up(plan: Vector, after: Vector, rows: Rows) -> None:
             elif at < i:
                 copy(beyond(q, i * parts), beyond(q, at * parts), parts)
             at += 1
-    if at < rows.count:
-        for i in range(at, rows.count):
+    if at < rows.n:
+        for i in range(at, rows.n):
             rows.logarithms[i] = -math.inf
-        begin_rows(plan, after, rows, at, rows.count)
+        begin_rows(plan, after, rows, at, rows.n)
 
 
 @apart
@@ -301,9 +301,9 @@ def _grow_in_pieces(plan: Vector, before: Vector, ended: Vector, rows: Rows) -> 
 def _is_alike(rows: Rows, last: Vector) -> bool:
     """Whether a piece does what the last one did; it becomes the last one."""
     most, alike = 0.0, True
-    for i in range(rows.count):
+    for i in range(rows.n):
         most = max(most, abs(math.log(abs(rows.shares[i * rows.parts + i]))))
-    for i in range(rows.count):
+    for i in range(rows.n):
         here = math.log(abs(rows.shares[i * rows.parts + i]))
         alike = alike and abs(here - last[i]) <= _ALIKE * most < math.inf  # and no NaN
         last[i] = here
