@@ -20,11 +20,11 @@ that is not said there to the Taylor flow. Each is a folder whose modules have t
     acceleration_of(plan, motion)           ü from all forces
     isolator_force(plan, u, v, z)           what the isolator pulls back with, per unit mass
     springs(plan, motion)                   its tangent stiffness, per unit mass
-    face(plan, motion, side)                how far a stop is deformed (m)
-    stop_push(plan, motion, side)           what a pressed stop pushes with
+    face(plan, motion, stop)                how far a stop is deformed (m)
+    stop_push(plan, motion, stop)           what a pressed stop pushes with
     stop_power(…), isolator_power(…)        what they lose, per unit mass
-    unkept(plan, before, after, side)       what a stop loses that has ceased to push
-    rest_level(plan, motion, side)          what presses a resting mass on its rigid stop
+    unkept(plan, before, after, stop)       what a stop loses that has ceased to push
+    rest_level(plan, motion, stop)          what presses a resting mass on its rigid stop
 
     carry(plan, stretch, q, rows)           disturbances through a stretch, and what is lost
 """

@@ -159,7 +159,7 @@ def _flow(rig: Vector) -> type:
         return Several
     if rig[par.FORCING] == par.RAMP:
         return Recorded
-    right, left = par.BUMPER, par.BUMPER + par.WIDTH
+    right, left = par.stop_at(0), par.stop_at(1)
     rigid = par.RIGID in (rig[right + par.KIND], rig[left + par.KIND])
     overlapping = rig[right + par.GAP] + rig[left + par.GAP] < 0.0
     return AnyStops if rigid or overlapping else Apart

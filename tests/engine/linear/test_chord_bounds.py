@@ -53,7 +53,7 @@ def looked_at(plan: Vector, motion: Motion, length: float, first: Enclosed, out:
             elif part == 2:
                 if motion.mode == FLIGHT:
                     break
-                expanded_force(plan, cursor, motion.mode, motion.mode, series)
+                expanded_force(plan, cursor, motion.mode, motion.mode - 1, series)
             least, most = math.inf, -math.inf
             for k in range(9):
                 y, _ = horner(series, -0.5 + k * (high + 0.5) / 8.0)
@@ -77,7 +77,7 @@ def pieces_of(mode: int, damping: float, given: np.random.Generator, first: Encl
     u, v = given.normal(size=2)
     pressed = abs(given.normal()) if mode else 0.0
     clock = math.sin(phase), math.cos(phase)
-    motion = Motion(mode, 0, u, v, pressed, pressed, 0.0, 0.0, clock)
+    motion = Motion(mode, 0, u, v, (pressed, pressed), 0.0, 0.0, clock)
     return out[: looked_at(plan, motion, given.uniform(0.01, 6.0), first, out)]
 
 
@@ -149,7 +149,7 @@ def test_a_piece_that_turns_twice_is_not_taken_for_one_that_only_rises(phase: fl
 
     def reached(u: float, v: float) -> np.ndarray:
         row = np.zeros(4)
-        middle_of(plan, Motion(FLIGHT, 0, u, v, 0.0, 0.0, 0.0, 0.0, clock), row)
+        middle_of(plan, Motion(FLIGHT, 0, u, v, (0.0, 0.0), 0.0, 0.0, clock), row)
         return row
 
     still = reached(0.0, 0.0)
@@ -159,7 +159,7 @@ def test_a_piece_that_turns_twice_is_not_taken_for_one_that_only_rises(phase: fl
     wished[0] = (-c * wished[1] - amplitude * still[2]) / k
     ways = np.transpose([reached(1.0, 0.0) - still, reached(0.0, 1.0) - still])[:2]
     u, v = np.linalg.solve(ways, wished - still[:2])
-    motion = Motion(FLIGHT, 0, float(u), float(v), 0.0, 0.0, 0.0, 0.0, clock)
+    motion = Motion(FLIGHT, 0, float(u), float(v), (0.0, 0.0), 0.0, 0.0, clock)
     pieces = out[: looked_at(plan, motion, 2.0 * half, NOWHERE, out)]
     for least, most, low, high, *_ in pieces[0, :2]:
         assert low <= least

@@ -43,7 +43,7 @@ def relieved(row: Row, damping: float) -> Row:
 def contact(
     plan: Vector,
     slot: int,
-    side: int,
+    stop: int,
     row: Row,
     fresh: bool,
     limit: float,
@@ -55,8 +55,8 @@ def contact(
     ----------
     slot : int
         Which table of the plan describes the motion.
-    side : int
-        RIGHT or LEFT.
+    stop : int
+        Which stop is pressed.
     row : Row
         The state at the start.
     fresh : bool
@@ -70,7 +70,7 @@ def contact(
         DETACHED or LIMIT, the elapsed time (s), and the state there, mirrored as given.
     """
     series = workspace()
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    at = par.stop_at(stop)
     stiffness = plan[at + par.BUMPER_STIFFNESS]
     damping = plan[at + par.BUMPER_DAMPING]
     early = TABLES + SIZE * slot

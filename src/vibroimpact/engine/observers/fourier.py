@@ -16,7 +16,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, RATE, H
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import LEFT, Stretch
+from vibroimpact.engine.motion import Stretch, direction
 from vibroimpact.engine.observers.measure import ABSCISSAE, WEIGHTS
 
 _TURN = 8.0
@@ -40,7 +40,7 @@ def integrate_stretch(
     """Add the integrals of a stretch; `out` has QUANTITIES rows of a number for each line."""
     before, begun, count = stretch.before, notes[BEGINS] + stretch.t, int(notes[COUNT])
     series, forces = workspace(), workspace()
-    sign = -1.0 if before.mode == LEFT else 1.0
+    sign = direction(before.mode)
     fastest = lines[count - 1]
     cursor = begin(plan, before, stretch.step)
     while more(plan, cursor):

@@ -10,9 +10,10 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import change_rate, let_go, stepped, turned, value
 from vibroimpact.engine.jit import Vector, apart, kernel
-from vibroimpact.engine.linear.advance import Ended, bumpers
-from vibroimpact.engine.linear.evaluate import comes_back, relaxed
-from vibroimpact.engine.linear.stops import impact, rest, rigid, settle
+from vibroimpact.engine.linear.advance import Ended, gap_of, place_at, rate_of
+from vibroimpact.engine.linear.evaluate import comes_back
+from vibroimpact.engine.linear.stops import impact, relaxed_faces, rest, settle
+from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.motion import (
     DETACHED,
     GIVEN_UP,
@@ -25,6 +26,8 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     TURNED,
     Motion,
+    changed,
+    facing,
 )
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
@@ -60,19 +63,15 @@ _LACKS, _TOO_MANY = -2, -3
 @apart
 def freed(plan: Vector, motion: Motion, t: float) -> Motion:
     """The same motion with the stops that it does not touch relaxed for t seconds."""
-    mode, fresh, u, v, right, left, z, age, clock = motion
-    if not mode & RIGHT and right != 0.0:
-        right = relaxed(right, plan[par.BUMPER + par.RATE], t)
-    if not mode & LEFT and left != 0.0:
-        left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
-    return Motion(mode, fresh, u, v, right, left, z, age + t, clock)
+    mode, fresh, u, v, faces, z, age, clock = motion
+    faces = relaxed_faces(plan, mode, faces, t)
+    return Motion(mode, fresh, u, v, faces, z, age + t, clock)
 
 
 @kernel
 def held(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Held by friction until the forces exceed it, or a free bumper comes back to the mass."""
-    mode, _, u, _, right, left, z, age, clock = motion
-    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
+    mode, _, u, _, faces, z, age, clock = motion
     s, c = clock
     # `still` − A_t is what friction holds against.
     still = without_friction(plan, motion) + value(plan, s, c)
@@ -86,54 +85,46 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
         if free < t:
             event, t, after = TURNED, free, (s1, c1)
             slips = SLIPS_RIGHT if way == 0 else SLIPS_LEFT
-    for side in range(1, 3):
-        memory, rate = (right, rate_r) if side == RIGHT else (left, rate_l)
-        gap, reach = (gap_r, u) if side == RIGHT else (gap_l, -u)
-        depth = reach - gap
-        if not mode & side and memory > 0.0 and depth > 0.0 and rate < math.inf:
+    for stop in range(2):
+        memory, rate = faces[stop], rate_of(plan, stop)
+        depth = facing(stop) * u - gap_of(plan, stop)
+        if not mode >> stop & 1 and memory > 0.0 and depth > 0.0 and rate < math.inf:
             meets = comes_back(memory, depth, rate)
             if meets < t:
-                event, t, after = side, meets, turned(plan, s, c, meets)
-    if not mode & RIGHT:
-        right = max(u - gap_r, 0.0) if event == RIGHT else relaxed(right, rate_r, t)
-    if not mode & LEFT:
-        left = max(-u - gap_l, 0.0) if event == LEFT else relaxed(left, rate_l, t)
-    if event in (RIGHT, LEFT):
-        return event, t, 0.0, Motion(mode | event, event, u, 0.0, right, left, z, 0.0, after)
+                event, t, after = 1 + stop, meets, turned(plan, s, c, meets)
+    touched = event in (RIGHT, LEFT)
+    faces = relaxed_faces(plan, mode, faces, t)
+    if touched:
+        stop = event - 1
+        faces = changed(faces, stop, max(facing(stop) * u - gap_of(plan, stop), 0.0))
+        return event, t, 0.0, Motion(mode | event, event, u, 0.0, faces, z, 0.0, after)
     fresh = slips if event == TURNED else 0
     if not mode and event == TURNED:  # away from what it touches, at first without acceleration
-        if slips == SLIPS_LEFT and u >= gap_r + right:
-            fresh |= RIGHT | RELEASED
-        elif slips == SLIPS_RIGHT and -u >= gap_l + left:
-            fresh |= LEFT | RELEASED
-    return event, t, 0.0, Motion(mode, fresh, u, 0.0, right, left, z, age + t, after)
+        stop = 0 if slips == SLIPS_LEFT else 1
+        if facing(stop) * u >= gap_of(plan, stop) + faces[stop]:
+            fresh |= 1 << stop | RELEASED
+    return event, t, 0.0, Motion(mode, fresh, u, 0.0, faces, z, age + t, after)
 
 
 @kernel
 def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
     """The motion just after the event, exactly there."""
-    mode, _, u, v, right, left, z, _, clock = here
-    gap_r, gap_l, _, _ = bumpers(plan)
+    mode, _, u, v, faces, z, _, clock = here
     if event in (RIGHT, LEFT):
+        stop = event - 1
         if not mode:  # else the pressed bumper's deformation is the primary quantity
-            u = gap_r + right if event == RIGHT else -(gap_l + left)
-        if curved_stop(plan, event):
-            if event == RIGHT:
-                right = abs(v)
-            else:
-                left = abs(v)
-        after = Motion(mode | event, event, u, v, right, left, z, 0.0, clock)
+            u = place_at(plan, stop, faces[stop])
+        if curved_stop(plan, stop):
+            faces = changed(faces, stop, abs(v))
+        after = Motion(mode | event, event, u, v, faces, z, 0.0, clock)
         return event, t, v, after
     if event in (DETACHED, DETACHED_LEFT):
-        side = RIGHT if event == DETACHED else LEFT
-        damped = plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_DAMPING] != 0.0
-        if curved_stop(plan, side) or not damped:
-            if side == RIGHT:
-                right = 0.0
-            else:
-                left = 0.0
-            u = gap_r + right if side == RIGHT else -(gap_l + left)
-        after = Motion(mode & ~side, side, u, v, right, left, z, 0.0, clock)
+        stop = 0 if event == DETACHED else 1
+        bit = 1 << stop
+        if curved_stop(plan, stop) or plan[par.stop_at(stop) + par.BUMPER_DAMPING] == 0.0:
+            faces = changed(faces, stop, 0.0)
+            u = place_at(plan, stop, 0.0)
+        after = Motion(mode & ~bit, bit, u, v, faces, z, 0.0, clock)
         return DETACHED, t, v, after
     arrival = v
     if event == TURNED:
@@ -142,15 +133,14 @@ def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
         pass
     elif event == CENTRED:
         u = 0.0
-        if mode & RIGHT and plan[par.BUMPER + par.KIND] == par.KELVIN_VOIGT:
-            right = -gap_r
-        if mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.KELVIN_VOIGT:
-            left = -gap_l
+        for stop in range(2):
+            if mode >> stop & 1 and plan[par.stop_at(stop) + par.KIND] == par.KELVIN_VOIGT:
+                faces = changed(faces, stop, -gap_of(plan, stop))
     elif event == YIELDS:
         z = math.copysign(plan[par.YIELD], z)
     else:
         z = 0.0
-    return TURNED, t, arrival, Motion(mode, 0, u, v, right, left, z, 0.0, clock)
+    return TURNED, t, arrival, Motion(mode, 0, u, v, faces, z, 0.0, clock)
 
 
 @kernel
@@ -177,7 +167,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next event, or for the time `limit` if that comes first."""
     if motion.fresh & SETTLING or stands(plan, motion) or plan[LACKING] != 0.0:
         return aside(plan, motion, limit)
-    mode, _, _, _, right, left, _, age, _ = motion
+    mode, _, _, _, faces, _, age, _ = motion
     frame = frame_of(plan, mode)
     sign = frame.sign
     hysteretic = plan[par.HYSTERETIC] != 0.0
@@ -220,7 +210,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
             z = ends.z1 if hysteretic else z
         clock = after
         speed = sign * v * ahead.per_unit
-        here, there = Motion(mode, 0, 0.0, speed, right, left, sign * z, age, clock), False
+        here, there = Motion(mode, 0, 0.0, speed, faces, sign * z, age, clock), False
         t += step
         if event != LIMIT or not t < limit:
             break
@@ -234,10 +224,10 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
 @apart
 def abandoned(plan: Vector, here: Motion, t: float) -> Ended:
     """Give the motion up; where the terms of its series left the range of numbers, so did it."""
-    mode, fresh, u, v, right, left, z, age, clock = here
+    mode, fresh, u, v, faces, z, age, clock = here
     if plan[LACKING] == OVERFLOWED:
         u = math.inf
-    return GIVEN_UP, t, v, Motion(mode, fresh, u, v, right, left, z, age, clock)
+    return GIVEN_UP, t, v, Motion(mode, fresh, u, v, faces, z, age, clock)
 
 
 @apart
@@ -253,6 +243,6 @@ def stretch_end(
     if event == LIMIT:
         return LIMIT, limit, here.v, here
     event, t, arrival, after = happened(plan, event, here, t)
-    if event in (RIGHT, LEFT) and rigid(plan, event):
+    if event in (RIGHT, LEFT) and rigid(plan, event - 1):
         return impact(plan, event, t, arrival, after)
     return event, t, arrival, after
