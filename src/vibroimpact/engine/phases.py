@@ -18,8 +18,8 @@ from vibroimpact.engine.observers.phases import (
     WRITTEN,
     begin_row,
     full,
-    keep,
     put_back,
+    save_phase,
 )
 from vibroimpact.engine.sections import FULL, C, Leg, S, Schedule, loop
 from vibroimpact.engine.state import copy, load, put, room, width
@@ -42,7 +42,7 @@ def _measured(plan: Vector, state: Vector, section: Vector, leg: Leg, log: Log) 
         return FULL
     written = notes[WRITTEN]
     notes[NUMBER] = number
-    keep(notes, rows)
+    save_phase(notes, rows)
     events: int = event_loop.phases(plan, state, s, c, length, max_events, notes, rows)
     if full(notes):
         put_back(notes, rows, written)

@@ -9,7 +9,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.chord_bounds import NOWHERE, Enclosed, chords, enclosed, glance
+from vibroimpact.engine.linear.chord_bounds import NOWHERE, Enclosed, bound_window, chords, enclosed
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.pieces import (
@@ -17,9 +17,9 @@ from vibroimpact.engine.linear.pieces import (
     begin,
     expanded,
     expanded_force,
-    following,
+    has_piece,
     middle,
-    more,
+    next_piece,
 )
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import workspace
@@ -39,9 +39,9 @@ def looked_at(plan: Vector, motion: Motion, length: float, first: Enclosed, out:
     n = 0
     within, seen = False, first
     cursor = begin(plan, motion, length)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         if cursor.i == 0:
-            within, seen = glance(plan, cursor, motion, seen, room)
+            within, seen = bound_window(plan, cursor, motion, seen, room)
         held = seen if within else enclosed(plan, cursor, room)
         bounds = held.x_least, held.x_most, held.a_least, held.a_most, -math.inf, held.force
         noted = seen.x_least, seen.x_most, seen.a_least, seen.a_most, -math.inf, seen.force
@@ -62,7 +62,7 @@ def looked_at(plan: Vector, motion: Motion, length: float, first: Enclosed, out:
             at[0], at[1], at[2], at[3] = least, most, bounds[2 * part], bounds[2 * part + 1]
             at[4], at[5], at[6] = noted[2 * part], noted[2 * part + 1], within
         n += 1
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
     return n
 
 

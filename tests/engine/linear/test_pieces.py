@@ -16,9 +16,9 @@ from vibroimpact.engine.linear.pieces import (
     begin,
     displacement,
     expanded,
-    following,
+    has_piece,
     middle,
-    more,
+    next_piece,
 )
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import workspace
@@ -35,7 +35,7 @@ def laid_out(plan: Vector, motion: Motion, length: float, out: Vector) -> int:
     series = workspace()
     n = 0
     cursor = begin(plan, motion, length)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         h = plan[cursor.table + H]
         high, s, c = expanded(plan, cursor, series)
         x, v = horner(series, high)
@@ -47,7 +47,7 @@ def laid_out(plan: Vector, motion: Motion, length: float, out: Vector) -> int:
         a = absolute_acceleration(plan, motion.mode, row)
         out[n, 4] = series[0] * unit - a
         n += 1
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
     return n
 
 

@@ -63,7 +63,7 @@ NOWHERE = Enclosed(math.inf, -math.inf, math.inf, -math.inf, -math.inf)
 
 
 @kernel
-def glance(
+def bound_window(
     plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, room: Vector
 ) -> tuple[bool, Enclosed]:
     """Check the nodes of a window, at whose first piece the cursor is.
@@ -146,7 +146,7 @@ def _off(room: Vector, i: int, which: int) -> float:
 
 @kernel
 def enclosed(plan: Vector, cursor: Cursor, room: Vector) -> Enclosed:
-    """Bounds on the piece at which the cursor is, by what a `glance` at its window has noted."""
+    """Bounds on the piece at which the cursor is, by what `bound_window` has noted."""
     if not room[_OFF] < math.inf:
         return ANYWHERE
     i, here, there = cursor.i, _ROW * cursor.i, _ROW * (cursor.i + 1)

@@ -7,7 +7,7 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import gained, travel
+from vibroimpact.engine.linear.evaluate import scaled_acceleration, travel
 from vibroimpact.engine.linear.layout import (
     FORCE,
     FORCE_0,
@@ -91,7 +91,9 @@ def contact(
         f = stiffness * x + damping * v
         if fresh and plan[table + LATE] == 0.0:
             # F(t) ≥ F + F′ t − second t²/2 keeps the first steps positive.
-            slope = stiffness * (v * h) + damping * plan[table + RATE] * gained(plan, table, row)
+            slope = stiffness * (v * h) + damping * plan[table + RATE] * scaled_acceleration(
+                plan, table, row
+            )
             clear = 2.0 * slope / second
             if not clear >= 1.0:
                 # Slow landing: search about the contact point itself, where the force is not

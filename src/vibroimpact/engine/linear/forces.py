@@ -39,7 +39,7 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
-def face(plan: Vector, motion: Motion, stop: int) -> float:
+def stop_deformation(plan: Vector, motion: Motion, stop: int) -> float:
     """How far a stop is deformed (m)."""
     return motion.faces[stop]
 
@@ -49,7 +49,7 @@ def stop_push(plan: Vector, motion: Motion, stop: int) -> float:
     """What a pressed bumper pushes with, away from it."""
     at = par.stop_at(stop)
     closing = facing(stop) * motion.v
-    push: float = plan[at + par.BUMPER_STIFFNESS] * face(plan, motion, stop)
+    push: float = plan[at + par.BUMPER_STIFFNESS] * stop_deformation(plan, motion, stop)
     push += plan[at + par.BUMPER_DAMPING] * closing
     return push
 
@@ -62,7 +62,7 @@ def stop_power(plan: Vector, motion: Motion, stop: int) -> float:
 
 
 @kernel
-def unkept(plan: Vector, before: Motion, after: Motion, stop: int) -> float:
+def unreturned_energy(plan: Vector, before: Motion, after: Motion, stop: int) -> float:
     """What a stop loses besides: no bumper has anything that its dashpot does not take."""
     return 0.0
 

@@ -80,7 +80,7 @@ def begin(plan: Vector, motion: Motion, length: float) -> Cursor:
 
 
 @kernel
-def more(plan: Vector, cursor: Cursor) -> bool:
+def has_piece(plan: Vector, cursor: Cursor) -> bool:
     """Whether there is a piece here."""
     return cursor.i < cursor.span
 
@@ -94,7 +94,7 @@ def following_window(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
-def following(plan: Vector, cursor: Cursor) -> Cursor:
+def next_piece(plan: Vector, cursor: Cursor) -> Cursor:
     """The next piece."""
     early, table, i, length, age, t, span, start = cursor
     if i + 1 < NODES:
@@ -210,7 +210,7 @@ def acceleration(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
-def look(
+def sample_stretch(
     plan: Vector,
     cursor: Cursor,
     before: Motion,

@@ -10,7 +10,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import acceleration_of, isolator_force, springs
-from vibroimpact.engine.forcing.dispatch import let_go, pace, turned, value
+from vibroimpact.engine.forcing.dispatch import pace, release_time, turned, value
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.advance import (
     Ended,
@@ -130,7 +130,7 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
     s, c = clock
     pulled = sign * value(plan, s, c) > level  # let go at once, and not with zero acceleration
     event, t = LIMIT, limit
-    free, s, c = let_go(plan, sign, level, s, c, limit)
+    free, s, c = release_time(plan, sign, level, s, c, limit)
     if free < math.inf:
         event, t = DETACHED, free
     met = mode & there

@@ -17,7 +17,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import begin, count, pace, plane, wave
-from vibroimpact.engine.forcing.wave import stilled
+from vibroimpact.engine.forcing.wave import without_amplitude
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import (
     BAND_0,
@@ -269,7 +269,7 @@ def _table(
             plan[there + WAVE_S] = plan[there + SCALED_A] * part.sine
             plan[there + WAVE_C] = plan[there + SCALED_A] * part.cosine
             if held:
-                part = stilled(part)
+                part = without_amplitude(part)
             if late:
                 late_series(h, c, k, d, part, fast, slow, series)
             else:

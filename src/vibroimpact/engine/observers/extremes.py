@@ -14,14 +14,14 @@ from vibroimpact.engine.dispatch import (
     accelerated,
     acceleration,
     begin,
+    bound_window,
     coordinate,
     displacement,
     enclosed,
     expanded,
     expanded_force,
-    following,
-    glance,
-    more,
+    has_piece,
+    next_piece,
     rest_level,
 )
 from vibroimpact.engine.forcing.dispatch import pull_series
@@ -197,22 +197,22 @@ def widen(plan: Vector, notes: Vector, stretch: Stretch) -> None:
     least_a, most_a = min(seen_low, a), max(seen_high, a)
     cursor = begin(plan, before, step)
     within = False  # all of this window
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         force = notes[pressed]
         if cursor.i == 0:
             seen = Enclosed(x_least, x_most, least_a, most_a, force)
-            within, seen = glance(plan, cursor, before, seen, room)
+            within, seen = bound_window(plan, cursor, before, seen, room)
             x_least, x_most, least_a, most_a, force = seen
             notes[pressed] = force
         if within:
-            cursor = following(plan, cursor)
+            cursor = next_piece(plan, cursor)
             continue
         held = enclosed(plan, cursor, room)
         farther = not (x_least <= held.x_least and held.x_most <= x_most)
         faster = not (least_a <= held.a_least and held.a_most <= most_a)
         harder = before.mode != FLIGHT and not held.force <= force
         if not (farther or faster or harder):
-            cursor = following(plan, cursor)
+            cursor = next_piece(plan, cursor)
             continue
         high, s, c = expanded(plan, cursor, series)
         if farther:
@@ -231,7 +231,7 @@ def widen(plan: Vector, notes: Vector, stretch: Stretch) -> None:
                 if before.mode >> stop & 1:
                     at = FORCE_RIGHT + stop
                     notes[at] = pushed(plan, cursor, before, stop, part, series, notes[at])
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
     new_least, new_most = x_least < seen_least, x_most > seen_most
     if before.mode == LEFT:
         new_least, new_most = new_most, new_least

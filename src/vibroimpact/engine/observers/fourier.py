@@ -9,8 +9,8 @@ from vibroimpact.engine.dispatch import (
     begin,
     displacement,
     expanded,
-    following,
-    more,
+    has_piece,
+    next_piece,
 )
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
@@ -43,7 +43,7 @@ def integrate_stretch(
     sign = direction(before.mode)
     fastest = lines[count - 1]
     cursor = begin(plan, before, stretch.step)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         h = plan[cursor.table + H]
         rate = plan[cursor.table + RATE]
         high, s, c = expanded(plan, cursor, series)
@@ -70,4 +70,4 @@ def integrate_stretch(
                     out[3 * count + k] -= v * sine
                     out[4 * count + k] += a * cosine
                     out[5 * count + k] -= a * sine
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)

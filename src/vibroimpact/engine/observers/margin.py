@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.dispatch import acceleration_of, begin, expanded, following, more
+from vibroimpact.engine.dispatch import acceleration_of, begin, expanded, has_piece, next_piece
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import gap_of, rate_of
 from vibroimpact.engine.linear.evaluate import horner, relaxed
@@ -59,7 +59,7 @@ def least_margin(plan: Vector, best: float, stretch: Stretch) -> float:
     before = stretch.before
     series, slope = workspace(), workspace()
     cursor = begin(plan, before, stretch.step)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         high, _, _ = expanded(plan, cursor, series)
         way = slope_series(series, slope)
         y = -0.5
@@ -79,7 +79,7 @@ def least_margin(plan: Vector, best: float, stretch: Stretch) -> float:
             if abs(found) < abs(best):
                 best = found
             way = -way
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
     depth = impact_depth(plan, stretch)
     if depth < abs(best):
         best = -depth

@@ -18,15 +18,15 @@ from vibroimpact.engine.dispatch import (
     coordinate,
     displacement,
     expanded,
-    face,
-    following,
+    has_piece,
     isolator_power,
     moment,
-    more,
+    next_piece,
     rest_level,
+    stop_deformation,
     stop_power,
     stop_push,
-    unkept,
+    unreturned_energy,
 )
 from vibroimpact.engine.forcing.dispatch import pull_series, value
 from vibroimpact.engine.jit import Vector, kernel
@@ -176,7 +176,7 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
         carried = Range(first, first)
     begun, at = row[LENGTH], 0.0
     cursor = begin(plan, before, step)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         rate = plan[cursor.table + RATE]
         h = plan[cursor.table + H]
         high, s, c = expanded(plan, cursor, series)
@@ -206,7 +206,7 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
                     row[column(stop, IMPULSE)] += pressed_impulse(
                         plan, cursor, before, stop, high, shaking
                     )
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
     if plan[par.BASE] != 0.0:
         carried = Range(a_least, a_most)
     if max(-a_least, a_most) > max(-row[SYSTEM + A_LEAST], row[SYSTEM + A_MOST]):
@@ -258,7 +258,7 @@ def closing_speed(plan: Vector, stop: int, velocity: float, after: Motion) -> fl
     closing = facing(stop) * velocity
     if plan[at + par.KIND] == par.KELVIN_VOIGT and plan[at + par.BUMPER_DAMPING] > 0.0:
         rate = plan[at + par.BUMPER_STIFFNESS] / plan[at + par.BUMPER_DAMPING]
-        closing += rate * face(plan, after, stop)
+        closing += rate * stop_deformation(plan, after, stop)
     return closing
 
 
@@ -289,7 +289,7 @@ def measure_stretch(plan: Vector, stretch: Stretch, row: Vector) -> None:
     for stop in range(2):
         loses = column(stop, LOSES)
         if before.mode >> stop & 1:
-            row[loses] += unkept(plan, before, after, stop)
+            row[loses] += unreturned_energy(plan, before, after, stop)
         else:
             row[loses] += relaxed_loss(plan, stop, before.faces[stop], after.faces[stop])
         row[column(stop, CLOSING)] = closing_speed(plan, stop, arrival, after)

@@ -9,8 +9,8 @@ from vibroimpact.engine.dispatch import (
     acceleration,
     begin,
     displacement,
-    face,
-    look,
+    sample_stretch,
+    stop_deformation,
 )
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.evaluate import relaxed
@@ -81,7 +81,7 @@ def start_notes(
 
 
 @kernel
-def seen(plan: Vector, stop: int, mode: int, face: float, distance: float) -> float:
+def clearance_of(plan: Vector, stop: int, mode: int, face: float, distance: float) -> float:
     """Clearance of a stop (the paper's eq. 4); zero in contact, NaN where there is no stop."""
     at = par.stop_at(stop)
     if plan[at + par.KIND] == par.ABSENT:
@@ -97,9 +97,9 @@ def write(plan: Vector, motion: Motion, out: Vector, columns: int, k: int) -> No
     out[DISPLACEMENT * columns + k], out[VELOCITY * columns + k] = u + 0.0, motion.v + 0.0
     out[ACCELERATION * columns + k] = acceleration(plan, motion) + 0.0
     for stop in range(2):
-        way, depth = facing(stop), face(plan, motion, stop)
+        way, depth = facing(stop), stop_deformation(plan, motion, stop)
         out[(RIGHT_FACE + stop) * columns + k] = way * depth + 0.0
-        clear = seen(plan, stop, mode, depth, way * u)
+        clear = clearance_of(plan, stop, mode, depth, way * u)
         out[(RIGHT_CLEARANCE + stop) * columns + k] = clear + 0.0
     out[CONTACT * columns + k] = TOUCHING[mode]
     out[MEMORY * columns + k] = motion.z + 0.0
@@ -177,7 +177,7 @@ def sample(
     cursor = begin(plan, before, reach)
     while i < end:
         n = min(end - i, BLOCK)
-        cursor = look(plan, cursor, before, t, step, i, n, series, room)
+        cursor = sample_stretch(plan, cursor, before, t, step, i, n, series, room)
         for j in range(n):
             room[U * BLOCK + j] = displacement(plan, mode, room[j])
         for stop in range(2):
@@ -220,7 +220,10 @@ def write_down(
         row[E_KIND] = kind
         row[E_SIDE] = facing(stop)
         row[E_U], row[E_V] = after.u, arrival
-        row[E_RIGHT], row[E_LEFT] = face(plan, after, 0), -face(plan, after, 1)
+        row[E_RIGHT], row[E_LEFT] = (
+            stop_deformation(plan, after, 0),
+            -stop_deformation(plan, after, 1),
+        )
         row[E_BEFORE] = acceleration(plan, arrived(before.mode, arrival, after))
         row[E_BEHIND] = acceleration(plan, after)
         row[E_MEMORY] = after.z

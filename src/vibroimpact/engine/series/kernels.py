@@ -96,7 +96,10 @@ def kernels(rig: Any) -> dict[int, Kernel]:
     for which in range(3):
         symbols = program.unpack(rig, which)
         if symbols:
-            every[Slot.OWN + STRIDE * which] = (slopes.valued, slopes.asked), (which, symbols)
+            every[Slot.OWN + STRIDE * which] = (
+                (slopes.valued, slopes.event_series),
+                (which, symbols),
+            )
     for stop, slot in enumerate((Slot.ROOT_RIGHT, Slot.ROOT_LEFT)):
         deep = rooted(rig, stop, laws)
         if deep is not None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import change_rate, let_go, stepped, turned, value
+from vibroimpact.engine.forcing.dispatch import change_rate, release_time, stepped, turned, value
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.linear.advance import Ended, gap_of, place_at, rate_of
 from vibroimpact.engine.linear.evaluate import comes_back
@@ -31,7 +31,7 @@ from vibroimpact.engine.motion import (
 )
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
-from vibroimpact.engine.series.march import headed
+from vibroimpact.engine.series.march import write_header
 from vibroimpact.engine.taylor.ahead import NOT_YET, ahead_of, branched, stepped_on, varies
 from vibroimpact.engine.taylor.frame import (
     creeps,
@@ -61,7 +61,7 @@ _LACKS, _TOO_MANY = -2, -3
 
 
 @apart
-def freed(plan: Vector, motion: Motion, t: float) -> Motion:
+def with_relaxed_stops(plan: Vector, motion: Motion, t: float) -> Motion:
     """The same motion with the stops that it does not touch relaxed for t seconds."""
     mode, fresh, u, v, faces, z, age, clock = motion
     faces = relaxed_faces(plan, mode, faces, t)
@@ -81,7 +81,7 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
     after = turned(plan, s, c, limit)
     for way in range(2):
         sign = -1.0 if way == 0 else 1.0  # to the right where −A_t exceeds a level
-        free, s1, c1 = let_go(plan, sign, most + sign * still, s, c, t)
+        free, s1, c1 = release_time(plan, sign, most + sign * still, s, c, t)
         if free < t:
             event, t, after = TURNED, free, (s1, c1)
             slips = SLIPS_RIGHT if way == 0 else SLIPS_LEFT
@@ -107,7 +107,7 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
 
 
 @kernel
-def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
+def motion_after_event(plan: Vector, event: int, here: Motion, t: float) -> Ended:
     """The motion just after the event, exactly there."""
     mode, _, u, v, faces, z, _, clock = here
     if event in (RIGHT, LEFT):
@@ -146,14 +146,14 @@ def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
 @kernel
 def still(plan: Vector, motion: Motion, limit: float) -> Ended:
     """At rest on a rigid stop, or held by friction, until something lets go of the mass."""
-    headed(plan, 0.25 / change_rate(plan), False)  # by which several harmonics find their way
+    write_header(plan, 0.25 / change_rate(plan), False)  # by which several harmonics find their way
     if stuck(plan, motion) or idle(plan, motion):
         return held(plan, motion, limit)
     return rest(plan, motion, limit)
 
 
 @apart
-def aside(plan: Vector, motion: Motion, limit: float) -> Ended:
+def advance_without_steps(plan: Vector, motion: Motion, limit: float) -> Ended:
     """A motion that is not followed by steps: it settles, stands still, or is given up."""
     if motion.fresh & SETTLING:
         return settle(plan, motion, limit)
@@ -166,7 +166,7 @@ def aside(plan: Vector, motion: Motion, limit: float) -> Ended:
 def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next event, or for the time `limit` if that comes first."""
     if motion.fresh & SETTLING or stands(plan, motion) or plan[LACKING] != 0.0:
-        return aside(plan, motion, limit)
+        return advance_without_steps(plan, motion, limit)
     mode, _, _, _, faces, _, age, _ = motion
     frame = frame_of(plan, mode)
     sign = frame.sign
@@ -235,14 +235,14 @@ def stretch_end(
     plan: Vector, event: int, here: Motion, x: float, there: bool, t: float, limit: float
 ) -> Ended:
     """What a stretch ends with; the mass is where the coordinate x says, if not there already."""
-    here = freed(plan, here if there else placed(plan, here, x), t)
+    here = with_relaxed_stops(plan, here if there else placed(plan, here, x), t)
     if event == _LACKS:
         return abandoned(plan, here, t)
     if event == _TOO_MANY:
         return GIVEN_UP, t, here.v, here
     if event == LIMIT:
         return LIMIT, limit, here.v, here
-    event, t, arrival, after = happened(plan, event, here, t)
+    event, t, arrival, after = motion_after_event(plan, event, here, t)
     if event in (RIGHT, LEFT) and rigid(plan, event - 1):
         return impact(plan, event, t, arrival, after)
     return event, t, arrival, after

@@ -12,7 +12,7 @@ from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion, main_stop
 from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.layout import SLOT, UNIT
-from vibroimpact.engine.series.march import Shaken, number, slot_of, taken
+from vibroimpact.engine.series.march import Shaken, certified_step, number, slot_of
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
 from vibroimpact.engine.taylor.frame import branch_of, curved_stop, own_push, stiffness_at
 from vibroimpact.engine.taylor.laws import laws_of
@@ -151,4 +151,4 @@ def stepped_on(
     size = max(max(abs(x + ahead.offset), abs(x)), max(abs(v) * ahead.natural, ahead.shaken))
     by = Shaken(ahead.sign, clock, ahead.unit, ahead.per_unit)
     most = min(longest, ahead.longest * ahead.per_unit)
-    return taken(plan, ahead.slot, x, v, z, by, size, ahead.fine, most)
+    return certified_step(plan, ahead.slot, x, v, z, by, size, ahead.fine, most)

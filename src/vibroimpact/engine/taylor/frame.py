@@ -327,10 +327,10 @@ def stop_rounding(plan: Vector, motion: Motion, stop: int) -> float:
     at = par.stop_at(stop)
     slope: float = plan[at + par.BUMPER_STIFFNESS]
     if plan[at + par.KIND] == par.FORMULA:
-        slope = abs(own_push(plan, stop, face(plan, motion, stop), 0.0)[1])
+        slope = abs(own_push(plan, stop, stop_deformation(plan, motion, stop), 0.0)[1])
     elif curved_stop(plan, stop):
         exponent = plan[at + par.EXPONENT]
-        slope *= exponent * face(plan, motion, stop) ** (exponent - 1.0)
+        slope *= exponent * stop_deformation(plan, motion, stop) ** (exponent - 1.0)
     size: float = max(abs(motion.u), abs(plan[at + par.GAP]))
     return slope * size
 
@@ -355,7 +355,7 @@ def branch_of(plan: Vector, motion: Motion, sign: float) -> Branch:
 
 
 @kernel
-def face(plan: Vector, motion: Motion, stop: int) -> float:
+def stop_deformation(plan: Vector, motion: Motion, stop: int) -> float:
     """How far a stop is deformed (m)."""
     if not curved_stop(plan, stop):
         return motion.faces[stop]
@@ -373,6 +373,6 @@ def stop_push(plan: Vector, motion: Motion, stop: int) -> float:
     memory = motion.faces[stop]
     if curved_stop(plan, stop):
         law = push_of(plan, stop, closing, memory)
-        return stop_force(plan, stop, law, face(plan, motion, stop), closing)
+        return stop_force(plan, stop, law, stop_deformation(plan, motion, stop), closing)
     push: float = plan[at + par.BUMPER_STIFFNESS] * memory + plan[at + par.BUMPER_DAMPING] * closing
     return push

@@ -22,10 +22,10 @@ from vibroimpact.engine.taylor.frame import (
     acceleration_of,
     branch_of,
     curved_stop,
-    face,
     motion_rate,
     own_push,
     push_of,
+    stop_deformation,
 )
 
 _NOTHING = 2.0**-60
@@ -196,7 +196,7 @@ def own_pressing(
 
 
 @kernel
-def unkept(plan: Vector, before: Motion, after: Motion, stop: int) -> float:
+def unreturned_energy(plan: Vector, before: Motion, after: Motion, stop: int) -> float:
     """What a stop loses between two moments that would pull and does not push: of its spring's."""
     if not (before.mode >> stop & 1 and curved_stop(plan, stop)):
         return 0.0
@@ -205,7 +205,7 @@ def unkept(plan: Vector, before: Motion, after: Motion, stop: int) -> float:
     closing = sign * before.v
     push = push_of(plan, stop, closing, memory)
     gains = sign * acceleration_of(plan, before)
-    begun, ended = face(plan, before, stop), face(plan, after, stop)
+    begun, ended = stop_deformation(plan, before, stop), stop_deformation(plan, after, stop)
     if plan[par.stop_at(stop) + par.KIND] == par.FORMULA:
         gap = plan[par.stop_at(stop) + par.GAP]
         grain = 16.0 * ROUNDING * (abs(begun) + abs(gap))

@@ -32,7 +32,7 @@ from vibroimpact.engine.series.layout import (
     X,
     Z,
 )
-from vibroimpact.engine.series.march import at, headed, scale, shake, stay
+from vibroimpact.engine.series.march import at, hold_still, scale, shake, write_header
 from vibroimpact.engine.series.values import Frame
 from vibroimpact.engine.taylor.ahead import ahead_of, branched, stepped_on, varies
 from vibroimpact.engine.taylor.frame import (
@@ -92,7 +92,7 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
     ahead = ahead_of(plan, motion, frame, x, longest, matters, anew)
     if held:
         length = min(longest, 1.0 / max(pace(plan), 1e-300))
-        stay(plan, frame, x, z, motion.clock, length)
+        hold_still(plan, frame, x, z, motion.clock, length)
     else:
         unit = ahead.unit
         v = frame.sign * motion.v * unit
@@ -102,7 +102,7 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
         shake(plan, frame.sign, motion.clock, length, SHAKEN)
         load = frame.load - ahead.way * plan[par.FRICTION]
         plan[SHAKEN] += load * length * length
-    headed(plan, length / PIECES, motion.mode == LEFT)
+    write_header(plan, length / PIECES, motion.mode == LEFT)
     plan[HEADER + RESTING] = 1.0 if held else 0.0
     return frame, length
 
@@ -157,7 +157,7 @@ def begin(plan: Vector, motion: Motion, length: float) -> Cursor:
 
 
 @kernel
-def more(plan: Vector, cursor: Cursor) -> bool:
+def has_piece(plan: Vector, cursor: Cursor) -> bool:
     """Whether there is a piece here."""
     return cursor.t < cursor.length
 
@@ -172,7 +172,7 @@ def following_window(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
-def following(plan: Vector, cursor: Cursor) -> Cursor:
+def next_piece(plan: Vector, cursor: Cursor) -> Cursor:
     """The next piece."""
     table, i, length, t, step, start = cursor
     if i + 1 < PIECES:
@@ -181,7 +181,7 @@ def following(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
-def glance(
+def bound_window(
     plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, room: Vector
 ) -> tuple[bool, Enclosed]:
     """Nothing is computed ahead, because a piece's series is known already."""
@@ -296,7 +296,7 @@ def acceleration(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
-def look(
+def sample_stretch(
     plan: Vector,
     cursor: Cursor,
     before: Motion,
@@ -307,7 +307,7 @@ def look(
     series: Vector,
     room: Vector,
 ) -> Cursor:
-    """The motion at n instants, as `linear.pieces.look` says; `series` is not needed."""
+    """The motion at n instants, as `linear.pieces.sample_stretch` says; `series` is not needed."""
     frame = frame_of(plan, before.mode)
     for j in range(n):
         tau = max((i + j) * step - t, 0.0)

@@ -9,9 +9,9 @@ from vibroimpact.engine.motion import Motion, facing
 from vibroimpact.engine.taylor.frame import (
     branch_of,
     curved_stop,
-    face,
     own_force,
     own_push,
+    stop_deformation,
     stop_push,
     without_friction,
 )
@@ -27,7 +27,7 @@ def stop_power(plan: Vector, motion: Motion, stop: int) -> float:
     push = stop_push(plan, motion, stop)
     if push == 0.0:
         return 0.0
-    depth = face(plan, motion, stop)
+    depth = stop_deformation(plan, motion, stop)
     if plan[at + par.KIND] == par.FORMULA:
         spring = own_push(plan, stop, depth, 0.0)[0]
     else:

@@ -13,7 +13,7 @@ from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion
 from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
 from vibroimpact.engine.series.kernels import Slot
 from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
-from vibroimpact.engine.series.march import Shaken, number, taken
+from vibroimpact.engine.series.march import Shaken, certified_step, number
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
 from vibroimpact.engine.taylor.ahead import branched
 from vibroimpact.engine.taylor.frame import branch_of, curved_stop, push_of
@@ -164,7 +164,7 @@ def pressed_for(
     event = NEITHER
     for _ in range(MOST):
         shaken = Shaken(frame.sign, clock, by.unit, per_unit)
-        h, after = taken(plan, by.slot, w, v, z, shaken, max(w, by.size), 0.0, math.inf)
+        h, after = certified_step(plan, by.slot, w, v, z, shaken, max(w, by.size), 0.0, math.inf)
         ends = ends_of(plan, h, w, v, z, hysteretic)
         found = Found(LIMIT, NEVER)
         which = DETACHED if mode == RIGHT else DETACHED_LEFT

@@ -125,7 +125,7 @@ def parts(plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float) -> f
 
 
 @kernel
-def lets_go(
+def earlier_release(
     plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float, found: Found
 ) -> Found:
     """Take the end of a push into account: a depth falls to 0, or 1 + χ δ′ changes sign."""
@@ -242,7 +242,7 @@ def search(
             if kind == par.KELVIN_VOIGT:
                 found = earlier(found, event, parts(plan, motion, stop, ends, unit))
             elif kind != par.RIGID:
-                found = lets_go(plan, motion, stop, ends, unit, found)
+                found = earlier_release(plan, motion, stop, ends, unit, found)
             continue
         if mode and not overlapping(plan):
             continue

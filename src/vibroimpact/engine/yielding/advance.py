@@ -46,7 +46,7 @@ from vibroimpact.engine.yielding.leg import (
     Leg,
 )
 from vibroimpact.engine.yielding.plan import table_of
-from vibroimpact.engine.yielding.walk import go
+from vibroimpact.engine.yielding.walk import follow_leg
 
 
 @kernel
@@ -111,7 +111,7 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
         push_0,
     )
     row = Row(x - about, sign * v, sign * clock[0], sign * clock[1])
-    end, t, row = go(plan, table_of(branch, mode), leg, row, start, limit)
+    end, t, row = follow_leg(plan, table_of(branch, mode), leg, row, start, limit)
     x, v, s, c = row
     x += about
     v, clock = sign * v, (sign * s, sign * c)

@@ -13,7 +13,7 @@ import math
 from vibroimpact.engine.forcing.dispatch import product
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
-from vibroimpact.engine.linear.evaluate import gained, node, relaxed, travel
+from vibroimpact.engine.linear.evaluate import node, relaxed, scaled_acceleration, travel
 from vibroimpact.engine.linear.flight import parted
 from vibroimpact.engine.linear.layout import NODE, NODES, RATE, ROW_V, WIDTH, H
 from vibroimpact.engine.linear.roots import NONE
@@ -35,7 +35,7 @@ from vibroimpact.engine.yielding.leg import (
 
 
 @kernel
-def go(
+def follow_leg(
     plan: Vector, table: int, leg: Leg, row: Row, start: int, limit: float
 ) -> tuple[int, float, Row]:
     """Follow a leg to its end or for the time `limit`.
@@ -58,7 +58,7 @@ def go(
             return STOPS, t, row
         if xs >= yields and yields != stop:
             return YIELDS, t, row
-        gain = gained(plan, table, row)
+        gain = scaled_acceleration(plan, table, row)
         size = plan[table + ROOT] * abs(v) + abs(gain) * (per_second * per_second)
         bend = plan[table + TURN_E] * size + plan[table + TURN_0]  # of the velocity, per step²
         floor = 0.125 * bend
@@ -137,7 +137,7 @@ def go(
                     before, now = push_0 - before_force, push_0 - force
                 elif inside and vs > 0.0 and force > 0.0:
                     # Still falling at the node, it has been no lower before.
-                    slope = way * gained(plan, table, node(plan, table, j, row))
+                    slope = way * scaled_acceleration(plan, table, node(plan, table, j, row))
                     cleared = moves or -2.0 * slope * per_second >= bend
                     if cleared and not presses:
                         slope = push_x * (vs * h) + push_v * slope * per_second
