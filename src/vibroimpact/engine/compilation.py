@@ -13,7 +13,7 @@ from filelock import FileLock
 from numba.core import config
 from numba.core.sigutils import normalize_signature
 
-from vibroimpact.engine import cache, emission, jit
+from vibroimpact.engine import cache, jit, kernel_linking
 
 
 @contextmanager
@@ -107,7 +107,7 @@ class Compiled:
 
     def _compiled_for(self, signature: Any, dispatcher: Any) -> Callable[..., Any]:
         """Compile for this signature and refuse others, which would take half a minute unseen."""
-        with emission.only(self.function.__qualname__), _uncollected():
+        with kernel_linking.only(self.function.__qualname__), _uncollected():
             dispatcher.compile(signature)
         dispatcher.disable_compile()
         return dispatcher  # type: ignore[no-any-return]

@@ -27,7 +27,7 @@ from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.linear import advance as linear_advance
 from vibroimpact.engine.linear import carry as linear_carry
-from vibroimpact.engine.linear import chord_bounds, contact_free, forces, pieces, tables
+from vibroimpact.engine.linear import contact_free, forces, pieces, tables, window_bounds
 from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
@@ -36,8 +36,8 @@ from vibroimpact.engine.motion import Motion
 from vibroimpact.engine.series import kernels
 from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
-from vibroimpact.engine.taylor import frame, power
 from vibroimpact.engine.taylor import laws as taylor_laws
+from vibroimpact.engine.taylor import mode_forces, power
 from vibroimpact.engine.taylor import pieces as taylor_pieces
 from vibroimpact.engine.taylor import plan as taylor_plan
 from vibroimpact.engine.taylor.advance import advance_taylor
@@ -128,7 +128,7 @@ functions; a Taylor step does not notice that they are looked up."""
 
 _TAYLOR = (
     taylor_plan,
-    frame,
+    mode_forces,
     power,
     taylor_laws,
     taylor_pieces,
@@ -142,7 +142,7 @@ answer(
     linear_advance,
     forces,
     pieces,
-    chord_bounds,
+    window_bounds,
     linear_carry,
 )
 answer(par.BENT, *_TAYLOR)

@@ -26,10 +26,10 @@ from vibroimpact.engine.dispatch import (
 )
 from vibroimpact.engine.forcing.dispatch import pull_series
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.chord_bounds import Enclosed, chords
 from vibroimpact.engine.linear.layout import ORDER, RATE
 from vibroimpact.engine.linear.roots import jet
 from vibroimpact.engine.linear.tables import rigid
+from vibroimpact.engine.linear.window_bounds import Enclosed, chords
 from vibroimpact.engine.memory import stack, workspace
 from vibroimpact.engine.motion import (
     FLIGHT,

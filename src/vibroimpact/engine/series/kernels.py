@@ -19,10 +19,10 @@ from numba.extending import intrinsic, overload
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.series import layout as at
-from vibroimpact.engine.series import program, root, slopes, step
-from vibroimpact.engine.series.emit import REAL, WHOLE, Code, Plain
+from vibroimpact.engine.series import program, root_variable, slopes, step
+from vibroimpact.engine.series.code_generation import REAL, WHOLE, Code, Plain
 from vibroimpact.engine.series.laws import drag
-from vibroimpact.engine.series.root import Rooted
+from vibroimpact.engine.series.root_variable import Rooted
 from vibroimpact.engine.series.step import LAWS, Shape
 from vibroimpact.law_numbers import WORDS
 
@@ -103,7 +103,7 @@ def kernels(rig: Any) -> dict[int, Kernel]:
     for stop, slot in enumerate((Slot.ROOT_RIGHT, Slot.ROOT_LEFT)):
         deep = rooted(rig, stop, laws)
         if deep is not None:
-            every[int(slot)] = (root.rooted, root.again), deep
+            every[int(slot)] = (root_variable.rooted, root_variable.again), deep
     return every
 
 

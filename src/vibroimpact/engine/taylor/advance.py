@@ -31,9 +31,8 @@ from vibroimpact.engine.motion import (
 )
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
-from vibroimpact.engine.series.march import write_header
-from vibroimpact.engine.taylor.ahead import NOT_YET, ahead_of, branched, stepped_on, varies
-from vibroimpact.engine.taylor.frame import (
+from vibroimpact.engine.series.step_control import write_header
+from vibroimpact.engine.taylor.mode_forces import (
     creeps,
     curved_stop,
     frame_of,
@@ -45,8 +44,8 @@ from vibroimpact.engine.taylor.frame import (
     without_friction,
 )
 from vibroimpact.engine.taylor.pieces import coordinate, placed
-from vibroimpact.engine.taylor.press import MOST, pressed_for, root_of
-from vibroimpact.engine.taylor.watch import (
+from vibroimpact.engine.taylor.root_steps import MOST, pressed_for, root_of
+from vibroimpact.engine.taylor.step_events import (
     CENTRED,
     DETACHED_LEFT,
     EASED,
@@ -55,6 +54,7 @@ from vibroimpact.engine.taylor.watch import (
     ends_of,
     search,
 )
+from vibroimpact.engine.taylor.step_setup import NOT_YET, ahead_of, branched, stepped_on, varies
 
 _LACKS, _TOO_MANY = -2, -3
 """Why a stretch is given up: kernels, or an end after any number of steps."""

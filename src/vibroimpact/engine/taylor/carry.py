@@ -39,8 +39,8 @@ from vibroimpact.engine.series.layout import (
     ROOM,
 )
 from vibroimpact.engine.series.values import Frame, Laws
-from vibroimpact.engine.taylor.ahead import varies
-from vibroimpact.engine.taylor.frame import (
+from vibroimpact.engine.taylor.laws import laws_of
+from vibroimpact.engine.taylor.mode_forces import (
     acceleration_of,
     branch_of,
     curved_stop,
@@ -51,8 +51,8 @@ from vibroimpact.engine.taylor.frame import (
     stuck,
     without_friction,
 )
-from vibroimpact.engine.taylor.laws import laws_of
 from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, sloped
+from vibroimpact.engine.taylor.step_setup import varies
 
 _SLOPES_LAST = 2.0**-47
 """What the last term of the slopes' series may be; it enters a disturbance by a 20th."""

@@ -16,9 +16,9 @@ from vibroimpact.engine.linear.advance import total_gap
 from vibroimpact.engine.linear.layout import MOST, STEEPEST
 from vibroimpact.engine.motion import BOTH, Motion, facing, main_stop
 from vibroimpact.engine.series.kernels import drags_any_power
-from vibroimpact.engine.series.march import ROUNDING
+from vibroimpact.engine.series.step_control import ROUNDING
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws, Push
-from vibroimpact.engine.taylor.frame import (
+from vibroimpact.engine.taylor.mode_forces import (
     acceleration_of,
     branch_of,
     curved_stop,

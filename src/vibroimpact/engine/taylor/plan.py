@@ -10,7 +10,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import WORK_LIMIT
 from vibroimpact.engine.linear.layout import OMEGA
 from vibroimpact.engine.motion import Clock, Motion
-from vibroimpact.engine.series.march import prepare
+from vibroimpact.engine.series.step_control import prepare
 
 
 @kernel

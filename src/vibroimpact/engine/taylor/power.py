@@ -6,7 +6,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import Motion, facing
-from vibroimpact.engine.taylor.frame import (
+from vibroimpact.engine.taylor.mode_forces import (
     branch_of,
     curved_stop,
     own_force,

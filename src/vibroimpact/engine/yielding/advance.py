@@ -29,9 +29,9 @@ from vibroimpact.engine.motion import (
 )
 from vibroimpact.engine.motion import LIMIT as NOTHING
 from vibroimpact.engine.taylor.advance import still
-from vibroimpact.engine.taylor.frame import stands, way_of
+from vibroimpact.engine.taylor.mode_forces import stands, way_of
 from vibroimpact.engine.yielding.layout import ELASTIC, MOVES_LEFT, MOVES_RIGHT
-from vibroimpact.engine.yielding.leg import (
+from vibroimpact.engine.yielding.monotone_motion import (
     BEGUN,
     BEHIND,
     FROM_AHEAD,
@@ -46,7 +46,7 @@ from vibroimpact.engine.yielding.leg import (
     Leg,
 )
 from vibroimpact.engine.yielding.plan import table_of
-from vibroimpact.engine.yielding.walk import follow_leg
+from vibroimpact.engine.yielding.table_walk import follow_leg
 
 
 @kernel

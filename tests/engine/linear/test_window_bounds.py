@@ -9,7 +9,6 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.chord_bounds import NOWHERE, Enclosed, bound_window, chords, enclosed
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.pieces import (
@@ -22,6 +21,13 @@ from vibroimpact.engine.linear.pieces import (
     next_piece,
 )
 from vibroimpact.engine.linear.tables import build
+from vibroimpact.engine.linear.window_bounds import (
+    NOWHERE,
+    Enclosed,
+    bound_window,
+    chords,
+    enclosed,
+)
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
 from vibroimpact.engine.parameters import SIZE

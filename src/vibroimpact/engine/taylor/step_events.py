@@ -52,8 +52,8 @@ from vibroimpact.engine.series.layout import (
     Z,
 )
 from vibroimpact.engine.series.values import Frame
-from vibroimpact.engine.taylor.frame import balanced, curved_stop, push_of, steep
 from vibroimpact.engine.taylor.laws import EVEN
+from vibroimpact.engine.taylor.mode_forces import balanced, curved_stop, push_of, steep
 from vibroimpact.engine.taylor.pieces import facing_of
 from vibroimpact.law_numbers import ABSOLUTE_X
 

@@ -1,4 +1,4 @@
-"""Steps while a stop is pressed by a power of its deformation, in a root of it (`series.root`)."""
+"""Steps while a stop is pressed by a power of its depth, in a root of it (`series.root_variable`)."""
 
 from __future__ import annotations
 
@@ -13,13 +13,12 @@ from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion
 from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
 from vibroimpact.engine.series.kernels import Slot
 from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
-from vibroimpact.engine.series.march import Shaken, certified_step, number
+from vibroimpact.engine.series.step_control import Shaken, certified_step, number
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
-from vibroimpact.engine.taylor.ahead import branched
-from vibroimpact.engine.taylor.frame import branch_of, curved_stop, push_of
 from vibroimpact.engine.taylor.laws import EVEN
+from vibroimpact.engine.taylor.mode_forces import branch_of, curved_stop, push_of
 from vibroimpact.engine.taylor.pieces import coordinate, placed
-from vibroimpact.engine.taylor.watch import (
+from vibroimpact.engine.taylor.step_events import (
     DETACHED_LEFT,
     EASED,
     NEITHER,
@@ -29,6 +28,7 @@ from vibroimpact.engine.taylor.watch import (
     starts_still,
     turns,
 )
+from vibroimpact.engine.taylor.step_setup import branched
 from vibroimpact.law_numbers import ABSOLUTE_X
 
 _RIGHT, _LEFT = int(Slot.ROOT_RIGHT), int(Slot.ROOT_LEFT)

@@ -12,10 +12,10 @@ from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion, main_stop
 from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.layout import SLOT, UNIT
-from vibroimpact.engine.series.march import Shaken, certified_step, number, slot_of
+from vibroimpact.engine.series.step_control import Shaken, certified_step, number, slot_of
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
-from vibroimpact.engine.taylor.frame import branch_of, curved_stop, own_push, stiffness_at
 from vibroimpact.engine.taylor.laws import laws_of
+from vibroimpact.engine.taylor.mode_forces import branch_of, curved_stop, own_push, stiffness_at
 
 
 class Ahead(NamedTuple):

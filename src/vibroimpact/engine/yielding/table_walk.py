@@ -19,9 +19,9 @@ from vibroimpact.engine.linear.layout import NODE, NODES, RATE, ROW_V, WIDTH, H
 from vibroimpact.engine.linear.roots import NONE
 from vibroimpact.engine.linear.table_search import ended, next_window
 from vibroimpact.engine.motion import Row
-from vibroimpact.engine.yielding.careful import careful
+from vibroimpact.engine.yielding.certified_search import careful
 from vibroimpact.engine.yielding.layout import BEND_0, PUSH_0, PUSH_E, ROOT, TURN_0, TURN_E
-from vibroimpact.engine.yielding.leg import (
+from vibroimpact.engine.yielding.monotone_motion import (
     BEGUN,
     FROM_BEHIND,
     LIMIT,
@@ -43,7 +43,7 @@ def follow_leg(
     Returns
     -------
     end, t, row
-        What ended it (see `leg`), the elapsed time (s), and the state there.
+        What ended it (see `monotone_motion`), the elapsed time (s), and the state there.
     """
     way, stop, yields, memory, rate, behind, behind_memory, behind_rate, push_x, push_v, push_0 = (
         leg
