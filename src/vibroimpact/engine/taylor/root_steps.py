@@ -1,4 +1,4 @@
-"""Steps while a stop is pressed by a power of its depth, in a root of it (`series.root_variable`)."""
+"""Steps while a stop is pressed by a power of its depth, in a root (`series.root_variable`)."""
 
 from __future__ import annotations
 
