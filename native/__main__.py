@@ -29,7 +29,7 @@ from numba.core.codegen import CPUCodeLibrary
 from numba.core.sigutils import normalize_signature
 
 from vibroimpact import engine
-from vibroimpact.engine import emission, flow_dispatch, flow_tables, jit, native
+from vibroimpact.engine import flow_dispatch, flow_tables, jit, kernel_linking, native
 from vibroimpact.engine.compilation import Compiled
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.plain_entries import Alone, Single
@@ -95,14 +95,14 @@ def lowered(index: int) -> tuple[str, bytes]:
         arguments, result = normalize_signature(compiled.signature)
         dispatcher = numba.njit(**jit.OPTIONS)(compiled.function)
         gc.disable()
-        with emission.only(compiled.function.__qualname__):
+        with kernel_linking.only(compiled.function.__qualname__):
             dispatcher.compile(result(numba.typeof(given), *arguments))
         gc.enable()
     finally:
         CPUCodeLibrary._optimize_final_module = optimise
     (made,) = dispatcher.overloads.values()
     module = llvm.parse_assembly(modules[compiled.function.__qualname__])
-    emission.keep_apart(module)
+    kernel_linking.keep_apart(module)
     name = made.fndesc.llvm_func_name
     for one in (*module.functions, *module.global_variables):
         if not one.is_declaration and one.name != name:
@@ -151,7 +151,7 @@ def machine_code(code: bytes, target: Target) -> bytes:
         return passes
 
     optimise(unused)
-    for _ in range(2):  # see `emission`
+    for _ in range(2):  # see `kernel_linking`
         optimise(cheap, slp_vectorization=False)
         optimise(lambda builder: builder.getModulePassManager())
     emitted: bytes = machine.emit_object(module)

@@ -102,7 +102,7 @@ def test_two_secants_tell_an_affine_map() -> None:
     for _ in range(4):
         image = goal + matrix @ (state - goal)
         before, after = (np.array([0.0, 0.0, *one]) for one in (state, image))
-        extrapolation.hold_on(room, before, after, 2)
+        extrapolation.remember_change(room, before, after, 2)
         state = image
         if _ >= 2:
             way, moved, contracts = extrapolation.guess(room, units, 2)

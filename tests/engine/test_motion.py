@@ -32,7 +32,7 @@ SWAPPED = {FLIGHT: FLIGHT, RIGHT: LEFT, LEFT: RIGHT, BOTH: BOTH}
 
 def motion(mode: int, fresh: int = 0) -> Motion:
     """One whose eight numbers all differ."""
-    return Motion(mode, fresh, 0.1, -0.2, 0.3, 0.4, 0.6, 0.5, CLOCK)
+    return Motion(mode, fresh, 0.1, -0.2, (0.3, 0.4), 0.6, 0.5, CLOCK)
 
 
 @pytest.mark.parametrize("mode", MODES)
@@ -50,7 +50,7 @@ def test_the_mirror_image_in_the_kernel_and_in_python(mode: int, fresh: int) -> 
     image = mirrored(one)
     assert image.mode == SWAPPED[mode]
     assert image.fresh == SWAPPED[fresh & BOTH] | (fresh & RELEASED)
-    assert image[2:] == (-0.1, 0.2, 0.4, 0.3, -0.6, 0.5, CLOCK)
+    assert image[2:] == (-0.1, 0.2, (0.4, 0.3), -0.6, 0.5, CLOCK)
     assert mirrored(image) == one
     here, there = np.empty(STATE + 2), np.empty(STATE + 2)
     pack(one, here)

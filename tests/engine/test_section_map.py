@@ -59,7 +59,7 @@ def test_the_nearest_state_that_can_be(right, left, given, mode, u, deformations
     assert found.mode == found.fresh == mode
     assert found.u == u
     assert found.v == given[2]
-    assert (found.right, found.left) == pytest.approx(deformations, abs=1e-15)
+    assert found.faces == pytest.approx(deformations, abs=1e-15)
 
 
 def test_a_spring_that_yields_is_not_stretched_further() -> None:
@@ -71,6 +71,6 @@ def test_a_spring_that_yields_is_not_stretched_further() -> None:
 def test_a_stop_without_memory_keeps_its_closing_speed_only_where_it_is_pressed() -> None:
     rig = rig_vector(1.0, 1.0, 0.1, PowerLaw(20.0, 1.5, -0.5, 0.0, 1.0), None)
     pressed = placed(rig, FLIGHT, 1.25, 0.0, 0.7, 0.0, 0.0)
-    assert (pressed.mode, pressed.right) == (RIGHT, 0.7)
+    assert (pressed.mode, pressed.faces[0]) == (RIGHT, 0.7)
     free = placed(rig, RIGHT, 0.75, 0.0, 0.7, 0.0, 0.0)
-    assert (free.mode, free.right) == (FLIGHT, 0.0)
+    assert (free.mode, free.faces[0]) == (FLIGHT, 0.0)

@@ -12,15 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import flow
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.hold import OUTCOME, hold
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.opening import open_entry
 from vibroimpact.engine.recording import write_down
 from vibroimpact.engine.sections import advance, repeated, row_room
-from vibroimpact.engine.state import copy, load, room, width
+from vibroimpact.engine.state import copy, room, width
 from vibroimpact.engine.status import DONE, NOT_FINITE, STOPPED, TOO_MANY_EVENTS, TOO_MUCH_WORK
 
 
@@ -118,15 +118,11 @@ def trajectory(
     next, count, outcome
         The cycle to go on with, the number of events written, a `Status`.
     """
-    plan = planned(given, rig)
-    start = int(first)
-    period = 1.0 / frequency
-    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
-    if flow.too_much_work(plan, period) != 0:
-        return start, 0, TOO_MUCH_WORK
-    here, row = room(), row_room()
-    s, c = math.sin(phase), math.cos(phase)
-    load(plan, pointer(state), here, s, c)
+    start, here, row = int(first), room(), row_room()
+    at = pointer(state)
+    plan, s, c, period, outcome = open_entry(given, rig, amplitude, frequency, phase, at, here)
+    if outcome != DONE:
+        return start, 0, outcome
     found = write_down(
         plan,
         here,
@@ -142,7 +138,7 @@ def trajectory(
         pointer(events),
         len(events),
     )
-    copy(here, pointer(state), width(plan))
+    copy(here, at, width(plan))
     return found
 
 
@@ -161,18 +157,13 @@ def propagate(
 
     The arguments are those of `trajectory`; a cycle that is given up leaves its section.
     """
-    plan = planned(given, rig)
-    period = 1.0 / frequency
-    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
-    if flow.too_much_work(plan, period) != 0:
-        return TOO_MUCH_WORK
     here, section = room(), room()
-    s, c = math.sin(phase), math.cos(phase)
-    load(plan, pointer(state), here, s, c)
-    number, outcome = 0.0, DONE
+    at = pointer(state)
+    plan, s, c, period, outcome = open_entry(given, rig, amplitude, frequency, phase, at, here)
+    number = 0.0
     while number < cycles and outcome == DONE:
         length = min(1.0, cycles - number) * period
         _, outcome = advance(plan, here, section, s, c, length, max_events)
         number += 1.0
-    copy(here, pointer(state), width(plan))
-    return outcome
+    copy(here, at, width(plan))
+    return outcome  # type: ignore[no-any-return]

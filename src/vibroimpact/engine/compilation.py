@@ -128,9 +128,9 @@ class Compiled:
 
     def _compiled_for(self, signature: Any, dispatcher: Any) -> Callable[..., Any]:
         """Compile for this signature and refuse others, which would take half a minute unseen."""
-        from vibroimpact.engine import emission
+        from vibroimpact.engine import kernel_linking
 
-        with emission.only(self.function.__qualname__), _uncollected():
+        with kernel_linking.only(self.function.__qualname__), _uncollected():
             dispatcher.compile(signature)
         dispatcher.disable_compile()
         return dispatcher  # type: ignore[no-any-return]

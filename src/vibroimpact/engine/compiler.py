@@ -20,7 +20,7 @@ if TYPE_CHECKING or COMPILES:
     from numba.core import cgutils, types
     from numba.core.callconv import excinfo_t
     from numba.core.datamodel import models
-    from numba.extending import intrinsic, overload, register_model
+    from numba.extending import intrinsic, overload, register_jitable, register_model
 
     PLAIN = bool(numba.config.DISABLE_JIT)  # type: ignore[attr-defined]
     """Whether numba leaves all functions to Python."""
@@ -40,7 +40,8 @@ else:
         return lambda function: function
 
     cgutils = types = models = excinfo_t = _Absent()
-    njit = overload = register_model = _marked
+    njit = overload = register_model = register_jitable = _marked
+
     PLAIN = False
 
     def intrinsic(function: Any) -> Any:
@@ -57,6 +58,7 @@ __all__ = [
     "models",
     "njit",
     "overload",
+    "register_jitable",
     "register_model",
     "types",
 ]

@@ -9,22 +9,22 @@ that is not said there to the Taylor flow. Each is a folder whose modules have t
     undisturbed(plan, motion, clock, dying)  free flight that touches nothing any more, if known
     stiff_rate(plan)                        what makes a velocity of a displacement (1/s)
 
-    begin(plan, motion, length), more(plan, cursor), following(plan, cursor)
-    glance(plan, cursor, before, seen, room)  look ahead over a window of pieces
+    begin(plan, motion, length), has_piece(plan, cursor), next_piece(plan, cursor)
+    bound_window(plan, cursor, before, seen, room)  bounds over a window of pieces
     enclosed(plan, cursor, room)            between which bounds a piece lies, then
     expanded(plan, cursor, series), expanded_force(…), accelerated(…), moment(…)
-    look(plan, cursor, before, t, step, …)  the motion at instants of a stretch, for samples
+    sample_stretch(plan, cursor, before, …)  the motion at instants of a stretch
     coordinate(plan, motion)                the mode's own
     displacement(plan, mode, x), acceleration(plan, motion)
 
     acceleration_of(plan, motion)           ü from all forces
     isolator_force(plan, u, v, z)           what the isolator pulls back with, per unit mass
     springs(plan, motion)                   its tangent stiffness, per unit mass
-    face(plan, motion, side)                how far a stop is deformed (m)
-    stop_push(plan, motion, side)           what a pressed stop pushes with
+    stop_deformation(plan, motion, stop)    how far a stop is deformed (m)
+    stop_push(plan, motion, stop)           what a pressed stop pushes with
     stop_power(…), isolator_power(…)        what they lose, per unit mass
-    unkept(plan, before, after, side)       what a stop loses that has ceased to push
-    rest_level(plan, motion, side)          what presses a resting mass on its rigid stop
+    unreturned_energy(plan, before, after, stop)  what a stop loses that has ceased to push
+    rest_level(plan, motion, stop)          what presses a resting mass on its rigid stop
 
     carry(plan, stretch, q, rows)           disturbances through a stretch, and what is lost
 """
@@ -73,25 +73,25 @@ too_much_work = _by_flow("too_much_work")
 undisturbed = _by_flow("undisturbed")
 stiff_rate = _by_flow("stiff_rate")
 begin = _by_flow("begin")
-more = _by_flow("more")
-following = _by_flow("following")
-glance = _by_flow("glance")
+has_piece = _by_flow("has_piece")
+next_piece = _by_flow("next_piece")
+bound_window = _by_flow("bound_window")
 enclosed = _by_flow("enclosed")
 expanded = _by_flow("expanded")
 expanded_force = _by_flow("expanded_force")
 accelerated = _by_flow("accelerated")
 moment = _by_flow("moment")
-look = _by_flow("look")
+sample_stretch = _by_flow("sample_stretch")
 displacement = _by_flow("displacement")
 acceleration = _by_flow("acceleration")
 acceleration_of = _by_flow("acceleration_of")
 isolator_force = _by_flow("isolator_force")
 springs = _by_flow("springs")
-face = _by_flow("face")
+stop_deformation = _by_flow("stop_deformation")
 stop_push = _by_flow("stop_push")
 stop_power = _by_flow("stop_power")
 isolator_power = _by_flow("isolator_power")
-unkept = _by_flow("unkept")
+unreturned_energy = _by_flow("unreturned_energy")
 rest_level = _by_flow("rest_level")
 coordinate = _by_flow("coordinate")
 carry = _by_flow("carry")

@@ -17,7 +17,7 @@ import math
 
 from vibroimpact.engine import flow
 from vibroimpact.engine.chaos_indicator import runs_away
-from vibroimpact.engine.fixed_point import DYING, close_in
+from vibroimpact.engine.fixed_point import DYING, newton_iterate
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.sections import advance
@@ -48,7 +48,7 @@ pursuit_room = stack(ROOM)
 
 
 @kernel
-def hold_on(held: Vector, before: Vector, after: Vector, parts: int) -> None:
+def remember_change(held: Vector, before: Vector, after: Vector, parts: int) -> None:
     """Enter a state and what the map has made of it."""
     for n in range(_HELD - 1, 0, -1):
         for i in range(2 * parts):
@@ -135,7 +135,7 @@ def trusted(way: float, moved: float, contracts: bool, scale: float) -> bool:
 
 
 @kernel
-def pursue(
+def extrapolate(
     plan: Vector,
     state: Vector,
     s: float,
@@ -189,7 +189,7 @@ def pursue(
         alike = alike + 1 if events == former else 0
         former = events
         scale = max(0.5 * scale, flow.size(plan, state))
-        hold_on(held, section, state, parts)
+        remember_change(held, section, state, parts)
         filled += 1
         change = change_of(held, units, parts)
         most = max(most, change)
@@ -223,7 +223,9 @@ def pursue(
                 state[FIRST + i] = held[_HELD * 2 * parts + i]
             flow.place(plan, state)
         if way <= _CLOSE * scale:
-            used, found = close_in(plan, state, s, c, period, units, tolerance, scale, max_events)
+            used, found = newton_iterate(
+                plan, state, s, c, period, units, tolerance, scale, max_events
+            )
             if not found:
                 put(plan, kept, state)
             return found, False, k + used

@@ -28,7 +28,7 @@ _ROUGH = 1e-11
 
 
 @kernel
-def close_in(
+def newton_iterate(
     plan: Vector,
     state: Vector,
     s: float,

@@ -19,6 +19,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable
 from operator import attrgetter
+from types import ModuleType
 from typing import Any, TypeVar
 
 from llvmlite import ir
@@ -40,26 +41,29 @@ _WORD = ir.IntType(64)
 
 SIGNATURES: dict[str, Any] = {}
 """Of each function, by name, in the order of the table."""
+GROUPS: dict[str, list[str]] = {}
+"""Names of the functions that are compiled together, when an entry first needs one of them."""
 
 _compiled_code = attrgetter("library", "fndesc")
 """Of a compiled kernel: its machine code, and what its function is called."""
 
-_KERNELS: dict[bool, dict[str, Any]] = {False: {}, True: {}}
-"""The kernels by name, for Python without the compiler, where a plan itself tells its flow: those
-of one mass and, if True, of several."""
+FLOWS: dict[bool, ModuleType] = {}
+"""The modules of the functions of one mass and, if True, of several; set in `flow_tables`."""
 
 
-def _function(returns: Any, *arguments: Any) -> Callable[[F], F]:
+def _function(group: str, returns: Any, *arguments: Any) -> Callable[[F], F]:
     """Declare a function of the table; a kernel that calls it calls that of the plan's flow."""
 
     def declare(described: F) -> F:
         name = described.__name__
         index = len(SIGNATURES)
         SIGNATURES[name] = declared = returns(P, *arguments)
+        GROUPS.setdefault(group, []).append(name)
         names = ", ".join(inspect.signature(described).parameters)
 
         def plain(plan: Any, *args: Any) -> Any:
-            return _KERNELS[plan[FORCING] == MASSES][name](plan, *args)
+            # Without the compiler, a plan itself says of which flow it is.
+            return getattr(FLOWS[plan[FORCING] == MASSES], name)(plan, *args)
 
         call = _indirect(names, declared, index)
         scope: dict[str, Any] = {"call": call}
@@ -119,21 +123,18 @@ def _indirect(names: str, declared: Any, index: int) -> Any:
     return intrinsic(scope["call"])
 
 
-def filling(plan_type: Callable[[Any], Any], one: tuple[Any, ...], several: tuple[Any, ...]) -> Any:
+def filling(plan_type: Callable[[Any], Any], group: str) -> Any:
     """Make an intrinsic that writes the addresses of a flow's functions into its table.
 
-    It is called with a flow, whose type is that of the kernels' plans, and the table. The functions
-    are those of the flows of one mass, and of that of several masses, which may lack some.
+    It is called with a flow, whose type is that of the kernels' plans, and the table.
     """
-    for masses, kernels in ((False, one), (True, several)):
-        _KERNELS[masses].update({kernel.__name__: kernel for kernel in kernels})
 
     @intrinsic
     def fill(typing: Any, given: Any, table: Any) -> Any:
         found = {}
-        kernels = one if isinstance(plan_type(given), OneMass) else several
-        for kernel in kernels:
-            name = kernel.__name__
+        module = FLOWS[not isinstance(plan_type(given), OneMass)]
+        for name in GROUPS[group]:
+            kernel = getattr(module, name)
             declared = SIGNATURES[name]
             arguments = (plan_type(given), *declared.args[1:])
             types.Dispatcher(kernel).get_call_type(typing, arguments, {})  # compiles it
@@ -158,67 +159,69 @@ def filling(plan_type: Callable[[Any], Any], one: tuple[Any, ...], several: tupl
     return fill
 
 
-# The functions. P stands for the memory of numbers, n for an integer, x for a number.
+# The functions: the group, what is returned and what follows the plan. P stands for the memory of
+# numbers, n for an integer, x for a number.
 
 _N, _X = types.int64, types.float64
+_MOTION, _RECORDED, _DISTURBED, _MEASURED = "motion", "recorded", "disturbed", "measured"
 
 
-@_function(types.void, _X, _X)
+@_function(_MOTION, types.void, _X, _X)
 def begin(plan: Vector, amplitude: float, omega: float) -> None:
     """Take a forcing: its size (m/s², m or N) and ω (rad/s)."""
 
 
-@_function(types.void, _X, _X)
+@_function(_MOTION, types.void, _X, _X)
 def build(plan: Vector, amplitude: float, omega: float) -> None:
     """Take a forcing and make the tables for it."""
 
 
-@_function(_N, _X)
+@_function(_MOTION, _N, _X)
 def too_much_work(plan: Vector, period: float) -> int:
     """Whether one cycle may take too long."""
 
 
-@_function(_X)
+@_function(_MOTION, _X)
 def stiff_rate(plan: Vector) -> float:
     """What makes a velocity of a displacement (1/s)."""
 
 
-@_function(_N)
+@_function(_MOTION, _N)
 def parts(plan: Vector) -> int:
     """How many parts a state has."""
 
 
-@_function(_N)
+@_function(_MOTION, _N)
 def coordinates(plan: Vector) -> int:
     """How many of them, the first ones, are displacements and velocities of masses."""
 
 
-@_function(_N)
+@_function(_MOTION, _N)
 def stops(plan: Vector) -> int:
     """How many stops there are, contacts with which are counted."""
 
 
-@_function(_N)
+@_function(_MOTION, _N)
 def numbers(plan: Vector) -> int:
     """How many numbers of the rig's vector a system may vary; the plan begins with them."""
 
 
-@_function(types.void)
+@_function(_MOTION, types.void)
 def complete(plan: Vector) -> None:
     """Put right what follows from the numbers of a rig that have been varied."""
 
 
-@_function(types.void, P)
+@_function(_MOTION, types.void, P)
 def units(plan: Vector, units: Vector) -> None:
     """Write what makes a velocity of each part: 1 for a velocity itself."""
 
 
-@_function(_X, P)
+@_function(_MOTION, _X, P)
 def size(plan: Vector, state: Vector) -> float:
     """The size of a motion, as a velocity (m/s)."""
 
 
-@_function(_X, P, _N, _X, _X)
+@_function(_MOTION, _X, P, _N, _X, _X)
 def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) -> float:
     """Change a part by so much, or by as little less if only that can be; return by how much.
 
@@ -226,22 +229,22 @@ def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) ->
     """
 
 
-@_function(types.void, P)
+@_function(_MOTION, types.void, P)
 def place(plan: Vector, state: Vector) -> None:
     """Make of a state the nearest that can be, and its mode of its parts."""
 
 
-@_function(types.void, P, P)
+@_function(_MOTION, types.void, P, P)
 def point(plan: Vector, state: Vector, point: Vector) -> None:
     """Write a state's parts as a point of the section, signed as in the paper."""
 
 
-@_function(types.void, P, P)
+@_function(_MOTION, types.void, P, P)
 def at_point(plan: Vector, state: Vector, point: Vector) -> None:
     """Place a state at a point of the section."""
 
 
-@_function(_N, P, _X, P)
+@_function(_MOTION, _N, P, _X, P)
 def undisturbed(plan: Vector, state: Vector, dying: float, result: Vector) -> int:
     """Whether a state flies freely and touches nothing any more; then go on to what is left of it.
 
@@ -250,7 +253,7 @@ def undisturbed(plan: Vector, state: Vector, dying: float, result: Vector) -> in
     """
 
 
-@_function(_N, P, _X, P, P)
+@_function(_MOTION, _N, P, _X, P, P)
 def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
     """Go on from a state to the next event, or for the time `limit` (s) if that comes first.
 
@@ -259,7 +262,7 @@ def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Ve
     """
 
 
-@_function(_N, P, _X, _X, _X, _N)
+@_function(_MOTION, _N, P, _X, _X, _X, _N)
 def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
     """Follow a motion unobserved, see `event_loop.loop`."""
 
@@ -267,17 +270,17 @@ def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_ev
 # Observers: each adds what it sees of one stretch to its notes.
 
 
-@_function(types.void, P, P, P, P)
+@_function(_MOTION, types.void, P, P, P, P)
 def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """See `observers.extremes`."""
 
 
-@_function(types.void, P)
+@_function(_MOTION, types.void, P)
 def nothing(plan: Vector, notes: Vector) -> None:
     """Begin the notes of `extremes`, before anything is seen."""
 
 
-@_function(_N, _N)
+@_function(_MOTION, _N, _N)
 def look_again(plan: Vector, again: int) -> int:
     """Whether `extremes` must see a motion a second time, for the force on the base.
 
@@ -285,17 +288,17 @@ def look_again(plan: Vector, again: int) -> int:
     """
 
 
-@_function(types.void, P, P, _N, P)
+@_function(_MOTION, types.void, P, P, _N, P)
 def measured(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Vector) -> None:
     """Write what the notes of `extremes` say, and those of a second look, of so many cycles."""
 
 
-@_function(types.void, P, P, P, P)
+@_function(_DISTURBED, types.void, P, P, P, P)
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """See `observers.margin`."""
 
 
-@_function(types.void, P, P, P, P, P, P)
+@_function(_RECORDED, types.void, P, P, P, P, P, P)
 def record(
     plan: Vector,
     before: Vector,
@@ -308,17 +311,17 @@ def record(
     """See `observers.record`."""
 
 
-@_function(types.void, P, P, _N, _N)
+@_function(_RECORDED, types.void, P, P, _N, _N)
 def write(plan: Vector, state: Vector, samples: Vector, columns: int, at: int) -> None:
     """Write a state as one of the samples of `observers.record`."""
 
 
-@_function(types.void, P, P)
+@_function(_DISTURBED, types.void, P, P)
 def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
     """Write a unit disturbance of each part into the rows of q."""
 
 
-@_function(types.void, P, P, P, P, P)
+@_function(_DISTURBED, types.void, P, P, P, P, P)
 def tangent(
     plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
 ) -> None:
@@ -329,17 +332,17 @@ def tangent(
     """
 
 
-@_function(types.void, P, P)
+@_function(_DISTURBED, types.void, P, P)
 def mirror(plan: Vector, state: Vector, q: Vector) -> None:
     """Turn a state and its disturbances, a row each, into their mirror image."""
 
 
-@_function(types.void, P, P, P, P)
+@_function(_MEASURED, types.void, P, P, P, P)
 def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
     """Add a stretch to the row of its phase, see `observers.phases`."""
 
 
-@_function(types.void, P, P, P, P, P, P)
+@_function(_MEASURED, types.void, P, P, P, P, P, P)
 def integrate(
     plan: Vector,
     before: Vector,

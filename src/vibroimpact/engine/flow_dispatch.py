@@ -25,7 +25,7 @@ from vibroimpact.engine.forcing import several
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.linear import advance as linear_advance
 from vibroimpact.engine.linear import carry as linear_carry
-from vibroimpact.engine.linear import chord_bounds, contact_free, forces, pieces, tables
+from vibroimpact.engine.linear import contact_free, forces, pieces, tables, window_bounds
 from vibroimpact.engine.linear.advance import Ended, advance_apart
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.stops import advance_any
@@ -34,8 +34,8 @@ from vibroimpact.engine.motion import Motion
 from vibroimpact.engine.series import kernels
 from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
-from vibroimpact.engine.taylor import frame, power
 from vibroimpact.engine.taylor import laws as taylor_laws
+from vibroimpact.engine.taylor import mode_forces, power
 from vibroimpact.engine.taylor import pieces as taylor_pieces
 from vibroimpact.engine.taylor import plan as taylor_plan
 from vibroimpact.engine.taylor.advance import advance_taylor
@@ -128,7 +128,7 @@ functions; a Taylor step does not notice that they are looked up."""
 
 _TAYLOR = (
     taylor_plan,
-    frame,
+    mode_forces,
     power,
     taylor_laws,
     taylor_pieces,
@@ -142,7 +142,7 @@ answer(
     linear_advance,
     forces,
     pieces,
-    chord_bounds,
+    window_bounds,
     linear_carry,
 )
 answer(par.BENT, *_TAYLOR)
@@ -159,7 +159,7 @@ def _flow(rig: Vector) -> type:
         return Several
     if rig[par.FORCING] == par.RAMP:
         return Recorded
-    right, left = par.BUMPER, par.BUMPER + par.WIDTH
+    right, left = par.stop_at(0), par.stop_at(1)
     rigid = par.RIGID in (rig[right + par.KIND], rig[left + par.KIND])
     overlapping = rig[right + par.GAP] + rig[left + par.GAP] < 0.0
     return AnyStops if rigid or overlapping else Apart

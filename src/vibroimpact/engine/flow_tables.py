@@ -20,10 +20,12 @@ def _plan_type(given: Any) -> Any:
     return flow.P if given.instance_class is Masses else PlanType(given.instance_class)
 
 
-_fill_motion = flow.filling(_plan_type, one_mass.MOTION, several_masses.MOTION)
-_fill_recorded = flow.filling(_plan_type, one_mass.RECORDED, ())
-_fill_disturbed = flow.filling(_plan_type, one_mass.DISTURBED, several_masses.DISTURBED)
-_fill_measured = flow.filling(_plan_type, one_mass.MEASURED, ())
+flow.FLOWS.update({False: one_mass, True: several_masses})
+
+_fill_motion = flow.filling(_plan_type, "motion")
+_fill_recorded = flow.filling(_plan_type, "recorded")
+_fill_disturbed = flow.filling(_plan_type, "disturbed")
+_fill_measured = flow.filling(_plan_type, "measured")
 
 
 def _motion(given: Any, table: Any) -> None:
@@ -47,8 +49,14 @@ GROUPS = {
     for function in (_motion, _recorded, _disturbed, _measured)
 }
 """What fills a part of a table with the addresses of compiled functions."""
-LACKING = {Masses: ("recorded", "measured")}
-"""Groups of functions that a flow has not: an entry that asks for one of them refuses its rigs."""
+LACKING = {
+    Masses: {
+        group
+        for group, names in flow.GROUPS.items()
+        if not any(hasattr(several_masses, name) for name in names)
+    }
+}
+"""Groups of functions that a flow lacks: an entry that needs one of them refuses its rigs."""
 
 _tables: dict[type, NDArray[np.int64]] = {}
 _filled: set[tuple[type, str]] = set()
@@ -59,7 +67,7 @@ def plan_of(rig: Vector, groups: tuple[str, ...]) -> Vector:
     given = flow_of(rig)
     memory: Vector = given.memory
     kind = type(given)
-    if lacking := set(groups).intersection(LACKING.get(kind, ())):
+    if lacking := set(groups).intersection(LACKING.get(kind, set())):
         raise NotImplementedError(f"{kind.__name__} has no functions {sorted(lacking)}")
     if PLAIN:
         return memory

@@ -2,29 +2,27 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 from vibroimpact.engine import event_loop, flow
 from vibroimpact.engine.entry import entry
-from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import beyond, pointer
 from vibroimpact.engine.observers import growth as observers
+from vibroimpact.engine.opening import open_entry
 from vibroimpact.engine.section_map import start_notes
 from vibroimpact.engine.state import (
     DAMPING,
     MODE,
     copy,
     finite,
-    load,
     notes_room,
     parts_room,
     put,
     room,
     width,
 )
-from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS, TOO_MUCH_WORK
+from vibroimpact.engine.status import DONE, NOT_FINITE, TOO_MANY_EVENTS
 
 # Columns of what one cycle shows: logarithms of the growth of two disturbances, the integral of
 # the damping, and the state at the section behind the cycle.
@@ -74,34 +72,31 @@ def growth(
         nothing is watched.
     out : ndarray, shape (row, count + 1 + part)
         Written, a row a cycle from cycle `first`, or from cycle 0: the logarithm of how much each
-        of `count` disturbances has grown beside those before it, the integral of the damping, and
-        the state as a point of the section. A state has as many exponents as parts.
+        of `count` disturbances has grown beside those before it (NaN: see `observers.grow`), the
+        integral of the damping, and the state as a point of the section. A state has as many
+        exponents as parts.
 
     Returns
     -------
     outcome, next
         A `Status`, and the cycle to go on with.
     """
-    plan = planned(given, rig)
-    period = 1.0 / frequency
-    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
-    if flow.too_much_work(plan, period) != 0:
-        return TOO_MUCH_WORK, first
-    s, c = math.sin(phase), math.cos(phase)
     here, section, notes = room(), room(), notes_room()
-    load(plan, pointer(state), here, s, c)
+    at = pointer(state)
+    plan, s, c, period, outcome = open_entry(given, rig, amplitude, frequency, phase, at, here)
     parts = flow.parts(plan)
     count = out.shape[1] - 1 - parts
     weights, of_section, logarithms = parts_room(), parts_room(), parts_room()
-    observers.weigh(plan, weights)
     q, work = pointer(disturbances), observers.work_room()
+    observers.weigh(plan, weights)
+    rows = observers.rows_of(plan, q, work, weights, logarithms, count)
     mode = here[MODE]
     observers.weigh_section(plan, here, of_section)
+    at_section = observers.rows_of(plan, q, work, of_section, logarithms, count)
     if anew:
         for i in range(parts * parts):
             q[i] = 0.0
-        observers.begin_rows(plan, here, q, 0, count, of_section)
-    outcome = DONE
+        observers.begin_rows(plan, here, at_section, 0, count)
     number = first
     while outcome == DONE and number < last:
         # A cycle that is given up leaves the state of its section.
@@ -112,14 +107,12 @@ def growth(
             start_notes(plan, notes)
             for i in range(count):
                 logarithms[i] = 0.0
-            events = _carried(
-                plan, here, s, c, period, max_events, notes, q, work, count, weights, logarithms
-            )
+            events = _carried(plan, here, s, c, period, max_events, notes, rows)
             if here[MODE] != mode:
                 mode = here[MODE]
                 observers.weigh_section(plan, here, of_section)
-            observers.orthonormalise(q, count, of_section, parts, work, 0.0, 0.0)
-            observers.add_up(plan, here, q, count, of_section, work, logarithms)
+            observers.orthonormalise(at_section, 0.0, 0.0)
+            observers.add_up(plan, here, at_section)
             if number >= 0 and events <= max_events:
                 row = pointer(out[number - max(first, 0)])
                 copy(logarithms, row, count)
@@ -133,7 +126,7 @@ def growth(
             put(plan, section, here)
             break
         number += 1
-    copy(here, pointer(state), width(plan))
+    copy(here, at, width(plan))
     return outcome, number
 
 
@@ -168,16 +161,9 @@ def monodromy(
     outcome
         A `Status`.
     """
-    plan = planned(given, rig)
-    period = 1.0 / frequency
-    flow.build(plan, amplitude, 2.0 * math.pi * frequency)
-    outcome = DONE
-    if flow.too_much_work(plan, period) != 0:
-        outcome = TOO_MUCH_WORK
-    s, c = math.sin(phase), math.cos(phase)
     here, notes = room(), notes_room()
-    load(plan, pointer(state), here, s, c)
-    q = pointer(columns)
+    at, q = pointer(state), pointer(columns)
+    plan, s, c, period, outcome = open_entry(given, rig, amplitude, frequency, phase, at, here)
     flow.unit_disturbances(plan, here, q)
     damping[0] = 0.0
     done = 0
@@ -190,5 +176,5 @@ def monodromy(
             outcome = TOO_MANY_EVENTS
         elif not finite(plan, here):
             outcome = NOT_FINITE
-    copy(here, pointer(state), width(plan))
-    return outcome
+    copy(here, at, width(plan))
+    return outcome  # type: ignore[no-any-return]

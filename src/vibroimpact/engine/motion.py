@@ -1,41 +1,57 @@
 """A motion at one instant: one small value, and the only place that knows how it is laid out.
 
-Displacement and velocity are those of the paper. Inside the engine a bumper's deformation is
-measured away from the mass (≥ 0) on either side; datasets have the paper's sign, ≤ 0 on the left.
+Displacement and velocity are those of the paper. Stop 0 is the right one, stop 1 the left one;
+deformations of both are measured away from the mass (≥ 0).
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel
 
 FLIGHT, RIGHT, LEFT, BOTH = 0, 1, 2, 3
-"""The discrete mode: which stops the mass touches, a bit each. Touching a rigid one is resting."""
+"""The discrete mode: which stops the mass touches, bit j for stop j. Touching a rigid one is
+resting."""
 
 SEEN_LEFT = 4
 """The table of BOTH in the left bumper's coordinates; that of the right one is BOTH itself."""
 
 LIMIT, DETACHED, TURNED, PASSED, GIVEN_UP = 0, 3, 7, 8, 9
-"""What ends a stretch: the time limit, a contact or an impact (RIGHT or LEFT), a detachment, a
-branch of the isolator's law (TURNED), which no stop knows of, the end of a step at which nothing
-happens (PASSED), or more steps than can be counted."""
+"""What ends a stretch: the time limit, a contact or an impact (1 + stop), a detachment, a branch
+of the isolator's law (TURNED), which no stop knows of, the end of a step at which nothing happens
+(PASSED), or more steps than can be counted."""
 
 RELEASED = 4
-"""Added to the side that has just been left if the mass was at rest there."""
+"""Added to the bit of the stop that has just been left if the mass was at rest there."""
 
 SETTLING = 8
-"""Added to the side of an impact after which all others of a chatter follow at once."""
+"""Added to the bit of the stop of an impact after which all others of a chatter follow at once."""
 
 SLIPS_RIGHT, SLIPS_LEFT = 16, 32
 """Said of a mass that friction has just let go: which way it goes, still without velocity."""
 
 MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR, AGE = range(8)
+FACES = RIGHT_BUMPER
 STATE = 8
 """A motion as a vector, between calls; its clock follows."""
 
 Clock = tuple[float, float]
 """Sine and cosine of the forcing's phase."""
+Pair = tuple[float, float]
+"""A number for each stop."""
+
+
+@inlined
+def facing(stop: int) -> float:
+    """The sign of a displacement towards a stop."""
+    return 1.0 if stop == 0 else -1.0
+
+
+@inlined
+def changed(pair: Pair, stop: int, x: float) -> Pair:
+    """The same numbers with another one for a stop."""
+    return (x, pair[1]) if stop == 0 else (pair[0], x)
 
 
 class Row(NamedTuple):
@@ -54,9 +70,9 @@ class Row(NamedTuple):
 class Motion(NamedTuple):
     """The state of a rig and of its forcing.
 
-    `fresh` is the side at which something has just happened (0 if nothing): the mode tells
-    whether it was touched or left. `right` and `left` are the bumpers' deformations; in contact
-    the pressed bumper's is the primary quantity, the displacement `u` follows from it. `z` is what
+    `fresh` is the bit of the stop at which something has just happened (0 if nothing): the mode
+    tells whether it was touched or left. `faces` are the stops' deformations; in contact the
+    pressed bumper's is the primary quantity, the displacement `u` follows from it. `z` is what
     the isolator remembers (m), `age` how long the mode has lasted (s).
     """
 
@@ -64,8 +80,7 @@ class Motion(NamedTuple):
     fresh: int
     u: float
     v: float
-    right: float
-    left: float
+    faces: Pair
     z: float
     age: float
     clock: Clock
@@ -87,6 +102,13 @@ class Stretch(NamedTuple):
 
 
 @kernel
+def arrived(mode: int, arrival: float, after: Motion) -> Motion:
+    """The motion just before an event, from that just after it."""
+    _, fresh, u, _, faces, z, age, clock = after
+    return Motion(mode, fresh, u, arrival, faces, z, age, clock)
+
+
+@kernel
 def unpacked(state: Vector) -> Motion:
     """The motion of a state vector, with its clock."""
     return Motion(
@@ -94,8 +116,7 @@ def unpacked(state: Vector) -> Motion:
         int(state[FRESH]),
         state[U],
         state[V],
-        state[RIGHT_BUMPER],
-        state[LEFT_BUMPER],
+        (state[FACES], state[FACES + 1]),
         state[ISOLATOR],
         state[AGE],
         (state[STATE], state[STATE + 1]),
@@ -107,7 +128,7 @@ def pack(motion: Motion, state: Vector) -> None:
     """Write a motion into a state vector, with its clock."""
     state[MODE], state[FRESH] = motion.mode, motion.fresh
     state[U], state[V] = motion.u, motion.v
-    state[RIGHT_BUMPER], state[LEFT_BUMPER] = motion.right, motion.left
+    state[FACES], state[FACES + 1] = motion.faces
     state[ISOLATOR], state[AGE] = motion.z, motion.age
     state[STATE], state[STATE + 1] = motion.clock
 
@@ -124,8 +145,9 @@ _swapped = kernel(swapped)
 @kernel
 def mirrored(motion: Motion) -> Motion:
     """The mirror image; the clock is left as it is."""
-    mode, fresh, u, v, right, left, z, age, clock = motion
-    return Motion(_swapped(mode), _swapped(fresh), -u, -v, left, right, -z, age, clock)
+    mode, fresh, u, v, faces, z, age, clock = motion
+    mirror = (faces[1], faces[0])
+    return Motion(_swapped(mode), _swapped(fresh), -u, -v, mirror, -z, age, clock)
 
 
 def mirror_image(state: Vector) -> Vector:
@@ -135,8 +157,20 @@ def mirror_image(state: Vector) -> Vector:
         image[at] = swapped(int(state[at]))
     for at in (U, V, ISOLATOR):
         image[at] = -state[at]
-    image[RIGHT_BUMPER], image[LEFT_BUMPER] = state[LEFT_BUMPER], state[RIGHT_BUMPER]
+    image[FACES], image[FACES + 1] = state[FACES + 1], state[FACES]
     return image
+
+
+@inlined
+def main_stop(mode: int) -> int:
+    """The pressed stop whose deformation is the mode's own coordinate."""
+    return 1 if mode == LEFT else 0
+
+
+@inlined
+def direction(mode: int) -> float:
+    """The sign of a displacement along the mode's own coordinate."""
+    return -1.0 if mode == LEFT else 1.0
 
 
 @kernel
@@ -151,7 +185,7 @@ def coordinates(motion: Motion) -> tuple[float, Row]:
     """
     s, c = motion.clock
     if motion.mode & RIGHT:
-        return 1.0, Row(motion.right, motion.v, s, c)
+        return 1.0, Row(motion.faces[0], motion.v, s, c)
     if motion.mode == LEFT:
-        return -1.0, Row(motion.left, -motion.v, -s, -c)
+        return -1.0, Row(motion.faces[1], -motion.v, -s, -c)
     return 1.0, Row(motion.u, motion.v, s, c)

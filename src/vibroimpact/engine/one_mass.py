@@ -13,20 +13,19 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.compiler import overload
 from vibroimpact.engine.forcing import dispatch as forcing
 from vibroimpact.engine.jit import CHOSEN, Vector, kernel
-from vibroimpact.engine.motion import ISOLATOR as MEMORY
 from vibroimpact.engine.motion import (
-    LEFT,
-    LEFT_BUMPER,
+    FACES,
     MODE,
-    RIGHT,
-    RIGHT_BUMPER,
     STATE,
     Motion,
     Stretch,
+    changed,
+    facing,
     mirrored,
     pack,
     unpacked,
 )
+from vibroimpact.engine.motion import ISOLATOR as MEMORY
 from vibroimpact.engine.motion import U as DISPLACEMENT
 from vibroimpact.engine.motion import V as VELOCITY
 from vibroimpact.engine.observers import record as recording
@@ -34,7 +33,6 @@ from vibroimpact.engine.observers import tangent as disturbances
 from vibroimpact.engine.observers.extremes import (
     A_LEAST,
     A_MOST,
-    HITS_LEFT,
     HITS_RIGHT,
     MEASURES,
     NOTES,
@@ -100,8 +98,8 @@ def numbers(plan: Vector) -> int:
 
 @kernel
 def complete(plan: Vector) -> None:
-    for side in range(2):
-        at = par.BUMPER + par.WIDTH * side
+    for stop in range(2):
+        at = par.stop_at(stop)
         if plan[at + par.KIND] == par.KELVIN_VOIGT and plan[at + par.BUMPER_DAMPING] > 0.0:
             plan[at + par.RATE] = plan[at + par.BUMPER_STIFFNESS] / plan[at + par.BUMPER_DAMPING]
         # Newton's method may look beyond what can be; above 1 the mass bounces all the same.
@@ -129,11 +127,11 @@ def _outlives(plan: Vector, state: Vector, at: int, period: float) -> bool:
         return bool(plan[par.HYSTERETIC] != 0.0)
     if at in (DISPLACEMENT, VELOCITY):
         return True
-    side = RIGHT if at == RIGHT_BUMPER else LEFT
-    stop = par.BUMPER + par.WIDTH * (side - 1)
-    if int(state[MODE]) & side or plan[stop + par.KIND] != par.KELVIN_VOIGT:
+    stop = at - FACES
+    numbers = par.stop_at(stop)
+    if int(state[MODE]) >> stop & 1 or plan[numbers + par.KIND] != par.KELVIN_VOIGT:
         return False
-    return bool(plan[stop + par.RATE] * period < _FORGOTTEN)
+    return bool(plan[numbers + par.RATE] * period < _FORGOTTEN)
 
 
 @kernel
@@ -153,56 +151,52 @@ def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) ->
 def place(plan: Vector, state: Vector) -> None:
     mode = int(state[MODE])
     u, v = state[DISPLACEMENT], state[VELOCITY]
-    right, left = max(state[RIGHT_BUMPER], 0.0), max(state[LEFT_BUMPER], 0.0)
+    faces = max(state[FACES], 0.0), max(state[FACES + 1], 0.0)
     found = 0
-    for side in range(1, 3):
-        at = par.BUMPER + par.WIDTH * (side - 1)
+    for stop in range(2):
+        at, bit = par.stop_at(stop), 1 << stop
         kind = plan[at + par.KIND]
         if kind == par.ABSENT:
             continue
-        sign = 1.0 if side == RIGHT else -1.0
-        deformation = right if side == RIGHT else left
+        sign, deformation = facing(stop), faces[stop]
         reach = sign * u - plan[at + par.GAP]
         if kind == par.RIGID:
             deformation = 0.0
             if reach > 0.0:
                 u = sign * plan[at + par.GAP]
-            if mode & side and reach >= 0.0 and v == 0.0:
-                found |= side
+            if mode & bit and reach >= 0.0 and v == 0.0:
+                found |= bit
         elif kind != par.KELVIN_VOIGT:
-            if reach > 0.0 or (reach == 0.0 and mode & side):
-                found |= side
+            if reach > 0.0 or (reach == 0.0 and mode & bit):
+                found |= bit
             else:
                 deformation = 0.0
         else:
-            if mode & side or reach > deformation:
+            if mode & bit or reach > deformation:
                 force = plan[at + par.BUMPER_STIFFNESS] * reach
                 force += plan[at + par.BUMPER_DAMPING] * sign * v
                 deformation = max(reach, 0.0)
                 if reach >= 0.0 and force >= 0.0:
-                    found |= side
-            if plan[at + par.BUMPER_DAMPING] == 0.0 and not found & side:
+                    found |= bit
+            if plan[at + par.BUMPER_DAMPING] == 0.0 and not found & bit:
                 deformation = 0.0
-        if side == RIGHT:
-            right = deformation
-        else:
-            left = deformation
+        faces = changed(faces, stop, deformation)
     z = min(max(state[MEMORY], -plan[par.YIELD]), plan[par.YIELD])
-    pack(Motion(found, found, u, v, right, left, z, 0.0, unpacked(state).clock), state)
+    pack(Motion(found, found, u, v, faces, z, 0.0, unpacked(state).clock), state)
 
 
 @kernel
 def point(plan: Vector, state: Vector, point: Vector) -> None:
     for i in range(PARTS):
         point[i] = state[FIRST + i]
-    point[LEFT_BUMPER - FIRST] = -point[LEFT_BUMPER - FIRST]
+    point[FACES + 1 - FIRST] = -point[FACES + 1 - FIRST]
 
 
 @kernel
 def at_point(plan: Vector, state: Vector, point: Vector) -> None:
     for i in range(PARTS):
         state[FIRST + i] = point[i]
-    state[LEFT_BUMPER] = -state[LEFT_BUMPER]
+    state[FACES + 1] = -state[FACES + 1]
     place(plan, state)
 
 
@@ -303,7 +297,8 @@ def look_again(plan: Vector, again: int) -> int:
 @kernel
 def measured(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Vector) -> None:
     copy(notes, result, NOTES)
-    result[HITS_RIGHT], result[HITS_LEFT] = notes[HITS_RIGHT] / cycles, notes[HITS_LEFT] / cycles
+    for stop in range(2):
+        result[HITS_RIGHT + stop] = notes[HITS_RIGHT + stop] / cycles
     result[T_LEAST] = plan[par.LOAD] - other[A_MOST]
     result[T_MOST] = plan[par.LOAD] - other[A_LEAST]
 
@@ -374,33 +369,3 @@ def integrate(
     out: Vector,
 ) -> None:
     integrate_stretch(plan, _stretch(before, ended, after), notes, lines, out)
-
-
-MOTION = (
-    begin,
-    build,
-    too_much_work,
-    stiff_rate,
-    parts,
-    coordinates,
-    stops,
-    numbers,
-    complete,
-    units,
-    size,
-    disturb,
-    place,
-    point,
-    at_point,
-    undisturbed,
-    advance,
-    cycle,
-    nothing,
-    look_again,
-    extremes,
-    measured,
-)
-"""What a sweep asks for."""
-RECORDED = (record, write)
-DISTURBED = (unit_disturbances, tangent, mirror, margin)
-MEASURED = (measure, integrate)

@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.engine.compiler import register_jitable
+from vibroimpact.engine.jit import CHOSEN
 from vibroimpact.law_numbers import (
     OWN_NUMBERS,
     WORDS,
@@ -16,8 +18,7 @@ from vibroimpact.law_numbers import (
     StopNumbers,
 )
 
-# Positions in the vector. Side 1 is the right bumper and side 2 the left one, so that
-# `BUMPER + WIDTH * (side - 1)` is where a bumper's numbers start.
+# Positions in the vector; the numbers of each stop start at `stop_at`.
 STIFFNESS = 0  # K/M, 1/s²
 DAMPING = 1  # C/M, 1/s
 BUMPER = 2
@@ -71,6 +72,12 @@ MASSES = 3.0
 
 ABSENT, KELVIN_VOIGT, RIGID, POWER_LAW, JANKOWSKI, FORMULA = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
 CURVED_STOPS = (POWER_LAW, JANKOWSKI, FORMULA)
+
+
+@register_jitable(**CHOSEN)
+def stop_at(stop: int) -> int:
+    """Where in the vector the numbers of a stop start: 0 is the right stop, 1 the left one."""
+    return BUMPER + WIDTH * stop
 
 
 class Drive(NamedTuple):
@@ -147,14 +154,14 @@ def rig_vector(
         vector[FORCING], vector[INTERVAL] = RAMP, drive.interval
     vector[STIFFNESS] = stiffness / mass
     vector[DAMPING] = damping / mass
-    for side, stop in ((1, right), (2, left)):
-        at = BUMPER + WIDTH * (side - 1)
+    for i, stop in enumerate((right, left)):
+        at = stop_at(i)
         vector[at + GAP] = stop[-1] if stop else np.inf
         vector[at + RATE] = np.inf
         if stop is None:
             continue
         if isinstance(stop, OwnStop):
-            block = OWN + OWN_WIDTH * side
+            block = OWN + OWN_WIDTH * (i + 1)
             vector[at + KIND], vector[block : block + OWN_WIDTH] = FORMULA, stop.own
             vector[block + OWN_STIFFNESS] /= mass
             continue
@@ -190,10 +197,10 @@ def laws(rig: NDArray[np.float64]) -> int:
     """Return the laws of a rig by its vector; where stops overlap, yielding laws count as bent."""
     if not rig[CURVED]:
         return LINEAR
-    sides = (BUMPER, BUMPER + WIDTH)
-    if any(rig[at + KIND] in CURVED_STOPS for at in sides):
+    right, left = stop_at(0), stop_at(1)
+    if rig[right + KIND] in CURVED_STOPS or rig[left + KIND] in CURVED_STOPS:
         return BENT
-    if rig[BUMPER + GAP] + rig[BUMPER + WIDTH + GAP] < 0.0 or rig[DRAG] != 1.0:
+    if rig[right + GAP] + rig[left + GAP] < 0.0 or rig[DRAG] != 1.0:
         return BENT
     if rig[CUBIC] or rig[QUINTIC] or rig[SINH] or rig[OWN]:
         return BENT

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import flow
 from vibroimpact.engine.chaos_indicator import runs_away
-from vibroimpact.engine.extrapolation import pursue
+from vibroimpact.engine.extrapolation import extrapolate
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.recurrence import (
     BLOCK,
@@ -62,7 +62,7 @@ def settle(
     units, section, known = parts_room(), room(), recurrence_room()
     flow.units(plan, units)
     asked = max(transient / period, _SOON)
-    found, plain, gone = pursue(
+    found, plain, gone = extrapolate(
         plan, state, s, c, period, units, tolerance, max_cycles, max_events, asked
     )
     if found or plain:

@@ -23,7 +23,7 @@ from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers.phases import ONE_MASS
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
-from vibroimpact.engine.phases import integrate_motion, measure_motion
+from vibroimpact.engine.phases import measure_motion
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
 from vibroimpact.model import Oscillator, Record, Repeated, RigidStop, State, validate
@@ -36,6 +36,8 @@ from vibroimpact.tasks.interruptible import Calls
 _Shaking = TypeVar("_Shaking", bound=Repeated | Record, covariant=True)
 
 _Array = NDArray[np.float64]
+
+_NONE = np.empty(0)
 
 SIDES = (1, -1)
 """Of the stops, in the order of their numbers: right, left."""
@@ -201,7 +203,15 @@ class _Course(NamedTuple):
             nonlocal rows
             notes[layout.CAPACITY] = len(rows)
             next_one, outcome = measure_motion(
-                *self[:5], int(self.changes), self.state, at, end, MOST_EVENTS, notes, rows
+                *self[:5],
+                int(self.changes),
+                self.state,
+                at,
+                end,
+                MOST_EVENTS,
+                notes,
+                _NONE,
+                rows,
             )
             if next_one < end:
                 rows = np.concatenate([rows, np.empty_like(rows)])
@@ -264,20 +274,12 @@ def phases(motion: xr.Dataset, origin: Recorded[Any]) -> Phases:
 def fourier_integrals(motion: xr.Dataset, origin: Recorded[Repeated], lines: _Array) -> _Array:
     """Return the integrals of a motion times exp(−iνt), as `observers.fourier` writes them."""
     course = _course(motion, origin)
-    notes, out = np.array([0.0, float(len(lines))]), np.zeros((fourier.QUANTITIES, len(lines)))
+    notes, out = np.zeros(fourier.NOTES), np.zeros((fourier.QUANTITIES, len(lines)))
+    notes[fourier.COUNT], notes[fourier.INTERVAL] = len(lines), origin.excitation.period
 
     def call(at: int, end: float) -> tuple[int, int]:
-        reached: tuple[int, int] = integrate_motion(
-            *course[:5],
-            int(course.changes),
-            course.state,
-            at,
-            end,
-            MOST_EVENTS,
-            notes,
-            origin.excitation.period,
-            lines,
-            out,
+        reached: tuple[int, int] = measure_motion(
+            *course[:5], int(course.changes), course.state, at, end, MOST_EVENTS, notes, lines, out
         )
         return reached
 

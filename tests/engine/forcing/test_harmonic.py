@@ -49,7 +49,7 @@ def test_a_level_is_exceeded_where_many_samples_exceed_it(
     for angle in np.arange(0.1, 6.2, 0.37):
         above = sign * scale * 0.7 * np.sin(OMEGA * times + angle) > level
         first = float(times[np.argmax(above)])
-        t, s, c = harmonic.let_go(plan, sign, level, math.sin(angle), math.cos(angle), 2.2)
+        t, s, c = harmonic.release_time(plan, sign, level, math.sin(angle), math.cos(angle), 2.2)
         assert t == pytest.approx(first, abs=2e-5)
         if t > 0.0:
             assert sign * harmonic.value(plan, s, c) == pytest.approx(level, abs=1e-15)
@@ -59,9 +59,9 @@ def test_a_level_is_exceeded_where_many_samples_exceed_it(
 
 def test_a_level_out_of_reach_is_never_exceeded() -> None:
     plan = begun(harmonic, Drive(), 0.7, OMEGA)
-    assert harmonic.let_go(plan, 1.0, 0.71, 0.0, 1.0, 1e9)[0] == math.inf
-    assert harmonic.let_go(plan, 1.0, 0.5, 0.0, 1.0, 0.1)[0] == math.inf
-    assert harmonic.let_go(plan, 1.0, 0.5, 1.0, 0.0, 1.0) == (0.0, 1.0, 0.0)
+    assert harmonic.release_time(plan, 1.0, 0.71, 0.0, 1.0, 1e9)[0] == math.inf
+    assert harmonic.release_time(plan, 1.0, 0.5, 0.0, 1.0, 0.1)[0] == math.inf
+    assert harmonic.release_time(plan, 1.0, 0.5, 1.0, 0.0, 1.0) == (0.0, 1.0, 0.0)
 
 
 def test_small_turns() -> None:

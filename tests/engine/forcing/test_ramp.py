@@ -26,12 +26,12 @@ def test_the_clock_is_the_acceleration_and_its_slope() -> None:
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_level_is_exceeded_where_the_line_crosses_it(sign: float) -> None:
-    t, s, c = ramp.let_go(LINE, sign, 0.5, sign * -1.5, sign * 20.0, 0.2)
+    t, s, c = ramp.release_time(LINE, sign, 0.5, sign * -1.5, sign * 20.0, 0.2)
     assert t == pytest.approx(0.1, rel=1e-15)
     assert (s, c) == (sign * 0.5, sign * 20.0)
-    assert ramp.let_go(LINE, sign, 0.5, sign * -1.5, sign * 20.0, 0.09)[0] == math.inf
-    assert ramp.let_go(LINE, sign, 0.5, sign * -1.5, sign * -20.0, 9.0)[0] == math.inf
-    assert ramp.let_go(LINE, sign, 0.5, sign * 0.6, sign * -20.0, 9.0)[0] == 0.0
+    assert ramp.release_time(LINE, sign, 0.5, sign * -1.5, sign * 20.0, 0.09)[0] == math.inf
+    assert ramp.release_time(LINE, sign, 0.5, sign * -1.5, sign * -20.0, 9.0)[0] == math.inf
+    assert ramp.release_time(LINE, sign, 0.5, sign * 0.6, sign * -20.0, 9.0)[0] == 0.0
     # Just at the level it goes by where the line leads.
-    assert ramp.let_go(LINE, sign, 0.5, sign * 0.5, sign * 1.0, 9.0)[0] == 0.0
-    assert ramp.let_go(LINE, sign, 0.5, sign * 0.5, sign * -1.0, 9.0)[0] == math.inf
+    assert ramp.release_time(LINE, sign, 0.5, sign * 0.5, sign * 1.0, 9.0)[0] == 0.0
+    assert ramp.release_time(LINE, sign, 0.5, sign * 0.5, sign * -1.0, 9.0)[0] == math.inf

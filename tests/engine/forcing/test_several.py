@@ -88,5 +88,5 @@ def test_lets_go_where_it_first_exceeds_a_level() -> None:
             shaking = [several.value(plan, *clock) for clock in clocks]
             if max(shaking[:-1]) >= shaking[-1]:
                 continue
-            t, _, _ = several.let_go(plan, 1.0, shaking[-1], s, c, 1.0)
+            t, _, _ = several.release_time(plan, 1.0, shaking[-1], s, c, 1.0)
             assert t == pytest.approx(wait, abs=1e-12)

@@ -16,9 +16,9 @@ from vibroimpact.engine.linear.pieces import (
     begin,
     displacement,
     expanded,
-    following,
+    has_piece,
     middle,
-    more,
+    next_piece,
 )
 from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.memory import workspace
@@ -35,7 +35,7 @@ def laid_out(plan: Vector, motion: Motion, length: float, out: Vector) -> int:
     series = workspace()
     n = 0
     cursor = begin(plan, motion, length)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         h = plan[cursor.table + H]
         high, s, c = expanded(plan, cursor, series)
         x, v = horner(series, high)
@@ -47,7 +47,7 @@ def laid_out(plan: Vector, motion: Motion, length: float, out: Vector) -> int:
         a = absolute_acceleration(plan, motion.mode, row)
         out[n, 4] = series[0] * unit - a
         n += 1
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
     return n
 
 
@@ -75,7 +75,7 @@ CLOCK = (math.sin(PHASE), math.cos(PHASE))
 
 def test_flight_over_several_windows() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1))
-    pieces = check(rig, 0.6, Motion(FLIGHT, 0, 0.3, -0.2, 0.0, 0.0, 0.0, 0.0, CLOCK), 37.3)
+    pieces = check(rig, 0.6, Motion(FLIGHT, 0, 0.3, -0.2, (0.0, 0.0), 0.0, 0.0, CLOCK), 37.3)
     assert len(pieces) > 3 * 16
 
 
@@ -83,7 +83,7 @@ def test_a_contact_whose_fast_part_dies_out() -> None:
     """The steps become much longer once the late table holds."""
     stop = vi.Bumper(200.0, 200.0, -0.5)  # preloaded: it stays pressed
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), stop)
-    motion = Motion(RIGHT, 0, -0.4, 0.1, 0.1, 0.0, 0.0, 0.0, CLOCK)
+    motion = Motion(RIGHT, 0, -0.4, 0.1, (0.1, 0.0), 0.0, 0.0, CLOCK)
     pieces = check(rig, 0.1, motion, 3.0)
     steps = pieces[:, 1] - pieces[:, 0]
     assert steps[-2] > 20.0 * steps[0]

@@ -8,9 +8,15 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.engine import lyapunov
-from vibroimpact.engine.observers.growth import LEAST, NOTHING, orthonormalise
+from vibroimpact.engine import flow, lyapunov
+from vibroimpact.engine.entry import entry
+from vibroimpact.engine.flow_dispatch import planned
+from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.motion import LIMIT, RIGHT, STATE
+from vibroimpact.engine.observers import growth
+from vibroimpact.engine.observers.growth import LEAST, NOTHING, Rows, orthonormalise
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
+from vibroimpact.engine.state import EVENT, T, load, notes_room, parts_room, room, stretch_room
 from vibroimpact.response.prepared_rig import prepare
 
 TAU = 2.0 * math.pi
@@ -33,14 +39,18 @@ def free(damping=0.3, right=None, left=None, **options):
     return vi.Oscillator(1.0, vi.Isolator(1.0, damping, **options), right, left)
 
 
+def made_orthonormal(q, weights, shares, count):
+    none = np.empty(0)
+    rows = Rows(q.ravel(), none, shares.ravel(), weights, none, count, DISTURBANCE)
+    return orthonormalise(rows, LEAST, NOTHING)
+
+
 @pytest.mark.parametrize("count", [1, 2, 3, 4])
 def test_rows_become_orthonormal_and_span_what_they_did(count):
     given = np.random.default_rng(count).normal(size=(DISTURBANCE, DISTURBANCE))
     weights = np.array([2.0, 1.0, 0.5, 3.0, 0.0])
     q, shares = given.copy(), np.zeros((DISTURBANCE, DISTURBANCE))
-    assert orthonormalise(
-        q.ravel(), count, weights, DISTURBANCE, shares.ravel(), LEAST, NOTHING
-    ) == 0  # fmt: skip
+    assert made_orthonormal(q, weights, shares, count) == 0
     rows = q[:count]
     np.testing.assert_allclose((rows * weights) @ rows.T, np.eye(count), atol=1e-14)
     np.testing.assert_allclose(shares[:count, :count] @ rows, given[:count], rtol=1e-12)
@@ -55,9 +65,7 @@ def test_how_little_is_left_of_a_row_is_marked(apart, left):
     q = np.zeros((DISTURBANCE, DISTURBANCE))
     q[0, :2], q[1, :2] = (3.0, 4.0), (0.6 - 0.8 * apart, 0.8 + 0.6 * apart)
     shares = np.zeros((DISTURBANCE, DISTURBANCE))
-    unsure = orthonormalise(
-        q.ravel(), 2, np.ones(DISTURBANCE), DISTURBANCE, shares.ravel(), LEAST, NOTHING
-    )
+    unsure = made_orthonormal(q, np.ones(DISTURBANCE), shares, 2)
     assert unsure == int(left < 0.0)
     assert shares[1, 1] == pytest.approx(left, rel=1e-9)
     assert bool(q[1].any()) == (left > -math.inf)
@@ -67,9 +75,7 @@ def test_a_row_without_bound_is_not_one_that_vanished():
     q, shares = np.zeros((2, DISTURBANCE)), np.zeros((2, DISTURBANCE))
     q[0, 0], q[1, 1] = math.inf, math.nan
     with np.errstate(invalid="ignore"):
-        unsure = orthonormalise(
-            q.ravel(), 2, np.ones(DISTURBANCE), DISTURBANCE, shares.ravel(), LEAST, NOTHING
-        )
+        unsure = made_orthonormal(q, np.ones(DISTURBANCE), shares, 2)
     assert unsure == 2
     assert shares[0, 0] == shares[1, 1] == math.inf
     assert not q.any()
@@ -170,3 +176,32 @@ def test_what_grows_on_a_hilltop_does_not_hide_what_shrinks():
     np.testing.assert_allclose(rows[0], rates * shaken.period, atol=2.0)
     assert rates[0] > 0.5
     np.testing.assert_allclose(rows.sum(axis=1), -lost, rtol=1e-9)
+
+
+@entry("void(f8[::1], f8, i8, f8[:, ::1], f8[::1])", "disturbed")
+def grown_over(given, rig, length, event, q, logarithms):
+    """The growth over a stretch of flight, as if this event had ended it."""
+    plan = planned(given, rig)
+    flow.build(plan, 0.0, 1.0)
+    before, after, ended, weights = room(), room(), stretch_room(), parts_room()
+    load(plan, pointer(np.zeros(STATE)), before, 0.0, 1.0)
+    flow.advance(plan, before, length, ended, after)
+    ended[EVENT], ended[T] = event, 0.0
+    growth.weigh(plan, weights)
+    rows = growth.rows_of(
+        plan, pointer(q), growth.work_room(), weights, pointer(logarithms), len(logarithms)
+    )
+    growth.begin_rows(plan, before, rows, 0, len(logarithms))
+    growth.grow(plan, before, ended, after, notes_room(), rows)
+
+
+def test_pieces_that_end_otherwise_than_their_stretch_leave_the_growth_unknown():
+    damping, length = 40.0, 20.0
+    rig = prepare(vi.Rig(free(damping), vi.Harmonic(1.0, 1.0))).vector
+    q, logarithms = np.zeros((DISTURBANCE, DISTURBANCE)), np.zeros(2)
+    grown_over(rig, length, LIMIT, q, logarithms)
+    assert logarithms.sum() == pytest.approx(-damping * length, rel=1e-9)
+    q, logarithms = np.zeros((DISTURBANCE, DISTURBANCE)), np.zeros(2)
+    grown_over(rig, length, RIGHT, q, logarithms)  # which no piece meets
+    assert np.isnan(logarithms).all()
+    assert np.isfinite(q).all()

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine.series.algebra import Rate, Shifted, State
-from vibroimpact.engine.series.emit import Plain
+from vibroimpact.engine.series.code_generation import Plain
 from vibroimpact.engine.series.functions import exponential, power
 
 DEGREE = 20

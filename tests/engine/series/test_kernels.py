@@ -14,10 +14,10 @@ from vibroimpact.engine.flow_tables import plan_of
 from vibroimpact.engine.motion import STATE
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.parameters import rig_vector
-from vibroimpact.engine.series import kernels, root, slopes, step
+from vibroimpact.engine.series import kernels, root_variable, slopes, step
 from vibroimpact.engine.series import layout as at
-from vibroimpact.engine.series.emit import Plain
-from vibroimpact.engine.series.root import Rooted
+from vibroimpact.engine.series.code_generation import Plain
+from vibroimpact.engine.series.root_variable import Rooted
 from vibroimpact.engine.series.step import Shape
 from vibroimpact.engine.status import DONE, TOO_MANY_EVENTS
 from vibroimpact.law_numbers import SYMBOLS, IsolatorNumbers, PowerLaw
@@ -55,7 +55,7 @@ SHAPES = [
     for other in (0, 1)
 ]
 SHAPES += [
-    (root.rooted, Rooted(laws, which, power, viscous, single))
+    (root_variable.rooted, Rooted(laws, which, power, viscous, single))
     for name, laws in LAWS.items()
     if name != "fluid"
     for which, power, viscous in ((2, 3, False), (4, 6, True))

@@ -54,7 +54,7 @@ def test_coefficients(name: str) -> None:
     rig[par.CURVED] = 1.0
     plan = planned(flow_of(rig), rig)
     build(plan, 0.6, 1.3)
-    motion = Motion(FLIGHT, 0, 0.4, -0.7, 0.0, 0.0, 0.0, 0.0, clock)
+    motion = Motion(FLIGHT, 0, 0.4, -0.7, (0.0, 0.0), 0.0, 0.0, clock)
     frame, length = begun(plan, motion, math.inf)
     assert 0.1 < length < 6.0
     expected = exact(law, 0.1, 0.4, -0.7, clock, DEGREE + 20)
@@ -82,6 +82,6 @@ def test_a_weak_drag_does_not_shorten_the_steps_of_a_mass_that_creeps() -> None:
         rig = rig_vector(1.0, 1.8e4, damping, right, left, law=IsolatorNumbers(drag=1.5))
         plan = planned(flow_of(rig), rig)
         build(plan, 18.0, 21.0)
-        creeping = Motion(BOTH, 0, held, 2.6e-7, 0.0, 0.0, 0.0, 0.0, (0.0, 1.0))
+        creeping = Motion(BOTH, 0, held, 2.6e-7, (0.0, 0.0), 0.0, 0.0, (0.0, 1.0))
         lengths.append(begun(plan, creeping, 0.3)[1])
     assert lengths[1] > 0.5 * lengths[0]

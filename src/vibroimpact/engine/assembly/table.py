@@ -108,30 +108,3 @@ def tangent(
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """See `flow.margin`; it is not known."""
     notes[0] = math.nan
-
-
-MOTION = (
-    begin,
-    build,
-    too_much_work,
-    stiff_rate,
-    parts,
-    coordinates,
-    stops,
-    numbers,
-    complete,
-    units,
-    size,
-    disturb,
-    place,
-    point,
-    at_point,
-    undisturbed,
-    advance,
-    cycle,
-    nothing,
-    look_again,
-    extremes,
-    measured,
-)
-DISTURBED = (unit_disturbances, tangent, mirror, margin)

@@ -10,14 +10,14 @@ acceleration that it stands for, which is linear in them. It is a module with th
     value(plan, s, c)                      A_t
     turned(plan, s, c, t)                  the clock after the time t
     stepped(plan, s, c, t)                 the same, fast for a time of a step
-    let_go(plan, sign, level, s, c, limit) when sign A_t first exceeds a level
+    release_time(plan, sign, level, s, c, limit) when sign A_t first exceeds a level
 
 and, from a mode's table,
 
     product(plan, at, row)                 a linear function of the state row
     expand(plan, at, row, series)          the long series of one
     short_series(plan, table, row)         seven terms of x, from the equation of motion
-    spun(plan, at, s, c)                   the clock at a node or fine point
+    turned_clock(plan, at, s, c)           the clock at a node or fine point
     turn(plan, s, c, angle)                the clock a part of a step later
     nudged(plan, s, c, angle)              the same for an angle whose square is nothing
     pull(plan, table, s, c)                A_t h² as the mode sees it, mirrored or not
@@ -74,11 +74,11 @@ wave = _by_forcing("wave")
 value = _by_forcing("value")
 turned = _by_forcing("turned")
 stepped = _by_forcing("stepped")
-let_go = _by_forcing("let_go")
+release_time = _by_forcing("release_time")
 product = _by_forcing("product")
 expand = _by_forcing("expand")
 short_series = _by_forcing("short_series")
-spun = _by_forcing("spun")
+turned_clock = _by_forcing("turned_clock")
 turn = _by_forcing("turn")
 nudged = _by_forcing("nudged")
 pull = _by_forcing("pull")

@@ -113,7 +113,7 @@ def stepped(plan: Vector, s: float, c: float, t: float) -> tuple[float, float]:
 
 
 @kernel
-def let_go(
+def release_time(
     plan: Vector, sign: float, level: float, s: float, c: float, limit: float
 ) -> tuple[float, float, float]:
     """When sign A_t first exceeds the level, within the limit: t, or infinity, and the clock."""
@@ -179,7 +179,7 @@ def short_series(
 
 
 @kernel
-def spun(plan: Vector, at: int, s: float, c: float) -> tuple[float, float]:
+def turned_clock(plan: Vector, at: int, s: float, c: float) -> tuple[float, float]:
     """The phasor at a node or fine point."""
     cosine = plan[at + COSINE]
     sine = plan[at + SINE]

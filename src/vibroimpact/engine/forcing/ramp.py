@@ -64,7 +64,7 @@ stepped = turned
 
 
 @kernel
-def let_go(
+def release_time(
     plan: Vector, sign: float, level: float, s: float, c: float, limit: float
 ) -> tuple[float, float, float]:
     """When sign A_t first exceeds the level, within the limit: t, or infinity, and the clock."""
@@ -96,7 +96,7 @@ def short_series(
 
 
 @kernel
-def spun(plan: Vector, at: int, s: float, c: float) -> tuple[float, float]:
+def turned_clock(plan: Vector, at: int, s: float, c: float) -> tuple[float, float]:
     """At a node or fine point, where SINE is the time from its origin."""
     return s + c * plan[at + SINE], c
 

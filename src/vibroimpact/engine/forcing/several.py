@@ -37,7 +37,7 @@ from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
 from vibroimpact.engine.yielding.layout import PLAN
 
-spun = harmonic.spun
+turned_clock = harmonic.turned_clock
 turn = harmonic.turn
 nudged = harmonic.nudged
 turned = harmonic.turned
@@ -116,7 +116,7 @@ def value(plan: Vector, s: float, c: float) -> float:
 
 
 @kernel
-def let_go(
+def release_time(
     plan: Vector, sign: float, level: float, s: float, c: float, limit: float
 ) -> tuple[float, float, float]:
     """When sign A_t first exceeds the level, within the limit: t, or infinity, and the clock.

@@ -21,7 +21,7 @@ class Wave(NamedTuple):
 
 
 @kernel
-def stilled(wave: Wave) -> Wave:
+def without_amplitude(wave: Wave) -> Wave:
     """The same where it cannot move the mass."""
     _, rate, closes, sine, cosine = wave
     return Wave(0.0, rate, closes, sine, cosine)

@@ -13,10 +13,8 @@ from vibroimpact.engine.motion import (
     BOTH,
     DETACHED,
     FLIGHT,
-    LEFT,
     LIMIT,
     RELEASED,
-    RIGHT,
     SEEN_LEFT,
     Motion,
     Row,
@@ -32,62 +30,71 @@ just before, and the motion just behind."""
 
 
 @inlined
-def bumpers(plan: Vector) -> tuple[float, float, float, float]:
-    """Gaps (m) and relaxation rates (1/s) of both sides."""
-    left = par.BUMPER + par.WIDTH
-    return (
-        plan[par.BUMPER + par.GAP],
-        plan[left + par.GAP],
-        plan[par.BUMPER + par.RATE],
-        plan[left + par.RATE],
-    )
+def gap_of(plan: Vector, stop: int) -> float:
+    """Gap of a stop (m)."""
+    return plan[par.stop_at(stop) + par.GAP]  # type: ignore[no-any-return]
+
+
+@inlined
+def rate_of(plan: Vector, stop: int) -> float:
+    """Rate at which the free stop relaxes (1/s)."""
+    return plan[par.stop_at(stop) + par.RATE]  # type: ignore[no-any-return]
+
+
+@inlined
+def place_at(plan: Vector, stop: int, deformation: float) -> float:
+    """The displacement of a mass at a stop that is deformed so far."""
+    u = gap_of(plan, stop) + deformation
+    return u if stop == 0 else -u
+
+
+@inlined
+def total_gap(plan: Vector) -> float:
+    """Sum of both gaps (m); below 0 where both stops can be touched at once."""
+    return gap_of(plan, 0) + gap_of(plan, 1)
 
 
 @inlined
 def fly(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Free of both stops until one of them is touched."""
-    _, fresh, u, v, right, left, z, age, clock = motion
-    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
+    _, fresh, u, v, faces, z, age, clock = motion
     s, c = clock
+    right, left = faces
     way, t, row, right, left = flight(
         plan,
         FLIGHT,
         Row(u, v, s, c),
-        Bounds(gap_r, -gap_l, right, left, rate_r, rate_l),
+        Bounds(gap_of(plan, 0), -gap_of(plan, 1), right, left, rate_of(plan, 0), rate_of(plan, 1)),
         fresh & BOTH,
         fresh & RELEASED != 0,
         limit,
         age,
     )
     u, v, s, c = row
+    faces = (right, left)
     if way == WITHIN:
-        return LIMIT, t, v, Motion(FLIGHT, 0, u, v, right, left, z, age + t, (s, c))
-    return way, t, v, Motion(way, way, u, v, right, left, z, 0.0, (s, c))
+        return LIMIT, t, v, Motion(FLIGHT, 0, u, v, faces, z, age + t, (s, c))
+    return way, t, v, Motion(way, way, u, v, faces, z, 0.0, (s, c))
 
 
 @inlined
-def press(plan: Vector, motion: Motion, side: int, limit: float) -> Ended:
-    """Pressed at least on this side until its bumper lets go."""
-    mode, fresh, u, v, right, left, z, age, clock = motion
-    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
+def press(plan: Vector, motion: Motion, stop: int, limit: float) -> Ended:
+    """Pressed at least on this stop until its bumper lets go."""
+    mode, fresh, u, v, faces, z, age, clock = motion
     sign, row = coordinates(motion)
     slot = mode
-    if mode == BOTH and side == LEFT:
-        slot, sign, row = SEEN_LEFT, -1.0, Row(left, -v, -clock[0], -clock[1])
-    event, t, row = contact(plan, slot, side, row, fresh == side, limit, age)
+    if mode == BOTH and stop == 1:
+        slot, sign, row = SEEN_LEFT, -1.0, Row(faces[1], -v, -clock[0], -clock[1])
+    event, t, row = contact(plan, slot, stop, row, fresh == 1 << stop, limit, age)
     x, v, s, c = row
-    if side == RIGHT:
-        right = x
-        left = -x - (gap_r + gap_l) if mode == BOTH else relaxed(left, rate_l, t)
-        u = gap_r + x
-    else:
-        left = x
-        right = -x - (gap_r + gap_l) if mode == BOTH else relaxed(right, rate_r, t)
-        u = -(gap_l + x)
+    other = 1 - stop
+    free = -x - total_gap(plan) if mode == BOTH else relaxed(faces[other], rate_of(plan, other), t)
+    faces = (x, free) if stop == 0 else (free, x)
+    u = place_at(plan, stop, x)
     v, clock = sign * v, (sign * s, sign * c)
     if event == DETACHED:
-        return event, t, v, Motion(mode & ~side, side, u, v, right, left, z, 0.0, clock)
-    return event, t, v, Motion(mode, 0, u, v, right, left, z, age + t, clock)
+        return event, t, v, Motion(mode & ~(1 << stop), 1 << stop, u, v, faces, z, 0.0, clock)
+    return event, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
 
 
 @inlined
@@ -95,7 +102,7 @@ def advance_apart(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next contact or detachment, or for the time `limit` if that comes first."""
     if motion.mode == FLIGHT:
         return fly(plan, motion, limit)
-    return press(plan, motion, motion.mode, limit)
+    return press(plan, motion, motion.mode - 1, limit)
 
 
 @kernel

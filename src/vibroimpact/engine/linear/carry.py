@@ -38,9 +38,9 @@ def transition(c: float, k: float, t: float) -> tuple[float, float, float, float
 def damping(plan: Vector, mode: int) -> float:
     """Damping per unit mass in a mode, that of pressed bumpers included (1/s)."""
     here: float = plan[par.DAMPING]
-    for side in range(1, 3):
-        if mode & side:
-            here += plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_DAMPING]
+    for stop in range(2):
+        if mode >> stop & 1:
+            here += plan[par.stop_at(stop) + par.BUMPER_DAMPING]
     return here
 
 
@@ -50,9 +50,9 @@ def phase_transition(plan: Vector, mode: int, t: float) -> tuple[float, float, f
     if resting(plan, mode):
         return 0.0, 0.0, 0.0, 0.0
     k = plan[par.STIFFNESS]
-    for side in range(1, 3):
-        if mode & side:
-            k += plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_STIFFNESS]
+    for stop in range(2):
+        if mode >> stop & 1:
+            k += plan[par.stop_at(stop) + par.BUMPER_STIFFNESS]
     return transition(damping(plan, mode), k, t)
 
 
@@ -68,11 +68,11 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
     before, _, event, step, arrival, after = stretch
     mode = before.mode
     uu, uv, vu, vv = phase_transition(plan, mode, step)
-    for side in range(1, 3):
-        rate = plan[par.BUMPER + par.WIDTH * (side - 1) + par.RATE]
+    for stop in range(2):
+        rate = plan[par.stop_at(stop) + par.RATE]
         fading = math.exp(-rate * step) if rate < math.inf else 0.0
         for i in range(rows):
-            q[i * DISTURBANCE + 1 + side] *= fading
+            q[i * DISTURBANCE + 2 + stop] *= fading
     for i in range(rows):
         at = i * DISTURBANCE
         u, v = q[at], q[at + 1]

@@ -7,7 +7,7 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import gained, travel
+from vibroimpact.engine.linear.evaluate import scaled_acceleration, travel
 from vibroimpact.engine.linear.layout import (
     FORCE,
     FORCE_0,
@@ -43,7 +43,7 @@ def relieved(row: Row, damping: float) -> Row:
 def contact(
     plan: Vector,
     slot: int,
-    side: int,
+    stop: int,
     row: Row,
     fresh: bool,
     limit: float,
@@ -55,8 +55,8 @@ def contact(
     ----------
     slot : int
         Which table of the plan describes the motion.
-    side : int
-        RIGHT or LEFT.
+    stop : int
+        Which stop is pressed.
     row : Row
         The state at the start.
     fresh : bool
@@ -70,7 +70,7 @@ def contact(
         DETACHED or LIMIT, the elapsed time (s), and the state there, mirrored as given.
     """
     series = workspace()
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    at = par.stop_at(stop)
     stiffness = plan[at + par.BUMPER_STIFFNESS]
     damping = plan[at + par.BUMPER_DAMPING]
     early = TABLES + SIZE * slot
@@ -91,7 +91,9 @@ def contact(
         f = stiffness * x + damping * v
         if fresh and plan[table + LATE] == 0.0:
             # F(t) ≥ F + F′ t − second t²/2 keeps the first steps positive.
-            slope = stiffness * (v * h) + damping * plan[table + RATE] * gained(plan, table, row)
+            slope = stiffness * (v * h) + damping * plan[table + RATE] * scaled_acceleration(
+                plan, table, row
+            )
             clear = 2.0 * slope / second
             if not clear >= 1.0:
                 # Slow landing: search about the contact point itself, where the force is not

@@ -13,7 +13,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import count, wave
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.table_rows import swing_of
-from vibroimpact.engine.motion import FLIGHT, RIGHT, Clock, Motion
+from vibroimpact.engine.motion import FLIGHT, Clock, Motion, facing
 
 _WITHIN = 1.0 - 1e-9
 """Share of a gap that a motion may use: a graze is followed."""
@@ -56,12 +56,12 @@ def undisturbed(
     u, v = rest + p * pulled + q * quarter, part.rate * (p * quarter - q * pulled)
     swing = math.hypot(p, q) * math.hypot(part.sine, part.cosine)
     reach = swing + math.sqrt((u - motion.u) ** 2 + (v - motion.v) ** 2 / k)
-    for side in range(1, 3):
-        at = par.BUMPER + par.WIDTH * (side - 1)
+    for stop in range(2):
+        at = par.stop_at(stop)
         if plan[at + par.KIND] == par.ABSENT:
             continue
-        sign = 1.0 if side == RIGHT else -1.0
-        deformation = motion.right if side == RIGHT else motion.left
+        sign = facing(stop)
+        deformation = motion.faces[stop]
         if not sign * rest + reach < _WITHIN * plan[at + par.GAP]:
             return False, 0.0, 0.0, 0.0, motion
         if deformation > 0.0 and not math.exp(-plan[at + par.RATE] * period) < dying:
@@ -69,5 +69,5 @@ def undisturbed(
     carried = math.hypot(k, c * part.rate)
     # Of a force on the mass it is ü itself.
     felt = carried if plan[par.BASE] != 0.0 else part.rate * part.rate
-    flight = Motion(FLIGHT, 0, u, v, 0.0, 0.0, motion.z, 0.0, clock)
+    flight = Motion(FLIGHT, 0, u, v, (0.0, 0.0), motion.z, 0.0, clock)
     return True, swing, felt * swing, carried * swing, flight

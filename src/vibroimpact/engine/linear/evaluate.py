@@ -5,7 +5,14 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import expand, product, pull, short_series, spun, turn
+from vibroimpact.engine.forcing.dispatch import (
+    expand,
+    product,
+    pull,
+    short_series,
+    turn,
+    turned_clock,
+)
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import (
     BAND_0,
@@ -56,7 +63,7 @@ def comes_back(deformation: float, depth: float, rate: float) -> float:
 @kernel
 def moved(plan: Vector, at: int, row: Row) -> Row:
     """The state at a node or fine point from the state at its origin."""
-    s, c = spun(plan, at, row.s, row.c)
+    s, c = turned_clock(plan, at, row.s, row.c)
     return Row(
         product(plan, at, row) + (plan[at + LEFT_OUT] * row.x + plan[at + LEFT_OUT + 1] * row.v),
         product(plan, at + ROW_V, row)
@@ -82,7 +89,7 @@ def band(plan: Vector, table: int, x: float, v: float) -> float:
 
 
 @inlined
-def gained(plan: Vector, table: int, row: Row) -> float:
+def scaled_acceleration(plan: Vector, table: int, row: Row) -> float:
     """x″ h² of a state."""
     x, v, s, c = row
     total: float = (

@@ -97,10 +97,10 @@ def leave(
 
 
 @kernel
-def without(bounds: Bounds, side: int) -> Bounds:
+def without(bounds: Bounds, way: int) -> Bounds:
     """The other side's bound alone."""
     upper, lower, memory_upper, memory_lower, rate_upper, rate_lower = bounds
-    if side == ABOVE:
+    if way == ABOVE:
         upper, memory_upper = math.inf, 0.0
     else:
         lower, memory_lower = -math.inf, 0.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import RIGHT, Motion
+from vibroimpact.engine.motion import Motion, facing
 
 
 @kernel
@@ -28,41 +28,41 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
     s, c = motion.clock
     a: float = plan[par.LOAD] - plan[par.STIFFNESS] * motion.u - plan[par.DAMPING] * motion.v
     a -= value(plan, s, c)
-    for side in range(1, 3):
-        at = par.BUMPER + par.WIDTH * (side - 1)
-        if motion.mode & side and plan[at + par.KIND] == par.KELVIN_VOIGT:
-            sign = 1.0 if side == RIGHT else -1.0
-            deformation = motion.right if side == RIGHT else motion.left
+    for stop in range(2):
+        at = par.stop_at(stop)
+        if motion.mode >> stop & 1 and plan[at + par.KIND] == par.KELVIN_VOIGT:
+            sign = facing(stop)
+            deformation = motion.faces[stop]
             a -= sign * plan[at + par.BUMPER_STIFFNESS] * deformation
             a -= plan[at + par.BUMPER_DAMPING] * motion.v
     return a
 
 
 @kernel
-def face(plan: Vector, motion: Motion, side: int) -> float:
-    """How far the stop on a side is deformed (m)."""
-    return motion.right if side == RIGHT else motion.left
+def stop_deformation(plan: Vector, motion: Motion, stop: int) -> float:
+    """How far a stop is deformed (m)."""
+    return motion.faces[stop]
 
 
 @kernel
-def stop_push(plan: Vector, motion: Motion, side: int) -> float:
+def stop_push(plan: Vector, motion: Motion, stop: int) -> float:
     """What a pressed bumper pushes with, away from it."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
-    closing = motion.v if side == RIGHT else -motion.v
-    push: float = plan[at + par.BUMPER_STIFFNESS] * face(plan, motion, side)
+    at = par.stop_at(stop)
+    closing = facing(stop) * motion.v
+    push: float = plan[at + par.BUMPER_STIFFNESS] * stop_deformation(plan, motion, stop)
     push += plan[at + par.BUMPER_DAMPING] * closing
     return push
 
 
 @kernel
-def stop_power(plan: Vector, motion: Motion, side: int) -> float:
+def stop_power(plan: Vector, motion: Motion, stop: int) -> float:
     """What a pressed bumper loses, per unit mass and time."""
-    damping: float = plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_DAMPING]
+    damping: float = plan[par.stop_at(stop) + par.BUMPER_DAMPING]
     return damping * motion.v * motion.v
 
 
 @kernel
-def unkept(plan: Vector, before: Motion, after: Motion, side: int) -> float:
+def unreturned_energy(plan: Vector, before: Motion, after: Motion, stop: int) -> float:
     """What a stop loses besides: no bumper has anything that its dashpot does not take."""
     return 0.0
 
@@ -75,8 +75,8 @@ def isolator_power(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
-def rest_level(plan: Vector, motion: Motion, side: int) -> float:
+def rest_level(plan: Vector, motion: Motion, stop: int) -> float:
     """What presses a resting mass on the rigid stop of a side, but for what shakes it."""
     s, c = motion.clock
     push: float = acceleration_of(plan, motion) + value(plan, s, c)
-    return push if side == RIGHT else -push
+    return facing(stop) * push

@@ -18,6 +18,7 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand, pull_series, turned, value
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.advance import place_at, total_gap
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner, moved, node
 from vibroimpact.engine.linear.layout import (
     LATE_TABLES,
@@ -38,8 +39,9 @@ from vibroimpact.engine.linear.layout import (
     WIDTH,
     H,
 )
+from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, Row, coordinates
+from vibroimpact.engine.motion import BOTH, Motion, Row, changed, coordinates, direction, main_stop
 from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, VELOCITY
 
 
@@ -78,7 +80,7 @@ def begin(plan: Vector, motion: Motion, length: float) -> Cursor:
 
 
 @kernel
-def more(plan: Vector, cursor: Cursor) -> bool:
+def has_piece(plan: Vector, cursor: Cursor) -> bool:
     """Whether there is a piece here."""
     return cursor.i < cursor.span
 
@@ -92,7 +94,7 @@ def following_window(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
-def following(plan: Vector, cursor: Cursor) -> Cursor:
+def next_piece(plan: Vector, cursor: Cursor) -> Cursor:
     """The next piece."""
     early, table, i, length, age, t, span, start = cursor
     if i + 1 < NODES:
@@ -125,15 +127,15 @@ def expanded_at_node(plan: Vector, cursor: Cursor, j: int, series: Vector) -> No
 
 
 @kernel
-def expanded_force(plan: Vector, cursor: Cursor, mode: int, side: int, series: Vector) -> None:
+def expanded_force(plan: Vector, cursor: Cursor, mode: int, stop: int, series: Vector) -> None:
     """Write the series of what the pressed stop on a side pushes with, per unit mass."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    at = par.stop_at(stop)
     row = middle(plan, cursor)
-    if plan[cursor.table + RESTING] == 0.0 and not (mode == BOTH and side == LEFT):
+    if plan[cursor.table + RESTING] == 0.0 and stop == main_stop(mode):
         expand(plan, cursor.table + TAYLOR_F, row, series)
         return
     # Seen from the right, or held where it is.
-    sign = -1.0 if mode == BOTH and side == LEFT else 1.0
+    sign = 1.0 if stop == main_stop(mode) else -1.0
     expand(plan, cursor.table + TAYLOR, row, series)
     k, c = plan[at + par.BUMPER_STIFFNESS], plan[at + par.BUMPER_DAMPING]
     c *= plan[cursor.table + RATE]
@@ -141,8 +143,7 @@ def expanded_force(plan: Vector, cursor: Cursor, mode: int, side: int, series: V
         behind = series[n + 1] * (n + 1) if n + 1 < ORDER else 0.0
         series[n] = sign * (k * series[n] + c * behind)
     if sign < 0.0:
-        left = par.BUMPER + par.WIDTH
-        series[0] -= k * (plan[par.BUMPER + par.GAP] + plan[left + par.GAP])
+        series[0] -= k * total_gap(plan)
 
 
 @kernel
@@ -150,14 +151,12 @@ def moment(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, y: 
     """The motion at y of a piece, whose coordinate is x and whose velocity is v; not its clock."""
     mode = before.mode
     u = displacement(plan, mode, x)
-    right, left = before.right, before.left
-    if mode & RIGHT:
-        right = x
-        if mode & LEFT:
-            left = -x - (plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
-    elif mode == LEFT:
-        left = x
-    return Motion(mode, 0, u, v, right, left, before.z, before.age, before.clock)
+    faces = before.faces
+    if mode:
+        faces = changed(faces, main_stop(mode), x)
+    if mode == BOTH:
+        faces = (x, -x - total_gap(plan))
+    return Motion(mode, 0, u, v, faces, before.z, before.age, before.clock)
 
 
 @kernel
@@ -197,17 +196,10 @@ def coordinate(plan: Vector, motion: Motion) -> float:
 @kernel
 def displacement(plan: Vector, mode: int, x: float) -> float:
     """The displacement of the mass from the mode's own coordinate."""
-    left = par.BUMPER + par.WIDTH
-    if mode & RIGHT and not (mode & LEFT and plan[left + par.KIND] == par.RIGID):
-        u: float = plan[par.BUMPER + par.GAP] + x
-        return u
-    if mode & RIGHT:  # at rest on the left, exactly there, whatever the right one's face rounds to
-        u = -plan[left + par.GAP]
-        return u
-    if mode == LEFT:
-        u = -(plan[par.BUMPER + par.WIDTH + par.GAP] + x)
-        return u
-    return x
+    if mode == BOTH and rigid(plan, 1):
+        # At rest on the left, exactly there, whatever the right one's face rounds to.
+        return place_at(plan, 1, 0.0)
+    return place_at(plan, main_stop(mode), x) if mode else x
 
 
 @kernel
@@ -218,7 +210,7 @@ def acceleration(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
-def look(
+def sample_stretch(
     plan: Vector,
     cursor: Cursor,
     before: Motion,
@@ -258,7 +250,7 @@ def look(
             about = here
         x, v = horner(series, y - here)
         room[j], room[speeds + j] = x, v * rate
-    sign = -1.0 if before.mode == LEFT else 1.0
+    sign = direction(before.mode)
     table, base = TABLES + SIZE * before.mode, plan[par.BASE]
     held = plan[cursor.table + RESTING] != 0.0
     if held or base == 0.0:

@@ -17,7 +17,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import begin, count, pace, plane, wave
-from vibroimpact.engine.forcing.wave import stilled
+from vibroimpact.engine.forcing.wave import without_amplitude
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import (
     BAND_0,
@@ -62,7 +62,7 @@ from vibroimpact.engine.linear.table_rows import (
     power_series,
     swing_of,
 )
-from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SEEN_LEFT
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SEEN_LEFT, facing
 
 
 @kernel
@@ -75,15 +75,19 @@ def stiff_rate(plan: Vector) -> float:
 @kernel
 def overlapping(plan: Vector) -> bool:
     """Whether both stops can be touched at once."""
-    return bool(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP] < 0.0)
+    return bool(plan[par.stop_at(0) + par.GAP] + plan[par.stop_at(1) + par.GAP] < 0.0)
+
+
+@kernel
+def rigid(plan: Vector, stop: int) -> bool:
+    """Whether a stop is rigid."""
+    return bool(plan[par.stop_at(stop) + par.KIND] == par.RIGID)
 
 
 @kernel
 def resting(plan: Vector, mode: int) -> bool:
     """Whether a rigid stop holds the mass in this mode."""
-    right = mode & RIGHT and plan[par.BUMPER + par.KIND] == par.RIGID
-    left = mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.RIGID
-    return bool(right or left)
+    return bool((mode & RIGHT and rigid(plan, 0)) or (mode & LEFT and rigid(plan, 1)))
 
 
 @kernel
@@ -105,9 +109,9 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
         mode = min(slot, BOTH)
         if mode == BOTH and not overlapping(plan):
             break
-        side = LEFT if slot in (LEFT, SEEN_LEFT) else RIGHT
-        at = par.BUMPER + par.WIDTH * (side - 1)
-        other = par.BUMPER + par.WIDTH * (2 - side)
+        stop = 1 if slot in (LEFT, SEEN_LEFT) else 0
+        at = par.stop_at(stop)
+        other = par.stop_at(1 - stop)
         if mode and (
             plan[at + par.KIND] == par.ABSENT
             or (mode == BOTH and plan[other + par.KIND] == par.ABSENT)
@@ -120,7 +124,7 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
         damping = plan[at + par.BUMPER_DAMPING] if mode else 0.0
         k = plan[par.STIFFNESS] + stiffness
         c = plan[par.DAMPING] + damping
-        d = plan[par.LOAD] if side == RIGHT else -plan[par.LOAD]
+        d = facing(stop) * plan[par.LOAD]
         if mode:
             d -= plan[par.STIFFNESS] * plan[at + par.GAP]
         if mode == BOTH:
@@ -265,7 +269,7 @@ def _table(
             plan[there + WAVE_S] = plan[there + SCALED_A] * part.sine
             plan[there + WAVE_C] = plan[there + SCALED_A] * part.cosine
             if held:
-                part = stilled(part)
+                part = without_amplitude(part)
             if late:
                 late_series(h, c, k, d, part, fast, slow, series)
             else:

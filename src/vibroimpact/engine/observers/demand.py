@@ -7,7 +7,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import stack
 from vibroimpact.engine.motion import FLIGHT
 from vibroimpact.engine.observers import phases
-from vibroimpact.engine.observers.extremes import IMPULSE_LEFT, IMPULSE_RIGHT, NOTES, nothing
+from vibroimpact.engine.observers.extremes import IMPULSE_RIGHT, NOTES, nothing
 from vibroimpact.engine.observers.phases import ONE_MASS, begin_row
 from vibroimpact.engine.state import MODE
 
@@ -40,8 +40,8 @@ def start_notes(notes: Vector, everything: int) -> None:
 @kernel
 def add(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """Add one stretch."""
-    right, left = notes[IMPULSE_RIGHT], notes[IMPULSE_LEFT]
-    notes[IMPULSE_RIGHT], notes[IMPULSE_LEFT] = 0.0, 0.0
+    right, left = notes[IMPULSE_RIGHT], notes[IMPULSE_RIGHT + 1]
+    notes[IMPULSE_RIGHT], notes[IMPULSE_RIGHT + 1] = 0.0, 0.0
     flow.extremes(plan, before, ended, after, notes)
     if before[MODE] != FLIGHT or notes[EVERYTHING] != 0.0:
         row = _row()
@@ -54,4 +54,4 @@ def add(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vecto
             for i in range(len(_LOST)):
                 notes[LOST_STOPS] += row[_LOST[i]]
     notes[IMPULSE_RIGHT] += right
-    notes[IMPULSE_LEFT] += left
+    notes[IMPULSE_RIGHT + 1] += left

@@ -14,24 +14,33 @@ from vibroimpact.engine.dispatch import (
     accelerated,
     acceleration,
     begin,
+    bound_window,
     coordinate,
     displacement,
     enclosed,
     expanded,
     expanded_force,
-    following,
-    glance,
-    more,
+    has_piece,
+    next_piece,
     rest_level,
 )
 from vibroimpact.engine.forcing.dispatch import pull_series
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.chord_bounds import Enclosed, chords
 from vibroimpact.engine.linear.layout import ORDER, RATE
 from vibroimpact.engine.linear.roots import jet
-from vibroimpact.engine.linear.stops import rigid
+from vibroimpact.engine.linear.tables import rigid
+from vibroimpact.engine.linear.window_bounds import Enclosed, chords
 from vibroimpact.engine.memory import stack, workspace
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion, Stretch
+from vibroimpact.engine.motion import (
+    FLIGHT,
+    LEFT,
+    RIGHT,
+    Motion,
+    Stretch,
+    direction,
+    facing,
+    main_stop,
+)
 
 _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
 
@@ -114,30 +123,29 @@ class Part(NamedTuple):
 
 @kernel
 def pushed(
-    plan: Vector, cursor: Any, before: Motion, side: int, part: Part, series: Vector, most: float
+    plan: Vector, cursor: Any, before: Motion, stop: int, part: Part, series: Vector, most: float
 ) -> float:
-    """What the stop on a side pushes with at most on a piece, if more than `most`; it is touched.
+    """What a stop pushes with at most on a piece, if more than `most`; it is touched.
 
     Per unit mass, at rest on a rigid one too; `series` is written over.
     """
-    if not rigid(plan, side):
-        expanded_force(plan, cursor, before.mode, side, series)
+    if not rigid(plan, stop):
+        expanded_force(plan, cursor, before.mode, stop, series)
         _, found, _, _ = series_extremes(series, -0.5, part.high, 0.0, most)
         return found
-    facing = -1.0 if before.mode == LEFT else 1.0
-    facing = facing if side == RIGHT else -facing
+    way = direction(before.mode) * facing(stop)
     rate = plan[cursor.table + RATE]
     pull_series(plan, cursor.table, part.s, part.c, series)
     least, largest, _, _ = series_extremes(series, -0.5, part.high, math.inf, -math.inf)
-    pulled = least if facing > 0.0 else -largest
-    force: float = rest_level(plan, before, side) - pulled * rate * rate
+    pulled = least if way > 0.0 else -largest
+    force: float = rest_level(plan, before, stop) - pulled * rate * rate
     return max(most, force)
 
 
 @kernel
-def struck(plan: Vector, stretch: Stretch, side: int) -> float:
-    """How much an impact on the rigid stop of a side changes the velocity (m/s); 0 without one."""
-    if stretch.event != side or not rigid(plan, side):
+def struck(plan: Vector, stretch: Stretch, stop: int) -> float:
+    """How much an impact on a rigid stop changes the velocity (m/s); 0 without one."""
+    if stretch.event != 1 + stop or not rigid(plan, stop):
         return 0.0
     return abs(stretch.arrival - stretch.after.v)
 
@@ -174,10 +182,9 @@ def widen(plan: Vector, notes: Vector, stretch: Stretch) -> None:
     before, event, step = stretch.before, stretch.event, stretch.step
     u_least, u_most = notes[U_LEAST], notes[U_MOST]
     a_least, a_most = notes[A_LEAST], notes[A_MOST]
-    force_right, force_left = notes[FORCE_RIGHT], notes[FORCE_LEFT]
     series, room = workspace(), chords()
-    sign = -1.0 if before.mode == LEFT else 1.0
-    x = coordinate(plan, before)
+    sign = direction(before.mode)
+    x, pressed = coordinate(plan, before), FORCE_RIGHT + main_stop(before.mode)
     # What was seen before, in the mode's own coordinate: a piece within it is passed over.
     offset = displacement(plan, before.mode, 0.0)
     seen_least, seen_most = sign * (u_least - offset), sign * (u_most - offset)
@@ -190,25 +197,22 @@ def widen(plan: Vector, notes: Vector, stretch: Stretch) -> None:
     least_a, most_a = min(seen_low, a), max(seen_high, a)
     cursor = begin(plan, before, step)
     within = False  # all of this window
-    while more(plan, cursor):
-        force = force_left if before.mode == LEFT else force_right
+    while has_piece(plan, cursor):
+        force = notes[pressed]
         if cursor.i == 0:
             seen = Enclosed(x_least, x_most, least_a, most_a, force)
-            within, seen = glance(plan, cursor, before, seen, room)
+            within, seen = bound_window(plan, cursor, before, seen, room)
             x_least, x_most, least_a, most_a, force = seen
-            if before.mode == LEFT:
-                force_left = force
-            else:
-                force_right = force
+            notes[pressed] = force
         if within:
-            cursor = following(plan, cursor)
+            cursor = next_piece(plan, cursor)
             continue
         held = enclosed(plan, cursor, room)
         farther = not (x_least <= held.x_least and held.x_most <= x_most)
         faster = not (least_a <= held.a_least and held.a_most <= most_a)
         harder = before.mode != FLIGHT and not held.force <= force
         if not (farther or faster or harder):
-            cursor = following(plan, cursor)
+            cursor = next_piece(plan, cursor)
             continue
         high, s, c = expanded(plan, cursor, series)
         if farther:
@@ -223,11 +227,11 @@ def widen(plan: Vector, notes: Vector, stretch: Stretch) -> None:
                 most_a = most * unit
         if harder:
             part = Part(high, s, c)
-            if before.mode & RIGHT:
-                force_right = pushed(plan, cursor, before, RIGHT, part, series, force_right)
-            if before.mode & LEFT:
-                force_left = pushed(plan, cursor, before, LEFT, part, series, force_left)
-        cursor = following(plan, cursor)
+            for stop in range(2):
+                if before.mode >> stop & 1:
+                    at = FORCE_RIGHT + stop
+                    notes[at] = pushed(plan, cursor, before, stop, part, series, notes[at])
+        cursor = next_piece(plan, cursor)
     new_least, new_most = x_least < seen_least, x_most > seen_most
     if before.mode == LEFT:
         new_least, new_most = new_most, new_least
@@ -237,10 +241,10 @@ def widen(plan: Vector, notes: Vector, stretch: Stretch) -> None:
     if new_most:
         notes[U_MOST] = max(u_most, displacement(plan, before.mode, x_most))
     notes[A_LEAST], notes[A_MOST] = min(a_least, least_a), max(a_most, most_a)
-    right, left = struck(plan, stretch, RIGHT), struck(plan, stretch, LEFT)
-    notes[FORCE_RIGHT] = math.inf if right > 0.0 else force_right
-    notes[FORCE_LEFT] = math.inf if left > 0.0 else force_left
-    notes[IMPULSE_RIGHT] = max(notes[IMPULSE_RIGHT], right)
-    notes[IMPULSE_LEFT] = max(notes[IMPULSE_LEFT], left)
+    for stop in range(2):
+        change = struck(plan, stretch, stop)
+        if change > 0.0:
+            notes[FORCE_RIGHT + stop] = math.inf
+            notes[IMPULSE_RIGHT + stop] = max(notes[IMPULSE_RIGHT + stop], change)
     if event in (RIGHT, LEFT):
-        notes[HITS_RIGHT if event == RIGHT else HITS_LEFT] += 1.0
+        notes[HITS_RIGHT + event - 1] += 1.0

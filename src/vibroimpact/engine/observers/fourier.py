@@ -9,22 +9,24 @@ from vibroimpact.engine.dispatch import (
     begin,
     displacement,
     expanded,
-    following,
-    more,
+    has_piece,
+    next_piece,
 )
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, RATE, H
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import LEFT, Stretch
+from vibroimpact.engine.motion import Stretch, direction
 from vibroimpact.engine.observers.measure import ABSCISSAE, WEIGHTS
 
 _TURN = 8.0
 """What a line may turn (rad) over the points of one quadrature, for 12 points to be exact to
 rounding."""
 
-BEGINS, COUNT = range(2)
-"""Of the notes: when the section is (s), since the motion's beginning, and the number of lines."""
+BEGINS, COUNT, INTERVAL = range(3)
+"""Of the notes: when the section is (s), since the motion's beginning, the number of lines, and the
+time between sections (s)."""
+NOTES = 3
 
 # Rows of what is found, a row a real number for each line: the integrals of u, u̇ and the absolute
 # acceleration times cos and −sin νt.
@@ -38,10 +40,10 @@ def integrate_stretch(
     """Add the integrals of a stretch; `out` has QUANTITIES rows of a number for each line."""
     before, begun, count = stretch.before, notes[BEGINS] + stretch.t, int(notes[COUNT])
     series, forces = workspace(), workspace()
-    sign = -1.0 if before.mode == LEFT else 1.0
+    sign = direction(before.mode)
     fastest = lines[count - 1]
     cursor = begin(plan, before, stretch.step)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         h = plan[cursor.table + H]
         rate = plan[cursor.table + RATE]
         high, s, c = expanded(plan, cursor, series)
@@ -68,4 +70,4 @@ def integrate_stretch(
                     out[3 * count + k] -= v * sine
                     out[4 * count + k] += a * cosine
                     out[5 * count + k] -= a * sine
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)

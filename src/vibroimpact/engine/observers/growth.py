@@ -1,12 +1,11 @@
 """How disturbances of a motion grow: carried on by `flow.tangent`, and kept orthogonal.
 
-The rows of q are carried through a cycle and then made orthonormal, each with those before it
+After each stretch between two events, the rows of q are made orthonormal, each with those before it
 (modified Gram–Schmidt; G. Benettin et al., Meccanica 15 (1980) 9). What is left of a row is the
 factor by which it grows beside those before it.
 
 A row that has become nearly a combination of those before it has lost its digits to them. Where a
-stretch between two events would do that, the rows are made orthonormal before it and after it. If
-that is not enough, it is carried in pieces, each so short that enough is left of every row. An
+stretch would do that, it is carried in pieces, each so short that enough is left of every row. An
 event takes no time: an impact of little restitution or little speed makes all rows nearly parallel
 at once. There the combinations of rows whose images are orthogonal are carried through the event
 again, so that nothing cancels. A row of which that leaves nothing has vanished: its logarithm is
@@ -16,23 +15,30 @@ again, so that nothing cancels. A row of which that leaves nothing has vanished:
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
 from vibroimpact.engine.motion import LIMIT, PASSED
-from vibroimpact.engine.state import EVENT, LARGEST, STEP, T, copy, parts_room, put, room
-from vibroimpact.engine.state import stretch_room as ended_room
+from vibroimpact.engine.state import (
+    EVENT,
+    LARGEST,
+    STEP,
+    T,
+    copy,
+    parts_room,
+    put,
+    room,
+    square_room,
+    stretch_room,
+)
 
-_rows_room = stack(LARGEST * LARGEST)
-work_room = stack(4 * LARGEST * LARGEST)
-"""Room for `grow`: for the rows that a stretch begins with, for what is left of them, and for both
-of a piece of it. It is filled with zeros wherever a function asks for it, and so is made once."""
+work_room = stack(2 * LARGEST * LARGEST)
+"""Room for what `rows_of` keeps besides the rows."""
 
 LEAST = 1e-4
 """Share of a row that must be left of it: rounding enters its logarithm by 2e-12."""
-_APART, _TINY = 1.0 - LEAST**2, 1e-200
-"""Square of the cosine between two rows of which as much is left; and of numbers near underflow."""
 NOTHING = 1e-13
 """Share of a row that is no more than rounding."""
 _CLEAN, _AGAIN = 0.5, 5
@@ -47,6 +53,32 @@ _MANY, _ALIKE = 100, 1e-9
 by how much of the largest their logarithms may differ."""
 
 
+class Rows(NamedTuple):
+    """Disturbances and their growth."""
+
+    q: Vector
+    """A row for each part of a state; those from `n` on are 0."""
+    start: Vector
+    """The rows with which a stretch begins."""
+    shares: Vector
+    """Of what each row was made of the orthonormal rows, up to itself (`orthonormalise`)."""
+    weights: Vector
+    """Of the squares of the parts, in the norm."""
+    logarithms: Vector
+    """Of how much each row has grown beside those before it since the section."""
+    n: int
+    parts: int
+
+
+@kernel
+def rows_of(
+    plan: Vector, q: Vector, work: Vector, weights: Vector, logarithms: Vector, count: int
+) -> Rows:
+    """Gather the memory of so many disturbances."""
+    parts = flow.parts(plan)
+    return Rows(q, work, beyond(work, parts * parts), weights, logarithms, count, parts)
+
+
 @kernel
 def weigh(plan: Vector, weights: Vector) -> None:
     """Write the weights of the squares of the parts in the norm."""
@@ -59,7 +91,7 @@ def weigh(plan: Vector, weights: Vector) -> None:
 def weigh_section(plan: Vector, state: Vector, weights: Vector) -> None:
     """The same of a section: what only follows others, as a pressed bumper does, counts nothing."""
     parts = flow.parts(plan)
-    units = _rows_room()
+    units = square_room()
     weigh(plan, weights)
     flow.unit_disturbances(plan, state, units)
     for i in range(parts):
@@ -68,10 +100,10 @@ def weigh_section(plan: Vector, state: Vector, weights: Vector) -> None:
 
 
 @kernel
-def _product(q: Vector, i: int, j: int, weights: Vector, parts: int) -> float:
+def _product(rows: Rows, i: int, j: int) -> float:
     total = 0.0
-    for k in range(parts):
-        total += weights[k] * q[i * parts + k] * q[j * parts + k]
+    for k in range(rows.parts):
+        total += rows.weights[k] * rows.q[i * rows.parts + k] * rows.q[j * rows.parts + k]
     return total
 
 
@@ -94,40 +126,26 @@ def _clear(q: Vector, i: int, parts: int) -> None:
 
 
 @kernel
-def orthonormalise(
-    q: Vector,
-    count: int,
-    weights: Vector,
-    parts: int,
-    shares: Vector,
-    least: float,
-    nothing: float,
-) -> int:
-    """Make rows orthonormal, each with those before it.
+def orthonormalise(rows: Rows, least: float, nothing: float) -> int:
+    """Make rows orthonormal, each with those before it, and write their `shares`.
 
-    Parameters
-    ----------
-    weights
-        Of the squares of the parts, in the norm.
-    shares
-        Written, a row of `parts` for each of q: of what it was made of the new rows, up to itself.
-        The last of these is what is left of it: negative if that is less than the share `least`.
-        It is −inf if that is at most the share `nothing`, and inf if it is no number; then the row
-        becomes 0.
+    The last share of a row is what is left of it, with a minus sign if that is less than the share
+    `least` of the row. A row of which no more than the share `nothing` is left becomes 0, with a
+    last share of −∞; so does one that is not finite, with +∞.
 
     Returns
     -------
     unsure
         The number of rows of which too little is left.
     """
-    unsure = 0
-    for i in range(count):
-        whole = _product(q, i, i, weights, parts)
+    q, parts, unsure = rows.q, rows.parts, 0
+    for i in range(rows.n):
+        whole = _product(rows, i, i)
         for j in range(i):
-            share = _product(q, i, j, weights, parts)
+            share = _product(rows, i, j)
             _add(q, i, -share, j, parts)
-            shares[i * parts + j] = share
-        left = _product(q, i, i, weights, parts)
+            rows.shares[i * parts + j] = share
+        left = _product(rows, i, i)
         size = math.sqrt(left)
         if nothing * nothing * whole < left < math.inf:
             _scale(q, i, 1.0 / size, parts)
@@ -138,25 +156,23 @@ def orthonormalise(
             size = -math.inf if left < math.inf else math.inf
         if not 0.0 < size < math.inf:
             unsure += 1
-        shares[i * parts + i] = size
+        rows.shares[i * parts + i] = size
     return unsure
 
 
 @apart
-def begin_rows(
-    plan: Vector, state: Vector, q: Vector, first: int, count: int, weights: Vector
-) -> None:
-    """Let rows begin, from number `first` on: each in a direction that those before it leave."""
-    parts = flow.parts(plan)
-    units = _rows_room()
+def begin_rows(plan: Vector, state: Vector, rows: Rows, first: int, last: int) -> None:
+    """Let rows begin, from `first` to before `last`: each in a direction that the others leave."""
+    q, parts = rows.q, rows.parts
+    units = square_room()
     flow.unit_disturbances(plan, state, units)
-    for i in range(first, count):
+    for i in range(first, last):
         size = 0.0
         part = 0
         while part < parts and not size > 0.0:
             copy(beyond(units, (i + part) % parts * parts), beyond(q, i * parts), parts)
-            whole = math.sqrt(_product(q, i, i, weights, parts))
-            size = _placed(q, i, weights, parts)
+            whole = math.sqrt(_product(rows, i, i))
+            size = _join(rows, i)
             if not size > 0.1 * whole:
                 size = 0.0
             part += 1
@@ -165,296 +181,156 @@ def begin_rows(
 
 
 @kernel
-def _placed(q: Vector, i: int, weights: Vector, parts: int) -> float:
+def _join(rows: Rows, i: int) -> float:
     """Make a new row orthonormal with those before it; return what is left of it."""
     for _ in range(2):  # the second time removes what rounding leaves
         for j in range(i):
-            _add(q, i, -_product(q, i, j, weights, parts), j, parts)
-    size = math.sqrt(_product(q, i, i, weights, parts))
+            _add(rows.q, i, -_product(rows, i, j), j, rows.parts)
+    size = math.sqrt(_product(rows, i, i))
     if size > 0.0:
-        _scale(q, i, 1.0 / size, parts)
+        _scale(rows.q, i, 1.0 / size, rows.parts)
     return size
 
 
 @kernel
 def grow(
-    plan: Vector,
-    before: Vector,
-    ended: Vector,
-    after: Vector,
-    notes: Vector,
-    q: Vector,
-    work: Vector,
-    count: int,
-    weights: Vector,
-    logarithms: Vector,
+    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, rows: Rows
 ) -> None:
     """Carry disturbances through a stretch: an observer (see `event_loop.observed`).
 
-    Parameters
-    ----------
-    notes
-        Those of `observers.tangent`.
-    q
-        Rows, one for each part; those from `count` on are 0. They are orthonormal at the section,
-        and left as they are carried for as long as they do not lose digits.
-    work
-        See `work_room`.
-    weights
-        Of the squares of the parts, in the norm.
-    logarithms
-        Of how much each row has grown beside those before it since the section, where rows have
-        been made orthonormal: added to.
+    The notes are those of `observers.tangent`. Rows that are orthonormal stay so. Of a stretch that
+    ends otherwise when it is carried in pieces, as rounding may decide at a grazing, the growth is
+    not known: the logarithms become NaN.
     """
-    parts = flow.parts(plan)
-    copy(q, work, count * parts)
-    flow.tangent(plan, before, ended, after, notes, q)
-    if not _are_apart(q, count, weights, parts) and _vanished(count, logarithms) < count:
-        _grow_apart(plan, before, ended, after, q, work, count, weights, logarithms)
+    copy(rows.q, rows.start, rows.n * rows.parts)
+    flow.tangent(plan, before, ended, after, notes, rows.q)
+    if orthonormalise(rows, LEAST, NOTHING) <= _vanished(rows):
+        add_up(plan, after, rows)
+    elif not _grow_in_pieces(plan, before, ended, rows):
+        for i in range(rows.n):
+            rows.logarithms[i] = math.nan
+        begin_rows(plan, after, rows, 0, rows.n)
 
 
 @kernel
-def _are_apart(q: Vector, count: int, weights: Vector, parts: int) -> bool:
-    """Whether more than the share `LEAST` is left of each of one or two rows, seen at a glance."""
-    one, other, common = 0.0, 0.0, 0.0
-    for k in range(parts):
-        one += weights[k] * q[k] * q[k]
-        if count > 1:
-            other += weights[k] * q[parts + k] * q[parts + k]
-            common += weights[k] * q[k] * q[parts + k]
-    if count == 1:
-        return _TINY < one < 1.0 / _TINY
-    return count == 2 and one * other > _TINY and common * common < _APART * one * other < math.inf
-
-
-@apart
-def _grow_apart(
-    plan: Vector,
-    before: Vector,
-    ended: Vector,
-    after: Vector,
-    q: Vector,
-    work: Vector,
-    count: int,
-    weights: Vector,
-    logarithms: Vector,
-) -> None:
-    """As `grow`, with rows that are made orthonormal before the stretch and after it."""
-    parts = flow.parts(plan)
-    start, shares, notes = work, beyond(work, parts * parts), parts_room()
-    for i in range(count, parts):
-        _clear(start, i, parts)
-    orthonormalise(start, count, weights, parts, shares, 0.0, 0.0)
-    add_up(plan, before, start, count, weights, shares, logarithms)
-    copy(start, q, parts * parts)
-    flow.tangent(plan, before, ended, after, notes, q)
-    unsure = orthonormalise(q, count, weights, parts, shares, LEAST, NOTHING)
-    if unsure > _vanished(count, logarithms):
-        _grow_in_pieces(plan, before, ended, after, q, work, count, weights, logarithms)
-    else:
-        add_up(plan, after, q, count, weights, shares, logarithms)
-
-
-@kernel
-def _vanished(count: int, logarithms: Vector) -> int:
+def _vanished(rows: Rows) -> int:
     """How many rows have vanished since the section; as many others are taken as vanished, too."""
     gone = 0
-    for i in range(count):
-        if logarithms[i] == -math.inf:
+    for i in range(rows.n):
+        if rows.logarithms[i] == -math.inf:
             gone += 1
     return gone
 
 
 @kernel
-def add_up(
-    plan: Vector,
-    after: Vector,
-    q: Vector,
-    count: int,
-    weights: Vector,
-    shares: Vector,
-    logarithms: Vector,
-) -> None:
+def add_up(plan: Vector, after: Vector, rows: Rows) -> None:
     """Add the logarithms of what is left; what has vanished begins anew after the other rows."""
-    parts = flow.parts(plan)
-    at = 0
-    for i in range(count):
-        size = shares[i * parts + i]
+    q, parts, at = rows.q, rows.parts, 0
+    for i in range(rows.n):
+        size = rows.shares[i * parts + i]
         if size > -math.inf:
-            logarithms[at] += math.log(abs(size))
+            rows.logarithms[at] += math.log(abs(size))
             if size == math.inf:  # a rigid stop is met without speed
-                begin_rows(plan, after, q, at, at + 1, weights)
+                begin_rows(plan, after, rows, at, at + 1)
             elif at < i:
                 copy(beyond(q, i * parts), beyond(q, at * parts), parts)
             at += 1
-    if at < count:
-        for i in range(at, count):
-            logarithms[i] = -math.inf
-        begin_rows(plan, after, q, at, count, weights)
+    if at < rows.n:
+        for i in range(at, rows.n):
+            rows.logarithms[i] = -math.inf
+        begin_rows(plan, after, rows, at, rows.n)
 
 
 @apart
-def _grow_in_pieces(
-    plan: Vector,
-    before: Vector,
-    ended: Vector,
-    after: Vector,
-    q: Vector,
-    work: Vector,
-    count: int,
-    weights: Vector,
-    logarithms: Vector,
-) -> None:
-    """As `grow`; q and what `work` has of it are what the whole stretch leaves."""
-    parts = flow.parts(plan)
-    start, shares, rest = work, beyond(work, parts * parts), beyond(work, 2 * parts * parts)
-    here, sums = room(), parts_room()
+def _grow_in_pieces(plan: Vector, before: Vector, ended: Vector, rows: Rows) -> bool:
+    """As `grow`, from the `start` of the rows on; return whether the pieces end as the stretch."""
+    q, start, shares, _, logarithms, count, parts = rows
+    here, there, part = room(), room(), stretch_room()
+    notes, last = parts_room(), parts_room()
     put(plan, before, here)
-    copy(logarithms, sums, count)
-    event, length = int(ended[EVENT]), ended[STEP]
-    if event == PASSED:
-        event = LIMIT
-    span = length if event == LIMIT else _BEFORE_EVENT * length
-    done = _pass_time(plan, here, span, start, rest, count, weights, sums)
-    if done and event != LIMIT:
-        limit = 2.0 * (length - span)
-        done = _pass_event(plan, here, event, limit, start, rest, count, weights, sums)
-    if done:
-        copy(start, q, count * parts)
-        copy(sums, logarithms, count)
-    else:  # in pieces, rounding makes it another stretch
-        add_up(plan, after, q, count, weights, shares, logarithms)
-
-
-@kernel
-def _pass_time(
-    plan: Vector,
-    here: Vector,
-    span: float,
-    rows: Vector,
-    work: Vector,
-    count: int,
-    weights: Vector,
-    logarithms: Vector,
-) -> bool:
-    """Carry a state and rows over a time without events; return whether there was none."""
-    parts = flow.parts(plan)
-    there, ended, notes, last = room(), ended_room(), parts_room(), parts_room()
-    q, shares = work, beyond(work, parts * parts)
     for i in range(count):
         last[i] = math.nan
-    done, pieces = 0.0, 0
-    piece, alike = _INSTANT * span, 1.0
-    number = 1.0
+    timed = int(ended[EVENT]) in (LIMIT, PASSED)
+    span = ended[STEP] if timed else _BEFORE_EVENT * ended[STEP]
+    done, pieces, number, alike = 0.0, 0, 1.0, 1.0
+    piece = _INSTANT * span
     while done < span:
         length = min(number * piece, span - done)
-        event = flow.advance(plan, here, length, ended, there)
+        event = flow.advance(plan, here, length, part, there)
         if event == PASSED:
-            length, number = ended[STEP], 1.0
+            length, number = part[STEP], 1.0
         elif event != LIMIT:
             return False
-        ended[EVENT], ended[T] = LIMIT, 0.0
-        copy(rows, q, parts * parts)
-        flow.tangent(plan, here, ended, there, notes, q)
-        unsure = orthonormalise(q, count, weights, parts, shares, LEAST, NOTHING)
-        if number == 1.0 and pieces > 0 and unsure > _vanished(count, logarithms):
-            piece = 0.5 * length
-            if not done + piece > done:
-                return False
-            continue
+        part[EVENT], part[T] = LIMIT, 0.0
+        copy(start, q, count * parts)
+        flow.tangent(plan, here, part, there, notes, q)
+        unsure = orthonormalise(rows, LEAST, NOTHING) > _vanished(rows)
         if number > 1.0:
-            _extrapolate(q, rows, number, count, weights, parts, shares, last, logarithms)
+            # Of many pieces that do alike, what too little is left of does as in the last one.
+            for i in range(count):
+                if 0.0 < shares[i * parts + i] < math.inf:
+                    logarithms[i] += math.log(shares[i * parts + i])
+                else:
+                    logarithms[i] += number * last[i]
+                    copy(beyond(start, i * parts), beyond(q, i * parts), parts)
+                    _join(rows, i)
             number = 1.0
+        elif unsure and pieces > 0 and done + 0.5 * length > done:
+            piece = 0.5 * length
+            continue
         else:
-            alike = 2.0 * alike if _is_alike(count, parts, shares, last) else 1.0
-            add_up(plan, there, q, count, weights, shares, logarithms)
+            alike = 2.0 * alike if _is_alike(rows, last) else 1.0
+            add_up(plan, there, rows)
             if pieces > _MANY:
                 number = max(min(alike, math.floor((span - done - length) / piece)), 1.0)
-        copy(q, rows, count * parts)
+        copy(q, start, count * parts)
         put(plan, there, here)
         done += length
         pieces += 1
         if pieces == 1:
             piece = span
-    return True
+    if timed:
+        return True
+    event = flow.advance(plan, here, 2.0 * (ended[STEP] - span), part, there)
+    part[EVENT], part[T] = event, 0.0
+    _pass_event(plan, here, part, there, rows)
+    return event == int(ended[EVENT])
 
 
 @kernel
-def _is_alike(count: int, parts: int, shares: Vector, last: Vector) -> bool:
+def _is_alike(rows: Rows, last: Vector) -> bool:
     """Whether a piece does what the last one did; it becomes the last one."""
-    most = 0.0
-    for i in range(count):
-        most = max(most, abs(math.log(abs(shares[i * parts + i]))))
-    alike = most < math.inf
-    for i in range(count):
-        here = math.log(abs(shares[i * parts + i]))
-        alike = alike and abs(here - last[i]) <= _ALIKE * most  # and no NaN
+    most, alike = 0.0, True
+    for i in range(rows.n):
+        most = max(most, abs(math.log(abs(rows.shares[i * rows.parts + i]))))
+    for i in range(rows.n):
+        here = math.log(abs(rows.shares[i * rows.parts + i]))
+        alike = alike and abs(here - last[i]) <= _ALIKE * most < math.inf  # and no NaN
         last[i] = here
     return alike
 
 
 @kernel
-def _extrapolate(
-    q: Vector,
-    rows: Vector,
-    number: float,
-    count: int,
-    weights: Vector,
-    parts: int,
-    shares: Vector,
-    last: Vector,
-    logarithms: Vector,
-) -> None:
-    """What many pieces do that do alike; what they leave too little of, by the last one."""
-    for i in range(count):
-        if 0.0 < shares[i * parts + i] < math.inf:
-            logarithms[i] += math.log(shares[i * parts + i])
-        else:
-            logarithms[i] += number * last[i]
-            copy(beyond(rows, i * parts), beyond(q, i * parts), parts)
-            _placed(q, i, weights, parts)
-
-
-@kernel
-def _pass_event(
-    plan: Vector,
-    here: Vector,
-    event: int,
-    limit: float,
-    rows: Vector,
-    work: Vector,
-    count: int,
-    weights: Vector,
-    logarithms: Vector,
-) -> bool:
-    """Carry rows through an event that comes at once; return whether it does."""
-    parts = flow.parts(plan)
-    there, ended, notes = room(), ended_room(), parts_room()
-    q, shares = work, beyond(work, parts * parts)
-    if flow.advance(plan, here, limit, ended, there) != event:
-        return False
-    ended[EVENT], ended[T] = event, 0.0
-    again = 0
-    while True:
-        copy(rows, q, parts * parts)
+def _pass_event(plan: Vector, here: Vector, ended: Vector, there: Vector, rows: Rows) -> None:
+    """Carry rows through an event that comes at once."""
+    q, start, shares, _, logarithms, count, parts = rows
+    notes = parts_room()
+    for again in range(_AGAIN):
+        copy(start, q, count * parts)
         flow.tangent(plan, here, ended, there, notes, q)
-        again += 1
-        unsure = orthonormalise(q, count, weights, parts, shares, _CLEAN, 0.0)
-        if unsure == 0 or again == _AGAIN:
+        if orthonormalise(rows, _CLEAN, 0.0) == 0 or again == _AGAIN - 1:
             break
         for i in range(count):
             size = abs(shares[i * parts + i])
             if size < math.inf:
                 logarithms[i] += math.log(size)
                 for j in range(i):
-                    _add(rows, i, -shares[i * parts + j], j, parts)
-                _scale(rows, i, 1.0 / size, parts)
+                    _add(start, i, -shares[i * parts + j], j, parts)
+                _scale(start, i, 1.0 / size, parts)
     for i in range(count):
         whole = 0.0
         for j in range(i + 1):
             whole += shares[i * parts + j] ** 2
         if whole < math.inf and shares[i * parts + i] ** 2 <= LEAST * LEAST * whole:
             shares[i * parts + i] = -math.inf
-    add_up(plan, there, q, count, weights, shares, logarithms)
-    copy(q, rows, count * parts)
-    return True
+    add_up(plan, there, rows)

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine import parameters as par
-from vibroimpact.engine.dispatch import acceleration_of, begin, expanded, following, more
+from vibroimpact.engine.dispatch import acceleration_of, begin, expanded, has_piece, next_piece
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.advance import gap_of, rate_of
 from vibroimpact.engine.linear.evaluate import horner, relaxed
 from vibroimpact.engine.linear.layout import ORDER, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
+from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import BOTH, FLIGHT, LIMIT, RIGHT, Motion, Stretch
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Stretch, arrived, facing
 
 
 @kernel
@@ -38,14 +39,11 @@ def slope_series(series: Vector, slope: Vector) -> float:
 @kernel
 def impact_depth(plan: Vector, stretch: Stretch) -> float:
     """Depth to which an impact would go without its stop; infinite where it would not turn."""
-    side = stretch.event & BOTH
-    if stretch.event == LIMIT or side == BOTH or stretch.after.mode & side:
+    event, after = stretch.event, stretch.after
+    if event not in (RIGHT, LEFT) or after.mode & event or not rigid(plan, event - 1):
         return math.inf
-    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] != par.RIGID:
-        return math.inf
-    _, fresh, u, _, right, left, z, age, clock = stretch.after
-    met = Motion(stretch.before.mode, fresh, u, stretch.arrival, right, left, z, age, clock)
-    back = acceleration_of(plan, met) * (-1.0 if side == RIGHT else 1.0)
+    met = arrived(stretch.before.mode, stretch.arrival, after)
+    back = -facing(event - 1) * acceleration_of(plan, met)
     if not back > 0.0:
         return math.inf
     depth: float = stretch.arrival * stretch.arrival / (2.0 * back)
@@ -59,11 +57,9 @@ def least_margin(plan: Vector, best: float, stretch: Stretch) -> float:
     `best` is that of the stretches before.
     """
     before = stretch.before
-    gap_r, rate_r = plan[par.BUMPER + par.GAP], plan[par.BUMPER + par.RATE]
-    gap_l, rate_l = plan[par.BUMPER + par.WIDTH + par.GAP], plan[par.BUMPER + par.WIDTH + par.RATE]
     series, slope = workspace(), workspace()
     cursor = begin(plan, before, stretch.step)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         high, _, _ = expanded(plan, cursor, series)
         way = slope_series(series, slope)
         y = -0.5
@@ -76,14 +72,14 @@ def least_margin(plan: Vector, best: float, stretch: Stretch) -> float:
             at = cursor.t + (cursor.i + 0.5 + y) * plan[cursor.table + H]
             if before.mode != FLIGHT:
                 found = -value
-            elif way > 0.0:
-                found = gap_r + relaxed(before.right, rate_r, at) - value
             else:
-                found = gap_l + relaxed(before.left, rate_l, at) + value
+                stop = 0 if way > 0.0 else 1
+                left = relaxed(before.faces[stop], rate_of(plan, stop), at)
+                found = gap_of(plan, stop) + left - facing(stop) * value
             if abs(found) < abs(best):
                 best = found
             way = -way
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
     depth = impact_depth(plan, stretch)
     if depth < abs(best):
         best = -depth

@@ -18,25 +18,25 @@ from vibroimpact.engine.dispatch import (
     coordinate,
     displacement,
     expanded,
-    face,
-    following,
+    has_piece,
     isolator_power,
     moment,
-    more,
+    next_piece,
     rest_level,
+    stop_deformation,
     stop_power,
     stop_push,
-    unkept,
+    unreturned_energy,
 )
 from vibroimpact.engine.forcing.dispatch import pull_series, value
 from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.advance import total_gap
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, RATE, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
-from vibroimpact.engine.linear.stops import rigid
+from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import (
-    BOTH,
     LEFT,
     LIMIT,
     RIGHT,
@@ -44,6 +44,10 @@ from vibroimpact.engine.motion import (
     TURNED,
     Motion,
     Stretch,
+    arrived,
+    direction,
+    facing,
+    main_stop,
 )
 from vibroimpact.engine.observers.extremes import Part, pushed, series_extremes
 from vibroimpact.engine.observers.margin import leading_sign
@@ -72,7 +76,7 @@ from vibroimpact.engine.observers.phases import (
     U_LEAST,
     WORK,
 )
-from vibroimpact.engine.observers.record import arrived, kind_of
+from vibroimpact.engine.observers.record import kind_of
 
 _X, _W = np.polynomial.legendre.leggauss(12)
 ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
@@ -87,9 +91,9 @@ class Range(NamedTuple):
 
 
 @kernel
-def column(side: int, name: int) -> int:
-    """Where in a row the stop of a side has a column."""
-    return SYSTEM + MASS + STOP * (side - 1) + name
+def column(stop: int, name: int) -> int:
+    """Where in a row a stop has a column."""
+    return SYSTEM + MASS + STOP * stop + name
 
 
 @kernel
@@ -115,16 +119,15 @@ def positive_part(series: Vector, high: float) -> float:
 
 @kernel
 def pressed_impulse(
-    plan: Vector, cursor: Any, before: Motion, side: int, high: float, shaking: Vector
+    plan: Vector, cursor: Any, before: Motion, stop: int, high: float, shaking: Vector
 ) -> float:
     """Impulse of a mass at rest on a rigid stop over a piece; it may be friction that holds it."""
     series = workspace()
-    facing = -1.0 if before.mode == LEFT else 1.0
-    facing = facing if side == RIGHT else -facing
+    way = direction(before.mode) * facing(stop)
     h, rate = plan[cursor.table + H], plan[cursor.table + RATE]
     for n in range(ORDER):
-        series[n] = -facing * rate * rate * shaking[n]
-    series[0] += rest_level(plan, before, side)
+        series[n] = -way * rate * rate * shaking[n]
+    series[0] += rest_level(plan, before, stop)
     impulse: float = h * positive_part(series, high)
     return impulse
 
@@ -141,7 +144,7 @@ def add_powers(
 ) -> None:
     """Add work, losses and impulses of what deforms on a piece, `width` steps long."""
     mode = before.mode
-    sign = -1.0 if mode == LEFT else 1.0
+    sign = direction(mode)
     h, rate = plan[cursor.table + H], plan[cursor.table + RATE]
     for n in range(len(WEIGHTS)):
         y = width * ABSCISSAE[n] - 0.5
@@ -152,10 +155,10 @@ def add_powers(
         here = moment(plan, cursor, before, x, sign * v, y)
         row[WORK] += share * v * (drive * rate * rate)
         row[LOST] += share * isolator_power(plan, here)
-        for side in range(1, 3):
-            if mode & side and not rigid(plan, side):
-                row[column(side, IMPULSE)] += share * stop_push(plan, here, side)
-                row[column(side, LOSES)] += share * stop_power(plan, here, side)
+        for stop in range(2):
+            if mode >> stop & 1 and not rigid(plan, stop):
+                row[column(stop, IMPULSE)] += share * stop_push(plan, here, stop)
+                row[column(stop, LOSES)] += share * stop_power(plan, here, stop)
 
 
 @kernel
@@ -163,7 +166,7 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
     """Add what happens between the ends of a stretch."""
     series, shaking = workspace(), workspace()
     mode = before.mode
-    sign = -1.0 if mode == LEFT else 1.0
+    sign = direction(mode)
     x_least = x_most = coordinate(plan, before)
     a_least = a_most = sign * acceleration(plan, before)
     carried = Range(a_least, a_least)
@@ -173,7 +176,7 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
         carried = Range(first, first)
     begun, at = row[LENGTH], 0.0
     cursor = begin(plan, before, step)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         rate = plan[cursor.table + RATE]
         h = plan[cursor.table + H]
         high, s, c = expanded(plan, cursor, series)
@@ -195,15 +198,15 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
             least, most, _, _ = series_extremes(series, -0.5, high, carried.least, carried.most)
             carried = Range(least, most)
         part = Part(high, s, c)
-        for side in range(1, 3):
-            if mode & side:
-                force = column(side, FORCE)
-                row[force] = pushed(plan, cursor, before, side, part, series, row[force])
-                if rigid(plan, side):
-                    row[column(side, IMPULSE)] += pressed_impulse(
-                        plan, cursor, before, side, high, shaking
+        for stop in range(2):
+            if mode >> stop & 1:
+                force = column(stop, FORCE)
+                row[force] = pushed(plan, cursor, before, stop, part, series, row[force])
+                if rigid(plan, stop):
+                    row[column(stop, IMPULSE)] += pressed_impulse(
+                        plan, cursor, before, stop, high, shaking
                     )
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
     if plan[par.BASE] != 0.0:
         carried = Range(a_least, a_most)
     if max(-a_least, a_most) > max(-row[SYSTEM + A_LEAST], row[SYSTEM + A_MOST]):
@@ -215,13 +218,12 @@ def measure_pieces(plan: Vector, before: Motion, step: float, row: Vector) -> No
     widen_row(row, CARRIED_LEAST, carried)
     low, top = displacement(plan, mode, x_least), displacement(plan, mode, x_most)
     widen_row(row, SYSTEM + U_LEAST, Range(min(low, top), max(low, top)))
-    for side in range(1, 3):
-        if mode & side:
+    for stop in range(2):
+        if mode >> stop & 1:
             depth = x_most
-            if mode == BOTH and side == LEFT:
-                apart = plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP]
-                depth = -x_least - apart
-            row[column(side, DEPTH)] = max(row[column(side, DEPTH)], depth)
+            if stop != main_stop(mode):
+                depth = -x_least - total_gap(plan)
+            row[column(stop, DEPTH)] = max(row[column(stop, DEPTH)], depth)
 
 
 @kernel
@@ -233,16 +235,16 @@ def measure_settling(plan: Vector, before: Motion, step: float, after: Motion, r
     last = arrived(before.mode, before.v, after)
     measure_pieces(plan, before, 0.0, row)
     measure_pieces(plan, last, 0.0, row)
-    for side in range(1, 3):
-        if before.mode & side:
-            push = stop_push(plan, before, side) + stop_push(plan, last, side)
-            row[column(side, IMPULSE)] += 0.5 * step * push
+    for stop in range(2):
+        if before.mode >> stop & 1:
+            push = stop_push(plan, before, stop) + stop_push(plan, last, stop)
+            row[column(stop, IMPULSE)] += 0.5 * step * push
 
 
 @kernel
-def relaxed_loss(plan: Vector, side: int, before: float, after: float) -> float:
+def relaxed_loss(plan: Vector, stop: int, before: float, after: float) -> float:
     """What a free bumper loses that relaxes from one deformation to the other."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    at = par.stop_at(stop)
     if plan[at + par.KIND] != par.KELVIN_VOIGT:
         return 0.0
     stiffness: float = plan[at + par.BUMPER_STIFFNESS]
@@ -250,13 +252,13 @@ def relaxed_loss(plan: Vector, side: int, before: float, after: float) -> float:
 
 
 @kernel
-def closing_speed(plan: Vector, side: int, velocity: float, after: Motion) -> float:
+def closing_speed(plan: Vector, stop: int, velocity: float, after: Motion) -> float:
     """How fast a stop and the mass approach each other; a free bumper relaxes towards the mass."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
-    closing = velocity if side == RIGHT else -velocity
+    at = par.stop_at(stop)
+    closing = facing(stop) * velocity
     if plan[at + par.KIND] == par.KELVIN_VOIGT and plan[at + par.BUMPER_DAMPING] > 0.0:
         rate = plan[at + par.BUMPER_STIFFNESS] / plan[at + par.BUMPER_DAMPING]
-        closing += rate * face(plan, after, side)
+        closing += rate * stop_deformation(plan, after, stop)
     return closing
 
 
@@ -264,15 +266,15 @@ def closing_speed(plan: Vector, side: int, velocity: float, after: Motion) -> fl
 def measure_event(plan: Vector, stretch: Stretch, row: Vector) -> None:
     """Write what the event is that ends a phase, and what the stop that it is at loses."""
     before, _, event, _, arrival, after = stretch
-    kind, side = kind_of(event, after)
-    row[KIND], row[AT_STOP] = kind, side - 1.0
+    kind, stop = kind_of(event, after)
+    row[KIND], row[AT_STOP] = kind, stop
     behind = acceleration(plan, after)
     sharp = acceleration(plan, arrived(before.mode, arrival, after))
     row[SYSTEM + A_EVENT] = max(abs(sharp), abs(behind))
-    if event in (RIGHT, LEFT) and rigid(plan, event):
+    if event in (RIGHT, LEFT) and rigid(plan, event - 1):
         # The rest of a chatter ends without velocity.
         last = before.v if before.fresh & SETTLING else arrival
-        row[column(side, HIT)] = 0.5 * (last * last - after.v * after.v)
+        row[column(stop, HIT)] = 0.5 * (last * last - after.v * after.v)
 
 
 @kernel
@@ -284,16 +286,13 @@ def measure_stretch(plan: Vector, stretch: Stretch, row: Vector) -> None:
         measure_settling(plan, before, step, after, row)
     else:
         measure_pieces(plan, before, step, row)
-    for side in range(1, 3):
-        loses = column(side, LOSES)
-        if before.mode & side:
-            row[loses] += unkept(plan, before, after, side)
+    for stop in range(2):
+        loses = column(stop, LOSES)
+        if before.mode >> stop & 1:
+            row[loses] += unreturned_energy(plan, before, after, stop)
         else:
-            freed, kept = (
-                (before.right, after.right) if side == RIGHT else (before.left, after.left)
-            )
-            row[loses] += relaxed_loss(plan, side, freed, kept)
-        row[column(side, CLOSING)] = closing_speed(plan, side, arrival, after)
+            row[loses] += relaxed_loss(plan, stop, before.faces[stop], after.faces[stop])
+        row[column(stop, CLOSING)] = closing_speed(plan, stop, arrival, after)
     row[SYSTEM + ARRIVAL], row[SYSTEM + PARTING] = arrival, after.v
     if event not in (LIMIT, TURNED):
         measure_event(plan, stretch, row)

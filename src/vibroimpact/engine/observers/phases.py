@@ -87,7 +87,7 @@ def note(
 ) -> None:
     """Add a stretch to its phase, and end that if an event at a stop does.
 
-    The last row of the room is that of `keep`; in the one before it a phase can only begin.
+    The last row of the room is that of `save_phase`; in the one before it a phase can only begin.
     """
     at, width = int(notes[WRITTEN]), int(notes[WIDTH])
     if at + 2 >= int(notes[CAPACITY]):
@@ -109,7 +109,7 @@ def full(notes: Vector) -> bool:
 
 
 @kernel
-def keep(notes: Vector, rows: Vector) -> None:
+def save_phase(notes: Vector, rows: Vector) -> None:
     """Keep the phase that goes on, in the last row of the room, until `put_back`."""
     width = int(notes[WIDTH])
     at, spare = width * int(notes[WRITTEN]), width * (int(notes[CAPACITY]) - 1)
@@ -118,7 +118,7 @@ def keep(notes: Vector, rows: Vector) -> None:
 
 @kernel
 def put_back(notes: Vector, rows: Vector, written: float) -> None:
-    """Forget what was added since `keep`, when so many phases were complete."""
+    """Forget what was added since `save_phase`, when so many phases were complete."""
     notes[WRITTEN] = written
     width = int(notes[WIDTH])
     at, spare = width * int(written), width * (int(notes[CAPACITY]) - 1)

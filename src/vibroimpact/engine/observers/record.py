@@ -9,13 +9,24 @@ from vibroimpact.engine.dispatch import (
     acceleration,
     begin,
     displacement,
-    face,
-    look,
+    sample_stretch,
+    stop_deformation,
 )
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.memory import beyond, stack, workspace
-from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, TURNED, Motion, Stretch
+from vibroimpact.engine.motion import (
+    BOTH,
+    DETACHED,
+    LIMIT,
+    TURNED,
+    Motion,
+    Stretch,
+    arrived,
+    direction,
+    facing,
+    main_stop,
+)
 
 # Rows of the samples: a row a variable, so that each is one piece of memory.
 DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE = range(5)
@@ -70,25 +81,26 @@ def start_notes(
 
 
 @kernel
-def seen(plan: Vector, side: int, mode: int, face: float, distance: float) -> float:
-    """Clearance of one side (the paper's eq. 4); zero in contact, NaN where there is no stop."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
+def clearance_of(plan: Vector, stop: int, mode: int, face: float, distance: float) -> float:
+    """Clearance of a stop (the paper's eq. 4); zero in contact, NaN where there is no stop."""
+    at = par.stop_at(stop)
     if plan[at + par.KIND] == par.ABSENT:
         return math.nan
-    return 0.0 if mode & side else plan[at + par.GAP] + (face - distance)
+    return 0.0 if mode >> stop & 1 else plan[at + par.GAP] + (face - distance)
 
 
 @kernel
 def write(plan: Vector, motion: Motion, out: Vector, columns: int, k: int) -> None:
     """Write the motion at this instant as sample k of so many columns."""
     mode, u = motion.mode, motion.u
-    right, left = face(plan, motion, RIGHT), face(plan, motion, LEFT)
     # Adding zero leaves no negative one.
     out[DISPLACEMENT * columns + k], out[VELOCITY * columns + k] = u + 0.0, motion.v + 0.0
     out[ACCELERATION * columns + k] = acceleration(plan, motion) + 0.0
-    out[RIGHT_FACE * columns + k], out[LEFT_FACE * columns + k] = right + 0.0, 0.0 - left
-    out[RIGHT_CLEARANCE * columns + k] = seen(plan, RIGHT, mode, right, u) + 0.0
-    out[LEFT_CLEARANCE * columns + k] = seen(plan, LEFT, mode, left, -u) + 0.0
+    for stop in range(2):
+        way, depth = facing(stop), stop_deformation(plan, motion, stop)
+        out[(RIGHT_FACE + stop) * columns + k] = way * depth + 0.0
+        clear = clearance_of(plan, stop, mode, depth, way * u)
+        out[(RIGHT_CLEARANCE + stop) * columns + k] = clear + 0.0
     out[CONTACT * columns + k] = TOUCHING[mode]
     out[MEMORY * columns + k] = motion.z + 0.0
 
@@ -107,35 +119,34 @@ def before_end(i: int, n: int, step: float, end: float) -> int:
 
 
 @kernel
-def faces(
-    plan: Vector, before: Motion, side: int, t: float, step: float, i: int, n: int, room: Vector
+def sample_stop(
+    plan: Vector, before: Motion, stop: int, t: float, step: float, i: int, n: int, room: Vector
 ) -> None:
-    """Write the face of a side at n samples and its clearance; what the mass does is there."""
-    mode, facing = before.mode, 1.0 if side == RIGHT else -1.0
-    row, clear = (RIGHT_FACE, RIGHT_CLEARANCE) if side == RIGHT else (LEFT_FACE, LEFT_CLEARANCE)
-    row, clear = row * BLOCK, clear * BLOCK
-    at = par.BUMPER + par.WIDTH * (side - 1)
-    other = par.BUMPER + par.WIDTH * (2 - side)
+    """Write the face of a stop at n samples and its clearance; what the mass does is there."""
+    mode, way = before.mode, facing(stop)
+    row, clear = (RIGHT_FACE + stop) * BLOCK, (RIGHT_CLEARANCE + stop) * BLOCK
+    at = par.stop_at(stop)
+    other = par.stop_at(1 - stop)
     gap, rate = plan[at + par.GAP], plan[at + par.RATE]
-    if mode & side:
+    if mode >> stop & 1:
         # The mode's own coordinate is the deformation of the right stop where both are pressed.
-        apart = gap + plan[other + par.GAP] if mode == BOTH and side == LEFT else 0.0
-        sign = facing if mode == BOTH else 1.0
+        apart = gap + plan[other + par.GAP] if stop != main_stop(mode) else 0.0
+        sign = way if mode == BOTH else 1.0
         for j in range(n):
-            room[row + j] = facing * (sign * room[j] - apart)
+            room[row + j] = way * (sign * room[j] - apart)
             room[clear + j] = 0.0
         return
-    deformation = before.right if side == RIGHT else before.left
+    deformation = before.faces[stop]
     for j in range(n):
         room[row + j] = 0.0
     if deformation > 0.0:
         for j in range(n):
             tau = max((i + j) * step - t, 0.0)
-            room[row + j] = facing * relaxed(deformation, rate, tau)
+            room[row + j] = way * relaxed(deformation, rate, tau)
     if plan[at + par.KIND] == par.ABSENT:
         gap = math.nan
     for j in range(n):
-        room[clear + j] = gap + facing * (room[row + j] - room[U * BLOCK + j])
+        room[clear + j] = gap + way * (room[row + j] - room[U * BLOCK + j])
 
 
 @inlined
@@ -159,18 +170,18 @@ def sample(
         return
     series, room = workspace(), samples()
     mode = before.mode
-    sign = -1.0 if mode == LEFT else 1.0
+    sign = direction(mode)
     contact = TOUCHING[mode]
     count = int(notes[COLUMNS])
     remembers = plan[par.HYSTERETIC] != 0.0  # else nobody looks at that row
     cursor = begin(plan, before, reach)
     while i < end:
         n = min(end - i, BLOCK)
-        cursor = look(plan, cursor, before, t, step, i, n, series, room)
+        cursor = sample_stretch(plan, cursor, before, t, step, i, n, series, room)
         for j in range(n):
             room[U * BLOCK + j] = displacement(plan, mode, room[j])
-        faces(plan, before, RIGHT, t, step, i, n, room)
-        faces(plan, before, LEFT, t, step, i, n, room)
+        for stop in range(2):
+            sample_stop(plan, before, stop, t, step, i, n, room)
         k = int(notes[BEGIN]) + i
         put(flat, DISPLACEMENT * count + k, room, U * BLOCK, n, 1.0)
         put(flat, VELOCITY * count + k, room, VELOCITY * BLOCK, n, sign)
@@ -187,18 +198,11 @@ def sample(
 
 @kernel
 def kind_of(event: int, after: Motion) -> tuple[float, int]:
-    """What happens at the end of a stretch, and at the stop of which side."""
-    side = after.fresh & BOTH
+    """What happens at the end of a stretch, and at which stop."""
+    stop = (after.fresh & BOTH) - 1
     if event == DETACHED:
-        return DETACHMENT, side
-    return (CONTACT_BEGINS if after.mode & side else IMPACT), side
-
-
-@kernel
-def arrived(mode: int, arrival: float, after: Motion) -> Motion:
-    """The motion just before an event, from that just after it."""
-    _, fresh, u, _, right, left, z, age, clock = after
-    return Motion(mode, fresh, u, arrival, right, left, z, age, clock)
+        return DETACHMENT, stop
+    return (CONTACT_BEGINS if after.mode >> stop & 1 else IMPACT), stop
 
 
 @kernel
@@ -212,11 +216,14 @@ def write_down(
     if event not in (LIMIT, TURNED) and notes[WRITTEN] < notes[LAST]:
         row = beyond(events, EVENT * int(notes[WRITTEN]))
         row[E_CYCLE], row[E_TIME] = notes[NUMBER], t + step
-        kind, side = kind_of(event, after)
+        kind, stop = kind_of(event, after)
         row[E_KIND] = kind
-        row[E_SIDE] = 1.0 if side == RIGHT else -1.0
+        row[E_SIDE] = facing(stop)
         row[E_U], row[E_V] = after.u, arrival
-        row[E_RIGHT], row[E_LEFT] = face(plan, after, RIGHT), -face(plan, after, LEFT)
+        row[E_RIGHT], row[E_LEFT] = (
+            stop_deformation(plan, after, 0),
+            -stop_deformation(plan, after, 1),
+        )
         row[E_BEFORE] = acceleration(plan, arrived(before.mode, arrival, after))
         row[E_BEHIND] = acceleration(plan, after)
         row[E_MEMORY] = after.z

@@ -14,7 +14,8 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine import saltation
 from vibroimpact.engine.dispatch import acceleration_of, carry
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Stretch
+from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Stretch, arrived
+from vibroimpact.engine.state import DAMPING, HITS
 
 DISTURBANCE = 5
 """Components: displacement, velocity, right and left bumper, signed as in the paper (eq. 3), and
@@ -35,15 +36,15 @@ def tie(mode: int, q: Vector, at: int) -> None:
 @kernel
 def meet(plan: Vector, event: int, arrival: float, after: Motion, q: Vector, rows: int) -> None:
     """Let disturbances (rows of q) meet a rigid stop, or one of a spring and a dashpot."""
-    stop = par.BUMPER + par.WIDTH * (event - 1)
+    stop = par.stop_at(event - 1)
     if plan[stop + par.KIND] != par.RIGID:
         for i in range(rows):
             at = i * DISTURBANCE
             saltation.contact(q, at, at + 1 + event, plan[stop + par.BUMPER_DAMPING])
         return
-    mode, fresh, u, _, right, left, z, age, clock = after
-    arriving = Motion(mode, fresh, u, arrival, right, left, z, age, clock)
-    before, behind = acceleration_of(plan, arriving), acceleration_of(plan, after)
+    mode = after.mode
+    before = acceleration_of(plan, arrived(mode, arrival, after))
+    behind = acceleration_of(plan, after)
     for i in range(rows):
         at = i * DISTURBANCE
         if mode & event:
@@ -65,12 +66,12 @@ def unit_disturbances(plan: Vector, mode: int, q: Vector) -> None:
             q[i * DISTURBANCE + j] = 1.0 if i == j else 0.0
     if plan[par.HYSTERETIC] == 0.0:
         q[MEMORY * DISTURBANCE + MEMORY] = 0.0
-    for side in range(1, 3):
-        at = par.BUMPER + par.WIDTH * (side - 1)
-        if mode & side:
+    for stop in range(2):
+        at = par.stop_at(stop)
+        if mode >> stop & 1:
             own = plan[at + par.DISSIPATION] < 0.0
-            q[1 + side] = 1.0 if plan[at + par.KIND] <= par.RIGID else 0.0
-            q[(1 + side) * DISTURBANCE + 1 + side] = 1.0 if own else 0.0
+            q[2 + stop] = 1.0 if plan[at + par.KIND] <= par.RIGID else 0.0
+            q[(2 + stop) * DISTURBANCE + 2 + stop] = 1.0 if own else 0.0
 
 
 @kernel
@@ -78,15 +79,11 @@ def contraction(plan: Vector, event: int, after: Motion) -> float:
     """Minus the logarithm of the area that an event leaves of (u, u̇): 2 ln(1/e) at an impact."""
     if event not in (RIGHT, LEFT):
         return 0.0
-    stop = par.BUMPER + par.WIDTH * (event - 1)
+    stop = par.stop_at(event - 1)
     if plan[stop + par.KIND] != par.RIGID:
         return 0.0
     e: float = plan[stop + par.RESTITUTION]
     return math.inf if after.mode & event or e == 0.0 else -2.0 * math.log(e)
-
-
-DAMPING, HITS_RIGHT, HITS_LEFT = range(3)
-"""Of the notes: the integral of the damping, contacts begun on each side."""
 
 
 @kernel
@@ -94,4 +91,4 @@ def carry_all(plan: Vector, notes: Vector, q: Vector, stretch: Stretch) -> None:
     """Carry a disturbance of each component, the rows of q, through one stretch."""
     notes[DAMPING] += carry(plan, stretch, q, DISTURBANCE)
     if stretch.event in (RIGHT, LEFT):
-        notes[HITS_RIGHT if stretch.event == RIGHT else HITS_LEFT] += 1.0
+        notes[HITS + stretch.event - 1] += 1.0

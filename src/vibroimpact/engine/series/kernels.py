@@ -18,10 +18,10 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.compiler import PLAIN, intrinsic, overload, types
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.series import layout as at
-from vibroimpact.engine.series import program, root, slopes, step
-from vibroimpact.engine.series.emit import REAL, WHOLE, Code, Plain
+from vibroimpact.engine.series import program, root_variable, slopes, step
+from vibroimpact.engine.series.code_generation import REAL, WHOLE, Code, Plain
 from vibroimpact.engine.series.laws import drag
-from vibroimpact.engine.series.root import Rooted
+from vibroimpact.engine.series.root_variable import Rooted
 from vibroimpact.engine.series.step import LAWS, Shape
 from vibroimpact.law_numbers import WORDS
 
@@ -61,11 +61,11 @@ class Slot(IntEnum):
     OWN = 36  # of the isolator, then of each stop
 
 
-def pushed(rig: Any, side: int) -> Any:
-    """What a `Shape` says of the stop on a side (1 right, 2 left)."""
-    kind = rig[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
+def pushed(rig: Any, stop: int) -> Any:
+    """What a `Shape` says of a stop."""
+    kind = rig[par.stop_at(stop) + par.KIND]
     if kind == par.FORMULA:
-        return side, program.unpack(rig, side)
+        return stop + 1, program.unpack(rig, stop + 1)
     return {par.POWER_LAW: 1, par.JANKOWSKI: 2}.get(kind, 0)
 
 
@@ -76,13 +76,13 @@ Kernel = tuple[tuple[Callable[..., None], ...], Any]
 def kernels(rig: Any) -> dict[int, Kernel]:
     """Each kernel that a rig may call, by slot."""
     laws = tuple(module.shape(rig) for module in LAWS)
-    right, left = pushed(rig, 1), pushed(rig, 2)
+    right, left = pushed(rig, 0), pushed(rig, 1)
     found = {Slot.FREE: Shape(laws)}
     if right:
         found[Slot.RIGHT] = Shape(laws, right)
     if left:
         found[Slot.LEFT] = Shape(laws, left)
-    if rig[par.BUMPER + par.GAP] + rig[par.BUMPER + par.WIDTH + par.GAP] < 0.0 and left:
+    if rig[par.stop_at(0) + par.GAP] + rig[par.stop_at(1) + par.GAP] < 0.0 and left:
         found[Slot.OTHER] = Shape(laws, 0, left)
         if right:
             found[Slot.BOTH] = Shape(laws, right, left)
@@ -95,20 +95,23 @@ def kernels(rig: Any) -> dict[int, Kernel]:
     for which in range(3):
         symbols = program.unpack(rig, which)
         if symbols:
-            every[Slot.OWN + STRIDE * which] = (slopes.valued, slopes.asked), (which, symbols)
-    for side, slot in ((1, Slot.ROOT_RIGHT), (2, Slot.ROOT_LEFT)):
-        deep = rooted(rig, side, laws)
+            every[Slot.OWN + STRIDE * which] = (
+                (slopes.valued, slopes.event_series),
+                (which, symbols),
+            )
+    for stop, slot in enumerate((Slot.ROOT_RIGHT, Slot.ROOT_LEFT)):
+        deep = rooted(rig, stop, laws)
         if deep is not None:
-            every[int(slot)] = (root.rooted, root.again), deep
+            every[int(slot)] = (root_variable.rooted, root_variable.again), deep
     return every
 
 
-def rooted(rig: Any, side: int, laws: tuple[Any, ...]) -> Rooted | None:
+def rooted(rig: Any, stop: int, laws: tuple[Any, ...]) -> Rooted | None:
     """The shape of the kernel in a root of a stop's deformation, if there is one."""
-    kind = pushed(rig, side)
+    kind = pushed(rig, stop)
     if kind not in (1, 2) or rig[par.DRAG] not in (1.0, 2.0):
         return None
-    at_stop = par.BUMPER + par.WIDTH * (side - 1)
+    at_stop = par.stop_at(stop)
     exponent = float(rig[at_stop + par.EXPONENT])
     for which in (2, 3, 4):
         power = round(which * exponent)
@@ -125,13 +128,13 @@ def laws_code(rig: Any) -> int:
     code += 4 if rig[par.SINH] != 0.0 else 0
     if rig[par.DRAG] != 1.0 and rig[par.DAMPING] != 0.0:
         code += _SQUARE if rig[par.DRAG] == 2.0 else _ANY_POWER
-    for side in range(2):
-        at_stop = par.BUMPER + par.WIDTH * side
+    for stop in range(2):
+        at_stop = par.stop_at(stop)
         if rig[at_stop + par.KIND] == par.POWER_LAW:
-            code += 32 << 2 * side
+            code += 32 << 2 * stop
         elif rig[at_stop + par.KIND] == par.JANKOWSKI:
-            code += 64 << 2 * side
-    if rig[par.BUMPER + par.GAP] + rig[par.BUMPER + par.WIDTH + par.GAP] < 0.0:
+            code += 64 << 2 * stop
+    if rig[par.stop_at(0) + par.GAP] + rig[par.stop_at(1) + par.GAP] < 0.0:
         code += 512
     if rig[par.HYSTERETIC] != 0.0:
         bends = rig[par.KNEE] != 0.0 or rig[par.TURNING] != 0.0
@@ -181,9 +184,9 @@ def prepare(memory: Vector, rig: Vector) -> None:
     addresses = memory.view(np.int64)
     for slot, (formulas, shape) in kernels(rig).items():
         if slot in (Slot.ROOT_RIGHT, Slot.ROOT_LEFT):
-            side = 0 if slot == Slot.ROOT_RIGHT else 1
-            exponent = rig[par.BUMPER + par.WIDTH * side + par.EXPONENT]
-            memory[at.ROOTS + 2 * side : at.ROOTS + 2 * side + 2] = exponent, shape.root
+            stop = 0 if slot == Slot.ROOT_RIGHT else 1
+            exponent = rig[par.stop_at(stop) + par.EXPONENT]
+            memory[at.ROOTS + 2 * stop : at.ROOTS + 2 * stop + 2] = exponent, shape.root
         if not PLAIN:
             for i, formula in enumerate(formulas):
                 addresses[at.KERNELS + slot + i] = address(formula, shape)

@@ -184,7 +184,7 @@ def valued(machine: Any, shape: tuple[int, tuple[int, ...]]) -> None:
         machine.store(at.OWN_FORCE + i, one * per_mass)
 
 
-def asked(machine: Any, shape: tuple[int, tuple[int, ...]]) -> None:
+def event_series(machine: Any, shape: tuple[int, tuple[int, ...]]) -> None:
     """Write the series of a stop's formula over the step in hand, in steps, to ASKED.
 
     The deformation is `level` + `facing` x. The series of x are in units of time.

@@ -14,17 +14,17 @@ from typing import Any, NamedTuple
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program
 from vibroimpact.engine.series.algebra import Rate, Series, Shifted, State
-from vibroimpact.engine.series.emit import LANES
-from vibroimpact.engine.series.ends import (
+from vibroimpact.engine.series.code_generation import LANES
+from vibroimpact.engine.series.functions import cosine, exponential, power, sine, tanh
+from vibroimpact.engine.series.laws import contact, drag, hysteresis, own, polynomial
+from vibroimpact.engine.series.laws import exponential as hardening
+from vibroimpact.engine.series.step_ends import (
     Along,
     along_of,
     end_of,
     memory_end,
     sums,
 )
-from vibroimpact.engine.series.functions import cosine, exponential, power, sine, tanh
-from vibroimpact.engine.series.laws import contact, drag, hysteresis, own, polynomial
-from vibroimpact.engine.series.laws import exponential as hardening
 from vibroimpact.engine.series.summation import tree
 
 EARLY = 6

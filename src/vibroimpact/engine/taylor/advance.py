@@ -8,11 +8,12 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import change_rate, let_go, stepped, turned, value
+from vibroimpact.engine.forcing.dispatch import change_rate, release_time, stepped, turned, value
 from vibroimpact.engine.jit import Vector, apart, kernel
-from vibroimpact.engine.linear.advance import Ended, bumpers
-from vibroimpact.engine.linear.evaluate import comes_back, relaxed
-from vibroimpact.engine.linear.stops import impact, rest, rigid, settle
+from vibroimpact.engine.linear.advance import Ended, gap_of, place_at, rate_of
+from vibroimpact.engine.linear.evaluate import comes_back
+from vibroimpact.engine.linear.stops import impact, relaxed_faces, rest, settle
+from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.motion import (
     DETACHED,
     GIVEN_UP,
@@ -25,12 +26,13 @@ from vibroimpact.engine.motion import (
     SLIPS_RIGHT,
     TURNED,
     Motion,
+    changed,
+    facing,
 )
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
-from vibroimpact.engine.series.march import headed
-from vibroimpact.engine.taylor.ahead import NOT_YET, ahead_of, branched, stepped_on, varies
-from vibroimpact.engine.taylor.frame import (
+from vibroimpact.engine.series.step_control import write_header
+from vibroimpact.engine.taylor.mode_forces import (
     creeps,
     curved_stop,
     frame_of,
@@ -42,8 +44,8 @@ from vibroimpact.engine.taylor.frame import (
     without_friction,
 )
 from vibroimpact.engine.taylor.pieces import coordinate, placed
-from vibroimpact.engine.taylor.press import MOST, pressed_for, root_of
-from vibroimpact.engine.taylor.watch import (
+from vibroimpact.engine.taylor.root_steps import MOST, pressed_for, root_of
+from vibroimpact.engine.taylor.step_events import (
     CENTRED,
     DETACHED_LEFT,
     EASED,
@@ -52,27 +54,24 @@ from vibroimpact.engine.taylor.watch import (
     ends_of,
     search,
 )
+from vibroimpact.engine.taylor.step_setup import NOT_YET, ahead_of, branched, stepped_on, varies
 
 _LACKS, _TOO_MANY = -2, -3
 """Why a stretch is given up: kernels, or an end after any number of steps."""
 
 
 @apart
-def freed(plan: Vector, motion: Motion, t: float) -> Motion:
+def with_relaxed_stops(plan: Vector, motion: Motion, t: float) -> Motion:
     """The same motion with the stops that it does not touch relaxed for t seconds."""
-    mode, fresh, u, v, right, left, z, age, clock = motion
-    if not mode & RIGHT and right != 0.0:
-        right = relaxed(right, plan[par.BUMPER + par.RATE], t)
-    if not mode & LEFT and left != 0.0:
-        left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
-    return Motion(mode, fresh, u, v, right, left, z, age + t, clock)
+    mode, fresh, u, v, faces, z, age, clock = motion
+    faces = relaxed_faces(plan, mode, faces, t)
+    return Motion(mode, fresh, u, v, faces, z, age + t, clock)
 
 
 @kernel
 def held(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Held by friction until the forces exceed it, or a free bumper comes back to the mass."""
-    mode, _, u, _, right, left, z, age, clock = motion
-    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
+    mode, _, u, _, faces, z, age, clock = motion
     s, c = clock
     # `still` − A_t is what friction holds against.
     still = without_friction(plan, motion) + value(plan, s, c)
@@ -82,58 +81,50 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
     after = turned(plan, s, c, limit)
     for way in range(2):
         sign = -1.0 if way == 0 else 1.0  # to the right where −A_t exceeds a level
-        free, s1, c1 = let_go(plan, sign, most + sign * still, s, c, t)
+        free, s1, c1 = release_time(plan, sign, most + sign * still, s, c, t)
         if free < t:
             event, t, after = TURNED, free, (s1, c1)
             slips = SLIPS_RIGHT if way == 0 else SLIPS_LEFT
-    for side in range(1, 3):
-        memory, rate = (right, rate_r) if side == RIGHT else (left, rate_l)
-        gap, reach = (gap_r, u) if side == RIGHT else (gap_l, -u)
-        depth = reach - gap
-        if not mode & side and memory > 0.0 and depth > 0.0 and rate < math.inf:
+    for stop in range(2):
+        memory, rate = faces[stop], rate_of(plan, stop)
+        depth = facing(stop) * u - gap_of(plan, stop)
+        if not mode >> stop & 1 and memory > 0.0 and depth > 0.0 and rate < math.inf:
             meets = comes_back(memory, depth, rate)
             if meets < t:
-                event, t, after = side, meets, turned(plan, s, c, meets)
-    if not mode & RIGHT:
-        right = max(u - gap_r, 0.0) if event == RIGHT else relaxed(right, rate_r, t)
-    if not mode & LEFT:
-        left = max(-u - gap_l, 0.0) if event == LEFT else relaxed(left, rate_l, t)
-    if event in (RIGHT, LEFT):
-        return event, t, 0.0, Motion(mode | event, event, u, 0.0, right, left, z, 0.0, after)
+                event, t, after = 1 + stop, meets, turned(plan, s, c, meets)
+    touched = event in (RIGHT, LEFT)
+    faces = relaxed_faces(plan, mode, faces, t)
+    if touched:
+        stop = event - 1
+        faces = changed(faces, stop, max(facing(stop) * u - gap_of(plan, stop), 0.0))
+        return event, t, 0.0, Motion(mode | event, event, u, 0.0, faces, z, 0.0, after)
     fresh = slips if event == TURNED else 0
     if not mode and event == TURNED:  # away from what it touches, at first without acceleration
-        if slips == SLIPS_LEFT and u >= gap_r + right:
-            fresh |= RIGHT | RELEASED
-        elif slips == SLIPS_RIGHT and -u >= gap_l + left:
-            fresh |= LEFT | RELEASED
-    return event, t, 0.0, Motion(mode, fresh, u, 0.0, right, left, z, age + t, after)
+        stop = 0 if slips == SLIPS_LEFT else 1
+        if facing(stop) * u >= gap_of(plan, stop) + faces[stop]:
+            fresh |= 1 << stop | RELEASED
+    return event, t, 0.0, Motion(mode, fresh, u, 0.0, faces, z, age + t, after)
 
 
 @kernel
-def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
+def motion_after_event(plan: Vector, event: int, here: Motion, t: float) -> Ended:
     """The motion just after the event, exactly there."""
-    mode, _, u, v, right, left, z, _, clock = here
-    gap_r, gap_l, _, _ = bumpers(plan)
+    mode, _, u, v, faces, z, _, clock = here
     if event in (RIGHT, LEFT):
+        stop = event - 1
         if not mode:  # else the pressed bumper's deformation is the primary quantity
-            u = gap_r + right if event == RIGHT else -(gap_l + left)
-        if curved_stop(plan, event):
-            if event == RIGHT:
-                right = abs(v)
-            else:
-                left = abs(v)
-        after = Motion(mode | event, event, u, v, right, left, z, 0.0, clock)
+            u = place_at(plan, stop, faces[stop])
+        if curved_stop(plan, stop):
+            faces = changed(faces, stop, abs(v))
+        after = Motion(mode | event, event, u, v, faces, z, 0.0, clock)
         return event, t, v, after
     if event in (DETACHED, DETACHED_LEFT):
-        side = RIGHT if event == DETACHED else LEFT
-        damped = plan[par.BUMPER + par.WIDTH * (side - 1) + par.BUMPER_DAMPING] != 0.0
-        if curved_stop(plan, side) or not damped:
-            if side == RIGHT:
-                right = 0.0
-            else:
-                left = 0.0
-            u = gap_r + right if side == RIGHT else -(gap_l + left)
-        after = Motion(mode & ~side, side, u, v, right, left, z, 0.0, clock)
+        stop = 0 if event == DETACHED else 1
+        bit = 1 << stop
+        if curved_stop(plan, stop) or plan[par.stop_at(stop) + par.BUMPER_DAMPING] == 0.0:
+            faces = changed(faces, stop, 0.0)
+            u = place_at(plan, stop, 0.0)
+        after = Motion(mode & ~bit, bit, u, v, faces, z, 0.0, clock)
         return DETACHED, t, v, after
     arrival = v
     if event == TURNED:
@@ -142,28 +133,27 @@ def happened(plan: Vector, event: int, here: Motion, t: float) -> Ended:
         pass
     elif event == CENTRED:
         u = 0.0
-        if mode & RIGHT and plan[par.BUMPER + par.KIND] == par.KELVIN_VOIGT:
-            right = -gap_r
-        if mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.KELVIN_VOIGT:
-            left = -gap_l
+        for stop in range(2):
+            if mode >> stop & 1 and plan[par.stop_at(stop) + par.KIND] == par.KELVIN_VOIGT:
+                faces = changed(faces, stop, -gap_of(plan, stop))
     elif event == YIELDS:
         z = math.copysign(plan[par.YIELD], z)
     else:
         z = 0.0
-    return TURNED, t, arrival, Motion(mode, 0, u, v, right, left, z, 0.0, clock)
+    return TURNED, t, arrival, Motion(mode, 0, u, v, faces, z, 0.0, clock)
 
 
 @kernel
 def still(plan: Vector, motion: Motion, limit: float) -> Ended:
     """At rest on a rigid stop, or held by friction, until something lets go of the mass."""
-    headed(plan, 0.25 / change_rate(plan), False)  # by which several harmonics find their way
+    write_header(plan, 0.25 / change_rate(plan), False)  # by which several harmonics find their way
     if stuck(plan, motion) or idle(plan, motion):
         return held(plan, motion, limit)
     return rest(plan, motion, limit)
 
 
 @apart
-def aside(plan: Vector, motion: Motion, limit: float) -> Ended:
+def advance_without_steps(plan: Vector, motion: Motion, limit: float) -> Ended:
     """A motion that is not followed by steps: it settles, stands still, or is given up."""
     if motion.fresh & SETTLING:
         return settle(plan, motion, limit)
@@ -176,8 +166,8 @@ def aside(plan: Vector, motion: Motion, limit: float) -> Ended:
 def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next event, or for the time `limit` if that comes first."""
     if motion.fresh & SETTLING or stands(plan, motion) or plan[LACKING] != 0.0:
-        return aside(plan, motion, limit)
-    mode, _, _, _, right, left, _, age, _ = motion
+        return advance_without_steps(plan, motion, limit)
+    mode, _, _, _, faces, _, age, _ = motion
     frame = frame_of(plan, mode)
     sign = frame.sign
     hysteretic = plan[par.HYSTERETIC] != 0.0
@@ -220,7 +210,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
             z = ends.z1 if hysteretic else z
         clock = after
         speed = sign * v * ahead.per_unit
-        here, there = Motion(mode, 0, 0.0, speed, right, left, sign * z, age, clock), False
+        here, there = Motion(mode, 0, 0.0, speed, faces, sign * z, age, clock), False
         t += step
         if event != LIMIT or not t < limit:
             break
@@ -234,10 +224,10 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
 @apart
 def abandoned(plan: Vector, here: Motion, t: float) -> Ended:
     """Give the motion up; where the terms of its series left the range of numbers, so did it."""
-    mode, fresh, u, v, right, left, z, age, clock = here
+    mode, fresh, u, v, faces, z, age, clock = here
     if plan[LACKING] == OVERFLOWED:
         u = math.inf
-    return GIVEN_UP, t, v, Motion(mode, fresh, u, v, right, left, z, age, clock)
+    return GIVEN_UP, t, v, Motion(mode, fresh, u, v, faces, z, age, clock)
 
 
 @apart
@@ -245,14 +235,14 @@ def stretch_end(
     plan: Vector, event: int, here: Motion, x: float, there: bool, t: float, limit: float
 ) -> Ended:
     """What a stretch ends with; the mass is where the coordinate x says, if not there already."""
-    here = freed(plan, here if there else placed(plan, here, x), t)
+    here = with_relaxed_stops(plan, here if there else placed(plan, here, x), t)
     if event == _LACKS:
         return abandoned(plan, here, t)
     if event == _TOO_MANY:
         return GIVEN_UP, t, here.v, here
     if event == LIMIT:
         return LIMIT, limit, here.v, here
-    event, t, arrival, after = happened(plan, event, here, t)
-    if event in (RIGHT, LEFT) and rigid(plan, event):
+    event, t, arrival, after = motion_after_event(plan, event, here, t)
+    if event in (RIGHT, LEFT) and rigid(plan, event - 1):
         return impact(plan, event, t, arrival, after)
     return event, t, arrival, after

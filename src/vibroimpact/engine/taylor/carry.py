@@ -12,8 +12,19 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine import saltation
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.tables import resting
-from vibroimpact.engine.motion import DETACHED, LEFT, RIGHT, SETTLING, TURNED, Motion, Stretch
+from vibroimpact.engine.linear.tables import resting, rigid
+from vibroimpact.engine.motion import (
+    BOTH,
+    DETACHED,
+    LEFT,
+    RIGHT,
+    SETTLING,
+    TURNED,
+    Motion,
+    Stretch,
+    facing,
+    main_stop,
+)
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY, contraction, meet
 from vibroimpact.engine.series.layout import (
     BY_CHI,
@@ -28,8 +39,8 @@ from vibroimpact.engine.series.layout import (
     ROOM,
 )
 from vibroimpact.engine.series.values import Frame, Laws
-from vibroimpact.engine.taylor.ahead import varies
-from vibroimpact.engine.taylor.frame import (
+from vibroimpact.engine.taylor.laws import laws_of
+from vibroimpact.engine.taylor.mode_forces import (
     acceleration_of,
     branch_of,
     curved_stop,
@@ -40,8 +51,8 @@ from vibroimpact.engine.taylor.frame import (
     stuck,
     without_friction,
 )
-from vibroimpact.engine.taylor.laws import laws_of
 from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, sloped
+from vibroimpact.engine.taylor.step_setup import varies
 
 _SLOPES_LAST = 2.0**-47
 """What the last term of the slopes' series may be; it enters a disturbance by a 20th."""
@@ -70,13 +81,12 @@ def _convolved(plan: Vector, a: int, b: int, n: int) -> float:
 
 
 @kernel
-def _by_speed(plan: Vector, mode: int, mirrored: bool, speed: float) -> float:
+def _by_speed(plan: Vector, stop: int, speed: float) -> float:
     """From the slope by a stop's dissipation to that by the speed at which the stop was met.
 
     Only of a stop of restitution does that speed make the dissipation.
     """
-    side = LEFT if mirrored or mode == LEFT else RIGHT
-    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.DISSIPATION] >= 0.0 or not speed > 0.0:
+    if plan[par.stop_at(stop) + par.DISSIPATION] >= 0.0 or not speed > 0.0:
         return 0.0
     return -1.0 / speed
 
@@ -135,13 +145,13 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
             q[i * DISTURBANCE + 1] = 0.0
     else:
         lost = _along(plan, before, length, q, rows)
-    for side in range(1, 3):
-        rate = plan[par.BUMPER + par.WIDTH * (side - 1) + par.RATE]
-        kept = mode & side and curved_stop(plan, side)
+    for stop in range(2):
+        rate = plan[par.stop_at(stop) + par.RATE]
+        kept = mode >> stop & 1 and curved_stop(plan, stop)
         fading = math.exp(-rate * length) if rate < math.inf else 0.0
         for i in range(rows):
-            at = i * DISTURBANCE + 1 + side
-            if mode & side and not kept:
+            at = i * DISTURBANCE + 2 + stop
+            if mode >> stop & 1 and not kept:
                 q[at] = q[i * DISTURBANCE]
             elif not kept:
                 q[at] *= fading
@@ -176,9 +186,10 @@ def _along(plan: Vector, before: Motion, length: float, q: Vector, rows: int) ->
         frame, h = _sloped_step(plan, here, length - t)
         x = coordinate(plan, here)
         laws, _, _ = laws_of(plan, here, frame, x, length - t)
-        primary = _by_speed(plan, here.mode, False, here.left if here.mode == LEFT else here.right)
+        main = main_stop(here.mode)
+        primary = _by_speed(plan, main, here.faces[main])
         # A disturbance of the left stop's speed has the sign of the velocity.
-        other = -_by_speed(plan, here.mode, True, here.left)
+        other = -_by_speed(plan, 1, here.faces[1])
         there = motion_at(plan, here, frame, 1.0)
         pressed = _stops_left_out(plan, here, there, laws)
         dragged = _drag_left_out(plan, here, there, laws)
@@ -186,7 +197,7 @@ def _along(plan: Vector, before: Motion, length: float, q: Vector, rows: int) ->
             at = i * DISTURBANCE
             if not _is_disturbed(q, at):
                 continue
-            mine = q[at + 3] if here.mode == LEFT else q[at + 2]
+            mine = q[at + 2 + main]
             _moved(plan, q, at, h, (primary * mine, other * q[at + 3]))
             q[at + 1] = q[at + 1] * math.exp(-dragged) - pressed * q[at]
         for n in range(DEGREE):
@@ -259,27 +270,27 @@ def _stops_left_out(plan: Vector, here: Motion, there: Motion, laws: Laws) -> fl
     Its impulse is ∫ F dx/x′: of where the mass is, the slope is F/x′.
     """
     found = 0.0
-    for side in range(1, 3):
-        if not (here.mode & side and curved_stop(plan, side)):
+    for stop in range(2):
+        if not (here.mode >> stop & 1 and curved_stop(plan, stop)):
             continue
-        primary = side == RIGHT or here.mode == LEFT
+        primary = stop == main_stop(here.mode)
         if (laws.push if primary else laws.other).stiffness != 0.0:
             continue
-        sign = 1.0 if side == RIGHT else -1.0
+        sign = facing(stop)
         if here.v * there.v >= 0.0:
-            found += _per_speed(plan, there, side, sign) - _per_speed(plan, here, side, sign)
+            found += _per_speed(plan, there, stop, sign) - _per_speed(plan, here, stop, sign)
     return found
 
 
 @kernel
-def _per_speed(plan: Vector, motion: Motion, side: int, sign: float) -> float:
+def _per_speed(plan: Vector, motion: Motion, stop: int, sign: float) -> float:
     """F/x′ of a pressed stop; 0 where the mass stands."""
     closing = sign * motion.v
     if closing == 0.0:
         return 0.0
-    push = push_of(plan, side, closing, motion.right if side == RIGHT else motion.left)
-    gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
-    return stop_force(plan, side, push, sign * motion.u - gap, closing) / closing
+    push = push_of(plan, stop, closing, motion.faces[stop])
+    gap = plan[par.stop_at(stop) + par.GAP]
+    return stop_force(plan, stop, push, sign * motion.u - gap, closing) / closing
 
 
 @kernel
@@ -308,11 +319,11 @@ def _event(
 ) -> None:
     """What an event does to disturbances."""
     if event in (RIGHT, LEFT):
-        if curved_stop(plan, event):
+        if curved_stop(plan, event - 1):
             _meet_curved(plan, event, arrival, after, q, rows)
             return
-        rigid = plan[par.BUMPER + par.WIDTH * (event - 1) + par.KIND] == par.RIGID
-        if rigid and plan[par.HYSTERETIC] != 0.0 and arrival != 0.0:
+        is_rigid = rigid(plan, event - 1)
+        if is_rigid and plan[par.HYSTERETIC] != 0.0 and arrival != 0.0:
             # A spring that has not yielded before follows u up to the impact, also if it
             # would yield there.
             met = _rate(plan, before, arrival, after.z) * arrival
@@ -322,10 +333,10 @@ def _event(
                 saltation.jump(q, at + MEMORY, -q[at] / arrival, met, left)
         meet(plan, event, arrival, after, q, rows)
     elif event == DETACHED:
-        side = after.fresh & (RIGHT | LEFT)
-        if curved_stop(plan, side):
+        stop = (after.fresh & BOTH) - 1
+        if curved_stop(plan, stop):
             for i in range(rows):
-                saltation.detachment(q, i * DISTURBANCE + 1 + side)
+                saltation.detachment(q, i * DISTURBANCE + 2 + stop)
     elif event == TURNED:
         if after.v == 0.0 and not stuck(plan, before):
             here, gone = 1.0, 1.0
@@ -347,10 +358,10 @@ def _meet_curved(
     plan: Vector, event: int, arrival: float, after: Motion, q: Vector, rows: int
 ) -> None:
     """Let disturbances meet a stop of a curved law; its own part is how fast it is met."""
-    stop = par.BUMPER + par.WIDTH * (event - 1)
+    stop = par.stop_at(event - 1)
     jumps = plan[stop + par.KIND] == par.FORMULA and arrival != 0.0
     remembers = plan[stop + par.DISSIPATION] < 0.0 and arrival != 0.0
-    force = stop_push(plan, after, event) if jumps else 0.0
+    force = stop_push(plan, after, event - 1) if jumps else 0.0
     acceleration = acceleration_of(plan, after) if remembers else 0.0
     for i in range(rows):
         at = i * DISTURBANCE
@@ -366,7 +377,7 @@ def _meet_curved(
 @kernel
 def _rate(plan: Vector, motion: Motion, v: float, end: float) -> float:
     """z′/u̇ at a velocity, on the branch of a motion and where its memory has become `end`."""
-    mode, fresh, u, _, right, left, z, age, clock = motion
-    moving = Motion(mode, fresh, u, v, right, left, z, age, clock)
+    mode, fresh, u, _, faces, z, age, clock = motion
+    moving = Motion(mode, fresh, u, v, faces, z, age, clock)
     branch = branch_of(plan, moving, 1.0)
     return branch.slope - branch.bend * end ** int(plan[par.SHARPNESS])

@@ -12,19 +12,20 @@ import numpy as np
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.linear.advance import total_gap
 from vibroimpact.engine.linear.layout import MOST, STEEPEST
-from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion
+from vibroimpact.engine.motion import BOTH, Motion, facing, main_stop
 from vibroimpact.engine.series.kernels import drags_any_power
-from vibroimpact.engine.series.march import ROUNDING
+from vibroimpact.engine.series.step_control import ROUNDING
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws, Push
-from vibroimpact.engine.taylor.frame import (
+from vibroimpact.engine.taylor.mode_forces import (
     acceleration_of,
     branch_of,
     curved_stop,
-    face,
     motion_rate,
     own_push,
     push_of,
+    stop_deformation,
 )
 
 _NOTHING = 2.0**-60
@@ -145,22 +146,22 @@ def laws_of(
     push, other, apart = NO_PUSH, NO_PUSH, 0.0
     if mode:
         grain = 16.0 * ROUNDING * (abs(x) + abs(frame.offset))
-        side = LEFT if mode == LEFT else RIGHT
-        memory = motion.left if mode == LEFT else motion.right
-        if curved_stop(plan, side):
-            push = push_of(plan, side, branch.way if v == 0.0 else v, memory)
+        stop = main_stop(mode)
+        memory = motion.faces[stop]
+        if curved_stop(plan, stop):
+            push = push_of(plan, stop, branch.way if v == 0.0 else v, memory)
             gains = frame.sign * acceleration_of(plan, motion)
-            if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
-                push = own_pressing(plan, side, x, v, gains, grain)
+            if plan[par.stop_at(stop) + par.KIND] == par.FORMULA:
+                push = own_pressing(plan, stop, x, v, gains, grain)
             else:
                 push = pressing(push, v, gains)
                 push, longest = shallow(push, x, v, gains, plan[STEEPEST], grain, longest)
-        if mode == BOTH and curved_stop(plan, LEFT):
-            apart = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
-            other = push_of(plan, LEFT, -(branch.way if v == 0.0 else v), motion.left)
+        if mode == BOTH and curved_stop(plan, 1):
+            apart = -total_gap(plan)
+            other = push_of(plan, 1, -(branch.way if v == 0.0 else v), motion.faces[1])
             gains = -frame.sign * acceleration_of(plan, motion)
-            if plan[par.BUMPER + par.WIDTH + par.KIND] == par.FORMULA:
-                other = own_pressing(plan, LEFT, apart - x, -v, gains, grain)
+            if plan[par.stop_at(1) + par.KIND] == par.FORMULA:
+                other = own_pressing(plan, 1, apart - x, -v, gains, grain)
             else:
                 other = pressing(other, -v, gains)
                 other, longest = shallow(
@@ -180,13 +181,13 @@ def laws_of(
 
 @kernel
 def own_pressing(
-    plan: Vector, side: int, depth: float, closing: float, gains: float, grain: float
+    plan: Vector, stop: int, depth: float, closing: float, gains: float, grain: float
 ) -> Push:
     """As `pressing`, of a stop that follows a formula: it pushes where that is above 0.
 
     `grain` is some rounding of a displacement.
     """
-    force, by_depth, by_rate = own_push(plan, side, max(depth, 0.0), closing)
+    force, by_depth, by_rate = own_push(plan, stop, max(depth, 0.0), closing)
     even = EVEN * (abs(by_depth * depth) + abs(by_rate * closing)) + abs(by_depth) * grain
     rises = by_depth * closing + by_rate * gains
     if force > even or (force >= -even and rises > 0.0):
@@ -195,25 +196,25 @@ def own_pressing(
 
 
 @kernel
-def unkept(plan: Vector, before: Motion, after: Motion, side: int) -> float:
+def unreturned_energy(plan: Vector, before: Motion, after: Motion, stop: int) -> float:
     """What a stop loses between two moments that would pull and does not push: of its spring's."""
-    if not (before.mode & side and curved_stop(plan, side)):
+    if not (before.mode >> stop & 1 and curved_stop(plan, stop)):
         return 0.0
-    sign = 1.0 if side == RIGHT else -1.0
-    memory = before.right if side == RIGHT else before.left
+    sign = facing(stop)
+    memory = before.faces[stop]
     closing = sign * before.v
-    push = push_of(plan, side, closing, memory)
+    push = push_of(plan, stop, closing, memory)
     gains = sign * acceleration_of(plan, before)
-    begun, ended = face(plan, before, side), face(plan, after, side)
-    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
-        gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
+    begun, ended = stop_deformation(plan, before, stop), stop_deformation(plan, after, stop)
+    if plan[par.stop_at(stop) + par.KIND] == par.FORMULA:
+        gap = plan[par.stop_at(stop) + par.GAP]
         grain = 16.0 * ROUNDING * (abs(begun) + abs(gap))
-        if own_pressing(plan, side, begun, closing, gains, grain).stiffness != 0.0:
+        if own_pressing(plan, stop, begun, closing, gains, grain).stiffness != 0.0:
             return 0.0
         middle, half, kept = 0.5 * (begun + ended), 0.5 * (begun - ended), 0.0
         for i in range(len(_PLACES)):
             depth = middle + half * _PLACES[i]
-            kept += half * _WEIGHTS[i] * own_push(plan, side, depth, 0.0)[0]
+            kept += half * _WEIGHTS[i] * own_push(plan, stop, depth, 0.0)[0]
         return kept
     if pressing(push, closing, gains).stiffness != 0.0:
         return 0.0

@@ -11,11 +11,12 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.chord_bounds import ANYWHERE, Enclosed
-from vibroimpact.engine.linear.evaluate import relaxed
+from vibroimpact.engine.linear.advance import total_gap
 from vibroimpact.engine.linear.layout import RATE, RESTING, SCALED_W, H
+from vibroimpact.engine.linear.stops import relaxed_faces
 from vibroimpact.engine.linear.tables import resting
-from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Clock, Motion
+from vibroimpact.engine.linear.window_bounds import ANYWHERE, Enclosed
+from vibroimpact.engine.motion import LEFT, Clock, Motion, changed, facing, main_stop
 from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, MEMORY, VELOCITY
 from vibroimpact.engine.series.events import PIECES, shifted
 from vibroimpact.engine.series.kernels import SLOPES, run
@@ -31,16 +32,16 @@ from vibroimpact.engine.series.layout import (
     X,
     Z,
 )
-from vibroimpact.engine.series.march import at, headed, scale, shake, stay
+from vibroimpact.engine.series.step_control import at, hold_still, scale, shake, write_header
 from vibroimpact.engine.series.values import Frame
-from vibroimpact.engine.taylor.ahead import ahead_of, branched, stepped_on, varies
-from vibroimpact.engine.taylor.frame import (
+from vibroimpact.engine.taylor.mode_forces import (
     acceleration_of,
     curved_stop,
     frame_of,
     stands,
     way_of,
 )
+from vibroimpact.engine.taylor.step_setup import ahead_of, branched, stepped_on, varies
 
 _SMALL = 0.4  # rad, over which `turn` is right to rounding
 
@@ -65,11 +66,11 @@ def coordinate(plan: Vector, motion: Motion) -> float:
     """The mode's own coordinate; without a dashpot's memory it follows from the displacement."""
     if not motion.mode:
         return motion.u
-    side = LEFT if motion.mode == LEFT else RIGHT
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    stop = main_stop(motion.mode)
+    at = par.stop_at(stop)
     if plan[at + par.KIND] == par.KELVIN_VOIGT:
-        return motion.right if side == RIGHT else motion.left
-    x: float = (motion.u if side == RIGHT else -motion.u) - plan[at + par.GAP]
+        return motion.faces[stop]
+    x: float = facing(stop) * motion.u - plan[at + par.GAP]
     return x
 
 
@@ -91,7 +92,7 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
     ahead = ahead_of(plan, motion, frame, x, longest, matters, anew)
     if held:
         length = min(longest, 1.0 / max(pace(plan), 1e-300))
-        stay(plan, frame, x, z, motion.clock, length)
+        hold_still(plan, frame, x, z, motion.clock, length)
     else:
         unit = ahead.unit
         v = frame.sign * motion.v * unit
@@ -101,7 +102,7 @@ def begun(plan: Vector, motion: Motion, longest: float) -> tuple[Frame, float]:
         shake(plan, frame.sign, motion.clock, length, SHAKEN)
         load = frame.load - ahead.way * plan[par.FRICTION]
         plan[SHAKEN] += load * length * length
-    headed(plan, length / PIECES, motion.mode == LEFT)
+    write_header(plan, length / PIECES, motion.mode == LEFT)
     plan[HEADER + RESTING] = 1.0 if held else 0.0
     return frame, length
 
@@ -118,31 +119,28 @@ def clock_at(plan: Vector, clock: Clock, y: float) -> Clock:
 @kernel
 def placed(plan: Vector, motion: Motion, x: float) -> Motion:
     """The same motion with the mass where the mode's own coordinate says."""
-    mode, fresh, _, v, right, left, z, age, clock = motion
+    mode, fresh, _, v, faces, z, age, clock = motion
     u = displacement(plan, mode, x)
-    if mode & RIGHT and plan[par.BUMPER + par.KIND] == par.KELVIN_VOIGT:
-        right = x
-    if mode & LEFT and plan[par.BUMPER + par.WIDTH + par.KIND] == par.KELVIN_VOIGT:
-        left = x if mode == LEFT else -u - plan[par.BUMPER + par.WIDTH + par.GAP]
-    return Motion(mode, fresh, u, v, right, left, z, age, clock)
+    for stop in range(2):
+        at = par.stop_at(stop)
+        if mode >> stop & 1 and plan[at + par.KIND] == par.KELVIN_VOIGT:
+            faces = changed(faces, stop, x if stop == main_stop(mode) else -u - plan[at + par.GAP])
+    return Motion(mode, fresh, u, v, faces, z, age, clock)
 
 
 @kernel
 def motion_at(plan: Vector, start: Motion, frame: Frame, y: float) -> Motion:
     """The motion at the share y of the step, nothing having happened on the way."""
-    mode, _, _, _, right, left, z, age, clock = start
+    mode, _, _, _, faces, z, age, clock = start
     x, slope = at(plan, X, y)
     v = frame.sign * slope * (plan[HEADER + RATE] / PIECES)
     if plan[par.HYSTERETIC] != 0.0:
         z, _ = at(plan, Z, y)
         z *= frame.sign
     t = y * PIECES * plan[HEADER + H]
-    if not mode & RIGHT:
-        right = relaxed(right, plan[par.BUMPER + par.RATE], t)
-    if not mode & LEFT:
-        left = relaxed(left, plan[par.BUMPER + par.WIDTH + par.RATE], t)
+    faces = relaxed_faces(plan, mode, faces, t)
     clock = clock_at(plan, clock, y * PIECES)
-    return placed(plan, Motion(mode, 0, 0.0, v, right, left, z, age + t, clock), x)
+    return placed(plan, Motion(mode, 0, 0.0, v, faces, z, age + t, clock), x)
 
 
 @kernel
@@ -159,7 +157,7 @@ def begin(plan: Vector, motion: Motion, length: float) -> Cursor:
 
 
 @kernel
-def more(plan: Vector, cursor: Cursor) -> bool:
+def has_piece(plan: Vector, cursor: Cursor) -> bool:
     """Whether there is a piece here."""
     return cursor.t < cursor.length
 
@@ -174,7 +172,7 @@ def following_window(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
-def following(plan: Vector, cursor: Cursor) -> Cursor:
+def next_piece(plan: Vector, cursor: Cursor) -> Cursor:
     """The next piece."""
     table, i, length, t, step, start = cursor
     if i + 1 < PIECES:
@@ -183,7 +181,7 @@ def following(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
-def glance(
+def bound_window(
     plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, room: Vector
 ) -> tuple[bool, Enclosed]:
     """Nothing is computed ahead, because a piece's series is known already."""
@@ -207,23 +205,23 @@ def expanded(plan: Vector, cursor: Cursor, series: Vector) -> tuple[float, float
 
 
 @kernel
-def facing_of(mode: int, side: int) -> float:
+def facing_of(mode: int, stop: int) -> float:
     """−1 where a stop's deformation falls with the mode's own coordinate: the left one of both."""
-    return -1.0 if mode == BOTH and side == LEFT else 1.0
+    return 1.0 if stop == main_stop(mode) else -1.0
 
 
 @kernel
-def push_series(plan: Vector, mode: int, side: int) -> None:
+def push_series(plan: Vector, mode: int, stop: int) -> None:
     """Write the force per unit mass of the pressed bumper on a side, over the step, to ASKED."""
-    facing = facing_of(mode, side)
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    way = facing_of(mode, stop)
+    at = par.stop_at(stop)
     stiffness = plan[at + par.BUMPER_STIFFNESS]
     damping = plan[at + par.BUMPER_DAMPING] * (plan[HEADER + RATE] / PIECES)
     for n in range(DEGREE):
         moved = stiffness * plan[X + n] + damping * ((n + 1) * plan[X + n + 1])
-        plan[ASKED + n] = facing * moved
-    if facing < 0.0:
-        plan[ASKED] -= stiffness * (plan[par.BUMPER + par.GAP] + plan[at + par.GAP])
+        plan[ASKED + n] = way * moved
+    if way < 0.0:
+        plan[ASKED] -= stiffness * total_gap(plan)
     plan[ASKED + DEGREE] = 0.0
 
 
@@ -237,33 +235,33 @@ def sloped(plan: Vector, length: float) -> None:
 
 
 @kernel
-def power_series(plan: Vector, cursor: Cursor, side: int) -> None:
+def power_series(plan: Vector, cursor: Cursor, stop: int) -> None:
     """As `push_series`, of a stop that follows a power: nothing where its push is left out."""
     sloped(plan, cursor.step)
-    facing = facing_of(cursor.start.mode, side)
-    pushes = PUSH if facing > 0.0 else PUSH + ROOM
+    way = facing_of(cursor.start.mode, stop)
+    pushes = PUSH if way > 0.0 else PUSH + ROOM
     for n in range(DEGREE + 1):
         plan[ASKED + n] = plan[pushes + n] / (cursor.step * cursor.step)
 
 
 @kernel
-def expanded_force(plan: Vector, cursor: Cursor, mode: int, side: int, series: Vector) -> None:
+def expanded_force(plan: Vector, cursor: Cursor, mode: int, stop: int, series: Vector) -> None:
     """Write the series of what the pressed stop on a side pushes with, per unit mass."""
-    if curved_stop(plan, side):
-        power_series(plan, cursor, side)
+    if curved_stop(plan, stop):
+        power_series(plan, cursor, stop)
     else:
-        push_series(plan, mode, side)
+        push_series(plan, mode, stop)
     shifted(plan, ASKED, 2 * cursor.i + 1, series)
 
 
 @kernel
 def moment(plan: Vector, cursor: Cursor, before: Motion, x: float, v: float, y: float) -> Motion:
     """The motion at y of a piece, whose coordinate is x and whose velocity is v; not its clock."""
-    mode, _, _, _, right, left, z, age, clock = before
+    mode, _, _, _, faces, z, age, clock = before
     if plan[par.HYSTERETIC] != 0.0:
         z, _ = at(plan, Z, (cursor.i + 0.5 + y) / PIECES)
         z = -z if mode == LEFT else z
-    return placed(plan, Motion(mode, 0, 0.0, v, right, left, z, age, clock), x)
+    return placed(plan, Motion(mode, 0, 0.0, v, faces, z, age, clock), x)
 
 
 @kernel
@@ -298,7 +296,7 @@ def acceleration(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
-def look(
+def sample_stretch(
     plan: Vector,
     cursor: Cursor,
     before: Motion,
@@ -309,7 +307,7 @@ def look(
     series: Vector,
     room: Vector,
 ) -> Cursor:
-    """The motion at n instants, as `linear.pieces.look` says; `series` is not needed."""
+    """The motion at n instants, as `linear.pieces.sample_stretch` says; `series` is not needed."""
     frame = frame_of(plan, before.mode)
     for j in range(n):
         tau = max((i + j) * step - t, 0.0)

@@ -10,7 +10,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import WORK_LIMIT
 from vibroimpact.engine.linear.layout import OMEGA
 from vibroimpact.engine.motion import Clock, Motion
-from vibroimpact.engine.series.march import prepare
+from vibroimpact.engine.series.step_control import prepare
 
 
 @kernel
@@ -41,8 +41,8 @@ def stiff_rate(plan: Vector) -> float:
 def too_much_work(plan: Vector, period: float) -> bool:
     """Whether one cycle could take too many steps."""
     rate = stiff_rate(plan) + plan[par.DAMPING] + pace(plan)
-    for side in range(2):
-        at = par.BUMPER + par.WIDTH * side
+    for stop in range(2):
+        at = par.stop_at(stop)
         if plan[at + par.KIND] == par.KELVIN_VOIGT:
             rate += math.sqrt(plan[at + par.BUMPER_STIFFNESS]) + plan[at + par.BUMPER_DAMPING]
     return not rate * period < WORK_LIMIT

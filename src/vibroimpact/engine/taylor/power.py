@@ -5,34 +5,31 @@ from __future__ import annotations
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import (
-    RIGHT,
-    Motion,
-)
-from vibroimpact.engine.taylor.frame import (
+from vibroimpact.engine.motion import Motion, facing
+from vibroimpact.engine.taylor.mode_forces import (
     branch_of,
     curved_stop,
-    face,
     own_force,
     own_push,
+    stop_deformation,
     stop_push,
     without_friction,
 )
 
 
 @kernel
-def stop_power(plan: Vector, motion: Motion, side: int) -> float:
+def stop_power(plan: Vector, motion: Motion, stop: int) -> float:
     """What a stop that pushes loses, per unit mass and time: what it takes and does not keep."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
-    closing = motion.v if side == RIGHT else -motion.v
-    if not curved_stop(plan, side):
+    at = par.stop_at(stop)
+    closing = facing(stop) * motion.v
+    if not curved_stop(plan, stop):
         return plan[at + par.BUMPER_DAMPING] * closing * closing  # type: ignore[no-any-return]
-    push = stop_push(plan, motion, side)
+    push = stop_push(plan, motion, stop)
     if push == 0.0:
         return 0.0
-    depth = face(plan, motion, side)
+    depth = stop_deformation(plan, motion, stop)
     if plan[at + par.KIND] == par.FORMULA:
-        spring = own_push(plan, side, depth, 0.0)[0]
+        spring = own_push(plan, stop, depth, 0.0)[0]
     else:
         spring = plan[at + par.BUMPER_STIFFNESS] * depth ** plan[at + par.EXPONENT]
     lost: float = (push - spring) * closing
@@ -59,12 +56,12 @@ def isolator_power(plan: Vector, motion: Motion) -> float:
 
 
 @kernel
-def rest_level(plan: Vector, motion: Motion, side: int) -> float:
+def rest_level(plan: Vector, motion: Motion, stop: int) -> float:
     """What presses a resting mass on the rigid stop of a side, but for what shakes it.
 
     Friction holds first.
     """
     s, c = motion.clock
     push: float = without_friction(plan, motion) + value(plan, s, c)
-    pressed: float = (push if side == RIGHT else -push) - plan[par.FRICTION]
+    pressed: float = facing(stop) * push - plan[par.FRICTION]
     return pressed

@@ -10,27 +10,28 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import Ended, bumpers
-from vibroimpact.engine.linear.evaluate import relaxed
-from vibroimpact.engine.linear.stops import impact, rigid, settle
+from vibroimpact.engine.linear.advance import Ended, gap_of, place_at, rate_of
+from vibroimpact.engine.linear.stops import impact, relaxed_faces, settle
+from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.motion import (
     BOTH,
     DETACHED,
-    LEFT,
     RELEASED,
-    RIGHT,
     SETTLING,
     SLIPS_LEFT,
     SLIPS_RIGHT,
     TURNED,
     Motion,
     Row,
+    changed,
+    direction,
+    main_stop,
 )
 from vibroimpact.engine.motion import LIMIT as NOTHING
 from vibroimpact.engine.taylor.advance import still
-from vibroimpact.engine.taylor.frame import stands, way_of
+from vibroimpact.engine.taylor.mode_forces import stands, way_of
 from vibroimpact.engine.yielding.layout import ELASTIC, MOVES_LEFT, MOVES_RIGHT
-from vibroimpact.engine.yielding.leg import (
+from vibroimpact.engine.yielding.monotone_motion import (
     BEGUN,
     BEHIND,
     FROM_AHEAD,
@@ -45,27 +46,25 @@ from vibroimpact.engine.yielding.leg import (
     Leg,
 )
 from vibroimpact.engine.yielding.plan import table_of
-from vibroimpact.engine.yielding.walk import go
+from vibroimpact.engine.yielding.table_walk import follow_leg
 
 
 @kernel
 def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next event, or for the time `limit` if that comes first."""
-    mode, fresh, u, v, right, left, z, age, clock = motion
+    mode, fresh, u, v, faces, z, age, clock = motion
     if fresh & SETTLING:
         return settle(plan, motion, limit)
     if stands(plan, motion):
         return still(plan, motion, limit)
     way = way_of(plan, motion)
-    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
     # In the mode's coordinate; `about` is the place about which its tables have the motion.
-    sign = -1.0 if mode == LEFT else 1.0
-    side = LEFT if mode == LEFT else RIGHT
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    sign, pressed = direction(mode), main_stop(mode)
+    at = par.stop_at(pressed)
     x = u
     stiffness, damping = 0.0, 0.0
     if mode:
-        x = left if mode == LEFT else right
+        x = faces[pressed]
         stiffness, damping = plan[at + par.BUMPER_STIFFNESS], plan[at + par.BUMPER_DAMPING]
     hysteretic = plan[par.HYSTERETIC]
     branch = MOVES_RIGHT if way > 0.0 else MOVES_LEFT
@@ -86,16 +85,14 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     start = BEGUN
     if fresh & (RELEASED | SLIPS_RIGHT | SLIPS_LEFT):
         start |= SOFTLY
-    ahead = RIGHT if way > 0.0 else LEFT
+    ahead = 0 if way > 0.0 else 1
     if not mode:
-        if way > 0.0:
-            stop, memory, rate = here + (gap_r - u), right, rate_r
-            behind, behind_memory, behind_rate = here - (gap_l + u), left, rate_l
-        else:
-            stop, memory, rate = here + (gap_l + u), left, rate_l
-            behind, behind_memory, behind_rate = here - (gap_r - u), right, rate_r
+        far, back = gap_of(plan, ahead) - way * u, gap_of(plan, 1 - ahead) + way * u
+        stop, memory, rate = here + far, faces[ahead], rate_of(plan, ahead)
+        behind, behind_memory = here - back, faces[1 - ahead]
+        behind_rate = rate_of(plan, 1 - ahead)
         if fresh & BOTH:
-            start |= FROM_AHEAD if fresh & BOTH == ahead else FROM_BEHIND
+            start |= FROM_AHEAD if fresh & BOTH == 1 << ahead else FROM_BEHIND
     elif ways < 0.0:
         push_x, push_v, push_0 = -stiffness, -damping, stiffness * about
         if fresh & BOTH:
@@ -114,40 +111,36 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
         push_0,
     )
     row = Row(x - about, sign * v, sign * clock[0], sign * clock[1])
-    end, t, row = go(plan, table_of(branch, mode), leg, row, start, limit)
+    end, t, row = follow_leg(plan, table_of(branch, mode), leg, row, start, limit)
     x, v, s, c = row
     x += about
     v, clock = sign * v, (sign * s, sign * c)
     if end == PARTS and damping == 0.0:
         x = 0.0
-    if mode != RIGHT:
-        right = relaxed(right, rate_r, t)
-    if mode != LEFT:
-        left = relaxed(left, rate_l, t)
-    if mode == RIGHT:
-        right, u = x, gap_r + x
-    elif mode == LEFT:
-        left, u = x, -(gap_l + x)
-    else:
-        u = x
+    faces = relaxed_faces(plan, mode, faces, t)
+    u = x
+    if mode:
+        faces = changed(faces, pressed, x)
+        u = place_at(plan, pressed, x)
     event = NOTHING
     if end in (STOPS, BEHIND):
-        event = ahead if end == STOPS else BOTH - ahead
-        u = gap_r + right if event == RIGHT else -(gap_l + left)
+        met = ahead if end == STOPS else 1 - ahead
+        event = 1 + met
+        u = place_at(plan, met, faces[met])
     if elastic:
         z = u - slack
     if event != NOTHING:
-        after = Motion(event, event, u, v, right, left, z, 0.0, clock)
-        if rigid(plan, event):
+        after = Motion(event, event, u, v, faces, z, 0.0, clock)
+        if rigid(plan, event - 1):
             return impact(plan, event, t, v, after)
         return event, t, v, after
     if end == LIMIT:
-        return NOTHING, t, v, Motion(mode, 0, u, v, right, left, z, age + t, clock)
+        return NOTHING, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
     if end == PARTS:
-        return DETACHED, t, v, Motion(mode & ~side, side, u, v, right, left, z, 0.0, clock)
+        return DETACHED, t, v, Motion(0, mode, u, v, faces, z, 0.0, clock)
     arrival = v
     if end == TURNS:
         v = 0.0
     elif end == YIELDS:
         z = math.copysign(plan[par.YIELD], way)
-    return TURNED, t, arrival, Motion(mode, 0, u, v, right, left, z, 0.0, clock)
+    return TURNED, t, arrival, Motion(mode, 0, u, v, faces, z, 0.0, clock)

@@ -84,7 +84,7 @@ def build(plan: Vector, amplitude: float, omega: float) -> None:
             if not mode:
                 _table(plan, table_of(branch, mode), k, plan[par.DAMPING], load, 0.0, 0.0, False)
                 continue
-            at = par.BUMPER + par.WIDTH * (mode - 1)
+            at = par.stop_at(mode - 1)
             if plan[at + par.KIND] != par.KELVIN_VOIGT:
                 continue
             mirrored = mode == LEFT

@@ -9,7 +9,6 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.chord_bounds import NOWHERE, Enclosed, chords, enclosed, glance
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import PLAN
 from vibroimpact.engine.linear.pieces import (
@@ -17,11 +16,18 @@ from vibroimpact.engine.linear.pieces import (
     begin,
     expanded,
     expanded_force,
-    following,
+    has_piece,
     middle,
-    more,
+    next_piece,
 )
 from vibroimpact.engine.linear.tables import build
+from vibroimpact.engine.linear.window_bounds import (
+    NOWHERE,
+    Enclosed,
+    bound_window,
+    chords,
+    enclosed,
+)
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
 from vibroimpact.engine.parameters import SIZE
@@ -39,9 +45,9 @@ def looked_at(plan: Vector, motion: Motion, length: float, first: Enclosed, out:
     n = 0
     within, seen = False, first
     cursor = begin(plan, motion, length)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         if cursor.i == 0:
-            within, seen = glance(plan, cursor, motion, seen, room)
+            within, seen = bound_window(plan, cursor, motion, seen, room)
         held = seen if within else enclosed(plan, cursor, room)
         bounds = held.x_least, held.x_most, held.a_least, held.a_most, -math.inf, held.force
         noted = seen.x_least, seen.x_most, seen.a_least, seen.a_most, -math.inf, seen.force
@@ -53,7 +59,7 @@ def looked_at(plan: Vector, motion: Motion, length: float, first: Enclosed, out:
             elif part == 2:
                 if motion.mode == FLIGHT:
                     break
-                expanded_force(plan, cursor, motion.mode, motion.mode, series)
+                expanded_force(plan, cursor, motion.mode, motion.mode - 1, series)
             least, most = math.inf, -math.inf
             for k in range(9):
                 y, _ = horner(series, -0.5 + k * (high + 0.5) / 8.0)
@@ -62,7 +68,7 @@ def looked_at(plan: Vector, motion: Motion, length: float, first: Enclosed, out:
             at[0], at[1], at[2], at[3] = least, most, bounds[2 * part], bounds[2 * part + 1]
             at[4], at[5], at[6] = noted[2 * part], noted[2 * part + 1], within
         n += 1
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
     return n
 
 
@@ -77,7 +83,7 @@ def pieces_of(mode: int, damping: float, given: np.random.Generator, first: Encl
     u, v = given.normal(size=2)
     pressed = abs(given.normal()) if mode else 0.0
     clock = math.sin(phase), math.cos(phase)
-    motion = Motion(mode, 0, u, v, pressed, pressed, 0.0, 0.0, clock)
+    motion = Motion(mode, 0, u, v, (pressed, pressed), 0.0, 0.0, clock)
     return out[: looked_at(plan, motion, given.uniform(0.01, 6.0), first, out)]
 
 
@@ -149,7 +155,7 @@ def test_a_piece_that_turns_twice_is_not_taken_for_one_that_only_rises(phase: fl
 
     def reached(u: float, v: float) -> np.ndarray:
         row = np.zeros(4)
-        middle_of(plan, Motion(FLIGHT, 0, u, v, 0.0, 0.0, 0.0, 0.0, clock), row)
+        middle_of(plan, Motion(FLIGHT, 0, u, v, (0.0, 0.0), 0.0, 0.0, clock), row)
         return row
 
     still = reached(0.0, 0.0)
@@ -159,7 +165,7 @@ def test_a_piece_that_turns_twice_is_not_taken_for_one_that_only_rises(phase: fl
     wished[0] = (-c * wished[1] - amplitude * still[2]) / k
     ways = np.transpose([reached(1.0, 0.0) - still, reached(0.0, 1.0) - still])[:2]
     u, v = np.linalg.solve(ways, wished - still[:2])
-    motion = Motion(FLIGHT, 0, float(u), float(v), 0.0, 0.0, 0.0, 0.0, clock)
+    motion = Motion(FLIGHT, 0, float(u), float(v), (0.0, 0.0), 0.0, 0.0, clock)
     pieces = out[: looked_at(plan, motion, 2.0 * half, NOWHERE, out)]
     for least, most, low, high, *_ in pieces[0, :2]:
         assert low <= least

@@ -9,7 +9,7 @@ from pathlib import Path
 import numba
 import pytest
 
-from vibroimpact.engine import emission, flow_dispatch, jit
+from vibroimpact.engine import flow_dispatch, jit, kernel_linking
 
 _SCRIPT = """
 import sys
@@ -20,11 +20,11 @@ made = []
 add = JITCPUCodegen._add_module
 JITCPUCodegen._add_module = lambda self, module: (made.append(module.name), add(self, module))[1]
 
-from vibroimpact.engine import emission
+from vibroimpact.engine import kernel_linking
 from vibroimpact.engine.plain_entries import Single
 from vibroimpact.engine.jit import kernel
 
-emission.KNOWN = sys.argv[1]
+kernel_linking.KNOWN = sys.argv[1]
 
 @kernel
 def cubed(x):
@@ -54,12 +54,12 @@ def _ran(tmp_path, known: str) -> list[str]:
 
 @pytest.mark.full
 def test_only_the_entry_becomes_machine_code(tmp_path):
-    if not numba.__version__.startswith(emission.KNOWN):
+    if not numba.__version__.startswith(kernel_linking.KNOWN):
         pytest.skip(f"numba {numba.__version__} compiles all of it")
-    number, kernels, entries, own = _ran(tmp_path / "one", emission.KNOWN)
+    number, kernels, entries, own = _ran(tmp_path / "one", kernel_linking.KNOWN)
     assert (kernels, entries, own) == ("0", "1", "3.0")
     # The second time it comes from the cache.
-    assert _ran(tmp_path / "one", emission.KNOWN)[0] == number
+    assert _ran(tmp_path / "one", kernel_linking.KNOWN)[0] == number
     same, kernels, entries, own = _ran(tmp_path / "all", "no such version")
     assert (kernels, entries, own) == ("1", "1", "3.0")
     assert same == number

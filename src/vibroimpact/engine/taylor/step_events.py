@@ -7,20 +7,19 @@ from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
-from vibroimpact.engine.linear.advance import bumpers
+from vibroimpact.engine.linear.advance import gap_of, rate_of, total_gap
 from vibroimpact.engine.linear.roots import NONE, Clearance
 from vibroimpact.engine.linear.tables import overlapping
 from vibroimpact.engine.motion import (
     BOTH,
     DETACHED,
-    LEFT,
     LIMIT,
     RELEASED,
-    RIGHT,
     SLIPS_LEFT,
     SLIPS_RIGHT,
     TURNED,
     Motion,
+    facing,
 )
 from vibroimpact.engine.series.events import (
     FIXED,
@@ -53,8 +52,8 @@ from vibroimpact.engine.series.layout import (
     Z,
 )
 from vibroimpact.engine.series.values import Frame
-from vibroimpact.engine.taylor.frame import balanced, curved_stop, push_of, steep
 from vibroimpact.engine.taylor.laws import EVEN
+from vibroimpact.engine.taylor.mode_forces import balanced, curved_stop, push_of, steep
 from vibroimpact.engine.taylor.pieces import facing_of
 from vibroimpact.law_numbers import ABSOLUTE_X
 
@@ -111,33 +110,33 @@ def ends_of(plan: Vector, h: float, x: float, v: float, z: float, hysteretic: bo
 
 
 @inlined
-def parts(plan: Vector, motion: Motion, side: int, ends: Ends, unit: float) -> float:
+def parts(plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float) -> float:
     """When the force of a pressed Kelvin-Voigt bumper falls to zero."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    at = par.stop_at(stop)
     k, c = plan[at + par.BUMPER_STIFFNESS], plan[at + par.BUMPER_DAMPING] / unit
     level = 0.0
-    if facing_of(motion.mode, side) < 0.0:
+    if facing_of(motion.mode, stop) < 0.0:
         k, c = -k, -c
-        level = k * (plan[par.BUMPER + par.GAP] + plan[at + par.GAP])
+        level = k * total_gap(plan)
     g = level + k * ends.x + c * ends.v
-    if motion.fresh & BOTH == side:
+    if motion.fresh & BOTH == 1 << stop:
         g = max(g, 0.0)
     return first_zero(plan, Line(level, k, c, 0.0), ends, g)
 
 
 @kernel
-def lets_go(
-    plan: Vector, motion: Motion, side: int, ends: Ends, unit: float, found: Found
+def earlier_release(
+    plan: Vector, motion: Motion, stop: int, ends: Ends, unit: float, found: Found
 ) -> Found:
     """Take the end of a push into account: a depth falls to 0, or 1 + χ δ′ changes sign."""
-    facing = facing_of(motion.mode, side)
+    facing = facing_of(motion.mode, stop)
     level = 0.0
     if facing < 0.0:
-        level = -(plan[par.BUMPER + par.GAP] + plan[par.BUMPER + par.WIDTH + par.GAP])
-    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
-        found = own_eases(plan, side, level, facing, ends, found)
-    memory = motion.right if side == RIGHT else motion.left
-    chi = push_of(plan, side, 0.0, memory).dissipation * facing / unit
+        level = -total_gap(plan)
+    if plan[par.stop_at(stop) + par.KIND] == par.FORMULA:
+        found = own_eases(plan, stop, level, facing, ends, found)
+    memory = motion.faces[stop]
+    chi = push_of(plan, stop, 0.0, memory).dissipation * facing / unit
     if chi != 0.0:
         g = 1.0 + chi * ends.v
         bend = 1.0 if g > EVEN or (g > -EVEN and chi * ends.a > 0.0) else -1.0
@@ -146,22 +145,22 @@ def lets_go(
         line = Line(bend, 0.0, bend * chi, 0.0)
         found = earlier(found, EASED, first_zero(plan, line, ends, bend * g))
     g = level + facing * ends.x
-    if motion.fresh & BOTH == side:
+    if motion.fresh & BOTH == 1 << stop:
         g = max(g, 0.0)
-    event = DETACHED if side == RIGHT else DETACHED_LEFT
+    event = DETACHED if stop == 0 else DETACHED_LEFT
     return earlier(found, event, first_zero(plan, Line(level, facing, 0.0, 0.0), ends, g))
 
 
 @apart
 def own_eases(
-    plan: Vector, side: int, level: float, facing: float, ends: Ends, found: Found
+    plan: Vector, stop: int, level: float, facing: float, ends: Ends, found: Found
 ) -> Found:
     """Take the moment into account at which a stop's own formula changes its sign."""
     way = facing * plan[WAY]
-    run(plan, _OWN + STRIDE * side + ASKS, level, facing, 0.0, 0.0, ends.h, way, 0.0)
+    run(plan, _OWN + STRIDE * (stop + 1) + ASKS, level, facing, 0.0, 0.0, ends.h, way, 0.0)
     slot = int(plan[SLOT]) % CALM
-    pushes = slot == _BOTH or slot == (_RIGHT if side == RIGHT else _LEFT)
-    if side == LEFT and slot == _OTHER:
+    pushes = slot == _BOTH or slot == (_RIGHT if stop == 0 else _LEFT)
+    if stop == 1 and slot == _OTHER:
         pushes = True
     spread = 0.0
     for n in range(DEGREE + 1):
@@ -234,31 +233,30 @@ def search(
     """The earliest event of the step in hand; free stops are as they were a time before."""
     mode, fresh = motion.mode, motion.fresh
     found = Found(LIMIT, NEVER)
-    gap_r, gap_l, rate_r, rate_l = bumpers(plan)
-    for side in range(1, 3):
-        kind = plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
+    for stop in range(2):
+        kind = plan[par.stop_at(stop) + par.KIND]
         if kind == par.ABSENT:
             continue
-        if mode & side:
-            event = DETACHED if side == RIGHT else DETACHED_LEFT
+        if mode >> stop & 1:
+            event = DETACHED if stop == 0 else DETACHED_LEFT
             if kind == par.KELVIN_VOIGT:
-                found = earlier(found, event, parts(plan, motion, side, ends, unit))
+                found = earlier(found, event, parts(plan, motion, stop, ends, unit))
             elif kind != par.RIGID:
-                found = lets_go(plan, motion, side, ends, unit, found)
+                found = earlier_release(plan, motion, stop, ends, unit, found)
             continue
         if mode and not overlapping(plan):
             continue
-        # Seen from a pressed side, the other stop lies below.
-        level = gap_r + gap_l if mode else (gap_r if side == RIGHT else gap_l)
-        sign = 1.0 if mode or side == LEFT else -1.0
-        memory = motion.right if side == RIGHT else motion.left
-        if curved_stop(plan, side):
+        # Seen from a pressed stop, the other stop lies below.
+        level = total_gap(plan) if mode else gap_of(plan, stop)
+        sign = 1.0 if mode else -facing(stop)
+        memory = motion.faces[stop]
+        if curved_stop(plan, stop):
             memory = 0.0
-        rate = (rate_r if side == RIGHT else rate_l) * unit
-        just = fresh & BOTH == side
+        rate = rate_of(plan, stop) * unit
+        just = fresh & BOTH == 1 << stop
         free = Free(memory, rate, since, just, just and fresh & RELEASED != 0)
         size = abs(level) + abs(ends.x)
-        found = earlier(found, side, met(plan, level, sign, free, ends, _FADED * size))
+        found = earlier(found, 1 + stop, met(plan, level, sign, free, ends, _FADED * size))
     if ways != 0.0:
         found = turns(plan, motion, ways, frame.sign, ends, since, found)
     if int(plan[par.OWN + par.OWN_FLAGS]) & ABSOLUTE_X:

@@ -12,14 +12,7 @@ from typing import Any, NamedTuple
 from vibroimpact.engine.series import layout as at
 from vibroimpact.engine.series import program
 from vibroimpact.engine.series.algebra import Series, State, later
-from vibroimpact.engine.series.emit import LANES
-from vibroimpact.engine.series.ends import (
-    Along,
-    along_of,
-    end_of,
-    memory_end,
-    sums,
-)
+from vibroimpact.engine.series.code_generation import LANES
 from vibroimpact.engine.series.laws import hysteresis, own
 from vibroimpact.engine.series.step import (
     LAST,
@@ -32,6 +25,13 @@ from vibroimpact.engine.series.step import (
     overbent,
     points_of,
     reach,
+)
+from vibroimpact.engine.series.step_ends import (
+    Along,
+    along_of,
+    end_of,
+    memory_end,
+    sums,
 )
 from vibroimpact.engine.series.summation import summed, tree
 

@@ -13,7 +13,7 @@ from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.table_search import ABOVE, BELOW
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
-from vibroimpact.engine.yielding.leg import (
+from vibroimpact.engine.yielding.monotone_motion import (
     BEGUN,
     BEHIND,
     FROM_AHEAD,

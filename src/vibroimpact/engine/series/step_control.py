@@ -233,7 +233,7 @@ def shortened(
 
 
 @inlined
-def taken(
+def certified_step(
     plan: Vector,
     slot: int,
     x: float,
@@ -272,7 +272,9 @@ def scale(plan: Vector, reach: float, hysteretic: bool) -> None:
 
 
 @kernel
-def stay(plan: Vector, frame: Frame, x: float, z: float, clock: Clock, length: float) -> float:
+def hold_still(
+    plan: Vector, frame: Frame, x: float, z: float, clock: Clock, length: float
+) -> float:
     """Write the series of a mass that is held, for so many seconds; return them."""
     shake(plan, frame.sign, clock, length, SHAKEN)
     plan[SHAKEN] += frame.load * length * length
@@ -283,7 +285,7 @@ def stay(plan: Vector, frame: Frame, x: float, z: float, clock: Clock, length: f
 
 
 @kernel
-def headed(plan: Vector, h: float, mirrored: bool) -> None:
+def write_header(plan: Vector, h: float, mirrored: bool) -> None:
     """Write the header of pieces of this length, as a table's, mirrored or not."""
     for n in range(1, count(plan) + 1):
         part = wave(plan, n, mirrored)

@@ -33,7 +33,7 @@ from vibroimpact.engine.linear.layout import (
 )
 from vibroimpact.engine.linear.pieces import Cursor
 from vibroimpact.engine.memory import stack
-from vibroimpact.engine.motion import BOTH, LEFT, Motion
+from vibroimpact.engine.motion import BOTH, Motion, main_stop
 
 _ROW = 6
 """A node's numbers: coordinate, acceleration in space and force, and their slopes, per step."""
@@ -63,7 +63,7 @@ NOWHERE = Enclosed(math.inf, -math.inf, math.inf, -math.inf, -math.inf)
 
 
 @kernel
-def glance(
+def bound_window(
     plan: Vector, cursor: Cursor, before: Motion, seen: Enclosed, room: Vector
 ) -> tuple[bool, Enclosed]:
     """Check the nodes of a window, at whose first piece the cursor is.
@@ -93,7 +93,7 @@ def glance(
     d, k, c = plan[table + SCALED_D], plan[table + SCALED_K], plan[table + SCALED_C]
     stiffness, damping = 0.0, 0.0
     if mode:
-        stop = par.BUMPER + (par.WIDTH if mode == LEFT else 0)
+        stop = par.stop_at(main_stop(mode))
         stiffness = plan[stop + par.BUMPER_STIFFNESS]
         damping = plan[stop + par.BUMPER_DAMPING] * plan[table + RATE]
     x, v, _, _ = cursor.start
@@ -146,7 +146,7 @@ def _off(room: Vector, i: int, which: int) -> float:
 
 @kernel
 def enclosed(plan: Vector, cursor: Cursor, room: Vector) -> Enclosed:
-    """Bounds on the piece at which the cursor is, by what a `glance` at its window has noted."""
+    """Bounds on the piece at which the cursor is, by what `bound_window` has noted."""
     if not room[_OFF] < math.inf:
         return ANYWHERE
     i, here, there = cursor.i, _ROW * cursor.i, _ROW * (cursor.i + 1)

@@ -13,7 +13,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
 from vibroimpact.engine.series.values import Push
-from vibroimpact.engine.taylor.frame import isolator_force, pushing, stuck
+from vibroimpact.engine.taylor.mode_forces import isolator_force, pushing, stuck
 from vibroimpact.engine.taylor.plan import build
 from vibroimpact.response.engine_input import engine_rig
 
@@ -49,7 +49,7 @@ def test_a_stop_never_pulls() -> None:
 )
 def test_friction_holds_up_to_its_force(u: float, holds: bool) -> None:
     plan = plan_of("friction")
-    still = Motion(FLIGHT, 0, u, 0.0, 0.0, 0.0, 0.0, 0.0, (0.0, 1.0))
+    still = Motion(FLIGHT, 0, u, 0.0, (0.0, 0.0), 0.0, 0.0, (0.0, 1.0))
     assert stuck(plan, still) == holds
     assert not stuck(plan, still._replace(v=1e-9))
     assert plan[par.FRICTION] == 0.15
@@ -63,7 +63,7 @@ def test_a_pressed_stop_helps_to_hold(side: int) -> None:
     depth = 0.002 if side == RIGHT else 0.0, 0.002 if side == LEFT else 0.0
     # −sin θ of 1.08 holds against the spring and the stop: 0.502 + 0.06.
     clock = (-sign * 0.5 / 0.6, math.sqrt(1.0 - (0.5 / 0.6) ** 2))
-    motion = Motion(side, 0, u, 0.0, *depth, 0.0, 0.0, clock)
+    motion = Motion(side, 0, u, 0.0, depth, 0.0, 0.0, clock)
     assert stuck(plan, motion)
     assert not stuck(plan, motion._replace(mode=side, clock=(0.0, 1.0)))
     assert isinstance(STOPS["spring"], vi.Bumper)

@@ -1,4 +1,4 @@
-"""Steps while a stop is pressed by a power of its deformation, in a root of it (`series.root`)."""
+"""Steps while a stop is pressed by a power of its depth, in a root (`series.root_variable`)."""
 
 from __future__ import annotations
 
@@ -13,13 +13,12 @@ from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion
 from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
 from vibroimpact.engine.series.kernels import Slot
 from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
-from vibroimpact.engine.series.march import Shaken, number, taken
+from vibroimpact.engine.series.step_control import Shaken, certified_step, number
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
-from vibroimpact.engine.taylor.ahead import branched
-from vibroimpact.engine.taylor.frame import branch_of, curved_stop, push_of
 from vibroimpact.engine.taylor.laws import EVEN
+from vibroimpact.engine.taylor.mode_forces import branch_of, curved_stop, push_of
 from vibroimpact.engine.taylor.pieces import coordinate, placed
-from vibroimpact.engine.taylor.watch import (
+from vibroimpact.engine.taylor.step_events import (
     DETACHED_LEFT,
     EASED,
     NEITHER,
@@ -29,6 +28,7 @@ from vibroimpact.engine.taylor.watch import (
     starts_still,
     turns,
 )
+from vibroimpact.engine.taylor.step_setup import branched
 from vibroimpact.law_numbers import ABSOLUTE_X
 
 _RIGHT, _LEFT = int(Slot.ROOT_RIGHT), int(Slot.ROOT_LEFT)
@@ -57,9 +57,9 @@ def root_of(plan: Vector, motion: Motion) -> int:
     mode = motion.mode
     if mode not in (RIGHT, LEFT) or motion.fresh & ~BOTH or overlapping(plan):
         return 0
-    if not curved_stop(plan, mode):
+    if not curved_stop(plan, mode - 1):
         return 0
-    at = par.BUMPER + par.WIDTH * (mode - 1)
+    at = par.stop_at(mode - 1)
     if plan[at + par.EXPONENT] != plan[ROOTS + 2 * (mode - 1)]:
         return 0
     if int(plan[par.OWN + par.OWN_FLAGS]) & ABSOLUTE_X and plan[at + par.GAP] < 0.0:
@@ -74,8 +74,8 @@ def pressed_by(plan: Vector, motion: Motion, frame: Frame, x: float, root: int) 
     unit: float = plan[UNIT]
     branch = branch_of(plan, motion, frame.sign)
     v = frame.sign * motion.v
-    memory = motion.right if mode == RIGHT else motion.left
-    push = push_of(plan, mode, branch.way if v == 0.0 else v, memory)
+    memory = motion.faces[mode - 1]
+    push = push_of(plan, mode - 1, branch.way if v == 0.0 else v, memory)
     drag = plan[par.DAMPING] if plan[par.DRAG] != 1.0 else 0.0
     number(plan, frame, Laws(branch, push, NO_PUSH, 0.0, drag), unit)
     n = push.exponent
@@ -146,7 +146,7 @@ def pressed_for(
     event, t, motion
         NEITHER if it cannot be followed so any more; free stops are as they were.
     """
-    mode, fresh, _, _, right, left, _, age, clock = motion
+    mode, fresh, _, _, faces, _, age, clock = motion
     x, z = coordinate(plan, motion), frame.sign * motion.z
     by = pressed_by(plan, motion, frame, x, root)
     v = frame.sign * motion.v * by.unit
@@ -164,7 +164,7 @@ def pressed_for(
     event = NEITHER
     for _ in range(MOST):
         shaken = Shaken(frame.sign, clock, by.unit, per_unit)
-        h, after = taken(plan, by.slot, w, v, z, shaken, max(w, by.size), 0.0, math.inf)
+        h, after = certified_step(plan, by.slot, w, v, z, shaken, max(w, by.size), 0.0, math.inf)
         ends = ends_of(plan, h, w, v, z, hysteretic)
         found = Found(LIMIT, NEVER)
         which = DETACHED if mode == RIGHT else DETACHED_LEFT
@@ -193,7 +193,7 @@ def pressed_for(
         z = z1 if hysteretic else z
         t += step
         speed = frame.sign * v * per_unit
-        here = Motion(mode, 0, 0.0, speed, right, left, frame.sign * z, age, clock)
+        here = Motion(mode, 0, 0.0, speed, faces, frame.sign * z, age, clock)
         if event != NEITHER or not (w > 0.0 and follows(by.chi, w, v, False)):
             break
     return event, t * by.unit, placed(plan, here, raised(w, root))

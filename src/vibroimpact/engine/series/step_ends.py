@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from vibroimpact.engine.series import layout as at
-from vibroimpact.engine.series.emit import LANES
+from vibroimpact.engine.series.code_generation import LANES
 
 
 class Sums(NamedTuple):

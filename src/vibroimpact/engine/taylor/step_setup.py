@@ -9,13 +9,13 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST
-from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion
+from vibroimpact.engine.motion import LEFT, RIGHT, Clock, Motion, main_stop
 from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.layout import SLOT, UNIT
-from vibroimpact.engine.series.march import Shaken, number, slot_of, taken
+from vibroimpact.engine.series.step_control import Shaken, certified_step, number, slot_of
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
-from vibroimpact.engine.taylor.frame import branch_of, curved_stop, own_push, stiffness_at
 from vibroimpact.engine.taylor.laws import laws_of
+from vibroimpact.engine.taylor.mode_forces import branch_of, curved_stop, own_push, stiffness_at
 
 
 class Ahead(NamedTuple):
@@ -43,12 +43,12 @@ NOT_YET = Ahead(1.0, 0.0, 0.0, 0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @inlined
-def stiffness_of(plan: Vector, side: int, push: Push, depth: float) -> float:
+def stiffness_of(plan: Vector, stop: int, push: Push, depth: float) -> float:
     """A bound on the tangent stiffness of a stop (1/s²)."""
     if push.stiffness == 0.0:
         return 0.0
-    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] == par.FORMULA:
-        return abs(own_push(plan, side, depth, 0.0)[1])
+    if plan[par.stop_at(stop) + par.KIND] == par.FORMULA:
+        return abs(own_push(plan, stop, depth, 0.0)[1])
     return push.stiffness * push.exponent * depth ** (push.exponent - 1.0)  # type: ignore[no-any-return]
 
 
@@ -61,15 +61,15 @@ def branched(plan: Vector, motion: Motion) -> bool:
         or plan[par.DRAG] != 1.0
         or plan[par.FRICTION] != 0.0
         or plan[par.OWN + par.OWN_FLAGS] != 0.0
-        or (mode & RIGHT and _branches(plan, RIGHT))
-        or (mode & LEFT and _branches(plan, LEFT))
+        or (mode & RIGHT and _branches(plan, 0))
+        or (mode & LEFT and _branches(plan, 1))
     )
 
 
 @inlined
-def _branches(plan: Vector, side: int) -> bool:
-    kind = plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
-    flags = plan[par.OWN + par.OWN_WIDTH * side + par.OWN_FLAGS]
+def _branches(plan: Vector, stop: int) -> bool:
+    kind = plan[par.stop_at(stop) + par.KIND]
+    flags = plan[par.OWN + par.OWN_WIDTH * (stop + 1) + par.OWN_FLAGS]
     return bool(kind == par.JANKOWSKI or flags != 0.0)
 
 
@@ -78,9 +78,7 @@ def varies(plan: Vector, mode: int) -> bool:
     """Whether which forces act may change within a stretch: powers begin where they matter."""
     if drags_any_power(plan):
         return True
-    return bool(mode & RIGHT and curved_stop(plan, RIGHT)) or bool(
-        mode & LEFT and curved_stop(plan, LEFT)
-    )
+    return bool(mode & RIGHT and curved_stop(plan, 0)) or bool(mode & LEFT and curved_stop(plan, 1))
 
 
 @inlined
@@ -110,9 +108,8 @@ def ahead_of(
         unit = 2.0 ** math.floor(math.log2(max(turning, 1e-290)))
     number(plan, frame, laws, unit)
     stiff = frame.stiffness - plan[par.STIFFNESS]
-    side = LEFT if motion.mode == LEFT else RIGHT
-    stiff += stiffness_of(plan, side, laws.push, x)
-    stiff += stiffness_of(plan, LEFT, laws.other, laws.apart - x)
+    stiff += stiffness_of(plan, main_stop(motion.mode), laws.push, x)
+    stiff += stiffness_of(plan, 1, laws.other, laws.apart - x)
     slow = frame.damping + pace(plan) + 1e-300
     u = abs(x + frame.offset)
     natural = 1.0 / (math.sqrt(stiffness_at(plan, u) + stiff) + slow)
@@ -154,4 +151,4 @@ def stepped_on(
     size = max(max(abs(x + ahead.offset), abs(x)), max(abs(v) * ahead.natural, ahead.shaken))
     by = Shaken(ahead.sign, clock, ahead.unit, ahead.per_unit)
     most = min(longest, ahead.longest * ahead.per_unit)
-    return taken(plan, ahead.slot, x, v, z, by, size, ahead.fine, most)
+    return certified_step(plan, ahead.slot, x, v, z, by, size, ahead.fine, most)

@@ -16,12 +16,14 @@ from vibroimpact.engine.linear.layout import MOST
 from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import (
     BOTH,
-    LEFT,
     RELEASED,
     RIGHT,
     SLIPS_LEFT,
     SLIPS_RIGHT,
     Motion,
+    direction,
+    facing,
+    main_stop,
 )
 from vibroimpact.engine.series.kernels import STRIDE, Slot, run
 from vibroimpact.engine.series.layout import OWN_FORCE
@@ -49,16 +51,14 @@ def frame_of(plan: Vector, mode: int) -> Frame:
         c = 0.0
     if not mode:
         return Frame(1.0, 0.0, k, c, plan[par.LOAD])
-    side = LEFT if mode == LEFT else RIGHT
-    sign = -1.0 if mode == LEFT else 1.0
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    sign, at = direction(mode), par.stop_at(main_stop(mode))
     offset = plan[at + par.GAP]
     load = sign * plan[par.LOAD] - k * offset
     if plan[at + par.KIND] == par.KELVIN_VOIGT:
         k += plan[at + par.BUMPER_STIFFNESS]
         c += plan[at + par.BUMPER_DAMPING]
     if mode == BOTH:
-        other = par.BUMPER + par.WIDTH * (LEFT - 1)
+        other = par.stop_at(1)
         if plan[other + par.KIND] == par.KELVIN_VOIGT:
             k += plan[other + par.BUMPER_STIFFNESS]
             c += plan[other + par.BUMPER_DAMPING]
@@ -112,20 +112,20 @@ def stiffness_at(plan: Vector, u: float) -> float:
 
 
 @kernel
-def curved_stop(plan: Vector, side: int) -> bool:
-    """Whether the stop on this side follows a power of its deformation, or a formula."""
-    kind = plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND]
+def curved_stop(plan: Vector, stop: int) -> bool:
+    """Whether a stop follows a power of its deformation, or a formula."""
+    kind = plan[par.stop_at(stop) + par.KIND]
     return bool(kind in par.CURVED_STOPS)
 
 
 @kernel
-def push_of(plan: Vector, side: int, closing: float, speed: float) -> Push:
+def push_of(plan: Vector, stop: int, closing: float, speed: float) -> Push:
     """The law of a pressed power-law stop.
 
     `closing` is the rate of its deformation, whose sign may matter, `speed` that at which it
     was met, which a law of restitution divides by.
     """
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    at = par.stop_at(stop)
     if plan[at + par.KIND] == par.FORMULA:
         return Push(1.0, 1.0, 0.0, 0.0)  # which says that it pushes; how much, the formula says
     dissipation = plan[at + par.DISSIPATION]
@@ -147,40 +147,40 @@ def pushing(push: Push, deformation: float, closing: float) -> float:
 
 
 @kernel
-def stop_force(plan: Vector, side: int, push: Push, deformation: float, closing: float) -> float:
+def stop_force(plan: Vector, stop: int, push: Push, deformation: float, closing: float) -> float:
     """The force of a pressed stop by its law, per unit mass, never below 0."""
-    if plan[par.BUMPER + par.WIDTH * (side - 1) + par.KIND] != par.FORMULA:
+    if plan[par.stop_at(stop) + par.KIND] != par.FORMULA:
         return pushing(push, deformation, closing)
-    return max(own_push(plan, side, deformation, closing)[0], 0.0)
+    return max(own_push(plan, stop, deformation, closing)[0], 0.0)
 
 
 @apart
 def own_push(
-    plan: Vector, side: int, deformation: float, closing: float
+    plan: Vector, stop: int, deformation: float, closing: float
 ) -> tuple[float, float, float]:
     """What a stop's own formula gives, and its slopes, per unit mass; below 0 it does not push."""
     way = math.copysign(1.0, closing)
-    run(plan, _OWN + STRIDE * side, deformation, closing, 0.0, 1.0, way, 0.0, 0.0)
+    run(plan, _OWN + STRIDE * (stop + 1), deformation, closing, 0.0, 1.0, way, 0.0, 0.0)
     return plan[OWN_FORCE], plan[OWN_FORCE + 1], plan[OWN_FORCE + 2]
 
 
 @kernel
 def without_friction(plan: Vector, motion: Motion) -> float:
     """Acceleration ü relative to the base, from all forces but Coulomb's."""
-    mode, _, u, v, right, left, z, _, clock = motion
+    mode, _, u, v, faces, z, _, clock = motion
     a: float = plan[par.LOAD] - isolator_force(plan, u, v, z) - value(plan, clock[0], clock[1])
-    for side in range(1, 3):
-        if not mode & side:
+    for stop in range(2):
+        if not mode >> stop & 1:
             continue
-        at = par.BUMPER + par.WIDTH * (side - 1)
-        sign = 1.0 if side == RIGHT else -1.0
-        memory = right if side == RIGHT else left
+        at = par.stop_at(stop)
+        sign = facing(stop)
+        memory = faces[stop]
         if plan[at + par.KIND] == par.KELVIN_VOIGT:
             a -= sign * plan[at + par.BUMPER_STIFFNESS] * memory
             a -= plan[at + par.BUMPER_DAMPING] * v
-        elif curved_stop(plan, side):
-            push = push_of(plan, side, sign * v, memory)
-            a -= sign * stop_force(plan, side, push, sign * u - plan[at + par.GAP], sign * v)
+        elif curved_stop(plan, stop):
+            push = push_of(plan, stop, sign * v, memory)
+            a -= sign * stop_force(plan, stop, push, sign * u - plan[at + par.GAP], sign * v)
     return a
 
 
@@ -233,9 +233,9 @@ def rounding(plan: Vector, motion: Motion) -> float:
     """How far rounding may be from a balance of the forces on the mass, per unit mass (m/s²)."""
     size: float = plan[par.STIFFNESS] * abs(motion.u) + plan[par.HYSTERETIC] * abs(motion.z)
     size += abs(plan[par.LOAD]) + abs(value(plan, motion.clock[0], motion.clock[1]))
-    for side in range(1, 3):
-        if motion.mode & side:
-            size += stop_rounding(plan, motion, side)
+    for stop in range(2):
+        if motion.mode >> stop & 1:
+            size += stop_rounding(plan, motion, stop)
     return _ROUNDING * size
 
 
@@ -263,8 +263,8 @@ def creeps(plan: Vector, motion: Motion) -> bool:
     """Whether a drag is about to hold a mass that is slower than leaves a trace."""
     if not steep(plan) or motion.v == 0.0 or abs(motion.v) > creep(plan):
         return False
-    mode, _, u, _, right, left, z, age, clock = motion
-    standing = Motion(mode, 0, u, 0.0, right, left, z, age, clock)
+    mode, _, u, _, faces, z, age, clock = motion
+    standing = Motion(mode, 0, u, 0.0, faces, z, age, clock)
     # By half of the drag's grip, or rounding would hold again what was just let go of.
     most = 0.5 * (plan[par.FRICTION] + grip(plan))
     return bool(abs(without_friction(plan, standing)) <= most)
@@ -315,22 +315,22 @@ def balanced(plan: Vector, motion: Motion) -> bool:
     if changes(plan, motion) == 0.0:
         return bool(abs(without_friction(plan, motion)) <= rounding(plan, motion))
     size: float = plan[MOST] + abs(plan[par.LOAD])
-    for side in range(1, 3):
-        if motion.mode & side and curved_stop(plan, side):
-            size += stop_rounding(plan, motion, side)
+    for stop in range(2):
+        if motion.mode >> stop & 1 and curved_stop(plan, stop):
+            size += stop_rounding(plan, motion, stop)
     return bool(abs(without_friction(plan, motion)) <= _ROUNDING * size)
 
 
 @kernel
-def stop_rounding(plan: Vector, motion: Motion, side: int) -> float:
+def stop_rounding(plan: Vector, motion: Motion, stop: int) -> float:
     """Force of a pressed stop, of which its deformation's rounding is the same share (m/s²)."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
+    at = par.stop_at(stop)
     slope: float = plan[at + par.BUMPER_STIFFNESS]
     if plan[at + par.KIND] == par.FORMULA:
-        slope = abs(own_push(plan, side, face(plan, motion, side), 0.0)[1])
-    elif curved_stop(plan, side):
+        slope = abs(own_push(plan, stop, stop_deformation(plan, motion, stop), 0.0)[1])
+    elif curved_stop(plan, stop):
         exponent = plan[at + par.EXPONENT]
-        slope *= exponent * face(plan, motion, side) ** (exponent - 1.0)
+        slope *= exponent * stop_deformation(plan, motion, stop) ** (exponent - 1.0)
     size: float = max(abs(motion.u), abs(plan[at + par.GAP]))
     return slope * size
 
@@ -355,24 +355,24 @@ def branch_of(plan: Vector, motion: Motion, sign: float) -> Branch:
 
 
 @kernel
-def face(plan: Vector, motion: Motion, side: int) -> float:
-    """How far the stop on a side is deformed (m)."""
-    if not curved_stop(plan, side):
-        return motion.right if side == RIGHT else motion.left
-    if not motion.mode & side:
+def stop_deformation(plan: Vector, motion: Motion, stop: int) -> float:
+    """How far a stop is deformed (m)."""
+    if not curved_stop(plan, stop):
+        return motion.faces[stop]
+    if not motion.mode >> stop & 1:
         return 0.0
-    gap = plan[par.BUMPER + par.WIDTH * (side - 1) + par.GAP]
-    return max((motion.u if side == RIGHT else -motion.u) - gap, 0.0)  # type: ignore[no-any-return]
+    gap = plan[par.stop_at(stop) + par.GAP]
+    return max(facing(stop) * motion.u - gap, 0.0)  # type: ignore[no-any-return]
 
 
 @kernel
-def stop_push(plan: Vector, motion: Motion, side: int) -> float:
+def stop_push(plan: Vector, motion: Motion, stop: int) -> float:
     """What a pressed stop pushes with, away from it, per unit mass (m/s²)."""
-    at = par.BUMPER + par.WIDTH * (side - 1)
-    closing = motion.v if side == RIGHT else -motion.v
-    memory = motion.right if side == RIGHT else motion.left
-    if curved_stop(plan, side):
-        law = push_of(plan, side, closing, memory)
-        return stop_force(plan, side, law, face(plan, motion, side), closing)
+    at = par.stop_at(stop)
+    closing = facing(stop) * motion.v
+    memory = motion.faces[stop]
+    if curved_stop(plan, stop):
+        law = push_of(plan, stop, closing, memory)
+        return stop_force(plan, stop, law, stop_deformation(plan, motion, stop), closing)
     push: float = plan[at + par.BUMPER_STIFFNESS] * memory + plan[at + par.BUMPER_DAMPING] * closing
     return push

@@ -13,15 +13,15 @@ import math
 from vibroimpact.engine.forcing.dispatch import product
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
-from vibroimpact.engine.linear.evaluate import gained, node, relaxed, travel
+from vibroimpact.engine.linear.evaluate import node, relaxed, scaled_acceleration, travel
 from vibroimpact.engine.linear.flight import parted
 from vibroimpact.engine.linear.layout import NODE, NODES, RATE, ROW_V, WIDTH, H
 from vibroimpact.engine.linear.roots import NONE
 from vibroimpact.engine.linear.table_search import ended, next_window
 from vibroimpact.engine.motion import Row
-from vibroimpact.engine.yielding.careful import careful
+from vibroimpact.engine.yielding.certified_search import careful
 from vibroimpact.engine.yielding.layout import BEND_0, PUSH_0, PUSH_E, ROOT, TURN_0, TURN_E
-from vibroimpact.engine.yielding.leg import (
+from vibroimpact.engine.yielding.monotone_motion import (
     BEGUN,
     FROM_BEHIND,
     LIMIT,
@@ -35,7 +35,7 @@ from vibroimpact.engine.yielding.leg import (
 
 
 @kernel
-def go(
+def follow_leg(
     plan: Vector, table: int, leg: Leg, row: Row, start: int, limit: float
 ) -> tuple[int, float, Row]:
     """Follow a leg to its end or for the time `limit`.
@@ -43,7 +43,7 @@ def go(
     Returns
     -------
     end, t, row
-        What ended it (see `leg`), the elapsed time (s), and the state there.
+        What ended it (see `monotone_motion`), the elapsed time (s), and the state there.
     """
     way, stop, yields, memory, rate, behind, behind_memory, behind_rate, push_x, push_v, push_0 = (
         leg
@@ -58,7 +58,7 @@ def go(
             return STOPS, t, row
         if xs >= yields and yields != stop:
             return YIELDS, t, row
-        gain = gained(plan, table, row)
+        gain = scaled_acceleration(plan, table, row)
         size = plan[table + ROOT] * abs(v) + abs(gain) * (per_second * per_second)
         bend = plan[table + TURN_E] * size + plan[table + TURN_0]  # of the velocity, per step²
         floor = 0.125 * bend
@@ -137,7 +137,7 @@ def go(
                     before, now = push_0 - before_force, push_0 - force
                 elif inside and vs > 0.0 and force > 0.0:
                     # Still falling at the node, it has been no lower before.
-                    slope = way * gained(plan, table, node(plan, table, j, row))
+                    slope = way * scaled_acceleration(plan, table, node(plan, table, j, row))
                     cleared = moves or -2.0 * slope * per_second >= bend
                     if cleared and not presses:
                         slope = push_x * (vs * h) + push_v * slope * per_second
