@@ -9,7 +9,7 @@ from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.happen import decide, held_exactly, switch
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
 from vibroimpact.engine.assembly.curved.step import take_step, travel
-from vibroimpact.engine.assembly.curved.terms import expand, shorten
+from vibroimpact.engine.assembly.curved.terms import expand
 from vibroimpact.engine.assembly.curved.watch import first_of
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -18,6 +18,8 @@ from vibroimpact.engine.state import ARRIVAL, STEP
 
 _SAME = 1e-12
 """Share of a step within which events are simultaneous, so that the row's number decides."""
+
+_MOMENT = 2.0**-60
 
 begin, build = linear.begin, linear.build
 
@@ -112,10 +114,9 @@ def reopen(plan: Vector) -> None:
     for f in range(count):
         plan[zeros + f] = plan[kept + f]
     length = plan[at.LENGTH]
-    unit = length if length > 0.0 else 1.0
+    # A stretch of no length shows what is at its end: on such a moment nothing changes.
+    unit = length if length > 0.0 else _MOMENT / plan[at.STIFF_RATE]
     expand(plan, y, deformation, unit, of.ORDER)
-    if length == 0.0:
-        shorten(plan, 0.0)
 
 
 @kernel
