@@ -217,12 +217,15 @@ def test_links_stuck_at_once_and_the_most_overloaded_slides_first() -> None:
     # One mass of 1.5 kg on the same friction.
     alone = follow({"m": 1.5}, {"low": ("ground", "m", weak)}, {}, vi.Harmonic(1.4, 1.0), 2)
     assert apart(moved.displacement[0], alone.displacement) < 1e-12
-    # A constant force of 4 N on b alone overloads both, b by more: b slides, a is held.
-    links["low"] = ("ground", "a", low)
-    slides = follow(masses, links, {}, vi.Harmonic(1e-300, 1.0), 1, forces={"b": 4.0})
+    # A spring pulls b with 4 N, which friction does not hold, and a with 3 N, which it does.
+    links["low"] = ("ground", "a", vi.FrictionIsolator(stiffness=0.0, friction=3.5, damping=0.0))
+    links["high"] = ("a", "b", vi.FrictionIsolator(stiffness=4.0, friction=1.0, damping=0.0))
+    start = vi.State(displacement={"b": 1.0})
+    slides = follow(masses, links, {}, vi.Harmonic(1e-300, 1.0), 1, start=start)
     assert not slides.displacement[0].values.any()
     time = slides.time.values
-    assert slides.displacement[1].values == pytest.approx(0.5 * 6.0 * time**2, rel=1e-13)
+    expected = 0.25 + 0.75 * np.cos(np.sqrt(8.0) * time)
+    assert slides.displacement[1].values == pytest.approx(expected, rel=1e-13)
 
 
 def test_a_motion_goes_on_from_any_place() -> None:
@@ -245,3 +248,24 @@ def test_more_parts_than_a_mode_has_bits_for_are_refused() -> None:
     with pytest.raises(vi.InputError, match="18 curved parts of links need 54 bits") as error:
         vi.simulate(rig, 1)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("name", ["hunt-crossley", "bouc-wen", "friction"])
+def test_sweeps_of_one_mass_are_those_of_an_oscillator(name: str) -> None:
+    isolator, right, left = LAWS[name]
+    oscillator = vi.Oscillator(1.0, isolator, right=right, left=left)
+    stops = {"right": vi.Link("m", "ground", right)}
+    if left:
+        stops["left"] = vi.Link("ground", "m", left)
+    links = {"i": vi.Link("ground", "m", isolator)}
+    assembly = vi.Assembly(masses={"m": 1.0}, links=links, stops=stops)
+    frequencies = [1.5, 1.9, 2.3]
+    expected, found = (vi.sweep(vi.Rig(one, SHAKEN), frequencies) for one in (oscillator, assembly))
+    for variable in ("peak_displacement", "peak_acceleration"):
+        values = found[variable].sel(mass="m").values
+        assert values == pytest.approx(expected[variable].values, rel=1e-9)
+    assert found.peak_transmitted_force.values == pytest.approx(
+        expected.peak_transmitted_force.values, rel=1e-9
+    )
+    assert (found.period.values == expected.period.values).all()
+    assert found.impacts.values.max() > 0

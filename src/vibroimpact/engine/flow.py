@@ -26,6 +26,7 @@ from numba.core import cgutils, types
 from numba.core.callconv import excinfo_t
 from numba.extending import intrinsic, overload
 
+from vibroimpact.engine.assembly.layout import CURVED
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.parameters import FORCING, MASSES
 
@@ -46,9 +47,9 @@ SIGNATURES: dict[str, Any] = {}
 _compiled_code = attrgetter("library", "fndesc")
 """Of a compiled kernel: its machine code, and what its function is called."""
 
-_KERNELS: dict[bool, dict[str, Any]] = {False: {}, True: {}}
+_KERNELS: tuple[dict[str, Any], ...] = ({}, {}, {})
 """The kernels by name, for Python without the compiler, where a plan itself tells its flow: those
-of one mass and, if True, of several."""
+of one mass, of several, and of several with curved laws."""
 
 
 def _function(returns: Any, *arguments: Any) -> Callable[[F], F]:
@@ -61,7 +62,8 @@ def _function(returns: Any, *arguments: Any) -> Callable[[F], F]:
         names = ", ".join(inspect.signature(described).parameters)
 
         def plain(plan: Any, *args: Any) -> Any:
-            return _KERNELS[plan[FORCING] == MASSES][name](plan, *args)
+            several = plan[FORCING] == MASSES
+            return _KERNELS[(1 + (plan[CURVED] != 0.0)) if several else 0][name](plan, *args)
 
         call = _indirect(names, declared, index)
         scope: dict[str, Any] = {"call": call}
@@ -121,20 +123,22 @@ def _indirect(names: str, declared: Any, index: int) -> Any:
     return intrinsic(scope["call"])
 
 
-def filling(plan_type: Callable[[Any], Any], one: tuple[Any, ...], several: tuple[Any, ...]) -> Any:
+def filling(
+    plan_type: Callable[[Any], Any], kind: Callable[[Any], int], *kinds: tuple[Any, ...]
+) -> Any:
     """Make an intrinsic that writes the addresses of a flow's functions into its table.
 
     It is called with a flow, whose type is that of the kernels' plans, and the table. The functions
-    are those of the flows of one mass, and of that of several masses, which may lack some.
+    are those of the flow's kind: of one mass, of several, or of several with curved laws, which may
+    lack some.
     """
-    for masses, kernels in ((False, one), (True, several)):
-        _KERNELS[masses].update({kernel.__name__: kernel for kernel in kernels})
+    for known, kernels in zip(_KERNELS, kinds, strict=True):
+        known.update({kernel.__name__: kernel for kernel in kernels})
 
     @intrinsic
     def fill(typing: Any, given: Any, table: Any) -> Any:
         found = {}
-        kernels = one if isinstance(plan_type(given), OneMass) else several
-        for kernel in kernels:
+        for kernel in kinds[kind(given)]:
             name = kernel.__name__
             declared = SIGNATURES[name]
             arguments = (plan_type(given), *declared.args[1:])

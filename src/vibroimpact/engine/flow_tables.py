@@ -11,19 +11,37 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import flow, one_mass
 from vibroimpact.engine.assembly import table as several_masses
+from vibroimpact.engine.assembly.curved import table as curved_masses
 from vibroimpact.engine.compilation import Compiled
-from vibroimpact.engine.flow_dispatch import Masses, PlanType, flow_of
+from vibroimpact.engine.flow_dispatch import (
+    SEVERAL_MASSES,
+    CurvedMasses,
+    Masses,
+    PlanType,
+    flow_of,
+)
 from vibroimpact.engine.jit import Vector
 
 
 def _plan_type(given: Any) -> Any:
-    return flow.P if given.instance_class is Masses else PlanType(given.instance_class)
+    kind = given.instance_class
+    return flow.P if kind in SEVERAL_MASSES else PlanType(kind)
 
 
-_fill_motion = flow.filling(_plan_type, one_mass.MOTION, several_masses.MOTION)
-_fill_recorded = flow.filling(_plan_type, one_mass.RECORDED, ())
-_fill_disturbed = flow.filling(_plan_type, one_mass.DISTURBED, several_masses.DISTURBED)
-_fill_measured = flow.filling(_plan_type, one_mass.MEASURED, ())
+def _kind(given: Any) -> int:
+    kind = given.instance_class
+    return 1 + SEVERAL_MASSES.index(kind) if kind in SEVERAL_MASSES else 0
+
+
+def _filling(group: str) -> Any:
+    tables = (one_mass, several_masses, curved_masses)
+    return flow.filling(_plan_type, _kind, *(vars(table).get(group, ()) for table in tables))
+
+
+_fill_motion = _filling("MOTION")
+_fill_recorded = _filling("RECORDED")
+_fill_disturbed = _filling("DISTURBED")
+_fill_measured = _filling("MEASURED")
 
 
 def _motion(given: Any, table: Any) -> None:
@@ -47,7 +65,10 @@ GROUPS = {
     for function in (_motion, _recorded, _disturbed, _measured)
 }
 """What fills a part of a table with the addresses of compiled functions."""
-LACKING = {Masses: ("recorded", "measured")}
+LACKING = {
+    Masses: ("recorded", "measured"),
+    CurvedMasses: ("recorded", "disturbed", "measured"),
+}
 """Groups of functions that a flow has not: an entry that asks for one of them refuses its rigs."""
 
 _tables: dict[type, NDArray[np.int64]] = {}

@@ -63,11 +63,14 @@ def check_size(assembly: Assembly) -> None:
     InputError
         If so; `simulate` has no such limit.
     """
-    parts = 2 * len(assembly.names) + len(assembly.stops)
+    links = len(link_parts(assembly))
+    parts = 2 * len(assembly.names) + len(assembly.stops) + links
     if parts > LARGEST:
+        more = f" and {links} curved parts of links" if links else ""
         raise InputError(
-            f"rig: {len(assembly.names)} masses and {len(assembly.stops)} stops; twice the number "
-            f"of masses plus the number of stops is at most {LARGEST} here; use simulate"
+            f"rig: {len(assembly.names)} masses, {len(assembly.stops)} stops{more}; twice the "
+            f"number of masses plus the number of all others is at most {LARGEST} here; use "
+            "simulate"
         )
 
 
@@ -90,9 +93,7 @@ def assembly_numbers(
         if law.drag == 1.0:
             damping += c * np.outer(w, w)
     forcing = _forcing(assembly, shaking, of.mass, of.influence)
-    return make_vector(
-        of.mass, damping, stiffness, stops, forcing, of.force, tables, of.influence
-    )
+    return make_vector(of.mass, damping, stiffness, stops, forcing, of.force, tables, of.influence)
 
 
 def _rows(assembly: Assembly) -> list[Stop]:

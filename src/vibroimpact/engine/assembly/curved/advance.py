@@ -6,10 +6,10 @@ from vibroimpact.engine.assembly import advance as linear
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.advance import load_motion, relax, remember, store_motion
 from vibroimpact.engine.assembly.curved import layout as of
-from vibroimpact.engine.assembly.curved.happen import decide, held_exactly, switch
+from vibroimpact.engine.assembly.curved.happen import decide, switch
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
 from vibroimpact.engine.assembly.curved.step import take_step, travel
-from vibroimpact.engine.assembly.curved.terms import expand
+from vibroimpact.engine.assembly.curved.terms import expand, move_alike
 from vibroimpact.engine.assembly.curved.watch import first_of
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -71,7 +71,7 @@ def next_stretch(plan: Vector, left: float) -> int:
     if hit < 0 or end > 0.0:
         travel(plan, y, deformation, end)
         relax(plan, mode, deformation, end * h)
-        held_exactly(plan, mode, y)
+        move_alike(plan, beyond(y, int(plan[at.MASSES])))
     length = h if hit < 0 else end * h
     if end > _SAME:
         for f in range(count):

@@ -7,7 +7,7 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.branches import side_of, way_of, with_side, with_way
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
-from vibroimpact.engine.assembly.curved.terms import accelerations, expand, row_of
+from vibroimpact.engine.assembly.curved.terms import accelerations, expand, move_alike, row_of
 from vibroimpact.engine.assembly.events import closing, impacts, switch_mode
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -62,28 +62,6 @@ def stop_moving(plan: Vector, f: int, y: Vector) -> None:
     kick = closing(plan, f, v) / plan[int(plan[at.COUPLING]) + f * count + f]
     for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
         v[i] -= plan[int(plan[at.RESPONSE]) + f * n + i] * kick
-
-
-@kernel
-def held_exactly(plan: Vector, mode: int, y: Vector) -> None:
-    """Give ends that friction holds the same velocity, to the last digit."""
-    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
-    changed, passes = True, 0
-    while changed and passes <= count:
-        changed, passes = False, passes + 1
-        for f in range(count):
-            if not (is_link(plan, f) and mode >> f & 1):
-                continue
-            one = int(plan[at.STOP]) + f * at.STOP_WIDTH
-            left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
-            if left == n or (right != n and right < left):
-                left, right = right, left
-            # The other end takes the velocity of the ground, or of the first mass.
-            v = 0.0 if right == n else y[n + left]
-            if y[n + left] != v:
-                y[n + left], changed = v, True
-            if right != n and y[n + right] != v:
-                y[n + right], changed = v, True
 
 
 @apart
@@ -218,7 +196,8 @@ def _turned(plan: Vector, mode: int, f: int, which: int, y: Vector, deformation:
         zeros[f] = float(of.V_FRESH)
         stop_moving(plan, f, y)
         stuck = mode | 1 << f
-        held_exactly(plan, stuck, y)
+        enter_mode(plan, stuck)
+        move_alike(plan, beyond(y, int(plan[at.MASSES])))
         mode = hold_or_slide(plan, stuck, y, deformation)
         return mode if mode >> f & 1 else _follow(plan, mode, f)
     if behaviour == of.BILINEAR:

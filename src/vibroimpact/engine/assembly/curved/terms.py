@@ -173,6 +173,28 @@ def remembers(plan: Vector, row: int) -> bool:
     return int(plan[row + of.BEHAVIOUR]) in (of.HYSTERETIC, of.BILINEAR)
 
 
+@kernel
+def move_alike(plan: Vector, values: Vector) -> None:
+    """Give ends that friction holds the same velocity or acceleration, to the last digit."""
+    n, r = int(plan[at.MASSES]), int(plan[at.RESTING])
+    changed, passes = r > 0, 0
+    while changed and passes <= r:
+        changed, passes = False, passes + 1
+        for j in range(r):
+            f = int(plan[int(plan[at.RESTING_LIST]) + j])
+            one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+            if plan[one + at.KIND] != at.LINK:
+                continue
+            # The ground, then the first mass, gives it to the other end.
+            a, b = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
+            first, second = (b, a) if a == n or (b != n and b < a) else (a, b)
+            if second == n:
+                if values[first] != 0.0:
+                    values[first], changed = 0.0, True
+            elif values[second] != values[first]:
+                values[second], changed = values[first], True
+
+
 @apart
 def expand(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
     """Write the series of u, v, w, the memories and all forces in t / length.
@@ -215,6 +237,7 @@ def expand(plan: Vector, y: Vector, deformation: Vector, length: float, order: i
         drive(plan, of_, here, beyond(plan, now), held, 1.0 if j == 0 else 0.0, after)
         push(plan, of_, here, j, base, after)
         restrain(plan, of_, beyond(held, pressed), after)
+        move_alike(plan, beyond(plan, after))
         if j == order:
             break
         factor = length / (j + 1)

@@ -1,0 +1,77 @@
+"""The functions of the flow of several masses with curved laws (see `flow`)."""
+
+from __future__ import annotations
+
+from vibroimpact.engine.assembly import measures, section, table
+from vibroimpact.engine.assembly.curved import advance as motion
+from vibroimpact.engine.assembly.curved import channels
+from vibroimpact.engine.assembly.curved import section as curved
+from vibroimpact.engine.event_loop import unobserved
+from vibroimpact.engine.jit import Vector, kernel
+
+begin, build, advance = motion.begin, motion.build, motion.advance
+too_much_work, stiff_rate = section.too_much_work, section.stiff_rate
+parts, size, point = section.parts, section.size, section.point
+coordinates, numbers, look_again = table.coordinates, table.numbers, table.look_again
+nothing, measured = table.nothing, table.measured
+units, disturb, place, at_point = curved.units, curved.disturb, curved.place, curved.at_point
+_observed = measures.observing(channels)
+
+
+@kernel
+def stops(plan: Vector) -> int:
+    """See `flow.stops`."""
+    found: int = measures.stops_of(plan)
+    return found
+
+
+@kernel
+def complete(plan: Vector) -> None:
+    """See `flow.complete`."""
+    table.complete(plan)
+    curved.complete(plan)
+
+
+@kernel
+def undisturbed(plan: Vector, state: Vector, dying: float, measured: Vector) -> int:
+    """See `flow.undisturbed`; it is not known."""
+    return 0
+
+
+@kernel
+def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_events: int) -> int:
+    """See `flow.cycle`."""
+    events: int = unobserved(plan, state, s, c, length, max_events)
+    return events
+
+
+@kernel
+def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `flow.extremes`."""
+    _observed(plan, notes)
+
+
+MOTION = (
+    begin,
+    build,
+    too_much_work,
+    stiff_rate,
+    parts,
+    coordinates,
+    stops,
+    numbers,
+    complete,
+    units,
+    size,
+    disturb,
+    place,
+    point,
+    at_point,
+    undisturbed,
+    advance,
+    cycle,
+    nothing,
+    look_again,
+    extremes,
+    measured,
+)
