@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.assembly import layout
-from vibroimpact.engine.assembly.curved.layout import BILINEAR, HYSTERETIC
 from vibroimpact.engine.assembly.curved.laws import link_rows, stop_law
+from vibroimpact.engine.assembly.curved.layout import BILINEAR, HYSTERETIC
 from vibroimpact.engine.assembly.plan import (
     Forcing,
     Stop,
@@ -47,11 +47,11 @@ def check_laws(assembly: Assembly) -> None:
     """
     rows = _rows(assembly)
     if (count := bits(rows)) > layout.MOST_STOPS:
+        curved = len(rows) - len(assembly.stops)
         raise InputError(
-            f"stops: {len(assembly.stops)} stops and {len(rows) - len(assembly.stops)} curved parts "
-            f"of links need {count} bits of a contact mode; at most {layout.MOST_STOPS} are "
-            "possible (one for each stop and each curved part, two more for each part that has "
-            "branches)"
+            f"stops: {len(assembly.stops)} stops and {curved} curved parts of links need {count} "
+            f"bits of a contact mode; at most {layout.MOST_STOPS} are possible (one for each stop "
+            "and each curved part, two more for each part that has branches)"
         )
 
 

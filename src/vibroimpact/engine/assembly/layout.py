@@ -133,9 +133,9 @@ STEP = 2.5
 
 CONTACT, IMPACT, RELEASE, RISE, TURN = range(1, 6)
 LIMIT, PASSED, GIVEN_UP = motion.LIMIT, motion.PASSED, motion.GIVEN_UP
-"""What ends a stretch: its limit, a deformable stop is met, a rigid one is hit (or comes to rest: its
-bit is set then), a deformable stop is left, a rest ends, another piece of a curved law begins, a
-step, or the motion is no longer finite."""
+"""What ends a stretch: its limit, a deformable stop is met, a rigid one is hit (or comes to rest:
+its bit is set then), a deformable stop is left, a rest ends, another piece of a curved law begins,
+a step, or the motion is no longer finite."""
 
 STATE_MODE, STATE_FRESH, PARTS = range(3)
 

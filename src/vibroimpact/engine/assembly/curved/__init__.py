@@ -10,8 +10,8 @@ Mode
     two for each row with branches: whether s′ < 0, and the side: whether z (of a formula: s) < 0,
     or whether a bilinear spring yields.
 Tape
-    A law is the formula of `engine.series.laws`. Run once with symbols (`tape`), it leaves a list of
-    operations on series; `terms` goes through it for each order. So all laws are compiled once.
+    A law is the formula of `engine.series.laws`. Run once with symbols (`tape`), it leaves a list
+    of operations on series; `terms` goes through it for each order. All laws are compiled once.
 Step
     A series of order 24 in a fixed unit of time; its length by the last two coefficients, certified
     by the equation of motion at its end, as in the flow of one mass (`step`).

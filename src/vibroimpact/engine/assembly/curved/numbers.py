@@ -17,8 +17,8 @@ from vibroimpact.engine.series.values import Push
 from vibroimpact.engine.taylor.laws import EVEN, pressing, shallow, slowness
 
 _UNMET = 1e-12
-"""Share of the motion's speed. A stop that is met no faster has not been met: its dissipation, which
-its restitution makes of that speed, is 0."""
+"""Share of the motion's speed. A stop that is met no faster has not been met: the dissipation that
+its restitution makes of that speed is 0."""
 
 _GRAIN = 2.0**-49
 

@@ -73,9 +73,9 @@ def disturb(plan: Vector, state: Vector, part: int, by: float, period: float) ->
         elif kind == at.PUSHING:
             if not mode >> f & 1 or not plan[row + of.NUMBERS + par.BUMPER + par.DISSIPATION] < 0.0:
                 return 0.0
-        elif mode >> f & 1 or kind == at.RIGID:
-            return 0.0
-        elif not plan[one + at.RELAXATION] * period < _FORGOTTEN:
+        elif (
+            mode >> f & 1 or kind == at.RIGID or not plan[one + at.RELAXATION] * period < _FORGOTTEN
+        ):
             return 0.0
     before: float = state[at.PARTS + part]
     state[at.PARTS + part] = before + by
