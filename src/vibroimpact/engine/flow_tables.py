@@ -67,7 +67,7 @@ GROUPS = {
 """What fills a part of a table with the addresses of compiled functions."""
 LACKING = {
     Masses: ("recorded", "measured"),
-    CurvedMasses: ("recorded", "disturbed", "measured"),
+    CurvedMasses: ("recorded", "measured"),
 }
 """Groups of functions that a flow has not: an entry that asks for one of them refuses its rigs."""
 

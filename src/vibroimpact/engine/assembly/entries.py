@@ -12,6 +12,7 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.channels import CLEARANCE
 from vibroimpact.engine.assembly.curved import advance as curved
 from vibroimpact.engine.assembly.curved import channels as curved_channels
+from vibroimpact.engine.assembly.curved.tangent import carry_disturbances as carry_curved
 from vibroimpact.engine.assembly.tangent import carry_disturbances
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
@@ -96,7 +97,7 @@ def _follower(flow: Any, seen: Any, carry: Any) -> Any:
 
 
 _go = _follower(motion, channels, carry_disturbances)
-_go_curved = _follower(curved, curved_channels, carry_disturbances)
+_go_curved = _follower(curved, curved_channels, carry_curved)
 
 
 @single(_SIGNATURE)

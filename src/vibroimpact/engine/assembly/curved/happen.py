@@ -41,7 +41,7 @@ def _settles(
     if not push > 0.0:
         return False
     lasts = 2.0 * returned / (push * (1.0 - e))
-    return lasts * plan[at.RATE] <= _CHATTERED and lasts * abs(jerk) <= _CHATTERED * push
+    return bool(lasts * plan[at.RATE] <= _CHATTERED and lasts * abs(jerk) <= _CHATTERED * push)
 
 
 _impact = impacts(_settles)
@@ -50,7 +50,7 @@ _impact = impacts(_settles)
 @kernel
 def is_link(plan: Vector, f: int) -> bool:
     """Whether a row is that of a link."""
-    return plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] == at.LINK
+    return bool(plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] == at.LINK)
 
 
 @kernel

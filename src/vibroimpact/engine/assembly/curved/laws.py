@@ -100,6 +100,10 @@ def written(stops: Sequence[Any]) -> tuple[Any, Any]:
         tape += made.rows
         row[of.LAST_OP] = len(tape)
         row[of.S_NODE : of.RAW_NODE + 1] = made.nodes
+        tape += made.slope_rows
+        row[of.SLOPE_CONSTANTS] = made.slope_constants
+        row[of.LAST_SLOPE] = len(tape)
+        row[of.BY_S : of.FLOW_BY_Z + 1] = made.slopes
     return rows, np.array(tape).reshape(-1, of.OP_WIDTH)
 
 

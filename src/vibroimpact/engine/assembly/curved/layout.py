@@ -20,14 +20,23 @@ SMOOTH, HYSTERETIC, BILINEAR, DRAG, FRICTION, OWN, POWER, OWN_STOP = range(1, 9)
     FORCE_NODE,
     FLOW_NODE,
     RAW_NODE,
-    # While a mode lasts: whether the force acts, and how long the step may be by it (s).
+    # While a mode lasts: whether the force acts.
     ACTIVE,
-    # 1/s² of the bodies that meet, at rest.
-    RIGIDITY,
-) = range(13)
+    # For disturbances.
+    SLOPE_CONSTANTS,
+    LAST_SLOPE,
+    BY_S,
+    BY_V,
+    BY_Z,
+    BY_CHI,
+    FLOW_BY_V,
+    FLOW_BY_Z,
+) = range(20)
 """Of a row: the place of its two bits among those with branches (−1: it has none), its operations,
-of which the first are constants, and the nodes of what goes in and comes out."""
-NAMES = 16
+of which the first are constants, and the nodes of what goes in and comes out. Then come the
+operations of the slopes of the force, by s, s′, z and a stop's dissipation, and of the memory's
+rate."""
+NAMES = 24
 """Then the numbers of its forces by name (`series.layout.NAMES`), as the mode has them."""
 NUMBERS = NAMES + len(series.NAMES)
 """Then the law as that of a rig of 1 kg with one stop (`parameters`)."""

@@ -8,6 +8,12 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly import section as linear
 from vibroimpact.engine.assembly.curved import layout as of
+from vibroimpact.engine.assembly.curved.branches import (
+    side_of,
+    way_of,
+    with_side,
+    with_way,
+)
 from vibroimpact.engine.assembly.curved.terms import remembers, row_of
 from vibroimpact.engine.assembly.events import closing
 from vibroimpact.engine.jit import Vector, kernel
@@ -89,6 +95,31 @@ def at_point(plan: Vector, state: Vector, point: Vector) -> None:
     """See `flow.at_point`."""
     copy(point, beyond(state, at.PARTS), linear.parts(plan))
     place(plan, state)
+
+
+@kernel
+def mirror(plan: Vector, state: Vector, q: Vector) -> None:
+    """See `flow.mirror`: memories change their sign, links' branches both."""
+    width, n, count = linear.parts(plan), int(plan[at.MASSES]), int(plan[at.STOPS])
+    mode = int(state[at.STATE_MODE])
+    linear.mirror(plan, state, q)
+    for f in range(count):
+        if plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] != at.LINK:
+            continue
+        state[at.PARTS + 2 * n + f] = -state[at.PARTS + 2 * n + f]
+        for i in range(width):
+            q[i * width + 2 * n + f] = -q[i * width + 2 * n + f]
+    found = int(state[at.STATE_MODE])
+    for f in range(count):
+        row = row_of(plan, f)
+        if plan[row + of.BRANCH] < 0.0:
+            continue
+        found = with_way(plan, f, found, -way_of(plan, f, mode))
+        side = side_of(plan, f, mode)
+        if int(plan[row + of.BEHAVIOUR]) != of.BILINEAR:
+            side = -side
+        found = with_side(plan, f, found, side)
+    state[at.STATE_MODE] = float(found)
 
 
 @kernel

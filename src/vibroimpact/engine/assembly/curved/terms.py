@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved import tape as op
@@ -49,10 +50,10 @@ def _driven(plan: Vector, a: int, b: int, k: int) -> float:
 
 
 @kernel
-def first(plan: Vector, row: int, base: int) -> None:
-    """Write coefficient 0 of what a law makes, its constants included."""
-    begin, tape = int(plan[row + of.FIRST_OP]), int(plan[at.TAPE])
-    for i in range(begin, int(plan[row + of.LAST_OP])):
+def first(plan: Vector, row: int, begin: int, end: int, base: int) -> None:
+    """Write coefficient 0 of what operations of a law make, their constants included."""
+    tape = int(plan[at.TAPE])
+    for i in range(begin, end):
         one = tape + i * of.OP_WIDTH
         code = int(plan[one])
         if code == op.INPUT:
@@ -88,11 +89,10 @@ def first(plan: Vector, row: int, base: int) -> None:
 
 
 @kernel
-def further(plan: Vector, row: int, k: int, base: int) -> None:
-    """Write coefficient k > 0 of what a law makes."""
+def further(plan: Vector, begin: int, end: int, k: int, base: int) -> None:
+    """Write coefficient k > 0 of what operations of a law make."""
     tape = int(plan[at.TAPE])
-    begin = int(plan[row + of.FIRST_OP]) + int(plan[row + of.CONSTANTS])
-    for i in range(begin, int(plan[row + of.LAST_OP])):
+    for i in range(begin, end):
         one = tape + i * of.OP_WIDTH
         code = int(plan[one])
         if code == op.INPUT:
@@ -153,10 +153,11 @@ def push(plan: Vector, of_: Places, here: Vector, k: int, base: int, into: int) 
                 x = max(x - plan[one + at.GAP], 0.0)
             plan[node(plan, row, of.S_NODE, base) + k] = x
             plan[node(plan, row, of.V_NODE, base) + k] = v
+            begin, end = int(plan[row + of.FIRST_OP]), int(plan[row + of.LAST_OP])
             if k == 0:
-                first(plan, row, base)
+                first(plan, row, begin, end, base)
             else:
-                further(plan, row, k, base)
+                further(plan, begin + int(plan[row + of.CONSTANTS]), end, k, base)
             force = plan[node(plan, row, of.FORCE_NODE, base) + k]
             if link:
                 force = -force
@@ -164,7 +165,23 @@ def push(plan: Vector, of_: Places, here: Vector, k: int, base: int, into: int) 
             plan[into + i] -= plan[of_.response + f * n + i] * force
 
 
-_FRICTION = of.NUMBERS + op.par.FRICTION
+_FRICTION = of.NUMBERS + par.FRICTION
+
+
+@apart
+def slopes(plan: Vector) -> None:
+    """Write the series of the slopes of all forces that act, over the series in hand."""
+    base = int(plan[at.NODES])
+    for f in range(int(plan[at.STOPS])):
+        row = row_of(plan, f)
+        behaviour = int(plan[row + of.BEHAVIOUR])
+        if behaviour in (0, of.FRICTION) or plan[row + of.ACTIVE] == 0.0:
+            continue
+        begin, end = int(plan[row + of.LAST_OP]), int(plan[row + of.LAST_SLOPE])
+        first(plan, row, begin, end, base)
+        begin += int(plan[row + of.SLOPE_CONSTANTS])
+        for k in range(1, int(plan[at.ORDER]) + 1):
+            further(plan, begin, end, k, base)
 
 
 @kernel
@@ -270,9 +287,6 @@ def shorten(plan: Vector, tau: float) -> None:
         int(plan[at.WAVE_SERIES]),
         int(plan[at.FORCE_SERIES]),
     )
-    first_node, last = int(plan[at.TAPE]), 0
-    for f in range(count):
-        last = max(last, int(plan[row_of(plan, f) + of.LAST_OP]))
     power = 1.0
     for j in range(1, int(plan[at.ORDER]) + 1):
         power *= tau
@@ -282,8 +296,12 @@ def shorten(plan: Vector, tau: float) -> None:
             plan[waves + j * w + q] *= power
         for p in range(count):
             plan[forces + j * count + p] *= power
-        for i in range(last):
-            if plan[first_node + i * of.OP_WIDTH] != _CONSTANT:
+        for f in range(count):
+            law = row_of(plan, f)
+            if plan[law + of.ACTIVE] == 0.0:
+                continue
+            begin = int(plan[law + of.FIRST_OP]) + int(plan[law + of.CONSTANTS])
+            for i in range(begin, int(plan[law + of.LAST_OP])):
                 plan[base + i * _T + j] *= power
     plan[at.PIECE_LENGTH] *= tau
 
