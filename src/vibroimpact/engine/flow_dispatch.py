@@ -205,7 +205,10 @@ def flow_of(rig: Vector) -> Any:
 def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
     if par.MASSES in (rig[par.FORCING], other[par.FORCING]):
-        return bool(rig[par.FORCING] == other[par.FORCING]) and _flow(rig) is _flow(other)
+        same = bool(rig[par.FORCING] == other[par.FORCING]) and _flow(rig) is _flow(other)
+        # What the laws of a curved one are made of stands in the vector, but needs its room.
+        length = assembly.LENGTH_OF_PLAN
+        return same and bool(not rig[assembly.CURVED] or rig[length] == other[length])
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
     if rig[par.CURVED]:
         same = same and kernels.covers(kernels.laws_code(rig), kernels.laws_code(other))

@@ -1,4 +1,4 @@
-"""The motion of an assembly with linear links, bumpers and rigid stops, as `simulate` returns it.
+"""The motion of an assembly, as `simulate` returns it.
 
 The flow of several masses goes from section to section: a forcing cycle, or a line of a record.
 Samples come from a second run through the same section, from the same state, so that they do not

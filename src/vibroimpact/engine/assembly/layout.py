@@ -111,7 +111,8 @@ from vibroimpact.engine import motion
     NODES,
     POINT,
     KEPT_Y,
-) = range(87)
+    SHORT,
+) = range(88)
 HEADER = 88
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)

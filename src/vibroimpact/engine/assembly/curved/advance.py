@@ -20,6 +20,11 @@ _SAME = 1e-12
 """Share of a step within which events are simultaneous, so that the row's number decides."""
 
 _MOMENT = 2.0**-60
+"""Share of the time in which the motion changes."""
+
+_SHORT, _MOST = 1e-3, 200_000
+"""Steps shorter than this share of that time, so many without a longer one between, lead nowhere."""
+
 
 begin, build = linear.begin, linear.build
 
@@ -58,7 +63,9 @@ def next_stretch(plan: Vector, left: float) -> int:
     size = size_of(plan, y)
     longest = enter(plan, y, deformation, size)
     h = take_step(plan, y, deformation, left, longest, size)
-    if h == 0.0 and left > 0.0:
+    short = h * plan[at.STIFF_RATE] < _SHORT and h < left
+    plan[at.SHORT] = plan[at.SHORT] + 1.0 if short else 0.0
+    if (h == 0.0 and left > 0.0) or plan[at.SHORT] > _MOST:
         return at.GIVEN_UP
     hit, which, end = -1, 0, 1.0
     for f in range(count):
