@@ -23,7 +23,7 @@ _MOMENT = 2.0**-60
 """Share of the time in which the motion changes."""
 
 _SHORT, _MOST = 1e-3, 200_000
-"""Steps shorter than this share of that time, so many without a longer one between, lead nowhere."""
+"""Steps below this share of that time, so many without a longer one between, lead nowhere."""
 
 
 begin, build = linear.begin, linear.build

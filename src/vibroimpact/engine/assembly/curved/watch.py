@@ -30,7 +30,7 @@ _FRICTION = of.NUMBERS + par.FRICTION
 def fall(plan: Vector, a: Vector, size: float, fresh: bool, end: float) -> float:
     """When a series first falls through zero, as a share of the step, or NONE.
 
-    `fresh`: it begins at zero; what is rounding of its first coefficients is not looked at.
+    `fresh`: it begins at zero; what is rounding of its first coefficients is left out.
     """
     order, zeros = int(plan[at.ORDER]), 0
     if fresh:
