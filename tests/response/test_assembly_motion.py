@@ -410,28 +410,6 @@ def test_states_of_other_rigs_are_refused() -> None:
         vi.simulate(vi.Rig(one_mass(BUMPER, None)[0], SHAKING["force"]), 1, other)
 
 
-@pytest.mark.parametrize(
-    ("part", "law", "says"),
-    [
-        ("links", vi.FrictionIsolator(100.0, 1.0, 3.0), "links.x: .*not a FrictionIsolator"),
-        (
-            "links",
-            vi.Law("k*u + k*u**3", k=3.0),
-            "links.x: .*linear links .*not a PolynomialIsolator",
-        ),
-        ("stops", vi.PowerBumper(1e5, 0.01, restitution=0.5), "stops.x: .*not a PowerBumper"),
-    ],
-)
-def test_laws_that_are_not_accepted_yet(part: str, law: Any, says: str) -> None:
-    assembly = neighbours()
-    added = assembly.replace(
-        **{part: {**getattr(assembly, part), "x": vi.Link("low", "high", law)}}
-    )
-    with pytest.raises(vi.InputError, match=says) as error:
-        vi.simulate(vi.Rig(added, vi.Harmonic(3.0, 1.9)), 1)
-    assert "\n" not in str(error.value)
-
-
 def test_functions_of_one_mass_refuse_the_motion() -> None:
     motion = vi.simulate(RIG, 2)
     for function in (vi.contacts, vi.totals, vi.fourier_spectrum):

@@ -24,6 +24,7 @@ from typing import Any, TypeVar
 
 from llvmlite import ir
 
+from vibroimpact.engine.assembly.layout import CURVED
 from vibroimpact.engine.compiler import cgutils, excinfo_t, intrinsic, overload, types
 from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.parameters import FORCING, MASSES
@@ -47,8 +48,9 @@ GROUPS: dict[str, list[str]] = {}
 _compiled_code = attrgetter("library", "fndesc")
 """Of a compiled kernel: its machine code, and what its function is called."""
 
-FLOWS: dict[bool, ModuleType] = {}
-"""The modules of the functions of one mass and, if True, of several; set in `flow_tables`."""
+FLOWS: list[ModuleType] = []
+"""The modules of the functions of one mass, of several, and of several with curved laws; set in
+`flow_tables`."""
 
 
 def _function(group: str, returns: Any, *arguments: Any) -> Callable[[F], F]:
@@ -63,7 +65,8 @@ def _function(group: str, returns: Any, *arguments: Any) -> Callable[[F], F]:
 
         def plain(plan: Any, *args: Any) -> Any:
             # Without the compiler, a plan itself says of which flow it is.
-            return getattr(FLOWS[plan[FORCING] == MASSES], name)(plan, *args)
+            several = plan[FORCING] == MASSES
+            return getattr(FLOWS[1 + (plan[CURVED] != 0.0) if several else 0], name)(plan, *args)
 
         call = _indirect(names, declared, index)
         scope: dict[str, Any] = {"call": call}
@@ -123,7 +126,9 @@ def _indirect(names: str, declared: Any, index: int) -> Any:
     return intrinsic(scope["call"])
 
 
-def filling(plan_type: Callable[[Any], Any], group: str) -> Any:
+def filling(
+    plan_type: Callable[[Any], Any], module_of: Callable[[Any], ModuleType], group: str
+) -> Any:
     """Make an intrinsic that writes the addresses of a flow's functions into its table.
 
     It is called with a flow, whose type is that of the kernels' plans, and the table.
@@ -132,7 +137,7 @@ def filling(plan_type: Callable[[Any], Any], group: str) -> Any:
     @intrinsic
     def fill(typing: Any, given: Any, table: Any) -> Any:
         found = {}
-        module = FLOWS[not isinstance(plan_type(given), OneMass)]
+        module = module_of(given)
         for name in GROUPS[group]:
             kernel = getattr(module, name)
             declared = SIGNATURES[name]

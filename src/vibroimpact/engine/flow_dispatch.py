@@ -98,6 +98,15 @@ class Masses(NamedTuple):
     memory: Vector
 
 
+class CurvedMasses(NamedTuple):
+    """Several masses with any links between any stops, under any shaking."""
+
+    memory: Vector
+
+
+SEVERAL_MASSES = (Masses, CurvedMasses)
+
+
 _ADVANCE: dict[type, Callable[..., Any]] = {
     Apart: advance_apart,
     AnyStops: advance_any,
@@ -151,7 +160,7 @@ answer(par.YIELDING, yielding_plan, *_TAYLOR)
 
 def _flow(rig: Vector) -> type:
     if rig[par.FORCING] == par.MASSES:
-        return Masses
+        return CurvedMasses if rig[assembly.CURVED] else Masses
     laws = par.laws(rig)
     if laws != par.LINEAR:
         return Curved if laws == par.BENT else _YIELDING[rig[par.FORCING]]
@@ -178,7 +187,7 @@ def _room(size: int) -> Vector:
 def flow_of(rig: Vector) -> Any:
     """Room for the plan of a rig, of the type that chooses its flow."""
     flow = _flow(rig)
-    if flow is Masses:
+    if flow in SEVERAL_MASSES:
         memory = _room(int(rig[assembly.LENGTH_OF_PLAN]))
         write_plan(rig, memory)
         return flow(memory)
@@ -196,7 +205,10 @@ def flow_of(rig: Vector) -> Any:
 def carries(rig: Vector, other: Vector) -> bool:
     """Whether the flow of a rig carries another one as well."""
     if par.MASSES in (rig[par.FORCING], other[par.FORCING]):
-        return bool(rig[par.FORCING] == other[par.FORCING])
+        same = bool(rig[par.FORCING] == other[par.FORCING]) and _flow(rig) is _flow(other)
+        # What the laws of a curved one are made of stands in the vector, but needs its room.
+        length = assembly.LENGTH_OF_PLAN
+        return same and bool(not rig[assembly.CURVED] or rig[length] == other[length])
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
     if rig[par.CURVED]:
         same = same and kernels.covers(kernels.laws_code(rig), kernels.laws_code(other))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -10,22 +11,32 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import flow, one_mass
 from vibroimpact.engine.assembly import table as several_masses
+from vibroimpact.engine.assembly.curved import table as curved_masses
 from vibroimpact.engine.compilation import Compiled
 from vibroimpact.engine.compiler import PLAIN
-from vibroimpact.engine.flow_dispatch import Masses, PlanType, flow_of
+from vibroimpact.engine.flow_dispatch import SEVERAL_MASSES, PlanType, flow_of
 from vibroimpact.engine.jit import Vector
+
+flow.FLOWS += [one_mass, several_masses, curved_masses]
 
 
 def _plan_type(given: Any) -> Any:
-    return flow.P if given.instance_class is Masses else PlanType(given.instance_class)
+    kind = given.instance_class
+    return flow.P if kind in SEVERAL_MASSES else PlanType(kind)
 
 
-flow.FLOWS.update({False: one_mass, True: several_masses})
+def _module(kind: type) -> ModuleType:
+    return flow.FLOWS[1 + SEVERAL_MASSES.index(kind) if kind in SEVERAL_MASSES else 0]
 
-_fill_motion = flow.filling(_plan_type, "motion")
-_fill_recorded = flow.filling(_plan_type, "recorded")
-_fill_disturbed = flow.filling(_plan_type, "disturbed")
-_fill_measured = flow.filling(_plan_type, "measured")
+
+def _module_of(given: Any) -> ModuleType:
+    return _module(given.instance_class)
+
+
+_fill_motion = flow.filling(_plan_type, _module_of, "motion")
+_fill_recorded = flow.filling(_plan_type, _module_of, "recorded")
+_fill_disturbed = flow.filling(_plan_type, _module_of, "disturbed")
+_fill_measured = flow.filling(_plan_type, _module_of, "measured")
 
 
 def _motion(given: Any, table: Any) -> None:
@@ -50,11 +61,12 @@ GROUPS = {
 }
 """What fills a part of a table with the addresses of compiled functions."""
 LACKING = {
-    Masses: {
+    kind: {
         group
         for group, names in flow.GROUPS.items()
-        if not any(hasattr(several_masses, name) for name in names)
+        if not any(hasattr(_module(kind), name) for name in names)
     }
+    for kind in SEVERAL_MASSES
 }
 """Groups of functions that a flow lacks: an entry that needs one of them refuses its rigs."""
 

@@ -1,4 +1,4 @@
-"""The motion of an assembly with linear links, bumpers and rigid stops, as `simulate` returns it.
+"""The motion of an assembly, as `simulate` returns it.
 
 The flow of several masses goes from section to section: a forcing cycle, or a line of a record.
 Samples come from a second run through the same section, from the same state, so that they do not
@@ -26,7 +26,11 @@ from vibroimpact.model import Assembly, Periodic, Record, Repeated, equilibrium
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.count_checks import check_samples
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
+from vibroimpact.response.assembly_rig import (
+    assembly_numbers,
+    check_laws,
+    link_parts,
+)
 from vibroimpact.response.assembly_state import (
     as_assembly_state,
     assembly_vector,
@@ -94,11 +98,11 @@ class _Seen(NamedTuple):
     deformation: _Array
 
     @classmethod
-    def of(cls, rows: _Array, n: int) -> _Seen:
+    def of(cls, rows: _Array, n: int, stops: int) -> _Seen:
         u, v, _, absolute = (rows[:, 2 + i * n : 2 + (i + 1) * n] for i in range(4))
-        stops = rows[:, 2 + 4 * n :]
-        count = stops.shape[1] // 3
-        return cls(u, v, absolute, *(stops[:, i * count : (i + 1) * count] for i in range(3)))
+        parts = rows[:, 2 + 4 * n :]
+        count = parts.shape[1] // 3  # behind the stops stand the curved parts of links
+        return cls(u, v, absolute, *(parts[:, i * count :][:, :stops] for i in range(3)))
 
 
 class _Event(NamedTuple):
@@ -143,6 +147,7 @@ class _Run:
         system = rig.system
         assert isinstance(system, Assembly)
         self.n, self.stops = len(system.names), len(system.stops)
+        self.parts = self.stops + len(link_parts(system))
         self.sections, self.state, self.samples = sections, vector, samples
         self.closing = [system.closing(stop) for stop in system.stops.values()]
         self.forcing = (
@@ -154,7 +159,7 @@ class _Run:
         self.sampling = self.plan.copy()
         self.max_events = max_events
         self.log = np.empty((max_events + 1, 4))
-        self.rows = np.empty((256, 2 + 4 * self.n + 3 * self.stops))
+        self.rows = np.empty((256, 2 + 4 * self.n + 3 * self.parts))
         self.seen: list[_Array] = []
         self.events: list[_Event] = []
         self.status = Status.DONE
@@ -261,7 +266,7 @@ class _Run:
         The engine's log does not say which impact is the last one before a rest, and which rest is
         ended by the impact of another stop. The force in the stretch after it does.
         """
-        seen = _Seen.of(rows, self.n)
+        seen = _Seen.of(rows, self.n, self.stops)
         rigid = self.plan[int(self.plan[layout.STOP]) :][layout.KIND :: layout.STOP_WIDTH]
         rigid = rigid[: self.stops] == layout.RIGID
         mode = int(before[layout.STATE_MODE])
@@ -303,7 +308,7 @@ class _Run:
         """Return the velocities at the beginning of a stretch of a section."""
         rows = self._rows_at_begin(self.sections.lines[section : section + 1], before)
         if row < len(rows):
-            found: _Array = _Seen.of(rows, self.n).velocity[row]
+            found: _Array = _Seen.of(rows, self.n, self.stops).velocity[row]
             return found
         now: _Array = self.state[layout.PARTS + self.n : layout.PARTS + 2 * self.n].copy()
         return now
@@ -401,7 +406,7 @@ def _sampled(
     """Return the samples, and write their times into the coordinates."""
     width = run.rows.shape[1]
     rows = np.concatenate([np.empty((0, width)), *run.seen])
-    seen = _Seen.of(rows, run.n)
+    seen = _Seen.of(rows, run.n, run.stops)
     count = len(rows)
     if isinstance(shaking, Record):
         time = np.minimum(np.arange(count) * (shaking.step / run.samples), ends)

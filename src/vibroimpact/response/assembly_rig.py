@@ -8,46 +8,50 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.assembly import layout
+from vibroimpact.engine.assembly.curved.laws import link_rows, stop_law
+from vibroimpact.engine.assembly.curved.layout import BILINEAR, HYSTERETIC
 from vibroimpact.engine.assembly.plan import (
     Forcing,
     Stop,
     base_motion,
+    bits,
     make_vector,
     partners,
     record_motion,
 )
 from vibroimpact.engine.state import LARGEST
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly, Bumper, Periodic, Record, Repeated, RigidStop
+from vibroimpact.law_numbers import OwnStop, PowerLaw
+from vibroimpact.model import (
+    Assembly,
+    Bumper,
+    JankowskiBumper,
+    Periodic,
+    Record,
+    Repeated,
+    RigidStop,
+)
 from vibroimpact.model.assembly import numbers
+from vibroimpact.model.assembly.numbers import PartNumbers
 
 _Array = NDArray[np.float64]
 
 
 def check_laws(assembly: Assembly) -> None:
-    """Raise an error if a law of the assembly is none that the flow of several masses has.
+    """Raise an error if an assembly has more parts than a contact mode has bits for.
 
     Raises
     ------
     InputError
-        If a link is curved, a stop is neither a `Bumper` nor a `RigidStop`, or there are too many.
+        If so.
     """
-    for name, link in assembly.links.items():
-        if not link.law.linear:
-            raise InputError(
-                f"links.{name}: an Assembly may have linear links so far, not a "
-                f"{type(link.law).__name__}; use Isolator(stiffness, damping)"
-            )
-    for name, stop in assembly.stops.items():
-        if not isinstance(stop.law, Bumper | RigidStop):
-            raise InputError(
-                f"stops.{name}: an Assembly may have bumpers and rigid stops so far, "
-                f"not a {type(stop.law).__name__}; use Bumper(stiffness, damping, gap) or "
-                "RigidStop(restitution, gap)"
-            )
-    if len(assembly.stops) > layout.MOST_STOPS:
+    rows = _rows(assembly)
+    if (count := bits(rows)) > layout.MOST_STOPS:
+        curved = len(rows) - len(assembly.stops)
         raise InputError(
-            f"stops: {len(assembly.stops)} stops; at most {layout.MOST_STOPS} are possible"
+            f"stops: {len(assembly.stops)} stops and {curved} curved parts of links need {count} "
+            f"bits of a contact mode; at most {layout.MOST_STOPS} are possible (one for each stop "
+            "and each curved part, two more for each part that has branches)"
         )
 
 
@@ -59,11 +63,14 @@ def check_size(assembly: Assembly) -> None:
     InputError
         If so; `simulate` has no such limit.
     """
-    parts = 2 * len(assembly.names) + len(assembly.stops)
+    links = len(link_parts(assembly))
+    parts = 2 * len(assembly.names) + len(assembly.stops) + links
     if parts > LARGEST:
+        more = f" and {links} curved parts of links" if links else ""
         raise InputError(
-            f"rig: {len(assembly.names)} masses and {len(assembly.stops)} stops; twice the number "
-            f"of masses plus the number of stops is at most {LARGEST} here; use simulate"
+            f"rig: {len(assembly.names)} masses, {len(assembly.stops)} stops{more}; twice the "
+            f"number of masses plus the number of all others is at most {LARGEST} here; use "
+            "simulate"
         )
 
 
@@ -77,30 +84,61 @@ def assembly_numbers(
     """
     check_laws(assembly)
     of = numbers(assembly)
-    stops = _stops(assembly)
+    stops = _rows(assembly)
+    damping, stiffness = of.damping.copy(), of.stiffness.copy()
+    for part in of.links:
+        k, c, law = part.law.engine_numbers()
+        w = assembly.closing(assembly.links[part.name])
+        stiffness += k * np.outer(w, w)
+        if law.drag == 1.0:
+            damping += c * np.outer(w, w)
     forcing = _forcing(assembly, shaking, of.mass, of.influence)
-    return make_vector(
-        of.mass, of.damping, of.stiffness, stops, forcing, of.force, tables, of.influence
-    )
+    return make_vector(of.mass, damping, stiffness, stops, forcing, of.force, tables, of.influence)
 
 
-def _stops(assembly: Assembly) -> list[Stop]:
-    return [
-        Stop(
-            part.left,
-            part.right,
-            part.gap,
-            part.values.get("stiffness", 0.0),
-            part.values.get("damping", 0.0),
-            part.values.get("restitution") if part.kind == RigidStop.kind else None,
-        )
-        for part in numbers(assembly).stops
-    ]
+def _rows(assembly: Assembly) -> list[Stop]:
+    """Return the stops, then the curved parts of links."""
+    of = numbers(assembly)
+    found = [_stop(part) for part in of.stops]
+    for part in of.links:
+        _, damping, law = part.law.engine_numbers()
+        found += [
+            Stop(part.left, part.right, 0.0, behaviour=behaviour, law=row)
+            for behaviour, row in link_rows(law, damping)
+        ]
+    return found
+
+
+def link_parts(assembly: Assembly) -> list[tuple[str, bool]]:
+    """Return of each curved part of a link the link's name, and whether it remembers."""
+    remember = (HYSTERETIC, BILINEAR)
+    found = []
+    for part in numbers(assembly).links:
+        _, damping, law = part.law.engine_numbers()
+        rows = link_rows(law, damping)
+        found += [(part.name, behaviour in remember) for behaviour, _ in rows]
+    return found
+
+
+def _stop(part: PartNumbers) -> Stop:
+    law = part.law
+    if isinstance(law, Bumper):
+        return Stop(part.left, part.right, part.gap, law.stiffness, law.damping)
+    if isinstance(law, RigidStop):
+        return Stop(part.left, part.right, part.gap, restitution=law.restitution)
+    if isinstance(law, JankowskiBumper) and law.mass is None:
+        law = law.replace(mass=part.meeting_mass)
+    made = law.engine_numbers()
+    if isinstance(made, PowerLaw | OwnStop):
+        behaviour, row = stop_law(made)
+        return Stop(part.left, part.right, part.gap, behaviour=behaviour, law=row)
+    stiffness, damping, _ = made
+    return Stop(part.left, part.right, part.gap, stiffness, damping)
 
 
 def assembly_partners(assembly: Assembly) -> list[int]:
     """Return of each stop the one that is its mirror image, −1 if there is none."""
-    return [int(other) for other in partners(_stops(assembly))]
+    return [int(other) for other in partners(_rows(assembly))][: len(assembly.stops)]
 
 
 def _forcing(

@@ -10,24 +10,42 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine.assembly import layout
+from vibroimpact.engine.assembly.curved.layout import NEW
 from vibroimpact.engine.assembly.events import KEPT, LEVELS
 from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, AssemblyState, Bumper, RigidStop, State
+from vibroimpact.model import Assembly, AssemblyState, RigidStop, State
+from vibroimpact.model.stops import Stop
+from vibroimpact.response.assembly_rig import link_parts
 from vibroimpact.response.engine_input import TOUCHING
 
 _Array = NDArray[np.float64]
 
 _AT_REST = 1e-14
 """A closing speed below this share of the bodies' speeds is rounding."""
-_PARTS = ("displacement", "velocity", "deformation", "touching")
+_PARTS = ("displacement", "velocity", "deformation", "touching", "memory")
 
 
 def component_names(assembly: Assembly) -> list[str]:
     """Return the names of the components of a state in a dataset, such as ``velocity.roof``."""
     masses, stops = assembly.names, tuple(assembly.stops)
-    of = dict(zip(_PARTS, (masses, masses, stops, stops), strict=True))
+    of = dict(zip(_PARTS, (masses, masses, stops, stops, remembering(assembly)), strict=True))
     return [*(f"{part}.{name}" for part in _PARTS for name in of[part]), "phase"]
+
+
+def remembering(assembly: Assembly) -> tuple[str, ...]:
+    """Return the names of the links with a memory."""
+    return tuple(name for name, link in assembly.links.items() if link.isolator.remembers)
+
+
+def _memories(assembly: Assembly) -> dict[str, int]:
+    """Return where the memory of each such link stands in an engine's state."""
+    rows = link_parts(assembly)
+    first = layout.PARTS + 2 * len(assembly.names) + len(assembly.stops)
+    return {
+        name: first + next(i for i, (of, yields) in enumerate(rows) if of == name and yields)
+        for name in remembering(assembly)
+    }
 
 
 def state_components(assembly: Assembly, vector: _Array, phase: float) -> _Array:
@@ -37,7 +55,9 @@ def state_components(assembly: Assembly, vector: _Array, phase: float) -> _Array
     mode = int(vector[layout.STATE_MODE])
     touching = [float(mode >> f & 1) for f in range(count)]
     deformations = np.maximum(vector[end : end + count], 0.0)
-    found = [*vector[layout.PARTS : end], *deformations, *touching, phase % (2.0 * math.pi)]
+    memories = [vector[place] for place in _memories(assembly).values()]
+    angle = phase % (2.0 * math.pi)
+    found = [*vector[layout.PARTS : end], *deformations, *touching, *memories, angle]
     return np.array(found) + 0.0  # no negative zeros
 
 
@@ -53,6 +73,7 @@ def assembly_state_from(assembly: Assembly, vector: _Array, phase: float) -> Ass
         velocity=dict(zip(assembly.names, v.tolist(), strict=True)),
         deformation=dict(zip(stops, d.tolist(), strict=True)),
         touching=[name for f, name in enumerate(stops) if mode >> f & 1],
+        memory={name: float(vector[place]) for name, place in _memories(assembly).items()},
         phase=phase,
     )
 
@@ -136,9 +157,11 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
             still = abs(closing) <= _AT_REST * speeds
             touches = reach >= -slack and still and said is not False
             why = f"are {-reach:g} m apart and close at {closing:g} m/s"
+        elif (pair := law.spring_and_dashpot) is None:
+            touches, d = _on_curved(state.deformation.get(name), reach, slack, said, closing)
+            why = f"do not press it (distance {-reach:g} m)"
         else:
-            assert isinstance(law, Bumper)
-            touches, d = _on_bumper(name, law, state, reach, closing, speeds, slack, said)
+            touches, d = _on_bumper(name, pair, state, reach, closing, speeds, slack, said)
             why = f"do not press it (distance {d - reach:g} m, closing speed {closing:g} m/s)"
         if said and not touches:
             raise InputError(
@@ -150,9 +173,12 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
             mode |= 1 << f
         elif abs(reach - d) <= slack and (order := _parting(law, d, closing, speeds)):
             zeros[f] = order
-    vector = np.zeros(state_width(n, len(assembly.stops)))
+    rows = link_parts(assembly)
+    vector = np.zeros(state_width(n, len(assembly.stops) + len(rows)))
     vector[layout.STATE_MODE] = float(mode)
-    vector[layout.STATE_FRESH] = _packed(zeros)
+    vector[layout.STATE_FRESH] = _packed(zeros) + (NEW if rows else 0.0)
+    for name, place in _memories(assembly).items():
+        vector[place] = state.memory.get(name, 0.0)
     vector[layout.PARTS : layout.PARTS + n] = u
     vector[layout.PARTS + n : layout.PARTS + 2 * n] = v
     vector[layout.PARTS + 2 * n : layout.PARTS + 2 * n + len(deformations)] = deformations
@@ -161,7 +187,7 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
 
 def _on_bumper(
     name: str,
-    law: Bumper,
+    pair: tuple[float, float],
     state: AssemblyState,
     reach: float,
     closing: float,
@@ -169,7 +195,8 @@ def _on_bumper(
     slack: float,
     said: bool | None,
 ) -> tuple[bool, float]:
-    """Whether a bumper is pressed, and its deformation (m)."""
+    """Whether a bumper of this spring and dashpot is pressed, and its deformation (m)."""
+    stiffness, damping = pair
     given = state.deformation.get(name)
     # Stated contact makes the deformation that of the bodies, to the last digit.
     d = max(reach, 0.0) if given is None else given
@@ -179,12 +206,12 @@ def _on_bumper(
             f"{reach:g} m; pass at least {reach:g} m, or leave it out"
         )
     touches = d - reach <= slack
-    force = law.stiffness * d + law.damping * closing
-    rounding = TOUCHING * (law.stiffness * d + law.damping * speeds)
-    if law.damping == 0.0 and not touches:
+    force = stiffness * d + damping * closing
+    rounding = TOUCHING * (stiffness * d + damping * speeds)
+    if damping == 0.0 and not touches:
         d = 0.0  # without a dashpot a free bumper is at rest at once
     if said is not None:
-        if not said and touches and law.damping == 0.0 and d > slack:
+        if not said and touches and damping == 0.0 and d > slack:
             raise InputError(
                 f"start.touching: {name!r} is missing, but the bumper is compressed by {d:g} m and "
                 "has no dashpot, so it stays in contact; add it to touching"
@@ -194,7 +221,19 @@ def _on_bumper(
     return touches and force > 0.0 and not begins, d
 
 
-def _parting(law: Bumper | RigidStop, d: float, closing: float, speeds: float) -> int:
+def _on_curved(
+    given: float | None, reach: float, slack: float, said: bool | None, closing: float
+) -> tuple[bool, float]:
+    """Whether a stop without memory is pressed, and the speed at which it was met (m/s).
+
+    At its face bodies that close are about to meet it, unless the state says that they have.
+    """
+    touches = reach > slack or (bool(said) and reach >= -slack)
+    met = given if given is not None else closing if abs(reach) <= slack else 0.0
+    return touches, max(met, 0.0) if touches else 0.0
+
+
+def _parting(law: Stop, d: float, closing: float, speeds: float) -> int:
     """Return the order of the zero of a clearance that bodies at the face just leave, or 0.
 
     The face of a relaxing bumper is left without relative speed, any other one at that of the

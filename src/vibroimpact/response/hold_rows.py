@@ -182,8 +182,8 @@ def results_of(vector: _Array) -> int:
     """Return how many numbers the engine writes of a hold of a rig."""
     if vector[FORCING] != MASSES:
         return hold.RESULTS
-    of = vector[[layout.MASSES, layout.STOPS]].astype(int)
-    return hold.MEASURED + measures.count(*of)
+    masses, parts, links = vector[[layout.MASSES, layout.STOPS, layout.LINKS]].astype(int)
+    return hold.MEASURED + measures.count(masses, parts - links)
 
 
 def sweep_holds(

@@ -13,11 +13,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS
+from vibroimpact.engine.assembly.curved.layout import NEW
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.state import BEHIND, FIRST, FRESH, MODE
 from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, Stop, equilibrium
-from vibroimpact.response.assembly_rig import assembly_partners
+from vibroimpact.response.assembly_rig import assembly_partners, link_parts
 from vibroimpact.response.assembly_state import (
     as_assembly_state,
     assembly_state_from,
@@ -54,8 +55,10 @@ class SectionStates(NamedTuple):
 
     @property
     def parts(self) -> int:
-        """Number of parts: displacements, velocities, deformations, an isolator's memory."""
-        return 2 * self.masses + self.stops + (not isinstance(self.system, Assembly))
+        """Number of parts: displacements, velocities, deformations, memories of isolators."""
+        if isinstance(self.system, Assembly):
+            return 2 * self.masses + self.stops + len(link_parts(self.system))
+        return 2 * self.masses + self.stops + 1
 
     @property
     def width(self) -> int:
@@ -96,6 +99,8 @@ class SectionStates(NamedTuple):
         vector[MODE] = mode
         if isinstance(self.system, Oscillator):
             vector[FRESH] = mode
+        elif link_parts(self.system):
+            vector[FRESH] = NEW
         vector[FIRST : FIRST + self.parts] = parts * self._signs
         return vector
 
@@ -110,6 +115,10 @@ class SectionStates(NamedTuple):
         image[MODE] = sum(1 << partners[f] for f in range(self.stops) if mode >> f & 1)
         image[FIRST : FIRST + 2 * n] = -vector[FIRST : FIRST + 2 * n]
         image[FIRST + 2 * n :][: self.stops] = vector[FIRST + 2 * n :][partners]
+        memories = slice(FIRST + 2 * n + self.stops, FIRST + self.parts)
+        image[memories] = -vector[memories]
+        if link_parts(self.system):
+            image[FRESH] = NEW
         return image
 
     def velocities(self) -> NDArray[np.bool_]:

@@ -9,13 +9,98 @@ import numpy as np
 from vibroimpact.engine.assembly import advance as motion
 from vibroimpact.engine.assembly import channels
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.channels import CLEARANCE
+from vibroimpact.engine.assembly.curved import advance as curved
+from vibroimpact.engine.assembly.curved import channels as curved_channels
+from vibroimpact.engine.assembly.curved.tangent import carry_disturbances as carry_curved
 from vibroimpact.engine.assembly.tangent import carry_disturbances
-from vibroimpact.engine.jit import Vector
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.plain_entries import single
 
+_SIGNATURE = "i8(f8[::1], f8, f8, f8[::1], f8[:, ::1], i8, f8[:, ::1], f8[:, ::1], f8[:, ::1], f8)"
 
-@single("i8(f8[::1], f8, f8, f8[::1], f8[:, ::1], i8, f8[:, ::1], f8[:, ::1], f8[:, ::1], f8)")
+
+def _follower(flow: Any, seen: Any, carry: Any) -> Any:
+    """Make the loop of a flow, with its channels and what carries disturbances along."""
+    build, load_motion, store_motion = flow.build, flow.load_motion, flow.store_motion
+    next_stretch, open_stretch, close_stretch = (
+        flow.next_stretch,
+        seen.open_stretch,
+        seen.close_stretch,
+    )
+    open_piece, piece_length, pieces, value = (
+        seen.open_piece,
+        seen.piece_length,
+        seen.pieces,
+        seen.value,
+    )
+
+    def go(
+        plan: Vector,
+        amplitude: float,
+        omega: float,
+        state: Vector,
+        lines: Vector,
+        max_events: int,
+        log: Vector,
+        disturbances: Vector,
+        samples: Vector,
+        tau: float,
+    ) -> int:
+        build(plan, amplitude, omega)
+        here = pointer(state)
+        n, stops = int(plan[at.MASSES]), int(plan[at.STOPS])
+        count, written = 0, 0
+        for k in range(len(lines)):
+            s, c, length = lines[k, 0], lines[k, 1], lines[k, 2]
+            load_motion(plan, here, s, c)
+            t, events = 0.0, 0
+            while t < length:
+                left = length - t
+                event = next_stretch(plan, left)
+                if event == at.GIVEN_UP:
+                    return -1 - k
+                if len(disturbances):
+                    carry(plan, pointer(disturbances), len(disturbances))
+                if len(samples):
+                    open_stretch(plan)
+                    for i in range(pieces(plan)):
+                        open_piece(plan, i)
+                        if written < len(samples):
+                            samples[written, 0] = k
+                            samples[written, 1] = t + (i + tau) * piece_length(plan)
+                            column = 2
+                            for channel in range(7):
+                                of = n if channel < CLEARANCE else stops
+                                for index in range(of):
+                                    found = value(plan, channel, index, tau)
+                                    samples[written, column] = found
+                                    column += 1
+                            written += 1
+                    close_stretch(plan)
+                t = length if plan[at.LENGTH] == left else t + plan[at.LENGTH]
+                if event != at.LIMIT:
+                    events += 1
+                    if events > max_events:
+                        return -1 - k
+                    if event == at.TURN:
+                        continue
+                    if count < len(log):
+                        log[count, 0], log[count, 1] = k, t
+                        log[count, 2], log[count, 3] = plan[at.EVENT_STOP], event
+                    count += 1
+            store_motion(plan, here)
+        return count
+
+    return kernel(go)
+
+
+_go = _follower(motion, channels, carry_disturbances)
+_go_curved = _follower(curved, curved_channels, carry_curved)
+
+
+@single(_SIGNATURE)
 def follow(
     given: Any,
     memory: Vector,
@@ -30,48 +115,30 @@ def follow(
     tau: float,
 ) -> int:
     """Follow a motion over sections; see `follow_sections`."""
-    plan = pointer(memory)
-    motion.build(plan, amplitude, omega)
-    here = pointer(state)
-    n, stops = int(plan[at.MASSES]), int(plan[at.STOPS])
-    count, written = 0, 0
-    for k in range(len(lines)):
-        s, c, length = lines[k, 0], lines[k, 1], lines[k, 2]
-        motion.load_motion(plan, here, s, c)
-        t, events = 0.0, 0
-        while t < length:
-            left = length - t
-            event = motion.next_stretch(plan, left)
-            if event == at.GIVEN_UP:
-                return -1 - k
-            if len(disturbances):
-                carry_disturbances(plan, pointer(disturbances), len(disturbances))
-            if len(samples):
-                channels.open_stretch(plan)
-                for i in range(channels.pieces(plan)):
-                    channels.open_piece(plan, i)
-                    if written < len(samples):
-                        samples[written, 0] = k
-                        samples[written, 1] = t + (i + tau) * channels.piece_length(plan)
-                        column = 2
-                        for channel in range(7):
-                            of = n if channel < channels.CLEARANCE else stops
-                            for index in range(of):
-                                found = channels.value(plan, channel, index, tau)
-                                samples[written, column] = found
-                                column += 1
-                        written += 1
-                channels.close_stretch(plan)
-            t = length if plan[at.LENGTH] == left else t + plan[at.LENGTH]
-            if event != at.LIMIT:
-                events += 1
-                if count < len(log):
-                    log[count, 0], log[count, 1] = k, t
-                    log[count, 2], log[count, 3] = plan[at.EVENT_STOP], event
-                count += 1
-                if events > max_events:
-                    return -1 - k
-        motion.store_motion(plan, here)
+    count: int = _go(
+        pointer(memory), amplitude, omega, state, lines, max_events, log, disturbances, samples, tau
+    )
+    return count
+
+
+@single(_SIGNATURE)
+def follow_curved(
+    given: Any,
+    memory: Vector,
+    amplitude: float,
+    omega: float,
+    state: Vector,
+    lines: Vector,
+    max_events: int,
+    log: Vector,
+    disturbances: Vector,
+    samples: Vector,
+    tau: float,
+) -> int:
+    """Follow a motion with curved laws over sections; see `follow_sections`."""
+    count: int = _go_curved(
+        pointer(memory), amplitude, omega, state, lines, max_events, log, disturbances, samples, tau
+    )
     return count
 
 
@@ -116,7 +183,8 @@ def follow_sections(
     """
     none = np.zeros((0, 0))
     optional = [none if one is None else one for one in (log, disturbances, samples)]
-    count: int = follow(plan, amplitude, omega, state, lines, max_events, *optional, tau)
+    run = follow_curved if plan[at.CURVED] else follow
+    count: int = run(plan, amplitude, omega, state, lines, max_events, *optional, tau)
     return count
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import enter_mode, hold
@@ -134,45 +135,53 @@ def halt(plan: Vector, y: Vector) -> None:
     take_off(plan, places(plan), impulses, beyond(y, n))
 
 
-@kernel
-def impact(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> int:
-    """Newton's law of restitution at a rigid stop; returns the mode."""
-    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
-    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
-    zeros = beyond(plan, int(plan[at.ZEROS]))
-    coupling = beyond(plan, int(plan[at.COUPLING]) + f * count)
-    v = beyond(y, n)
-    e: float = plan[one + at.RESTITUTION]
-    speed = closing(plan, f, v)
-    if speed <= _NOISE * speeds(plan, f, v):
-        e = 0.0
-    decided = False
-    for g in range(count):
-        if g != f and coupling[g] != 0.0:
-            rigid = plan[int(plan[at.STOP]) + g * at.STOP_WIDTH + at.KIND] == at.RIGID
-            decided |= rigid and (zeros[g] > 0.0 or mode >> g & 1 == 1)
-            zeros[g] = min(zeros[g], 1.0)
-    if decided:
-        plan[at.ORDERED] += 1.0
-    # Left without speed, and pressed before anything could part them: the force is only beginning.
-    pressed = zeros[f] >= 2.0
-    if pressed or settles(plan, f, max(e * speed, 0.0), e, y, deformation):
-        mode |= 1 << f
-        enter_mode(plan, mode)
-        halt(plan, y)
+def impacts(settle: Any) -> Any:
+    """Make Newton's law of restitution, with `settles` of a flow."""
+
+    def impact(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> int:
+        """Newton's law of restitution at a rigid stop; returns the mode."""
+        n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+        one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+        zeros = beyond(plan, int(plan[at.ZEROS]))
+        coupling = beyond(plan, int(plan[at.COUPLING]) + f * count)
+        v = beyond(y, n)
+        e: float = plan[one + at.RESTITUTION]
+        speed = closing(plan, f, v)
+        if speed <= _NOISE * speeds(plan, f, v):
+            e = 0.0
+        decided = False
+        for g in range(count):
+            if g != f and coupling[g] != 0.0:
+                rigid = plan[int(plan[at.STOP]) + g * at.STOP_WIDTH + at.KIND] == at.RIGID
+                decided |= rigid and (zeros[g] > 0.0 or mode >> g & 1 == 1)
+                zeros[g] = min(zeros[g], 1.0)
+        if decided:
+            plan[at.ORDERED] += 1.0
+        # Left without speed, and pressed before anything could part them: the force is only
+        # beginning.
+        pressed = zeros[f] >= 2.0
+        if pressed or settle(plan, f, max(e * speed, 0.0), e, y, deformation):
+            mode |= 1 << f
+            enter_mode(plan, mode)
+            halt(plan, y)
+            return mode
+        kick = (1.0 + e) * speed / coupling[f]
+        response = beyond(plan, int(plan[at.RESPONSE]) + f * n)
+        for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
+            v[i] -= response[i] * kick
+        zeros[f] = 1.0 if e * speed > 0.0 else 2.0
+        # Who rested on a body that was hit is hit in turn, or left.
+        for j in range(int(plan[at.RESTING])):
+            g = int(plan[int(plan[at.RESTING_LIST]) + j])
+            if coupling[g] != 0.0 and abs(closing(plan, g, v)) > _NOISE * speeds(plan, g, v):
+                mode &= ~(1 << g)
+                zeros[g] = 1.0
         return mode
-    kick = (1.0 + e) * speed / coupling[f]
-    response = beyond(plan, int(plan[at.RESPONSE]) + f * n)
-    for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
-        v[i] -= response[i] * kick
-    zeros[f] = 1.0 if e * speed > 0.0 else 2.0
-    # Who rested on a body that was hit is hit in turn, or left.
-    for j in range(int(plan[at.RESTING])):
-        g = int(plan[int(plan[at.RESTING_LIST]) + j])
-        if coupling[g] != 0.0 and abs(closing(plan, g, v)) > _NOISE * speeds(plan, g, v):
-            mode &= ~(1 << g)
-            zeros[g] = 1.0
-    return mode
+
+    return kernel(impact)
+
+
+impact = impacts(settles)
 
 
 @apart

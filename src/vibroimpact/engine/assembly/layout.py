@@ -102,8 +102,18 @@ from vibroimpact.engine import motion
     SHAKEN,
     UNDECIDED,
     COEFFICIENTS,
-) = range(79)
-HEADER = 80
+    # Of curved laws (`curved.layout`).
+    LINKS,
+    CURVED,
+    LAWS,
+    TAPE,
+    BRANCHES,
+    NODES,
+    POINT,
+    KEPT_Y,
+    SHORT,
+) = range(88)
+HEADER = 88
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)
 FIRST, BEHIND, PARTNER = range(8, 11)
@@ -112,7 +122,9 @@ dashpot), the range of masses on which it acts at once, and the stop that is its
 none is)."""
 STOP_WIDTH = 11
 
-KELVIN_VOIGT, RIGID = 0, 1
+KELVIN_VOIGT, RIGID, PUSHING, LINK = range(4)
+"""Kinds of stops. A stop of a curved law pushes; curved links stand behind the stops, as rows that
+"touch" while friction holds them."""
 
 DEGREE = 15
 TERMS = 28
@@ -120,11 +132,11 @@ TERMS = 28
 STEP = 2.5
 """h ρ; the remainder is then 2.5²⁸/28! = 5e-19 of the state."""
 
-CONTACT, IMPACT, RELEASE, RISE = range(1, 5)
+CONTACT, IMPACT, RELEASE, RISE, TURN = range(1, 6)
 LIMIT, PASSED, GIVEN_UP = motion.LIMIT, motion.PASSED, motion.GIVEN_UP
-"""What ends a stretch: its limit, a Kelvin–Voigt stop is met, a rigid one is hit (or comes to rest:
-its bit is set then), a Kelvin–Voigt stop is left, a rest ends, a step, or the motion is no longer
-finite."""
+"""What ends a stretch: its limit, a deformable stop is met, a rigid one is hit (or comes to rest:
+its bit is set then), a deformable stop is left, a rest ends, another piece of a curved law begins,
+a step, or the motion is no longer finite."""
 
 STATE_MODE, STATE_FRESH, PARTS = range(3)
 

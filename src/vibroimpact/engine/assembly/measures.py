@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
+from vibroimpact.engine.assembly import channels
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.channels import (
     ABSOLUTE_ACCELERATION,
@@ -12,8 +14,6 @@ from vibroimpact.engine.assembly.channels import (
     FORCE,
     SERIES,
     close_stretch,
-    open_piece,
-    open_stretch,
     pieces,
     series,
 )
@@ -51,13 +51,19 @@ def count(masses: int, stops: int) -> int:
 
 
 @kernel
+def stops_of(plan: Vector) -> int:
+    """How many stops there are, curved parts of links left out."""
+    return int(plan[at.STOPS]) - int(plan[at.LINKS])
+
+
+@kernel
 def start(plan: Vector, notes: Vector) -> None:
     """Before anything is seen."""
     base = OF_MASS * int(plan[at.MASSES])
     for i in range(0, base + 2, 2):
         notes[i], notes[i + 1] = math.inf, -math.inf
     notes[base + ORDERED], notes[base + UNDECIDED] = plan[at.ORDERED], plan[at.UNDECIDED]
-    for i in range(OF_STOP * int(plan[at.STOPS])):
+    for i in range(OF_STOP * stops_of(plan)):
         notes[base + OF_BASE + i] = 0.0
 
 
@@ -173,48 +179,56 @@ def _force_on_base(plan: Vector, a: Vector, b: Vector) -> int:
     return order
 
 
-@kernel
-def extremes(plan: Vector, notes: Vector) -> None:
-    """Widen the ranges by the last stretch. One-sided values at both its ends count."""
-    n, stops, mode = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.STRETCH_MODE])
-    a, b = _series_room(), _series_room()
-    of_stops = beyond(notes, OF_MASS * n + OF_BASE)
-    range_ = _range_room()
-    open_stretch(plan)
-    for piece in range(pieces(plan)):
-        open_piece(plan, piece)
-        for i in range(n):
-            order = series(plan, DISPLACEMENT, i, a)
-            extend_range(plan, a, order, beyond(notes, OF_MASS * i + U_LEAST))
-            order = series(plan, ABSOLUTE_ACCELERATION, i, a)
-            extend_range(plan, a, order, beyond(notes, OF_MASS * i + A_LEAST))
-        order = _force_on_base(plan, a, b)
-        extend_range(plan, b, order, beyond(notes, OF_MASS * n))
-        for f in range(stops):
-            if mode >> f & 1:
-                order = series(plan, FORCE, f, a)
-                range_[0], range_[1] = -math.inf, of_stops[OF_STOP * f + PUSHED]
-                extend_range(plan, a, order, range_)
-                of_stops[OF_STOP * f + PUSHED] = range_[1]
-    close_stretch(plan)
-    event = int(plan[at.EVENT])
-    if event not in (at.CONTACT, at.IMPACT):
-        return
-    f = int(plan[at.EVENT_STOP])
-    stop = beyond(of_stops, OF_STOP * f)
-    stop[HITS] += 1.0
-    if event == at.IMPACT:
-        change = closing(plan, f, beyond(plan, int(plan[at.END]) + n))
-        change -= closing(plan, f, beyond(plan, int(plan[at.Y]) + n))
-        impulse = change / plan[int(plan[at.COUPLING]) + f * stops + f]
-        if impulse > 0.0:
-            stop[PUSHED], stop[STRUCK] = math.inf, max(stop[STRUCK], impulse)
+def observing(channels: Any) -> Any:
+    """Make the observer of extremes of a flow, with what its stretches show."""
+    open_stretch, open_piece, series = channels.open_stretch, channels.open_piece, channels.series
+
+    def extremes(plan: Vector, notes: Vector) -> None:
+        """Widen the ranges by the last stretch. One-sided values at both its ends count."""
+        n, stops, mode = int(plan[at.MASSES]), stops_of(plan), int(plan[at.STRETCH_MODE])
+        a, b = _series_room(), _series_room()
+        of_stops = beyond(notes, OF_MASS * n + OF_BASE)
+        range_ = _range_room()
+        open_stretch(plan)
+        for piece in range(pieces(plan)):
+            open_piece(plan, piece)
+            for i in range(n):
+                order = series(plan, DISPLACEMENT, i, a)
+                extend_range(plan, a, order, beyond(notes, OF_MASS * i + U_LEAST))
+                order = series(plan, ABSOLUTE_ACCELERATION, i, a)
+                extend_range(plan, a, order, beyond(notes, OF_MASS * i + A_LEAST))
+            order = _force_on_base(plan, a, b)
+            extend_range(plan, b, order, beyond(notes, OF_MASS * n))
+            for f in range(stops):
+                if mode >> f & 1:
+                    order = series(plan, FORCE, f, a)
+                    range_[0], range_[1] = -math.inf, of_stops[OF_STOP * f + PUSHED]
+                    extend_range(plan, a, order, range_)
+                    of_stops[OF_STOP * f + PUSHED] = range_[1]
+        close_stretch(plan)
+        event = int(plan[at.EVENT])
+        if event not in (at.CONTACT, at.IMPACT):
+            return
+        f = int(plan[at.EVENT_STOP])
+        stop = beyond(of_stops, OF_STOP * f)
+        stop[HITS] += 1.0
+        if event == at.IMPACT:
+            change = closing(plan, f, beyond(plan, int(plan[at.END]) + n))
+            change -= closing(plan, f, beyond(plan, int(plan[at.Y]) + n))
+            impulse = change / plan[int(plan[at.COUPLING]) + f * int(plan[at.STOPS]) + f]
+            if impulse > 0.0:
+                stop[PUSHED], stop[STRUCK] = math.inf, max(stop[STRUCK], impulse)
+
+    return kernel(extremes)
+
+
+extremes = observing(channels)
 
 
 @kernel
 def write(plan: Vector, notes: Vector, cycles: int, result: Vector) -> None:
     """Write the notes of so many cycles: the contacts of one."""
-    n, stops = int(plan[at.MASSES]), int(plan[at.STOPS])
+    n, stops = int(plan[at.MASSES]), stops_of(plan)
     total = OF_MASS * n + OF_BASE
     for i in range(total):
         result[i] = notes[i]

@@ -23,12 +23,13 @@ def enter_mode(plan: Vector, mode: int) -> None:
     p, r = 0, 0
     for f in range(count):
         if mode >> f & 1:
-            if plan[stops + f * at.STOP_WIDTH + at.KIND] == at.RIGID:
-                plan[resting + r] = float(f)
-                r += 1
-            else:
+            kind = plan[stops + f * at.STOP_WIDTH + at.KIND]
+            if kind == at.KELVIN_VOIGT:
                 plan[pressed + p] = float(f)
                 p += 1
+            elif kind != at.PUSHING:
+                plan[resting + r] = float(f)
+                r += 1
     plan[at.PRESSED], plan[at.RESTING] = float(p), float(r)
     _factorize(plan)
     plan[at.RATE] = _rate(plan)

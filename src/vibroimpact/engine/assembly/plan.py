@@ -12,6 +12,12 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.curved.laws import (
+    BRANCHING,
+    PUSHING,
+    initial_stiffness,
+    written,
+)
 from vibroimpact.engine.assembly.tables import RULES, rules, table_size
 from vibroimpact.engine.jit import Vector
 
@@ -38,6 +44,9 @@ class Stop(NamedTuple):
         Of a Kelvin–Voigt bumper (N/m, N s/m).
     restitution
         Of a rigid stop, 0 to 1; None for a bumper.
+    behaviour, law
+        Of a curved law (`curved.layout`): what it does, and its numbers as the vector of a rig of
+        1 kg (`curved.plan`). Curved links stand behind all stops.
     """
 
     left: int
@@ -46,6 +55,15 @@ class Stop(NamedTuple):
     stiffness: float = 0.0
     damping: float = 0.0
     restitution: float | None = None
+    behaviour: int = 0
+    law: tuple[float, ...] = ()
+
+    @property
+    def kind(self) -> int:
+        """What it is, as in a plan."""
+        if self.behaviour:
+            return at.PUSHING if self.behaviour in PUSHING else at.LINK
+        return at.KELVIN_VOIGT if self.restitution is None else at.RIGID
 
 
 class Forcing(NamedTuple):
@@ -112,8 +130,9 @@ def make_vector(
         1 for each.
     """
     n, count = len(mass), len(stops)
-    if count > at.MOST_STOPS:
-        raise ValueError(f"{count} stops; at most {at.MOST_STOPS} are possible")
+    curved = any(stop.behaviour for stop in stops)
+    if bits(stops) > at.MOST_STOPS:
+        raise ValueError(f"a mode of {bits(stops)} bits; at most {at.MOST_STOPS} are possible")
     inverse = np.diag(1.0 / np.diag(mass)) if _is_diagonal(mass) else np.linalg.inv(mass)
     record = forcing.interval > 0.0
     waves = 2 if record else forcing.weights.shape[1]
@@ -160,8 +179,18 @@ def make_vector(
     images = partners(stops)
     of_stops = zip(stops, _ranges(response != 0.0), images, strict=True)
     block(at.STOP, np.array([_stop(stop, n, acts, other) for stop, acts, other in of_stops]))
-    block(at.ROW_SUMS, np.stack([abs(k).sum(1), abs(c).sum(1)]))
+    rigid = inverse @ closing.T @ np.diag([initial_stiffness(stop) for stop in stops]) @ closing
+    block(at.ROW_SUMS, np.stack([abs(k + rigid).sum(1), abs(c).sum(1)]))
     header[at.SYMMETRIC] = -1.0 not in images and not constant.any()
+    header[[at.CURVED, at.LINKS]] = curved, sum(stop.kind == at.LINK for stop in stops)
+    nodes = 0
+    if curved:
+        tables = False
+        laws, tape = written(stops)
+        nodes = len(tape)
+        header[at.BRANCHES] = sum(stop.behaviour in BRANCHING for stop in stops)
+        block(at.LAWS, laws)
+        block(at.TAPE, tape)
     header[at.NUMBERS] = end
 
     # What follows is only in a plan.
@@ -175,12 +204,15 @@ def make_vector(
         room(index, width + count + 8)
     deformations = (at.DEFORMATION, at.START_DEFORMATION, at.END_DEFORMATION)
     for index in (*deformations, at.PIECE_DEFORMATION, at.ZEROS):
-        room(index, count)
+        room(index, 2 * count if curved else count)
     room(at.SERIES, at.TERMS * row)
     room(at.WAVE_SERIES, at.TERMS * waves)
     room(at.FORCE_SERIES, at.TERMS * count)
     room(at.BERNSTEIN, 16)
     room(at.COEFFICIENTS, at.TERMS)
+    room(at.NODES, nodes * at.TERMS)
+    room(at.POINT, nodes * at.TERMS)
+    room(at.KEPT_Y, 2 * (width + count + 8))
     room(at.ROOM, 64 * 16)
     room(at.WIDTHS, 64)
     room(at.SCRATCH, 8 * (width + count + 8))
@@ -218,6 +250,11 @@ def write_plan(vector: Vector, plan: Vector) -> None:
 def make_plan(*args: Any, **kwargs: Any) -> Vector:
     """Make a plan; the arguments are those of `make_vector`."""
     return plan_of(make_vector(*args, **kwargs))
+
+
+def bits(stops: Sequence[Stop]) -> int:
+    """Return how many bits a mode has."""
+    return len(stops) + 2 * sum(stop.behaviour in BRANCHING for stop in stops)
 
 
 def plan_of(vector: Vector) -> Vector:
@@ -266,6 +303,9 @@ def partners(stops: Sequence[Stop]) -> list[float]:
     found = [-1.0] * len(stops)
     for f, stop in enumerate(stops):
         image = stop._replace(left=stop.right, right=stop.left)
+        if stop.kind == at.LINK:  # all laws are odd
+            found[f] = float(f)
+            continue
         free = [g for g, other in enumerate(stops) if other == image and found[g] < 0.0]
         if found[f] < 0.0 and free:
             found[f], found[free[0]] = float(free[0]), float(f)
@@ -278,14 +318,20 @@ def _stop(stop: Stop, n: int, acts: Vector, partner: float) -> list[float]:
         stop.left if stop.left != GROUND else n,
         stop.right if stop.right != GROUND else n,
         stop.gap,
-        at.RIGID if rigid else at.KELVIN_VOIGT,
+        stop.kind,
         0.0 if rigid else stop.stiffness,
         0.0 if rigid else stop.damping,
         stop.restitution if stop.restitution is not None else 0.0,
-        stop.stiffness / stop.damping if stop.damping > 0.0 and not rigid else inf,
+        _relaxation(stop),
         *acts,
         partner,
     ]
+
+
+def _relaxation(stop: Stop) -> float:
+    if stop.kind == at.LINK:
+        return 0.0  # its memory stays
+    return stop.stiffness / stop.damping if stop.damping > 0.0 and stop.kind == 0 else inf
 
 
 def _is_diagonal(matrix: Matrix) -> bool:

@@ -72,7 +72,7 @@ def take_off(plan: Vector, of: Places, held: Vector, values: Vector) -> None:
 
 
 @inlined
-def accelerate(
+def drive(
     plan: Vector,
     of: Places,
     y: Vector,
@@ -83,8 +83,8 @@ def accelerate(
 ) -> None:
     """Write the accelerations of a row of the series; y is u, 0, v, 0 (the ground stands still).
 
-    `deformation`: of the pressed stops, in the order of their list, then written by the forces of
-    all that touch: those pressed, then those resting.
+    `deformation`: of the pressed stops, in the order of their list, then written by their forces.
+    Nothing rests.
     """
     n, w, response, stops = of.masses, of.waves, of.response, of.stops
     v = n + 1
@@ -107,16 +107,35 @@ def accelerate(
         deformation[j] = force
         for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
             plan[row + i] -= plan[response + f * n + i] * force
+
+
+@inlined
+def restrain(plan: Vector, of: Places, held: Vector, row: int) -> None:
+    """Take what closes resting stops off the accelerations of a row; `held` are their forces."""
     r, listed = of.resting, of.resting_list
     if r == 0:
         return
-    plan[row + n] = 0.0
-    held = beyond(deformation, p)
+    plan[row + of.masses] = 0.0
     for j in range(r):
-        one = stops + int(plan[listed + j]) * at.STOP_WIDTH
+        one = of.stops + int(plan[listed + j]) * at.STOP_WIDTH
         held[j] = plan[row + int(plan[one + at.LEFT])] - plan[row + int(plan[one + at.RIGHT])]
     hold(plan, held)
     take_off(plan, of, held, beyond(plan, row))
+
+
+@inlined
+def accelerate(
+    plan: Vector,
+    of: Places,
+    y: Vector,
+    waves: Vector,
+    deformation: Vector,
+    constant: float,
+    row: int,
+) -> None:
+    """As `drive`; then the resting stops' forces follow those of the pressed ones."""
+    drive(plan, of, y, waves, deformation, constant, row)
+    restrain(plan, of, beyond(deformation, of.pressed), row)
 
 
 @apart

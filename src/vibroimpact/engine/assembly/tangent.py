@@ -93,14 +93,14 @@ def carry_disturbances(plan: Vector, q: Vector, rows: int) -> None:
     for i in range(rows):
         row = beyond(q, i * width)
         if event == at.IMPACT:
-            _reflect(plan, row, beyond(plan, before), beyond(plan, after))
+            reflect(plan, row, beyond(plan, before), beyond(plan, after))
         elif event == at.CONTACT:
-            _meet(plan, row)
+            meet(plan, row)
         tie(plan, row)
 
 
 @kernel
-def _contraction(plan: Vector, mode: int) -> float:
+def contraction(plan: Vector, mode: int) -> float:
     """Minus the trace of what the state's derivative is of u and v in a mode (1/s)."""
     n, count, stops = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.STOP])
     total = 0.0
@@ -120,7 +120,7 @@ def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
     An impact multiplies what is left of a volume of (u, v) by e², a rest leaves nothing.
     """
     f, event, length = int(plan[at.EVENT_STOP]), int(plan[at.EVENT]), plan[at.LENGTH]
-    notes[DAMPING] += length * _contraction(plan, int(plan[at.STRETCH_MODE]))
+    notes[DAMPING] += length * contraction(plan, int(plan[at.STRETCH_MODE]))
     if event in (at.CONTACT, at.IMPACT):
         notes[HITS + f] += 1.0
     if event == at.IMPACT:
@@ -140,7 +140,8 @@ def accelerations_at(plan: Vector, state: int, deformations: int, place: int) ->
 
 
 @kernel
-def _meet(plan: Vector, row: Vector) -> None:
+def meet(plan: Vector, row: Vector) -> None:
+    """Let a disturbance meet a Kelvin–Voigt stop."""
     n, f = int(plan[at.MASSES]), int(plan[at.EVENT_STOP])
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH
     gap = row[2 * n + f] - closing(plan, f, row)
@@ -153,7 +154,8 @@ def _meet(plan: Vector, row: Vector) -> None:
 
 
 @kernel
-def _reflect(plan: Vector, row: Vector, before: Vector, after: Vector) -> None:
+def reflect(plan: Vector, row: Vector, before: Vector, after: Vector) -> None:
+    """Let a disturbance through an impact; the accelerations before and after it are known."""
     n, f = int(plan[at.MASSES]), int(plan[at.EVENT_STOP])
     count = int(plan[at.STOPS])
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH

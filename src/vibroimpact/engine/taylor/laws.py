@@ -99,17 +99,14 @@ def shallow(
 
 
 @kernel
-def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float, float]:
-    """Below which velocity the drag is left out; how long a step may be, and a scale of time (s).
+def slowness(
+    v: float, a: float, most: float, unit: float, drag: float, exponent: float
+) -> tuple[float, float, float]:
+    """As `slow`, of a speed and an acceleration; `most` is that which the shaking makes (m/s²).
 
-    A power of the velocity has a singularity where the mass turns. What the drag would do while it
-    is left out is a share ε of the velocities that the forces make in the motion's own time. The
-    scale is half the time in which the mass may turn: in longer units coefficients would overflow.
+    `unit` is the motion's own time (s).
     """
-    v, a = abs(motion.v), abs(acceleration_of(plan, motion))
-    unit = 1.0 / motion_rate(plan)
-    force = max(a, plan[MOST]) + 1e-300
-    drag = plan[par.DAMPING]
+    force = max(a, most) + 1e-300
     if drag == 0.0:
         return 0.0, math.inf, math.inf
     time = (_NOTHING * force * unit / (2.0 * drag * force**exponent * math.sqrt(unit))) ** (
@@ -128,6 +125,22 @@ def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float, f
     # Where a weak drag changes nothing a mass that creeps is not stopped at each of these times.
     longest = stable if exponent > 1.0 else min(turning, stable)
     return little, longest, min(turning, stable)
+
+
+@kernel
+def slow(plan: Vector, motion: Motion, exponent: float) -> tuple[float, float, float]:
+    """Below which velocity the drag is left out; how long a step may be, and a scale of time (s).
+
+    A power of the velocity has a singularity where the mass turns. What the drag would do while it
+    is left out is a share ε of the velocities that the forces make in the motion's own time. The
+    scale is half the time in which the mass may turn: in longer units coefficients would overflow.
+    """
+    v, a = abs(motion.v), abs(acceleration_of(plan, motion))
+    unit = 1.0 / motion_rate(plan)
+    found: tuple[float, float, float] = slowness(
+        v, a, plan[MOST], unit, plan[par.DAMPING], exponent
+    )
+    return found
 
 
 @apart

@@ -1,0 +1,101 @@
+"""What is observed on a stretch with curved laws; see `assembly.channels`."""
+
+from __future__ import annotations
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.assembly import channels as linear
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.channels import (
+    CLEARANCE,
+    DEFORMATION,
+    FORCE,
+    close_stretch,
+    evaluate,
+    piece_length,
+    pieces,
+)
+from vibroimpact.engine.assembly.curved import layout as of
+from vibroimpact.engine.assembly.curved.advance import reopen
+from vibroimpact.engine.assembly.curved.branches import way_of
+from vibroimpact.engine.assembly.curved.terms import node, remembers, row_of
+from vibroimpact.engine.assembly.curved.watch import held_force, relative
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond
+
+__all__ = ["close_stretch", "open_piece", "open_stretch", "piece_length", "pieces", "value"]
+
+_FRICTION = of.NUMBERS + par.FRICTION
+
+open_stretch = reopen
+
+
+@kernel
+def open_piece(plan: Vector, i: int) -> None:
+    """The stretch is one piece, whose series are there."""
+
+
+@kernel
+def _of_link(plan: Vector, channel: int, f: int, out: Vector) -> int:
+    """The force of a link, its s in the place of a clearance, its memory in that of a deformation.
+
+    The force pulls the ends together.
+    """
+    row, order, mode = row_of(plan, f), int(plan[at.ORDER]), int(plan[at.MODE])
+    if channel == CLEARANCE:
+        relative(plan, f, 0, -1.0, out)
+        return order
+    for j in range(order + 1):
+        out[j] = 0.0
+    if channel == DEFORMATION:
+        if remembers(plan, row):
+            z = node(plan, row, of.Z_NODE, int(plan[at.NODES]))
+            for j in range(order + 1):
+                out[j] = plan[z + j]
+        return order
+    if int(plan[row + of.BEHAVIOUR]) == of.FRICTION:
+        if mode >> f & 1:
+            held, count = held_force(plan, f), int(plan[at.STOPS])
+            for j in range(order + 1):
+                out[j] = -plan[held + j * count]
+        else:
+            out[0] = way_of(plan, f, mode) * plan[row + _FRICTION]
+    elif plan[row + of.ACTIVE] != 0.0:
+        force = node(plan, row, of.FORCE_NODE, int(plan[at.NODES]))
+        for j in range(order + 1):
+            out[j] = plan[force + j]
+    return order
+
+
+@apart
+def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
+    """Write a channel's power series in τ, 0 to 1 on the piece; returns its order."""
+    if channel >= CLEARANCE:
+        kind = plan[int(plan[at.STOP]) + index * at.STOP_WIDTH + at.KIND]
+        out[at.TERMS], out[at.TERMS + 1] = 0.0, 0.0
+        order = int(plan[at.ORDER])
+        if kind == at.LINK:
+            order = _of_link(plan, channel, index, out)
+            return order
+        if kind == at.PUSHING and int(plan[at.MODE]) >> index & 1:
+            for j in range(order + 1):
+                out[j] = 0.0
+            row = row_of(plan, index)
+            if channel == DEFORMATION:
+                relative(plan, index, 0, 1.0, out)
+                out[0] -= plan[int(plan[at.STOP]) + index * at.STOP_WIDTH + at.GAP]
+            elif channel == FORCE and plan[row + of.ACTIVE] != 0.0:
+                force = node(plan, row, of.FORCE_NODE, int(plan[at.NODES]))
+                for j in range(order + 1):
+                    out[j] = plan[force + j]
+            return order
+    found: int = linear.series(plan, channel, index, out)
+    return found
+
+
+@kernel
+def value(plan: Vector, channel: int, index: int, tau: float) -> float:
+    """A channel's value on the piece."""
+    out = beyond(plan, int(plan[at.ROOM]))
+    order = series(plan, channel, index, out)
+    found: float = evaluate(out, order, tau)
+    return found

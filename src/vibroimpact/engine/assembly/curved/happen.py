@@ -1,0 +1,250 @@
+"""What happens at an event, and which branches of the links hold then."""
+
+from __future__ import annotations
+
+from vibroimpact.engine import parameters as par
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.curved import layout as of
+from vibroimpact.engine.assembly.curved.branches import side_of, way_of, with_side, with_way
+from vibroimpact.engine.assembly.curved.numbers import enter, size_of
+from vibroimpact.engine.assembly.curved.terms import accelerations, expand, move_alike, row_of
+from vibroimpact.engine.assembly.events import closing, impacts, switch_mode
+from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond
+
+_CHATTERED = 1e-6
+"""See `assembly.events`."""
+_ZERO = 1e-15
+"""Share of a size below which a coefficient is rounding."""
+_LIMIT = of.NUMBERS + par.YIELD
+_FRICTION = of.NUMBERS + par.FRICTION
+_FLAGS = of.NUMBERS + par.OWN + par.OWN_FLAGS
+
+
+@kernel
+def _settles(
+    plan: Vector, f: int, returned: float, e: float, y: Vector, deformation: Vector
+) -> bool:
+    """Whether a chatter is completed at once, as `assembly.events.settles`."""
+    if e >= 1.0:
+        return False
+    size = size_of(plan, y)
+    enter(plan, y, deformation, size)
+    length = 1.0 / plan[at.RATE]
+    expand(plan, y, deformation, length, 2)
+    n = int(plan[at.MASSES])
+    row = 2 * (n + 1)
+    first = int(plan[at.SERIES]) + n + 1
+    push = closing(plan, f, beyond(plan, first + row)) / length
+    jerk = 2.0 * closing(plan, f, beyond(plan, first + 2 * row)) / (length * length)
+    if not push > 0.0:
+        return False
+    lasts = 2.0 * returned / (push * (1.0 - e))
+    return bool(lasts * plan[at.RATE] <= _CHATTERED and lasts * abs(jerk) <= _CHATTERED * push)
+
+
+_impact = impacts(_settles)
+
+
+@kernel
+def is_link(plan: Vector, f: int) -> bool:
+    """Whether a row is that of a link."""
+    return bool(plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] == at.LINK)
+
+
+@kernel
+def stop_moving(plan: Vector, f: int, y: Vector) -> None:
+    """Take the closing speed from a row, by the least change in energy."""
+    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+    v = beyond(y, n)
+    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+    kick = closing(plan, f, v) / plan[int(plan[at.COUPLING]) + f * count + f]
+    for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
+        v[i] -= plan[int(plan[at.RESPONSE]) + f * n + i] * kick
+
+
+@apart
+def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
+    """Which links without speed friction holds; the most overloaded slides first.
+
+    The others slide as their ends would go. Returns the mode, which is entered.
+    """
+    n, count, v = int(plan[at.MASSES]), int(plan[at.STOPS]), beyond(y, int(plan[at.MASSES]))
+    some = False
+    for f in range(count):
+        row = row_of(plan, f)
+        if int(plan[row + of.BEHAVIOUR]) != of.FRICTION:
+            continue
+        rate = closing(plan, f, v)
+        if rate == 0.0:
+            mode |= 1 << f
+            some = True
+        else:
+            mode = with_way(plan, f, mode & ~(1 << f), -rate)
+    enter_mode(plan, mode)
+    while some:
+        enter(plan, y, deformation, size_of(plan, y))
+        place = int(plan[at.ROOM])
+        accelerations(plan, y, deformation, place)
+        forces = place + n + 1 + int(plan[at.PRESSED])
+        worst, most, force = -1, 1.0, 0.0
+        for j in range(int(plan[at.RESTING])):
+            f = int(plan[int(plan[at.RESTING_LIST]) + j])
+            if not is_link(plan, f):
+                continue
+            load = abs(plan[forces + j]) / plan[row_of(plan, f) + _FRICTION]
+            if load > most:
+                worst, most, force = f, load, plan[forces + j]
+        if worst < 0:
+            break
+        # What holds them apart is gone: they close, and s falls.
+        mode = with_way(plan, worst, mode & ~(1 << worst), -force)
+        plan[int(plan[at.ZEROS]) + worst] = float(of.V_FRESH)
+        enter_mode(plan, mode)
+    return mode
+
+
+@apart
+def decide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
+    """Find the branches of all links from a state alone. Returns the mode, which is entered."""
+    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+    v, zeros = beyond(y, n), beyond(plan, int(plan[at.ZEROS]))
+    for f in range(count):
+        row = row_of(plan, f)
+        behaviour = int(plan[row + of.BEHAVIOUR])
+        if not is_link(plan, f) or plan[row + of.BRANCH] < 0.0:
+            continue
+        zeros[f] = 0.0
+        rate = -closing(plan, f, v)
+        if rate != 0.0:
+            mode = with_way(plan, f, mode, rate)
+        if behaviour == of.BILINEAR:
+            z = deformation[f]
+            yields = abs(z) >= plan[row + _LIMIT] and rate * z > 0.0
+            mode = with_side(plan, f, mode, -1.0 if yields else 1.0)
+            if abs(z) >= plan[row + _LIMIT] and not yields:
+                zeros[f] = float(of.SIDE_FRESH)
+        elif behaviour == of.HYSTERETIC and deformation[f] != 0.0:
+            mode = with_side(plan, f, mode, deformation[f])
+        elif behaviour == of.OWN and closing(plan, f, y) != 0.0:
+            mode = with_side(plan, f, mode, -closing(plan, f, y))
+    mode = hold_or_slide(plan, mode, y, deformation)
+    size = size_of(plan, y)
+    enter(plan, y, deformation, size)
+    length = 1.0 / plan[at.STIFF_RATE]
+    expand(plan, y, deformation, length, 4)
+    row_width = 2 * (n + 1)
+    series = int(plan[at.SERIES]) + n + 1
+    for f in range(count):
+        row = row_of(plan, f)
+        behaviour = int(plan[row + of.BEHAVIOUR])
+        if not is_link(plan, f) or plan[row + of.BRANCH] < 0.0 or behaviour == of.FRICTION:
+            continue
+        if closing(plan, f, v) == 0.0:
+            one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+            left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
+            way = 0.0
+            for j in range(1, 5):
+                rate = plan[series + j * row_width + right] - plan[series + j * row_width + left]
+                if abs(rate) > _ZERO * size:
+                    way = 1.0 if rate > 0.0 else -1.0
+                    break
+            if way != 0.0:
+                mode = with_way(plan, f, mode, way)
+            zeros[f] = float(int(zeros[f]) | of.V_FRESH)
+        if (behaviour == of.HYSTERETIC and deformation[f] == 0.0) or (
+            behaviour == of.OWN and closing(plan, f, y) == 0.0
+        ):
+            mode = with_side(plan, f, mode, way_of(plan, f, mode))
+            zeros[f] = float(int(zeros[f]) | of.SIDE_FRESH)
+    enter_mode(plan, mode)
+    return mode
+
+
+@kernel
+def _follow(plan: Vector, mode: int, f: int) -> int:
+    """Let the other rows of a link that friction holds no more go its way."""
+    stops = int(plan[at.STOP])
+    one, way = stops + f * at.STOP_WIDTH, way_of(plan, f, mode)
+    for g in range(int(plan[at.STOPS])):
+        other, row = stops + g * at.STOP_WIDTH, row_of(plan, g)
+        if g == f or not is_link(plan, g) or plan[row + of.BRANCH] < 0.0 or mode >> g & 1:
+            continue
+        left, right = plan[other + at.LEFT], plan[other + at.RIGHT]
+        if left == plan[one + at.LEFT] and right == plan[one + at.RIGHT]:
+            mode = with_way(plan, g, mode, way)
+        elif right == plan[one + at.LEFT] and left == plan[one + at.RIGHT]:
+            mode = with_way(plan, g, mode, -way)
+        else:
+            continue
+        fresh = int(plan[int(plan[at.ZEROS]) + g])
+        plan[int(plan[at.ZEROS]) + g] = float(fresh | of.V_FRESH)
+    return mode
+
+
+@kernel
+def _turned(plan: Vector, mode: int, f: int, which: int, y: Vector, deformation: Vector) -> int:
+    """Go on to the next branch of a link."""
+    row, zeros = row_of(plan, f), beyond(plan, int(plan[at.ZEROS]))
+    behaviour = int(plan[row + of.BEHAVIOUR])
+    if behaviour == of.FRICTION:
+        if mode >> f & 1:
+            mode = with_way(plan, f, mode & ~(1 << f), 1.0 if which else -1.0)
+            zeros[f] = float(of.V_FRESH)
+            return _follow(plan, mode, f)
+        zeros[f] = float(of.V_FRESH)
+        stop_moving(plan, f, y)
+        stuck = mode | 1 << f
+        enter_mode(plan, stuck)
+        move_alike(plan, beyond(y, int(plan[at.MASSES])))
+        mode = hold_or_slide(plan, stuck, y, deformation)
+        return mode if mode >> f & 1 else _follow(plan, mode, f)
+    if behaviour == of.BILINEAR:
+        if side_of(plan, f, mode) < 0.0:
+            zeros[f] = float(of.SIDE_FRESH)
+            return with_side(plan, f, mode, 1.0)
+        way = -1.0 if which else 1.0
+        deformation[f] = way * plan[row + _LIMIT]
+        zeros[f] = 0.0
+        return with_way(plan, f, with_side(plan, f, mode, -1.0), way)
+    if which == 0:
+        zeros[f] = float(of.V_FRESH)
+        return with_way(plan, f, mode, -way_of(plan, f, mode))
+    zeros[f] = float(of.SIDE_FRESH)
+    if behaviour == of.HYSTERETIC:
+        deformation[f] = 0.0
+    return with_side(plan, f, mode, -side_of(plan, f, mode))
+
+
+@apart
+def switch(
+    plan: Vector, mode: int, f: int, which: int, y: Vector, deformation: Vector
+) -> tuple[int, int]:
+    """Go through an event of a row; the mode, and what it was."""
+    one, count = int(plan[at.STOP]) + f * at.STOP_WIDTH, int(plan[at.STOPS])
+    kind = plan[one + at.KIND]
+    zeros = beyond(plan, int(plan[at.ZEROS]))
+    if kind == at.LINK:
+        return _turned(plan, mode, f, which, y, deformation), at.TURN
+    if kind == at.PUSHING:
+        if not mode >> f & 1:
+            deformation[f] = abs(closing(plan, f, beyond(y, int(plan[at.MASSES]))))
+            zeros[f] = 1.0
+            return mode | 1 << f, at.CONTACT
+        if which == 1:
+            zeros[f] = 2.0
+            return mode, at.TURN
+        deformation[f] = 0.0
+        zeros[f] = 1.0
+        return mode & ~(1 << f), at.RELEASE
+    if kind == at.RIGID and not mode >> f & 1:
+        # Friction passes no impulse on.
+        for g in range(count):
+            if is_link(plan, g):
+                mode &= ~(1 << g)
+        enter_mode(plan, mode)
+        mode = _impact(plan, mode, f, y, deformation)
+        return decide(plan, mode, y, deformation), at.IMPACT
+    found: tuple[int, int] = switch_mode(plan, mode, f, y, deformation)
+    return found

@@ -1,0 +1,153 @@
+"""One step: the series of all masses, its length, and the certificate at its end."""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.curved import layout as of
+from vibroimpact.engine.assembly.curved.terms import (
+    accelerations,
+    expand,
+    node,
+    remembers,
+    row_of,
+    shorten,
+)
+from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.series.step import BALANCED, TOLERANCE
+
+_ORDER = of.ORDER
+_CUT = 100
+"""How often a step is shortened at most. Far sooner it is so short that any is right."""
+_LEAST_SHARE = 2.0**-10
+"""To which a step is shortened at once at most."""
+
+
+@kernel
+def travel(plan: Vector, y: Vector, deformation: Vector, tau: float) -> None:
+    """Carry the state, of which the series was made, on in place; what is free stays."""
+    n, w, order = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.ORDER])
+    row = 2 * (n + 1)
+    series, waves, base = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES]), int(plan[at.NODES])
+    stops, listed = int(plan[at.STOP]), int(plan[at.PRESSED_LIST])
+    for p in range(int(plan[at.PRESSED])):
+        f = int(plan[listed + p])
+        one = stops + f * at.STOP_WIDTH
+        left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
+        gained = 0.0
+        for j in range(order, 0, -1):
+            a = series + j * row
+            gained = (gained + plan[a + left] - plan[a + right]) * tau
+        deformation[f] += gained
+    for i in range(n):
+        for part in range(2):
+            place, gained = series + part * (n + 1) + i, 0.0
+            for j in range(order, 0, -1):
+                gained = (gained + plan[place + j * row]) * tau
+            y[part * n + i] += gained
+    for q in range(w):
+        gained = 0.0
+        for j in range(order, 0, -1):
+            gained = (gained + plan[waves + j * w + q]) * tau
+        y[2 * n + q] += gained
+    for f in range(int(plan[at.STOPS])):
+        law = row_of(plan, f)
+        if remembers(plan, law):
+            z, gained = node(plan, law, of.Z_NODE, base), 0.0
+            for j in range(order, 0, -1):
+                gained = (gained + plan[z + j]) * tau
+            deformation[f] += gained
+
+
+@kernel
+def _last(plan: Vector, m: int, rate: float) -> float:
+    """The largest coefficient of this order, as a velocity."""
+    n = int(plan[at.MASSES])
+    row, most = int(plan[at.SERIES]) + m * 2 * (n + 1), 0.0
+    for i in range(n):
+        one = abs(plan[row + n + 1 + i]) + rate * abs(plan[row + i])
+        if not one <= most:  # what is not a number shows
+            most = one
+    for f in range(int(plan[at.STOPS])):
+        law = row_of(plan, f)
+        if remembers(plan, law):
+            one = rate * abs(plan[node(plan, law, of.Z_NODE, int(plan[at.NODES])) + m])
+            if not one <= most:
+                most = one
+    return most
+
+
+@kernel
+def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float) -> float:
+    """By how much a step is too long, if above 1: what is missing from the equations at its end."""
+    n, count, order = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.ORDER])
+    kept = beyond(plan, int(plan[at.KEPT_Y]))
+    width = 2 * n + int(plan[at.WAVES]) + 1
+    memory = beyond(kept, width + count + 8)
+    for i in range(width):
+        kept[i] = y[i]
+    for f in range(count):
+        memory[f] = deformation[f]
+    travel(plan, kept, memory, tau)
+    place = int(plan[at.ROOM])
+    accelerations(plan, kept, memory, place)
+    h, row = plan[at.PIECE_LENGTH] * tau, 2 * (n + 1)
+    rate, most = plan[at.STIFF_RATE], 0.0
+    for i in range(n):
+        series, found = int(plan[at.SERIES]) + n + 1 + i, 0.0
+        for j in range(order, 0, -1):
+            found = found * tau + j * plan[series + j * row]
+        off = abs(found * tau - plan[place + i] * h)
+        if not off <= most:
+            most = off
+    for f in range(count):
+        law = row_of(plan, f)
+        if remembers(plan, law):
+            z, found = node(plan, law, of.Z_NODE, int(plan[at.NODES])), 0.0
+            for j in range(order, 0, -1):
+                found = found * tau + j * plan[z + j]
+            grown = plan[node(plan, law, of.FLOW_NODE, int(plan[at.POINT]))]
+            off = rate * abs(found * tau - grown * h)
+            if not off <= most:
+                most = off
+    return most / (BALANCED * size + 1e-300)
+
+
+@apart
+def take_step(
+    plan: Vector, y: Vector, deformation: Vector, left: float, longest: float, size: float
+) -> float:
+    """Write the series of a step from a state; return its length, on which they are certified."""
+    rate = plan[at.STIFF_RATE]
+    unit = 2.0 ** -math.floor(math.log2(max(rate, 1e-200)))
+    last = 0.0
+    for _ in range(40):
+        expand(plan, y, deformation, unit, _ORDER)
+        last = _last(plan, _ORDER, rate) + _last(plan, _ORDER - 1, rate)
+        if last < math.inf:
+            break
+        unit *= 2.0**-16
+    share = math.inf
+    for m in (_ORDER - 1, _ORDER):
+        term = _last(plan, m, rate)
+        if term > 0.0:
+            share = min(share, (TOLERANCE * (size + 1e-300) / term) ** (1.0 / m))
+    h = min(share * unit, longest)
+    if not h > 0.0 or not last < math.inf:
+        return 0.0
+    h = left if left <= h else min(h, 0.5 * left)
+    shorten(plan, h / unit)
+    plan[at.PIECE_LENGTH] = h
+    for _ in range(_CUT):
+        off = excess(plan, y, deformation, 1.0, size)
+        if off <= 1.0:
+            return h
+        cut = _LEAST_SHARE
+        if off < math.inf:
+            cut = max(0.9 * off ** (-1.0 / (_ORDER - 1)), cut)
+        h *= cut
+        shorten(plan, cut)
+        plan[at.PIECE_LENGTH] = h
+    return 0.0

@@ -1,0 +1,92 @@
+"""The tangent flow with curved laws, against differences of motions."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from engine.assembly.systems import System, joined
+from vibroimpact.engine.assembly.curved.laws import link_rows, stop_law
+from vibroimpact.engine.assembly.curved.layout import NEW
+from vibroimpact.engine.assembly.entries import follow_sections, sections
+from vibroimpact.engine.assembly.plan import GROUND, Stop, base_motion
+from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
+
+
+def rows(left: int, right: int, damping: float = 0.0, **law: Any) -> list[Stop]:
+    made = link_rows(IsolatorNumbers(**law), damping)
+    return [Stop(left, right, 0.0, behaviour=one, law=numbers) for one, numbers in made]
+
+
+def pushing(left: int, right: int, *numbers: float) -> Stop:
+    behaviour, law = stop_law(PowerLaw(*numbers))
+    return Stop(left, right, numbers[-1], behaviour=behaviour, law=law)
+
+
+BOUC_WEN = {"hysteretic": 300.0, "turning": 40.0, "knee": 60.0}
+LINKS: dict[str, list[Stop]] = {
+    "cubic": rows(GROUND, 0, cubic=4e4),
+    "bouc-wen": rows(GROUND, 0, **BOUC_WEN),
+    "bilinear": rows(GROUND, 0, hysteretic=300.0, limit=0.006),
+    "friction": rows(GROUND, 0, friction=0.4),
+    "square": rows(0, 1, 3.0, drag=2.0),
+}
+STOPS = {
+    "dissipation": pushing(0, 1, 2e5, 1.5, 0.4, 0.0, 0.01),
+    "restitution": pushing(0, 1, 2e5, 1.5, -0.4, 0.0, 0.01),
+    "jankowski": pushing(0, 1, 2e5, 1.5, 0.0, 40.0, 0.01),
+    "rigid": Stop(0, 1, 0.01, restitution=0.6),
+    "bumper": Stop(0, 1, 0.01, 1e4, 10.0),
+}
+
+
+@pytest.mark.parametrize(
+    ("link", "stop"),
+    [
+        ("cubic", "dissipation"),
+        ("bouc-wen", "restitution"),
+        ("bouc-wen", "rigid"),
+        ("bilinear", "bumper"),
+        ("friction", "rigid"),
+        ("square", "jankowski"),
+    ],
+)
+def test_differences(link: str, stop: str) -> None:
+    mass = np.diag([1.0, 0.6])
+    c, k = joined(2, [(GROUND, 0, 90.0, 0.8), (GROUND, 1, 140.0, 0.5)])
+    stops = [STOPS[stop], *LINKS[link]]
+    omega = 2.0 * math.pi * 1.7
+    system = System(mass, c, k, stops, base_motion(mass, np.ones(2)), 3.0, omega)
+    plan = system.plan(False)
+    width = 4 + len(stops)
+
+    def moved(disturbances: Any = None, part: int = 0, by: float = 0.0) -> Any:
+        state = system.state([0.012, -0.01], [0.3, -0.35])
+        state[1] = NEW
+        state[2 + part] += by
+        log = np.zeros((200, 4))
+        count = follow_sections(
+            plan,
+            system.amplitude,
+            omega,
+            state,
+            sections(0.4, 0.83 * system.period, 1),
+            disturbances=disturbances,
+            log=log,
+        )
+        assert count > 0
+        return state[2 : 2 + width].copy(), count
+
+    q = np.eye(width)
+    _, count = moved(q)
+    # Parts without influence, and what a memory that just yielded does, are left out.
+    for part in range(4):
+        h = 3e-7
+        (above, more), (below, less) = moved(None, part, h), moved(None, part, -h)
+        assert more == less == count
+        expected = (above - below) / (2.0 * h)
+        scale = np.abs(expected).max()
+        assert q[part] == pytest.approx(expected, rel=0.0, abs=1e-6 * scale), part

@@ -1,0 +1,271 @@
+"""Assemblies with curved links and stops: the flow of one mass, closed forms and other solvers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import vibroimpact as vi
+
+LINEAR = vi.Isolator(100.0, 1.0)
+BOUC_WEN = vi.BoucWenIsolator(
+    elastic_stiffness=400.0, post_yield_stiffness=60.0, yield_force=3.0, damping=0.5
+)
+SHARP = vi.BoucWenIsolator(
+    elastic_stiffness=400.0, post_yield_stiffness=60.0, yield_force=3.0, damping=0.5, exponent=2
+)
+BILINEAR = vi.BilinearIsolator(
+    elastic_stiffness=400.0, post_yield_stiffness=60.0, yield_force=2.0, damping=0.5
+)
+FRICTION = vi.FrictionIsolator(stiffness=100.0, friction=0.5, damping=0.3)
+HUNT = vi.PowerBumper(2e5, 0.01, dissipation=0.5)
+RESTITUTION = vi.PowerBumper(2e5, 0.012, restitution=0.5)
+BUMPER = vi.Bumper(1e4, 10.0, 0.01)
+WALL = vi.RigidStop(0.6, 0.012)
+SHAKEN = vi.Harmonic(2.0, 1.6)
+STILL = vi.Harmonic(1e-200, 1.6)
+
+LAWS: dict[str, tuple[Any, Any, Any]] = {
+    "cubic": (vi.PolynomialIsolator(stiffness=100.0, damping=1.0, cubic=4e4), BUMPER, WALL),
+    "hertz": (LINEAR, vi.PowerBumper(2e5, 0.01), None),
+    "hunt-crossley": (LINEAR, HUNT, RESTITUTION),
+    "jankowski": (LINEAR, vi.JankowskiBumper(2e5, 0.01, 0.6, 1.0), None),
+    "bouc-wen": (BOUC_WEN, BUMPER, None),
+    "sharp": (SHARP, vi.PowerBumper(2e5, 0.01), WALL),
+    "bilinear": (BILINEAR, BUMPER, WALL),
+    "friction": (FRICTION, BUMPER, WALL),
+    "square": (vi.Isolator(100.0, 3.0, damping_exponent=2.0), BUMPER, None),
+    "power": (vi.Isolator(100.0, 3.0, damping_exponent=1.5), BUMPER, None),
+    "formula": (
+        vi.Law("k*u + q*sinh(b*u) + c*v*abs(v)", k="100 N/m", q=1.0, b=30.0, c=1.0),
+        vi.Law("max(k*d*(1+chi*v), 0)", gap=0.01, k=1e4, chi=0.5),
+        None,
+    ),
+    "tanh": (
+        vi.Law("k*u + q*tanh(b*v) + r*u*abs(u)", k="100 N/m", q=1.0, b=3.0, r=500.0),
+        BUMPER,
+        None,
+    ),
+}
+
+
+def follow(
+    masses: dict[str, float],
+    links: dict[str, Any],
+    stops: dict[str, Any],
+    shaking: Any = SHAKEN,
+    cycles: float = 3,
+    start: Any = None,
+    **rest: Any,
+) -> Any:
+    parts = {
+        part: {name: vi.Link(*one) for name, one in given.items()}
+        for part, given in (("links", links), ("stops", stops))
+    }
+    rig = vi.Rig(vi.Assembly(masses=masses, **parts, **rest), shaking)
+    return vi.simulate(rig, cycles, start=start, samples=32)
+
+
+def apart(one: Any, other: Any) -> float:
+    """The largest difference, as a share of the largest value."""
+    one, other = np.asarray(one).ravel(), np.asarray(other).ravel()
+    return float(np.abs(one - other).max() / np.abs(other).max())
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_one_mass_moves_as_an_oscillator(name: str) -> None:
+    isolator, right, left = LAWS[name]
+    oscillator = vi.Oscillator(1.0, isolator, right=right, left=left)
+    expected = vi.simulate(vi.Rig(oscillator, SHAKEN), 10, samples=32)
+    stops = {"r": ("m", "ground", right)} | ({"l": ("ground", "m", left)} if left else {})
+    motion = follow({"m": 1.0}, {"i": ("ground", "m", isolator)}, stops, cycles=10)
+    assert apart(motion.displacement, expected.displacement) < 1e-12
+    assert apart(motion.velocity, expected.velocity) < 1e-11  # in a steep contact
+    assert len(motion.event) == len(expected.event) > 0
+    assert motion.event_time.values * 1.6 == pytest.approx(
+        expected.event_time.values * 1.6, rel=0.0, abs=1e-13
+    )
+    assert (motion.event_contact.values == expected.event_contact.values).all()
+
+
+@pytest.mark.parametrize(
+    ("isolator", "stop"),
+    [(BOUC_WEN, HUNT), (BILINEAR, BUMPER), (FRICTION, vi.RigidStop(0.6, 0.01))],
+)
+def test_two_copies_side_by_side_move_as_one(isolator: Any, stop: Any) -> None:
+    storey = vi.Isolator(900.0, 1.0)
+    one = follow(
+        {"a": 1.0, "c": 0.7},
+        {"i": ("ground", "a", isolator), "j": ("a", "c", storey)},
+        {"s": ("a", "ground", stop)},
+    )
+    two = follow(
+        {"a": 1.0, "b": 1.0, "c": 0.7, "d": 0.7},
+        {
+            "i1": ("ground", "a", isolator),
+            "i2": ("ground", "b", isolator),
+            "j1": ("a", "c", storey),
+            "j2": ("b", "d", storey),
+        },
+        {"s1": ("a", "ground", stop), "s2": ("b", "ground", stop)},
+    )
+    assert len(two.event) == 2 * len(one.event) > 0
+    for copy, original in (("a", "a"), ("b", "a"), ("c", "c"), ("d", "c")):
+        found = two.displacement.sel(mass=copy)
+        assert apart(found, one.displacement.sel(mass=original)) < 1e-13
+
+
+@pytest.mark.parametrize(
+    ("law", "stop"),
+    [
+        (None, HUNT),
+        (None, vi.JankowskiBumper(2e5, 0.01, 0.6)),
+        (BOUC_WEN, RESTITUTION),
+        (BILINEAR, vi.RigidStop(0.5, 0.01)),
+        (FRICTION, BUMPER),
+    ],
+)
+def test_two_bodies_of_one_frequency_are_one_of_the_meeting_mass(law: Any, stop: Any) -> None:
+    m1, m2 = 1.0, 2.5
+    meets = m1 * m2 / (m1 + m2)
+
+    def held(mass: float) -> vi.Isolator:
+        return vi.Isolator(100.0 * mass, 0.5 * mass)
+
+    between = {"x": ("b", "a", law)} if law else {}
+    both = follow(
+        {"a": m1, "b": m2},
+        {"g1": ("ground", "a", held(m1)), "g2": ("ground", "b", held(m2)), **between},
+        {"s": ("a", "b", stop)},
+        start=vi.State(displacement={"a": -0.02, "b": 0.03}, velocity={"a": 0.5}),
+    )
+    across = {"x": ("ground", "r", law)} if law else {}
+    alone = follow(
+        {"r": meets},
+        {"g": ("ground", "r", held(meets)), **across},
+        {"s": ("r", "ground", stop)},
+        STILL,
+        start=vi.State(displacement={"r": -0.05}, velocity={"r": 0.5}),
+    )
+    closing = both.displacement.sel(mass="a") - both.displacement.sel(mass="b")
+    assert apart(closing, alone.displacement) < 1e-12
+    assert len(both.event) == len(alone.event) > 0
+
+
+@pytest.mark.parametrize(
+    ("exponent", "speeds"),
+    [(1.5, [-0.0709524, 0.0764030, 0.9945493]), (1.0, [-0.1302617, 0.1502296, 0.9800321])],
+)
+def test_three_touching_masses(exponent: float, speeds: list[float]) -> None:
+    law = vi.PowerBumper(1e7, 0.0, exponent=exponent)
+    motion = follow(
+        {"a": 1.0, "b": 1.0, "c": 1.0},
+        {},
+        {"ab": ("a", "b", law), "bc": ("b", "c", law)},
+        vi.Harmonic(1e-300, 1.0),
+        1,
+        start=vi.State(velocity={"a": 1.0}),
+    )
+    assert motion.velocity[:, -1].values == pytest.approx(speeds, abs=6e-8)
+    assert float(motion.velocity[:, -1].sum()) == pytest.approx(1.0, rel=1e-13)
+    assert float((motion.velocity[:, -1] ** 2).sum()) == pytest.approx(1.0, rel=1e-12)
+
+
+def test_smooth_links_between_masses_against_another_solver() -> None:
+    cubic = vi.PolynomialIsolator(stiffness=300.0, damping=0.4, cubic=2e5)
+    sinh = vi.Law("k*u + q*sinh(b*u) + c*v", k="50 N/m", q=2.0, b=20.0, c=0.3)
+    motion = follow(
+        {"a": 1.0, "b": 0.6},
+        {"g": ("ground", "a", sinh), "x": ("a", "b", cubic)},
+        {},
+        vi.Harmonic(6.0, 1.6),
+        5,
+    )
+    omega = 2.0 * np.pi * 1.6
+
+    def rate(t: float, y: Any) -> Any:
+        a, b, va, vb = y
+        s, w = b - a, vb - va
+        link = 300.0 * s + 2e5 * s**3 + 0.4 * w
+        base = 50.0 * a + 2.0 * np.sinh(20.0 * a) + 0.3 * va
+        shaking = 6.0 * np.sin(omega * t)
+        return [va, vb, link - base - shaking, -link / 0.6 - shaking]
+
+    times = motion.time.values
+    found = solve_ivp(rate, (0.0, times[-1]), np.zeros(4), "DOP853", times, rtol=3e-14, atol=1e-16)
+    assert apart(motion.displacement, found.y[:2]) < 3e-12
+
+
+def test_links_stuck_at_once_and_the_most_overloaded_slides_first() -> None:
+    """A stack of two: the base holds 3 N, what stands on it 1 N. Each stays while it can."""
+    low, high, weak = (
+        vi.FrictionIsolator(stiffness=0.0, friction=one, damping=0.0) for one in (3.0, 1.0, 1.5)
+    )
+    links = {"low": ("ground", "a", low), "high": ("a", "b", high)}
+    masses = {"a": 1.0, "b": 0.5}
+    # Together 1.5 kg: held at the ground below 2 m/s², b on a below 2 m/s²: nothing moves.
+    still = follow(masses, links, {}, vi.Harmonic(1.9, 1.0), 2)
+    assert not still.displacement.values.any()
+    # Of a weaker base all goes together, at the friction of the base alone.
+    links["low"] = ("ground", "a", weak)
+    moved = follow(masses, links, {}, vi.Harmonic(1.4, 1.0), 2)
+    assert (moved.displacement[0] == moved.displacement[1]).all()
+    assert np.abs(moved.displacement).max() > 1e-3
+    # One mass of 1.5 kg on the same friction.
+    alone = follow({"m": 1.5}, {"low": ("ground", "m", weak)}, {}, vi.Harmonic(1.4, 1.0), 2)
+    assert apart(moved.displacement[0], alone.displacement) < 1e-12
+    # A spring pulls b with 4 N, which friction does not hold, and a with 3 N, which it does.
+    links["low"] = ("ground", "a", vi.FrictionIsolator(stiffness=0.0, friction=3.5, damping=0.0))
+    links["high"] = ("a", "b", vi.FrictionIsolator(stiffness=4.0, friction=1.0, damping=0.0))
+    start = vi.State(displacement={"b": 1.0})
+    slides = follow(masses, links, {}, vi.Harmonic(1e-300, 1.0), 1, start=start)
+    assert not slides.displacement[0].values.any()
+    time = slides.time.values
+    expected = 0.25 + 0.75 * np.cos(np.sqrt(8.0) * time)
+    assert slides.displacement[1].values == pytest.approx(expected, rel=1e-13)
+
+
+def test_a_motion_goes_on_from_any_place() -> None:
+    masses, links = (
+        {"a": 1.0, "b": 0.6},
+        {"g": ("ground", "a", BOUC_WEN), "x": ("a", "b", FRICTION)},
+    )
+    stops = {"s": ("a", "b", RESTITUTION), "w": ("a", "ground", HUNT)}
+    whole = follow(masses, links, stops, cycles=3)
+    for share in (1.0, 1.37, 2.2):
+        first = follow(masses, links, stops, cycles=share)
+        rest = follow(masses, links, stops, cycles=3 - share, start=first)
+        assert apart(rest.displacement[:, -1], whole.displacement[:, -1]) < 1e-12
+        assert apart(rest.velocity[:, -1], whole.velocity[:, -1]) < 1e-12
+
+
+def test_more_parts_than_a_mode_has_bits_for_are_refused() -> None:
+    links = {f"x{i}": vi.Link("ground", "a", FRICTION) for i in range(18)}
+    rig = vi.Rig(vi.Assembly(masses={"a": 1.0}, links=links), SHAKEN)
+    with pytest.raises(vi.InputError, match="18 curved parts of links need 54 bits") as error:
+        vi.simulate(rig, 1)
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("name", ["hunt-crossley", "bouc-wen", "friction"])
+def test_sweeps_of_one_mass_are_those_of_an_oscillator(name: str) -> None:
+    isolator, right, left = LAWS[name]
+    oscillator = vi.Oscillator(1.0, isolator, right=right, left=left)
+    stops = {"right": vi.Link("m", "ground", right)}
+    if left:
+        stops["left"] = vi.Link("ground", "m", left)
+    links = {"i": vi.Link("ground", "m", isolator)}
+    assembly = vi.Assembly(masses={"m": 1.0}, links=links, stops=stops)
+    frequencies = [1.5, 1.9, 2.3]
+    expected, found = (vi.sweep(vi.Rig(one, SHAKEN), frequencies) for one in (oscillator, assembly))
+    for variable in ("peak_displacement", "peak_acceleration"):
+        values = found[variable].sel(mass="m").values
+        assert values == pytest.approx(expected[variable].values, rel=1e-9)
+    assert found.peak_transmitted_force.values == pytest.approx(
+        expected.peak_transmitted_force.values, rel=1e-9
+    )
+    assert (found.period.values == expected.period.values).all()
+    assert found.impacts.values.max() > 0
