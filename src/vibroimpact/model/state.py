@@ -10,18 +10,16 @@ from pydantic import BeforeValidator
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.state import AssemblyState
+from vibroimpact.model.frozen_mapping import FrozenMapping
 from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 _BOTH = ("displacement", "velocity")
-_BY_NAME = ("deformation", "memory", "touching")
+_BY_NAME = ("memory", "touching")
 """Values that only the state of an assembly has."""
-_INSTEAD = {
-    "right_bumper": "deformation",
-    "left_bumper": "deformation",
-    "contact": "touching",
-    "isolator": "memory",
-}
+_INSTEAD = {"contact": "touching", "isolator": "memory"}
+_SIDES = ("right", "left")
+_DEFORMATION = Accepts(LENGTH, minimum=0.0)
 
 
 def _contact(value: Any) -> int | None:
@@ -36,6 +34,27 @@ def _contact(value: Any) -> int | None:
         f"{shown(value)} is not a stop; pass -1 (left stop), 0 (no contact), 1 (right stop) or "
         "2 (both stops)"
     )
+
+
+def _deformation(value: Any) -> FrozenMapping[float]:
+    """Read deformations by side; a side that is None is deduced, as if it were left out."""
+    value = {} if value is None else value
+    if not isinstance(value, Mapping):
+        raise InputError(
+            f"{shown(value)} is not a mapping from sides; pass deformations such as "
+            '{"right": "2 mm"}'
+        )
+    found = {}
+    for side, one in value.items():
+        if side not in _SIDES:
+            raise InputError(f"{shown(side)} is not a stop of an Oscillator; use right or left")
+        try:
+            number = None if one is None else _DEFORMATION(one)
+        except InputError as error:
+            raise InputError(f"{side}: {error}") from None
+        if number is not None:
+            found[str(side)] = number
+    return FrozenMapping({side: found[side] for side in _SIDES if side in found})
 
 
 class State(Model):
@@ -58,14 +77,13 @@ class State(Model):
         Displacement u in m, relative to the base; or a mapping from masses to displacements.
     velocity
         Velocity u̇ in m/s, relative to the base; or a mapping from masses to velocities.
-    right_bumper
-        Deformation u_R of the right bumper in m, at least 0. Default: the bumper is undeformed, or
-        compressed by the mass if the displacement exceeds the gap. For a stop without memory (any
-        other stop than a `Bumper`) the value has another meaning while the stop is compressed: the
+    deformation
+        Mapping from stops ("right" and "left", or the names of an assembly's stops) to their
+        deformations in m, at least 0. A stop that is not named is undeformed, or compressed as far
+        as the displacement exceeds the gap. For a stop without memory (any other stop than a
+        `Bumper`) of an oscillator the value has another meaning while the stop is compressed: the
         speed in m/s at the start of the contact. If the stop has a coefficient of restitution, this
         speed determines its dissipation.
-    left_bumper
-        Deformation u_L of the left bumper in m, at most 0. Default: as for the right bumper.
     phase
         Phase of the excitation at this instant, in rad. Default: the initial phase of the
         excitation.
@@ -76,9 +94,6 @@ class State(Model):
         Internal variable (memory) of a hysteretic isolator, in m. For the bilinear isolator it is
         the deformation z of the elastic part. For the Bouc-Wen model it is z. For the exponential
         model it is the hysteretic force divided by k_a - k_b.
-    deformation
-        For an assembly: mapping from stops to their deformations in m, at least 0. A stop that is
-        not named is undeformed, or compressed as far as its two bodies overlap.
     memory
         For an assembly: mapping from hysteretic links to their internal variables in m. Default: 0.
     touching
@@ -92,12 +107,11 @@ class State(Model):
         oscillator and of an assembly are passed together.
     """
 
-    _quiet: ClassVar[Mapping[str, Any]] = {"isolator": 0.0}
+    _quiet: ClassVar[Mapping[str, Any]] = {"deformation": {}, "isolator": 0.0}
 
     displacement: Annotated[float, Accepts(LENGTH)] = 0.0
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
-    right_bumper: Annotated[float | None, Accepts(LENGTH, minimum=0.0, optional=True)] = None
-    left_bumper: Annotated[float | None, Accepts(LENGTH, maximum=0.0, optional=True)] = None
+    deformation: Annotated[FrozenMapping[float], BeforeValidator(_deformation)] = FrozenMapping()
     phase: Annotated[float | None, Accepts(ANGLE, optional=True)] = None
     contact: Annotated[Literal[-1, 0, 1, 2] | None, BeforeValidator(_contact)] = None
     isolator: Annotated[float, Accepts(LENGTH)] = 0.0
@@ -107,10 +121,13 @@ class State(Model):
         given = dict(zip(cls.model_fields, args, strict=False)) | values
         by_name = [key for key in _BY_NAME if given.get(key) is not None]
         by_name += [key for key in _BOTH if isinstance(given.get(key), Mapping)]
+        stops = given.get("deformation")
+        if isinstance(stops, Mapping) and not {*stops} <= {*_SIDES} and not {*given} & {*_BOTH}:
+            by_name.append("deformation")
         if cls is not State or not by_name:
             return super().__new__(cls)
         for key in given:
-            if key not in (*_BOTH, *_BY_NAME, "phase"):
+            if key not in (*_BOTH, "deformation", *_BY_NAME, "phase"):
                 other = _INSTEAD.get(key)
                 use = f"use {other}" if other else f"remove {key}"
                 raise InputError(
@@ -124,21 +141,18 @@ class State(Model):
         self,
         displacement: float | str | Mapping[str, float | str] = 0.0,
         velocity: float | str | Mapping[str, float | str] = 0.0,
-        right_bumper: float | str | None = None,
-        left_bumper: float | str | None = None,
+        deformation: Mapping[str, float | str | None] | None = None,
         phase: float | str | None = None,
         contact: int | None = None,
         isolator: float | str = 0.0,
         *,
-        deformation: Mapping[str, float | str] | None = None,
         memory: Mapping[str, float | str] | None = None,
         touching: Iterable[str] | None = None,
     ) -> None:
         super().__init__(
             displacement=displacement,
             velocity=velocity,
-            right_bumper=right_bumper,
-            left_bumper=left_bumper,
+            deformation=deformation,
             phase=phase,
             contact=contact,
             isolator=isolator,
