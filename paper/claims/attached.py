@@ -129,9 +129,14 @@ def recovered(study: PublishedStudy) -> Finding:
     """Use the deformations in the log of events."""
     motion = study.motion(_CODE, _resonance(study), "forward")
     largest = float(motion["contact_penetration"].max())
-    side, begins = motion["event_side"].values, motion["event_contact"].values == 1
+    side, begins = (
+        np.where(motion["event_stop"].values == "right", 1, -1),
+        motion["event_contact"].values == 1,
+    )
     own = np.where(
-        side == 1, motion["event_right_bumper"].values, -motion["event_left_bumper"].values
+        side == 1,
+        motion["event_deformation"].sel(stop="right").values,
+        -(-motion["event_deformation"].sel(stop="left")).values,
     )
     left, met = (np.abs(own[where]).max() / largest for where in (~begins, begins))
     return Finding(

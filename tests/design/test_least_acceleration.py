@@ -59,7 +59,7 @@ def test_of_sines() -> None:
 
 
 def test_a_wide_gap_leaves_nothing_to_choose() -> None:
-    need = float(vi.required_gap(RIG, records=RECORDS)["required_gap"])
+    need = float(vi.required_gap(RIG, records=RECORDS)["common_gap"])
     untouched = (
         "the best design touches no stop, so the properties of the stops do not matter; the "
         "design stays below the limit of peak force: 0 N of 1 MN"

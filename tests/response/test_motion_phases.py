@@ -50,7 +50,7 @@ def test_they_are_those_between_the_events(motion):
     assert len(rows) == events + 1
     np.testing.assert_array_equal(every.bounds[1:-1], motion["event_time"])
     np.testing.assert_array_equal(rows[:-1, layout.KIND], motion["event_contact"])
-    side = np.where(motion["event_side"] == 1, 0, 1)
+    side = np.where(motion["event_stop"] == "right", 0, 1)
     np.testing.assert_array_equal(rows[:-1, layout.AT_STOP], side)
     np.testing.assert_array_equal(every.of_mass(layout.ARRIVAL)[:-1], motion["event_velocity"])
     assert rows[-1, layout.KIND] == layout.NOTHING

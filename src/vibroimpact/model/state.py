@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from numbers import Integral
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, model_validator
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.state import AssemblyState
@@ -34,27 +34,6 @@ def _contact(value: Any) -> int | None:
         f"{shown(value)} is not a stop; pass -1 (left stop), 0 (no contact), 1 (right stop) or "
         "2 (both stops)"
     )
-
-
-def _deformation(value: Any) -> FrozenMapping[float]:
-    """Read deformations by side; a side that is None is deduced, as if it were left out."""
-    value = {} if value is None else value
-    if not isinstance(value, Mapping):
-        raise InputError(
-            f"{shown(value)} is not a mapping from sides; pass deformations such as "
-            '{"right": "2 mm"}'
-        )
-    found = {}
-    for side, one in value.items():
-        if side not in _SIDES:
-            raise InputError(f"{shown(side)} is not a stop of an Oscillator; use right or left")
-        try:
-            number = None if one is None else _DEFORMATION(one)
-        except InputError as error:
-            raise InputError(f"{side}: {error}") from None
-        if number is not None:
-            found[str(side)] = number
-    return FrozenMapping({side: found[side] for side in _SIDES if side in found})
 
 
 class State(Model):
@@ -111,10 +90,38 @@ class State(Model):
 
     displacement: Annotated[float, Accepts(LENGTH)] = 0.0
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
-    deformation: Annotated[FrozenMapping[float], BeforeValidator(_deformation)] = FrozenMapping()
+    deformation: FrozenMapping[float] = FrozenMapping()
     phase: Annotated[float | None, Accepts(ANGLE, optional=True)] = None
     contact: Annotated[Literal[-1, 0, 1, 2] | None, BeforeValidator(_contact)] = None
     isolator: Annotated[float, Accepts(LENGTH)] = 0.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _by_side(cls, data: Any) -> Any:
+        """Read deformations by side; a side that is None is deduced, as if it were left out."""
+        if not isinstance(data, Mapping):
+            return data
+        given = data.get("deformation")
+        given = {} if given is None else given
+        if not isinstance(given, Mapping):
+            raise InputError(
+                f"deformation: {shown(given)} is not a mapping from stops; pass deformations such "
+                'as {"right": "2 mm"}'
+            )
+        found = {}
+        for side, value in given.items():
+            if side not in _SIDES:
+                raise InputError(
+                    f"deformation.{side}: this is not a stop of an Oscillator; use right or left"
+                )
+            try:
+                number = None if value is None else _DEFORMATION(value)
+            except InputError as error:
+                raise InputError(f"deformation.{side}: {error}") from None
+            if number is not None:
+                found[str(side)] = number
+        known = FrozenMapping({side: found[side] for side in _SIDES if side in found})
+        return {**data, "deformation": known}
 
     def __new__(cls, *args: Any, **values: Any) -> Any:
         """Return the state of an assembly if values are mappings from names."""

@@ -60,7 +60,7 @@ def test_derivative_agrees_with_central_differences(motion: Motion, component: i
     data = simulated(motion, 1.0)
     first = np.array([float(data[name][0]) for name in COMPONENTS])
     # The start lies in flight, and so do its neighbours.
-    clear = [float(data[f"{side}_clearance"][0]) for side in ("right", "left")]
+    clear = [float(data["clearance"].sel(stop=side)[0]) for side in ("right", "left")]
     assume(not any(gap <= 1e-3 * float(np.abs(data["displacement"]).max()) for gap in clear))
     size = float(np.abs(data["displacement"]).max())
     unit = np.array([size, size * shaken.angular_frequency])[component]
@@ -89,7 +89,9 @@ def struck() -> Motion:
 def test_derivative_with_respect_to_a_relaxing_bumper():
     motion = struck()
     data = vi.simulate(vi.Rig(motion.oscillator, motion.excitation), 1.0, motion.start)
-    assert float(data["event_right_bumper"][0]) > 1e-3  # at contact it is still deformed
+    assert (
+        float(data["event_deformation"].sel(stop="right")[0]) > 1e-3
+    )  # at contact it is still deformed
     rows, _ = derivative(motion.oscillator, motion.excitation, motion.start)
     first = np.array([0.3, 1.1, 0.05, 0.0])
     step = 1e-6
