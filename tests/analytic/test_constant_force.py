@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from reference.paper_signs import start as start_at
 from reference.public_motion import events
 
 MASS, STIFFNESS, FORCE = 2.0, 8.0, 1.0
@@ -115,7 +116,7 @@ def test_a_branch_over_the_force_is_one_over_the_gap() -> None:
     for i in range(0, over.sizes["point"], max(1, over.sizes["point"] // 5)):
         here = rig.replace(force=float(over["force"][i]))
         section = over["section"].values[i]
-        begin = vi.State(*section[:4], phase=section[4], contact=int(section[5]))
+        begin = start_at(section)
         end = vi.simulate(vi.Rig(here, SHAKEN), 1, begin, samples=0)["final_state"].values
         np.testing.assert_allclose(end[:4], section[:4], atol=1e-10)
 

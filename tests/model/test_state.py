@@ -26,9 +26,7 @@ def test_deformations_are_positive_on_both_sides():
     for side in ("right", "left"):
         with pytest.raises(InputError, match=rf"^deformation\.{side}: '-1 mm' is less than 0"):
             State(deformation={side: "-1 mm"})
-    with pytest.raises(
-        InputError, match=r"^deformation\.top: this is not a stop of an Osc"
-    ):
+    with pytest.raises(InputError, match=r"^deformation\.top: this is not a stop of an Osc"):
         State(0.0, 0.0, {"top": 0.0})
     with pytest.raises(InputError, match=r"^deformation: 0.1 is not a mapping from stops; pass "):
         State(deformation=0.1)

@@ -4,6 +4,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+import vibroimpact as vi
+
 SIGNS = {"right": 1, "left": -1}
 
 
@@ -44,3 +46,10 @@ def contact(data: xr.Dataset) -> NDArray[np.int64]:
 def sides(data: xr.Dataset) -> NDArray[np.int64]:
     """Number of the side of each event."""
     return np.where(data["event_stop"].values == "right", 1, -1)
+
+
+def start(components: NDArray[np.float64], **changes: float) -> vi.State:
+    """The state of the first components (u, v, u_R, u_L, phase, contact), which may be fewer."""
+    u, v, right, left, *others = (float(one) for one in components[:6])
+    values = dict(zip(("phase", "contact"), others, strict=False)) | changes
+    return vi.State(u, v, {"right": right, "left": 0.0 - left}, **values)

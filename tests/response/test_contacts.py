@@ -35,12 +35,12 @@ def test_contacts_against_the_phases_by_matrix_exponentials(motion: Motion) -> N
     rounding = 1e-15 * size
     assert log.sizes["contact_number"] == len(inner)
     for i, phase in enumerate(inner):
-        row = {str(name).removeprefix(LOG): float(log[name][i]) for name in log}
+        row = {str(name).removeprefix(LOG): log[name].values[i] for name in log}
         bumper = rig.right if phase.contact == 1 else rig.left
         pressing = force(rig, phase)
         impulse = float(phase.weights @ pressing)
         scale = float(phase.weights @ np.abs(pressing)) + 1e-300
-        assert row["side"] == phase.contact
+        assert row["stop"] == ("right" if phase.contact == 1 else "left")
         assert row["duration"] == pytest.approx(phase.length, rel=1e-9)
         deepest = float(np.abs(phase.motion.u).max()) - bumper.gap
         if deepest < 1e-9 * size:
@@ -173,8 +173,9 @@ def test_samples_change_nothing():
     few, many = (
         vi.contacts(vi.simulate(vi.Rig(case.oscillator, shaken), 30, samples=n)) for n in (1, 99)
     )
+    assert few["contact_stop"].equals(many["contact_stop"])
     for name in few:
-        if name != "contact_grazing":
+        if name not in ("contact_grazing", "contact_stop"):
             np.testing.assert_allclose(few[name], many[name], rtol=1e-9, atol=1e-15)
 
 
@@ -263,7 +264,8 @@ class TestThroughARecord:
         one, other = (
             vi.contacts(vi.simulate(vi.Rig(self.RIG, r), tail=1.0)) for r in (self.ROUGH, finer)
         )
-        for name in set(one) - {"contact_grazing"}:
+        assert one["contact_stop"].equals(other["contact_stop"])
+        for name in set(one) - {"contact_grazing", "contact_stop"}:
             np.testing.assert_allclose(one[name], other[name], rtol=1e-9, atol=1e-11)
 
     def test_samples_change_nothing(self):
@@ -271,7 +273,8 @@ class TestThroughARecord:
             vi.contacts(vi.simulate(vi.Rig(self.RIG, self.ROUGH), tail=1.03, samples=n))
             for n in (1, 30)
         )
-        for name in set(few) - {"contact_grazing"}:
+        assert few["contact_stop"].equals(many["contact_stop"])
+        for name in set(few) - {"contact_grazing", "contact_stop"}:
             np.testing.assert_allclose(few[name], many[name], rtol=1e-9, atol=1e-13)
 
     def test_sections_and_spectra_have_no_meaning(self):

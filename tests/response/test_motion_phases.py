@@ -102,7 +102,7 @@ def test_contacts_from_the_events_alone():
     np.testing.assert_allclose(parting, every.of_mass(layout.PARTING)[:-1], rtol=1e-15)
     assert (every.rows[:, layout.KIND] == IMPACT).any()
     assert (every.rows[:, layout.TOUCHED] == BOTH).any()
-    for number, side in enumerate((1, -1)):
+    for number, side in enumerate(("right", "left")):
         held = contact_intervals(data, side, data["event_time"].values, float(data["time"][-1]))
         touched = every.touched(number)
         assert touched.any()

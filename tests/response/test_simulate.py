@@ -11,6 +11,7 @@ import xarray as xr
 
 import vibroimpact as vi
 from reference.paper_signs import in_paper_signs
+from reference.paper_signs import start as start_at
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 1.1, 0.4)
@@ -161,7 +162,7 @@ def test_the_end_is_the_end(cycles: float, samples: int) -> None:
 def test_every_form_of_start_goes_on_the_same() -> None:
     whole = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 5, samples=0)
     first = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 2, samples=8)
-    state = vi.State(*first["final_state"].values[:5])
+    state = start_at(first["final_state"].values[:5])
     for start in (first, first["final_state"], state):
         end = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 3, start, samples=0)["final_state"]
         np.testing.assert_allclose(end, whole["final_state"], rtol=1e-12, atol=1e-15)

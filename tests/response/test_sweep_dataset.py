@@ -43,9 +43,9 @@ def held_and_contacts(rig: vi.Oscillator) -> tuple[xr.Dataset, xr.Dataset]:
 def test_forces_and_impulses_are_those_of_the_contacts(name: str) -> None:
     rig = (RIGS | WALLS)[name]
     held, found = held_and_contacts(rig)
-    assert len(np.where(found["contact_stop"] == "right", 1, -1))
-    for side, sign in (("right", 1), ("left", -1)):
-        mine = np.where(found["contact_stop"].values == "right", 1, -1) == sign
+    assert found.sizes["contact_number"]
+    for side in held["stop"].values:
+        mine = found["contact_stop"].values == side
         forces, impulses = (found[f"contact_{what}"].values for what in ("peak_force", "impulse"))
         force, impulse = held["peak_force"].sel(stop=side), held["peak_impulse"].sel(stop=side)
         if isinstance(getattr(rig, side), vi.RigidStop):
@@ -68,6 +68,8 @@ def test_no_moment_of_the_motion_has_a_larger_force(name: str) -> None:
     stops = -rig.mass * motion["acceleration"].values
     stops -= np.array([rig.isolator.static_force(one) for one in u]) + rig.isolator.damping * v
     for side, sign in (("right", 1.0), ("left", -1.0)):
+        if getattr(rig, side) is None:
+            continue
         largest = float(held["peak_force"].sel(stop=side))
         seen = max(0.0, (sign * stops)[motion["touching"].sel(stop=side).values].max(initial=0.0))
         assert seen <= largest * (1.0 + 1e-9)

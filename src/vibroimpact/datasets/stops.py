@@ -48,8 +48,9 @@ def by_stop(
     ndarray, shape (..., stop)
     """
     names = stops_of(oscillator) if names is None else names
-    found = both[..., [SIDES.index(name) for name in names.tolist()]]
     lacking = [getattr(oscillator, name) is None for name in names.tolist()]
+    at = [SIDES.index(name) for name in names.tolist()]
+    found = both[..., at[0] : at[-1] + 1] if at else both[..., :0]  # without a copy
     if any(lacking):
         found = found.astype(np.float64)
         found[..., lacking] = np.nan

@@ -17,7 +17,11 @@ EVENTS_AT_ONCE = 20_000
 
 
 def sampled(out: NDArray[np.float64], oscillator: Oscillator) -> dict[str, Any]:
-    """The samples; what the isolator remembers, if it does."""
+    """The samples; what the isolator remembers, if it does.
+
+    Deformations are positive when compressed. The engine has the opposite sign on the left, which
+    is changed in place, because long motions are not kept twice.
+    """
     rows = {
         "displacement": record.DISPLACEMENT,
         "velocity": record.VELOCITY,
@@ -25,23 +29,21 @@ def sampled(out: NDArray[np.float64], oscillator: Oscillator) -> dict[str, Any]:
         **({"isolator_memory": record.MEMORY} if oscillator.isolator.remembers else {}),
     }
     samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
-    clearance = out[[record.RIGHT_CLEARANCE, record.LEFT_CLEARANCE]].T
+    np.negative(out[record.LEFT_FACE], out=out[record.LEFT_FACE])
+    out[record.LEFT_FACE] += 0.0  # no -0.0
+    faces = slice(record.RIGHT_FACE, record.LEFT_FACE + 1)
+    apart = slice(record.RIGHT_CLEARANCE, record.LEFT_CLEARANCE + 1)
     touched = out[record.CONTACT]
-    both = (touched == record.TOUCHING[RIGHT | LEFT])[:, np.newaxis]
-    touching = both | (touched[:, np.newaxis] == [record.TOUCHING[RIGHT], record.TOUCHING[LEFT]])
+    both = touched == record.TOUCHING[RIGHT | LEFT]
+    touching = [both | (touched == record.TOUCHING[side]) for side in (RIGHT, LEFT)]
     by_side = {
-        "deformation": _compressed(out[record.RIGHT_FACE], out[record.LEFT_FACE]),
-        "clearance": clearance,
-        "touching": touching,
+        "deformation": out[faces].T,
+        "clearance": out[apart].T,
+        "touching": np.column_stack(touching),
     }
     return samples | {
         name: (("time", "stop"), by_stop(oscillator, values)) for name, values in by_side.items()
     }
-
-
-def _compressed(right: NDArray[np.float64], left: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Deformations of both stops, positive when compressed; the engine writes the left ones < 0."""
-    return np.column_stack([right, 0.0 - left])
 
 
 def transmitted(
@@ -98,7 +100,7 @@ def listed(
         return np.concatenate([part[:, at] for part in parts])
 
     time = column(record.E_CYCLE) * period + column(record.E_TIME)
-    deformation = _compressed(column(record.E_RIGHT), column(record.E_LEFT))
+    deformation = np.column_stack([column(record.E_RIGHT), 0.0 - column(record.E_LEFT)])
     return {
         "event_time": ("event", time),
         "event_stop": ("event", stop_names(column(record.E_SIDE))),
