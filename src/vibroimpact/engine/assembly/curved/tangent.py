@@ -176,7 +176,7 @@ def _moved(plan: Vector, row: Vector, h: float) -> None:
 def _too_long(plan: Vector, h: float) -> float:
     """By how much a step is too long for disturbances, if above 1."""
     count, base, last = int(plan[at.STOPS]), int(plan[at.NODES]), int(plan[at.ORDER])
-    most = plan[at.RATE] * h / _REACH
+    most: float = plan[at.RATE] * h / _REACH
     for f in range(count):
         law = row_of(plan, f)
         if int(plan[law + of.BEHAVIOUR]) in (0, of.FRICTION) or plan[law + of.ACTIVE] == 0.0:
