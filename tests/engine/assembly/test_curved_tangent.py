@@ -15,7 +15,6 @@ from vibroimpact.engine.assembly.entries import follow_sections, sections
 from vibroimpact.engine.assembly.plan import GROUND, Stop, base_motion
 from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
 
-
 pytestmark = pytest.mark.filterwarnings("ignore:.*encountered:RuntimeWarning")
 """Terms that leave the range of numbers are found so: their unit of time is then less."""
 
