@@ -10,6 +10,9 @@ from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*encountered:RuntimeWarning")
+"""Without the compiler; terms that leave the range of numbers are found so."""
+
 LINEAR = vi.Isolator(100.0, 1.0)
 BOUC_WEN = vi.BoucWenIsolator(
     elastic_stiffness=400.0, post_yield_stiffness=60.0, yield_force=3.0, damping=0.5

@@ -9,11 +9,18 @@ import numpy as np
 import pytest
 
 from engine.assembly.systems import System, joined
+from vibroimpact.engine.assembly.curved import table
 from vibroimpact.engine.assembly.curved.laws import link_rows, stop_law
 from vibroimpact.engine.assembly.curved.layout import NEW
 from vibroimpact.engine.assembly.entries import follow_sections, sections
 from vibroimpact.engine.assembly.plan import GROUND, Stop, base_motion
+from vibroimpact.engine.jit import Vector
+from vibroimpact.engine.memory import pointer
+from vibroimpact.engine.plain_entries import single
 from vibroimpact.law_numbers import IsolatorNumbers, PowerLaw
+
+pytestmark = pytest.mark.filterwarnings("ignore:.*encountered:RuntimeWarning")
+"""Terms that leave the range of numbers are found so: their unit of time is then less."""
 
 
 def rows(left: int, right: int, damping: float = 0.0, **law: Any) -> list[Stop]:
@@ -64,7 +71,7 @@ def test_differences(link: str, stop: str) -> None:
     width = 4 + len(stops)
 
     def moved(disturbances: Any = None, part: int = 0, by: float = 0.0) -> Any:
-        state = system.state([0.012, -0.01], [0.3, -0.35])
+        state = system.state([0.004, -0.004], [0.3, -0.35])
         state[1] = NEW
         state[2 + part] += by
         log = np.zeros((200, 4))
@@ -90,3 +97,37 @@ def test_differences(link: str, stop: str) -> None:
         expected = (above - below) / (2.0 * h)
         scale = np.abs(expected).max()
         assert q[part] == pytest.approx(expected, rel=0.0, abs=1e-6 * scale), part
+
+
+@single("f8(f8[::1], f8[::1], f8[::1], i8)")
+def ask(given: Any, memory: Vector, state: Vector, values: Vector, part: int) -> float:
+    """Place a state, at a point if there is one, or disturb a part of it."""
+    plan, here = pointer(memory), pointer(state)
+    if part >= 0:
+        changed: float = table.disturb(plan, here, part, 1e-3, 1.0)
+        return changed
+    if len(values):
+        table.at_point(plan, here, pointer(values))
+    else:
+        table.place(plan, here)
+    return 0.0
+
+
+def test_placing_keeps_what_is_remembered() -> None:
+    """A memory below zero, and the speed at which a stop that is pressed was met."""
+    mass = np.diag([1.0, 0.6])
+    c, k = joined(2, [(GROUND, 0, 90.0, 0.8), (GROUND, 1, 140.0, 0.5)])
+    stops = [STOPS["restitution"], *LINKS["bouc-wen"], *LINKS["bilinear"], *LINKS["friction"]]
+    system = System(mass, c, k, stops, base_motion(mass, np.ones(2)), 3.0, 10.0)
+    plan, none = system.plan(False), np.zeros(0)
+    state = system.state()
+    point = np.array([0.012, -0.01, 0.3, -0.35, 0.7, -0.004, -0.02, 0.5])
+    ask(plan, state, point, -1)
+    assert state[0] == 1  # the stop is pressed
+    assert state[2:10] == pytest.approx([0.012, -0.01, 0.3, -0.35, 0.7, -0.004, -0.006, 0.0])
+    assert ask(plan, state, none, 5) == pytest.approx(1e-3)
+    assert ask(plan, state, none, 7) == 0.0  # friction has no memory
+    state[:] = system.state([0.0, 0.0], [0.3, -0.35])
+    state[6] = 0.7
+    ask(plan, state, none, -1)
+    assert state[6] == 0.0  # it is not pressed

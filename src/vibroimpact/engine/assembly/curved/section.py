@@ -57,11 +57,15 @@ def place(plan: Vector, state: Vector) -> None:
             elif int(plan[row + of.BEHAVIOUR]) == of.BILINEAR:
                 limit = plan[row + _LIMIT]
                 deformation[f] = min(max(deformation[f], -limit), limit)
+    kept = int(plan[at.SCRATCH])
+    for f in range(count):
+        plan[kept + f] = deformation[f]
     linear.place(plan, state)
     found = int(state[at.STATE_MODE])
     for f in range(count):
         if plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.KIND] >= at.PUSHING:
             found &= ~(1 << f)
+            deformation[f] = plan[kept + f]
     state[at.STATE_MODE], state[at.STATE_FRESH] = float(found | touched), of.NEW
 
 

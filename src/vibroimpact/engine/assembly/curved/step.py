@@ -68,13 +68,13 @@ def _last(plan: Vector, m: int, rate: float) -> float:
     row, most = int(plan[at.SERIES]) + m * 2 * (n + 1), 0.0
     for i in range(n):
         one = abs(plan[row + n + 1 + i]) + rate * abs(plan[row + i])
-        if not one <= most:  # what is not a number shows
+        if not one <= most and most == most:  # what is not a number shows
             most = one
     for f in range(int(plan[at.STOPS])):
         law = row_of(plan, f)
         if remembers(plan, law):
             one = rate * abs(plan[node(plan, law, of.Z_NODE, int(plan[at.NODES])) + m])
-            if not one <= most:
+            if not one <= most and most == most:
                 most = one
     return most
 
@@ -100,7 +100,7 @@ def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float
         for j in range(order, 0, -1):
             found = found * tau + j * plan[series + j * row]
         off = abs(found * tau - plan[place + i] * h)
-        if not off <= most:
+        if not off <= most and most == most:
             most = off
     for f in range(count):
         law = row_of(plan, f)
@@ -110,7 +110,7 @@ def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float
                 found = found * tau + j * plan[z + j]
             grown = plan[node(plan, law, of.FLOW_NODE, int(plan[at.POINT]))]
             off = rate * abs(found * tau - grown * h)
-            if not off <= most:
+            if not off <= most and most == most:
                 most = off
     return most / (BALANCED * size + 1e-300)
 
