@@ -266,7 +266,7 @@ def test_a_repeated_period_is_the_motion_going_on(name):
     start = vi.State(
         float(first["displacement"]),
         float(first["velocity"]),
-        {name: float(first["deformation"].sel(stop=name)) for name in ("right", "left")},
+        {name: float(first["deformation"].sel(stop=name)) for name in first["stop"].values},
         contact=int(in_paper_signs(motion)["contact"][0]),
         phase=phase,
     )

@@ -228,7 +228,7 @@ def test_several_motions_have_strips_of_their_own():
                     assert corner[:, 1].max() == pytest.approx(1.0 - number / 3.0)
                     assert corner[:, 1].min() == pytest.approx(1.0 - (number + 1) / 3.0)
                 # The left bumper's are hatched, whatever their colour.
-                assert bool(strip.get_hatch()) is (side == -1)
+                assert bool(strip.get_hatch()) is (side == "left")
     strips = [c for c in axes[0].collections if c.get_label() == "right contact"]
     colours = [to_hex(c.get_facecolor()[0]) for c in strips[:2]]
     assert colours == [SWEEPS["forward"].colour, SWEEPS["backward"].colour]
