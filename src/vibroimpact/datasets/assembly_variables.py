@@ -30,6 +30,10 @@ ASSEMBLIES: dict[str, Variable] = {
     "drift_min": Variable("m", "smallest drift of the link, u_right − u_left"),
     "drift_excursion": Variable("m", "excursion of the drift of the link"),
     "peak_drift": Variable("m", "largest drift of the link, without sign"),
+    "peak_closing": Variable(
+        "m",
+        "largest closing displacement u_left − u_right of the bodies of the stop, without stops",
+    ),
     "total_links": Variable("J", "energy lost in the link during the whole motion"),
     "total_stops": Variable("J", "energy lost in the stop during the whole motion"),
     "total_damping": Variable(
