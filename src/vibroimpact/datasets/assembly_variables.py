@@ -26,6 +26,7 @@ ASSEMBLIES: dict[str, Variable] = {
     "peak_impulse": Variable("N s", "largest impulse of an impact at the rigid stop"),
     "link": Variable("1", "name of the link"),
     "contact_stop": Variable("1", "name of the stop of the contact"),
+    "section_deformation": Variable("m", "deformation of the stop at the section"),
     "drift_max": Variable("m", "largest drift of the link, u_right − u_left"),
     "drift_min": Variable("m", "smallest drift of the link, u_right − u_left"),
     "drift_excursion": Variable("m", "excursion of the drift of the link"),
