@@ -296,7 +296,6 @@ def test_a_rig_keeps_its_system():
 
 
 REFUSED = {
-    "basins": lambda rig: vi.basins(rig, (-1, 1), (-1, 1), frequency=1.0),
     "classify_scenario": vi.classify_scenario,
     "design_chart": lambda rig: vi.design_chart(rig, {"gap": [0.1, 0.2]}),
     "to_dimensionless": vi.to_dimensionless,
