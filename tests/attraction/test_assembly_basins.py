@@ -76,5 +76,5 @@ def test_wrong_planes() -> None:
         with pytest.raises(vi.InputError, match=says) as error:
             vi.basins(rig, **wrong)
         assert "\n" not in str(error.value)
-    with pytest.raises(vi.InputError, match="^plane: only for an Assembly"):
+    with pytest.raises(vi.InputError, match=r"^plane: only for an Assembly"):
         vi.basins("B2-G1-A3", frequency=2.0, plane=good)

@@ -155,9 +155,8 @@ def assembly_basins(
     assembly = rig.system
     assert isinstance(assembly, Assembly)
     search = _Search(rig, start, plane, max_cycles, max_events)
-    axes = [
-        np.linspace(one.low, one.high, n) for one, n in zip(plane, plan.shape[::-1], strict=True)
-    ]
+    counts = plan.shape[::-1]
+    axes = [np.linspace(one.low, one.high, n) for one, n in zip(plane, counts, strict=True)]
     labels = np.full(plan.shape, UNKNOWN, dtype=np.int8)
     cycles = np.full(plan.shape, -1, dtype=np.int32)
     levels = np.full(plan.shape, -1, dtype=np.int8)
@@ -165,20 +164,23 @@ def assembly_basins(
     for level in range(plan.refine + 1):
         chosen = np.flatnonzero(plan.wanted(level, labels) & (labels == UNKNOWN))
         rows, columns = np.divmod(chosen, plan.shape[1])
-        starts = [search.at(axes[0][j], axes[1][i]) for i, j in zip(rows, columns, strict=True)]
-        able = [k for k, one in enumerate(starts) if one is not None]
+        starts = {
+            int(k): state
+            for k, i, j in zip(chosen, rows, columns, strict=True)
+            if (state := search.at(axes[0][j], axes[1][i])) is not None
+        }
         ends = each(
             lambda state, _: search.follow(state),
-            [starts[k] for k in able],
+            list(starts.values()),
             threads=workers,
             progress=progress,
         )
         flat = labels.ravel()
         flat[chosen] = outside
-        for k, end in zip(able, ends, strict=True):
+        for k, end in zip(starts, ends, strict=True):
             # One more than the number of the motion; 0 is given up.
-            flat[chosen[k]] = search.number(end, starts[k]) + 1
-            cycles.ravel()[chosen[k]] = end.cycles
+            flat[k] = search.number(end) + 1
+            cycles.ravel()[k] = end.cycles
         levels.ravel()[chosen] = level
         if level:
             plan.fill(level, labels)
@@ -235,7 +237,7 @@ class _Search:
             visited = np.sort(rows[:, lyapunov.SECTION])
         return _End(reached, int(row.period), int(row.cycles), status, visited)
 
-    def number(self, end: _End, start: _Array) -> int:
+    def number(self, end: _End) -> int:
         """Return the number of the motion at which one ends, which is added if it is new."""
         if end.status is not Status.DONE:
             return UNDECIDED
@@ -261,9 +263,8 @@ class _Search:
     def _is(self, one: _Known, end: _End) -> bool:
         if not end.period:
             return distance(one.visited, end.visited) <= ALIKE
-        return bool(
-            (np.abs(one.points - self._scaled(end.state)).max(axis=1) <= SAME * one.size).any()
-        )
+        apart = np.abs(one.points - self._scaled(end.state)).max(axis=1)
+        return bool((apart <= SAME * one.size).any())
 
     def _scaled(self, state: _Array) -> _Array:
         point = self.states.point(state).copy()
