@@ -21,6 +21,7 @@ from vibroimpact.datasets.description import (
     describe,
     rig_parameters,
 )
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
 from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, to_si
@@ -52,8 +53,7 @@ def basins(
     frequency: float | str | None = None,
     nodes: int | tuple[int, int] = 200,
     refine: int = 0,
-    right_bumper: float | str = 0.0,
-    left_bumper: float | str = 0.0,
+    deformation: Mapping[str, float | str] | None = None,
     isolator: float | str = 0.0,
     max_cycles: int = 2000,
     max_events: int = 10_000,
@@ -91,10 +91,10 @@ def basins(
         of the grid is halved there. No states are added between neighbouring states that lead to
         the same motion. Therefore parts of a basin that are narrower than the spacing of the first
         grid may be missed.
-    right_bumper, left_bumper
-        Initial deformation of the right and of the left bumper (m; negative on the left). If the
-        initial displacement compresses the bumper further, the larger deformation is used. Pass 0
-        for a relaxed bumper and for all other stops.
+    deformation
+        Initial deformations of bumpers (m), as a mapping such as ``{"right": "2 mm"}``. If the
+        initial displacement compresses the bumper further, the larger deformation is used. Default:
+        the bumpers are relaxed.
     isolator
         Initial internal variable (memory) of the isolator in m, if its law has one; see `State`.
     max_cycles
@@ -167,12 +167,8 @@ def basins(
         for name, value in (("displacement", displacement), ("velocity", velocity)):
             if value is not None:
                 raise InputError(f"{name}: an Assembly has several; remove it, and pass plane")
-        for name, one in (
-            ("right_bumper", right_bumper),
-            ("left_bumper", left_bumper),
-            ("isolator", isolator),
-        ):
-            if one != 0.0:
+        for name, one in (("deformation", deformation), ("isolator", isolator or None)):
+            if one is not None:
                 raise InputError(f"{name}: {shown(one)}, but the rig is an Assembly; pass start")
         chosen = read_plane(plane, rig.system)
         data = assembly_basins(rig, chosen, start, plan, max_cycles, max_events, workers, progress)
@@ -183,7 +179,7 @@ def basins(
             raise InputError(
                 f"{name}: only for an Assembly; remove it, and pass displacement and velocity"
             )
-    others = _others(rig.oscillator, right_bumper, left_bumper, isolator)
+    others = _others(rig.oscillator, deformation, isolator)
     stage = Stage(rig, max_events)
     search = Search(stage, max_cycles, workers)
     wide = span_of(displacement, LENGTH, "displacement")
@@ -200,8 +196,7 @@ def basins(
         "vibroimpact.basins",
         {
             **rig_parameters(rig),
-            "right_bumper": float(others[0]),
-            "left_bumper": -float(others[1]),
+            "deformation": dict(zip(SIDES, others[:2].tolist(), strict=True)),
             "isolator": float(others[2]),
             "refine": refine,
             "max_cycles": max_cycles,
@@ -240,24 +235,20 @@ def span_of(
 
 
 def _others(
-    oscillator: Oscillator, right: float | str, left: float | str, isolator: float | str
+    oscillator: Oscillator,
+    deformation: Mapping[str, float | str] | None,
+    isolator: float | str,
 ) -> NDArray[np.float64]:
     """Return the deformations of untouched bumpers and the memory of the isolator."""
-    values = [
-        to_si(right, LENGTH, "right_bumper", minimum=0.0),
-        -to_si(left, LENGTH, "left_bumper", maximum=0.0),
-        to_si(isolator, LENGTH, "isolator"),
-    ]
-    for side, value, stop in (
-        ("right", values[0], oscillator.right),
-        ("left", -values[1], oscillator.left),
-    ):
-        if value and not hasattr(stop, "damping"):
+    given = State(deformation=deformation).deformation
+    for side, value in given.items():
+        if value and not hasattr(getattr(oscillator, side), "damping"):
             raise InputError(
-                f"{side}_bumper: {value:g} m, but the {side} side has no bumper that keeps a "
-                f"deformation; pass 0, or leave {side}_bumper out"
+                f"deformation.{side}: {value:g} m, but the {side} side has no bumper that keeps a "
+                f"deformation; pass 0, or leave {side} out"
             )
-    return np.array(values)
+    memory = to_si(isolator, LENGTH, "isolator")
+    return np.array([*(given.get(side, 0.0) for side in SIDES), memory])
 
 
 def _labelled(
@@ -314,7 +305,7 @@ def _dataset(
         "basin": (("velocity", "displacement"), renamed),
         "capture_cycles": (("velocity", "displacement"), cycles),
         "level": (("velocity", "displacement"), levels),
-        **variables(known),
+        **variables(search.stage.oscillator, known),
         **shares(renamed, len(known), drawn),
         "border_distance": ("attractor", border_distances(renamed, u, v / omega, points)),
         "basin_entropy": mixed.basin,
