@@ -240,7 +240,7 @@ def _others(
     isolator: float | str,
 ) -> NDArray[np.float64]:
     """Return the deformations of untouched bumpers and the memory of the isolator."""
-    given = State(deformation=deformation).deformation
+    given = State(0.0, 0.0, deformation=deformation).deformation
     for side, value in given.items():
         if value and not hasattr(getattr(oscillator, side), "damping"):
             raise InputError(
