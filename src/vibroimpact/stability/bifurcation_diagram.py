@@ -311,7 +311,7 @@ def _dataset(
             for key, value in scalars.items()
         },
         **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
-        **_points(oscillator, padded.reshape(*shape, most, -1), (*dims, "section_point")),
+        **_points(oscillator, padded.reshape(*shape, *padded.shape[1:]), (*dims, "section_point")),
         "section": ((*dims, "component"), states.reshape(*shape, -1)),
     }
     coordinates = {
