@@ -99,11 +99,9 @@ def test_impacts_are_those_of_steady():
     order = np.argsort(section["contact_start_phase"].values)
     known = data.isel(section_point=slice(section.sizes["contact_number"]))
     mine = np.argsort(known["contact_start_phase"].values)
-    stops = data["contact_stop"].values
-    assert (stops == "").sum() == data.sizes["section_point"] - len(order)
-    np.testing.assert_array_equal(
-        known["contact_stop"].values[mine], section["contact_stop"].values[order]
-    )
+    padded = data.sizes["section_point"] - len(order)
+    assert (data["contact_stop"].values == "").sum() == padded
+    assert (known["contact_stop"].values[mine] == section["contact_stop"].values[order]).all()
     for name in ("contact_start_phase", "contact_start_velocity"):
         np.testing.assert_allclose(known[name].values[mine], section[name].values[order], rtol=1e-8)
 
