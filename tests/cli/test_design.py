@@ -70,13 +70,11 @@ def test_a_study_with_records(run, study):
     need = vi.required_gap(_rig(), records=records, fractile=0.5)
     words = " ".join(told.split())
     every = vi.required_gap(_rig(), records=records)
-    gap, right, left = (
-        1e3 * float(need[f"required_gap{side}"]) for side in ("", "_right", "_left")
-    )
+    gap, right, left = (1e3 * float(one) for one in (need["common_gap"], *need["required_gap"]))
     assert (
         f"Required gap: {gap:.4g} mm, the 50 % fractile over a.csv, b.csv (each side separately: "
         f"{right:.4g} mm to the right, {left:.4g} mm to the left); "
-        f"{1e3 * float(every['required_gap']):.4g} mm for no contact under all of them. "
+        f"{1e3 * float(every['common_gap']):.4g} mm for no contact under all of them. "
     ) in words
     assert (
         "All values are 50 % fractiles over the records, for each quantity separately; limits "

@@ -247,7 +247,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Li
     # A gap lies along the bottom, whichever was named first.
     if second == "gap":
         first, second = second, first
-    data = data.transpose(second, first)
+    data = data.transpose(second, first, ...)
     factor, label = quantity_label(data, name)
     x, y = _axis(ax.xaxis, data[first]), _axis(ax.yaxis, data[second])
     # Contours between nodes are straight lines, whatever the axes' scales.
