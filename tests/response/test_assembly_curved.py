@@ -272,3 +272,20 @@ def test_sweeps_of_one_mass_are_those_of_an_oscillator(name: str) -> None:
     )
     assert (found.period.values == expected.period.values).all()
     assert found.impacts.values.max() > 0
+
+
+@pytest.mark.parametrize(("isolator", "stop"), [(BOUC_WEN, WALL), (BILINEAR, BUMPER)])
+def test_orbits_of_one_mass_are_those_of_an_oscillator(isolator: Any, stop: Any) -> None:
+    oscillator = vi.Oscillator(1.0, isolator, right=stop)
+    assembly = vi.Assembly(
+        masses={"m": 1.0},
+        links={"i": vi.Link("ground", "m", isolator)},
+        stops={"right": vi.Link("m", "ground", stop)},
+    )
+    expected, found = (vi.orbit(vi.Rig(one, SHAKEN)) for one in (oscillator, assembly))
+    assert float(found.effective_damping) == pytest.approx(
+        float(expected.effective_damping), rel=1e-10
+    )
+    assert found.displacement.values.ravel() == pytest.approx(
+        expected.displacement.values.ravel(), rel=0.0, abs=1e-11
+    )

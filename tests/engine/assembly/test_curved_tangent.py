@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from engine.assembly.systems import System, joined
+from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import table
 from vibroimpact.engine.assembly.curved.laws import link_rows, stop_law
 from vibroimpact.engine.assembly.curved.layout import NEW
@@ -103,6 +104,7 @@ def test_differences(link: str, stop: str) -> None:
 def ask(given: Any, memory: Vector, state: Vector, values: Vector, part: int) -> float:
     """Place a state, at a point if there is one, or disturb a part of it."""
     plan, here = pointer(memory), pointer(state)
+    table.complete(plan)
     if part >= 0:
         changed: float = table.disturb(plan, here, part, 1e-3, 1.0)
         return changed
@@ -120,9 +122,14 @@ def test_placing_keeps_what_is_remembered() -> None:
     stops = [STOPS["restitution"], *LINKS["bouc-wen"], *LINKS["bilinear"], *LINKS["friction"]]
     system = System(mass, c, k, stops, base_motion(mass, np.ones(2)), 3.0, 10.0)
     plan, none = system.plan(False), np.zeros(0)
-    state = system.state()
+    state, complete = system.state(), plan.copy()
     point = np.array([0.012, -0.01, 0.3, -0.35, 0.7, -0.004, -0.02, 0.5])
     ask(plan, state, point, -1)
+    numbers = int(plan[at.NUMBERS])
+    rates = slice(int(plan[at.ROW_SUMS]), int(plan[at.ROW_SUMS]) + 4)
+    assert plan[rates] == pytest.approx(complete[rates])
+    same = np.delete(np.arange(numbers), np.r_[rates])
+    assert (plan[same][at.HEADER :] == complete[same][at.HEADER :]).all()
     assert state[0] == 1  # the stop is pressed
     assert state[2:10] == pytest.approx([0.012, -0.01, 0.3, -0.35, 0.7, -0.004, -0.006, 0.0])
     assert ask(plan, state, none, 5) == pytest.approx(1e-3)

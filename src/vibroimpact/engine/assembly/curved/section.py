@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly import section as linear
@@ -134,6 +132,7 @@ def complete(plan: Vector) -> None:
     for f in range(count):
         row, one = row_of(plan, f), int(plan[at.STOP]) + f * at.STOP_WIDTH
         if plan[one + at.KIND] == at.LINK:
+            plan[one + at.RELAXATION] = 0.0  # its memory stays
             law = row + of.NUMBERS
             stiff = plan[law + par.HYSTERETIC] * plan[law + par.SLOPE]
             stiff += 2.0 * plan[law + par.SINH] * plan[law + par.SINH_RATE]
@@ -142,5 +141,3 @@ def complete(plan: Vector) -> None:
             for i in range(n):
                 response = plan[int(plan[at.RESPONSE]) + f * n + i]
                 plan[sums + i] += ends * abs(response) * stiff
-        elif plan[one + at.KIND] == at.PUSHING:
-            plan[one + at.RELAXATION] = math.inf
