@@ -114,8 +114,10 @@ def pair_portrait(
         handles += points
     if quantity != "velocity":
         handles += _gaps(ax, shown.assembly, first, second, quantity == "approach")
-    ax.set_xlabel(base_label(labels[0], [motion]))
-    ax.set_ylabel(base_label(labels[1], [motion]))
+    if quantity != "approach":
+        labels = (base_label(labels[0], [motion]), base_label(labels[1], [motion]))
+    ax.set_xlabel(labels[0])
+    ax.set_ylabel(labels[1])
     if handles:
         add_legend(ax, handles, columns=3)
     fit_labels(ax)
