@@ -24,6 +24,24 @@ ASSEMBLIES: dict[str, Variable] = {
     ),
     "impacts": Variable("1", "contacts at the stop per forcing cycle"),
     "peak_impulse": Variable("N s", "largest impulse of an impact at the rigid stop"),
+    "link": Variable("1", "name of the link"),
+    "contact_stop": Variable("1", "name of the stop of the contact"),
+    "drift_max": Variable("m", "largest drift of the link, u_right − u_left"),
+    "drift_min": Variable("m", "smallest drift of the link, u_right − u_left"),
+    "drift_excursion": Variable("m", "excursion of the drift of the link"),
+    "peak_drift": Variable("m", "largest drift of the link, without sign"),
+    "total_links": Variable("J", "energy lost in the link during the whole motion"),
+    "total_stops": Variable("J", "energy lost in the stop during the whole motion"),
+    "total_damping": Variable(
+        "J",
+        "energy lost in damping that is not of a link during the whole motion",
+        "modal or Rayleigh damping, and damping of matrices",
+    ),
+    "total_stored": Variable(
+        "J",
+        "growth of the kinetic and potential energy during the whole motion",
+        "of links, bumpers and constant forces; relative to the base",
+    ),
     "mode": Variable("1", "number of the mode", "from 1, in the order of the natural frequencies"),
     "natural_frequency": Variable(
         "Hz", "undamped natural frequency without stops", "0 for a free motion"

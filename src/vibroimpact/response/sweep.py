@@ -28,7 +28,7 @@ from vibroimpact.model import Assembly, AssemblyState, State, to_si
 from vibroimpact.model.count_checks import check_max_events, share, whole
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_sweep import sweep_assembly
 from vibroimpact.response.engine_input import as_state, state_from
@@ -402,15 +402,17 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     return grid
 
 
-def periodic_rigs(rigs: Any) -> dict[str, Rig]:
+def periodic_rigs(rigs: Any, *, any_masses: bool = False) -> dict[str, Rig]:
     """Read one or several rigs, each with a periodic shaking, by their names.
+
+    ``any_masses`` accepts assemblies.
 
     Raises
     ------
     InputError
         If there is none, or one is invalid.
     """
-    found = as_rigs(rigs)
+    found = as_rigs_of_any_masses(rigs) if any_masses else as_rigs(rigs)
     for name, rig in found.items():
         as_periodic(rig.shaking, "shaking" if len(found) == 1 else f"rigs[{name}].shaking")
     return found
