@@ -10,11 +10,11 @@ from typing import Any, NamedTuple
 
 from vibroimpact.cli.options import RigOptions, by_path
 from vibroimpact.errors import InputError
-from vibroimpact.model import GRAVITY, Oscillator
+from vibroimpact.model import GRAVITY
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.names import kept_letters
 from vibroimpact.model.parameters import canonical, parameters
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, System
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import unitless
 
@@ -33,7 +33,7 @@ class Change(NamedTuple):
 
 
 def changes(
-    options: RigOptions, rig_of: Callable[[RigOptions], Any], rig: Oscillator
+    options: RigOptions, rig_of: Callable[[RigOptions], Any], rig: System
 ) -> tuple[Change, ...]:
     """Return the options that change the rig.
 
@@ -70,7 +70,7 @@ def _same(rig_of: Callable[[RigOptions], Any], options: RigOptions, wanted: Any)
         return False
 
 
-def _change(path: str, value: str, rig: Oscillator) -> Change:
+def _change(path: str, value: str, rig: System) -> Change:
     known = parameters(Rig(rig))
     name = canonical(path, known)
     words = name.removeprefix("oscillator.")
