@@ -123,4 +123,3 @@ def response_table(responses: dict[str, xr.Dataset]) -> xr.Dataset:
     table = xr.Dataset(flat, coords={"record": list(responses)})
     table.attrs = dict(next(iter(responses.values())).attrs)
     return table
-

@@ -133,7 +133,9 @@ def simulate(
             if not of_record:
                 hertz = shaken.periodic.frequency
                 name, cycled = f"{forcing_slug(hertz)}-history", last
-                title = f"{what.title}, {forcing(hertz, 10) if shaken.is_shaken else 'free vibration'}"
+                title = (
+                    f"{what.title}, {forcing(hertz, 10) if shaken.is_shaken else 'free vibration'}"
+                )
             write_motion(written, data, name, title, cycled, animation)
         elif of_record:
             written.write(data, "history", figures.record_history)

@@ -80,7 +80,9 @@ def largest(motion: xr.Dataset) -> dict[str, Any]:
             of["peak_force"] = float(found["peak_force"].sel(stop=name))
         stops[name] = of
     links = {
-        str(name): float(np.abs([found["drift_max"].sel(link=name), found["drift_min"].sel(link=name)]).max())
+        str(name): float(
+            np.abs([found["drift_max"].sel(link=name), found["drift_min"].sel(link=name)]).max()
+        )
         for name in found["link"].values
     }
     return {

@@ -9,7 +9,6 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import chains, history
@@ -23,8 +22,7 @@ from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import GRAVITY
-
-_Array = NDArray[np.float64]
+from vibroimpact.response.totals import totals
 
 
 @in_own_units
@@ -37,11 +35,12 @@ def mass_envelopes(
     that links join is a curve; another building begins another curve. The left panel shows the
     largest and the smallest displacement relative to the base. A drift is the largest absolute
     displacement relative to the body below: the mass that a link joins and that precedes it in the
-    assembly, or the base. The right panel shows the largest absolute acceleration. If the masses
-    are from matrices, the body below is the preceding mass.
+    assembly, or the base. The right panel shows the largest absolute acceleration, without the
+    infinite one of a rigid impact.
 
-    The values are the largest of the samples, and of displacements also those at events. More
-    samples make them more accurate. Infinite accelerations of rigid impacts are left out.
+    The values are those of `totals`, exact between samples. If the masses are from matrices, which
+    name no links, the body below is the preceding mass, and the drift is the largest of the
+    samples.
 
     Parameters
     ----------
@@ -119,35 +118,31 @@ def _style(look: Look) -> dict[str, Any]:
 def _draw(given: tuple[Axes, ...], motion: xr.Dataset, assembly: Assembly, look: Look) -> None:
     moved, drift, shaken = given
     rank = {name: i for i, name in enumerate(assembly.names)}
-    far = extremes(motion)
+    found = totals(motion)
     for row in chains(assembly):
         names = [name for name, _ in row]
         at = [rank[name] for name in names]
-        for side in far:
-            moved.plot([in_unit(1e3) * side[i] for i in at], at, zorder=3, **_style(look))
+        for side in ("displacement_max", "displacement_min"):
+            far = found[side].sel(mass=names).values
+            moved.plot(in_unit(1e3) * far, at, zorder=3, **_style(look))
         drift.plot(
-            [in_unit(1e3) * largest_drift(motion, name, below) for name, below in row],
+            [in_unit(1e3) * _drift(motion, found, assembly, *pair) for pair in row],
             at,
             zorder=3,
             **_style(look),
         )
-        most = np.nanmax(np.abs(motion["acceleration"].sel(mass=names).values), axis=1)
+        most = found["peak_acceleration"].sel(mass=names).values
         shaken.plot(in_unit(1.0 / GRAVITY) * most, at, zorder=3, **_style(look))
 
 
-def extremes(motion: xr.Dataset) -> tuple[_Array, _Array]:
-    """Return the largest and the smallest displacement of each mass (m), of samples and events."""
-    both = np.concatenate(
-        [motion["displacement"].transpose("mass", "time"), motion["event_displacement"].T], axis=1
-    )
-    return both.max(axis=1), both.min(axis=1)
-
-
-def largest_drift(motion: xr.Dataset, mass: str, below: str) -> float:
-    """Return the largest absolute displacement of a mass relative to another body (m)."""
-    largest = 0.0
-    for name in ("displacement", "event_displacement"):
-        moved = motion[name].sel(mass=mass)
-        apart = moved if below == GROUND else moved - motion[name].sel(mass=below)
-        largest = max(largest, float(np.abs(apart.values).max(initial=0.0)))
-    return largest
+def _drift(
+    motion: xr.Dataset, found: xr.Dataset, assembly: Assembly, mass: str, below: str
+) -> float:
+    """Return the largest absolute displacement of a mass relative to the body below (m)."""
+    for name, link in assembly.links.items():
+        if {link.left, link.right} == {mass, below}:
+            ends = [float(found[f"drift_{end}"].sel(link=name)) for end in ("max", "min")]
+            return max(map(abs, ends))
+    moved = motion["displacement"].sel(mass=mass)
+    apart = moved if below == GROUND else moved - motion["displacement"].sel(mass=below)
+    return float(np.abs(apart.values).max(initial=0.0))

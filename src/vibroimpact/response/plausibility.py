@@ -114,15 +114,16 @@ def doubt_frequency(rig: Rig, field: str) -> None:
     """
     system, forced = rig.system, rig.periodic.frequency
     # Of several masses, the highest natural frequency is compared.
-    several = isinstance(system, Assembly)
-    natural = float(system.natural_frequencies.max()) if several else system.natural_frequency
+    highest = "highest " if isinstance(system, Assembly) else ""
+    natural = system.angular_frequency / math.tau
+    if isinstance(system, Assembly):
+        natural = float(system.natural_frequencies.max())
     if system.units == NONE or not natural > 0.0:
         return
     if forced <= _FAST * natural:
         return
     told = (
-        f"{pretty(forced, FREQUENCY)} is {forced / natural:.3g} times the {'highest ' if several else ''}"
-        f"natural frequency of "
+        f"{pretty(forced, FREQUENCY)} is {forced / natural:.3g} times the {highest}natural frequency of "
         f"{pretty(float(f'{natural:.4g}'), FREQUENCY)}; is {plain(forced, 6)} rpm, "
         f"{pretty(float(f'{forced / 60.0:.6g}'), FREQUENCY)}, meant?"
     )
