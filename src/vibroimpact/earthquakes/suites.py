@@ -178,10 +178,11 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
     held = isinstance(demands, xr.Dataset) and {"record", "scale"} <= set(demands.dims)
     if not held or "status" not in demands:
         raise InputError(f"demands: {shown(demands)}; pass the result of the function demands")
+    runs = demands["status"].dims
     peaks = [
         str(name)
         for name, one in demands.data_vars.items()
-        if one.dims == demands["status"].dims and name != "status"
+        if one.dims[: len(runs)] == runs and name != "status"
     ]
     check_name(quantity, peaks, "quantity")
     status = demands["status"].values
@@ -190,8 +191,8 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
             f"demands: {int((status == code).sum())} of {status.size} runs could not be computed: "
             f"{Status(int(code)).advice}"
         )
-    found: xr.DataArray = demands[quantity].where(~np.isin(status, UNSTABLE), math.inf)
-    return found
+    found: xr.DataArray = demands[quantity].where(~demands["status"].isin(UNSTABLE), math.inf)
+    return found.transpose(*demands[quantity].dims)
 
 
 def _coords(values: xr.DataArray) -> dict[str, Any]:

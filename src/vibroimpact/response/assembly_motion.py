@@ -140,6 +140,11 @@ def _fastest(assembly: Assembly, shaking: Repeated | Record) -> float:
     return max(most, harmonics * shaking.angular_frequency)
 
 
+def too_much_work(assembly: Assembly, shaking: Repeated | Record, interval: float) -> bool:
+    """Return whether a section of such a length (s) may take too many steps."""
+    return not _fastest(assembly, shaking) * interval < layout.STEP * _WORK_LIMIT
+
+
 class _Run:
     """A motion that is followed, and what was written down of it."""
 
@@ -167,8 +172,7 @@ class _Run:
         self.events: list[_Event] = []
         self.status = Status.DONE
         self.ordered_in: int | None = None
-        rate = _fastest(system, shaking) * sections.interval
-        if not rate < layout.STEP * _WORK_LIMIT:
+        if too_much_work(system, shaking, sections.interval):
             self.status = Status.TOO_MUCH_WORK
 
     def follow(self, progress: Progress | None) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -130,6 +131,11 @@ class AssemblyParts:
         response = np.linalg.solve(of.mass, self.closing.T).astype(np.float64)
         self.coupling: _Array = self.closing @ response
 
+    def watch(self, stretch: _Array) -> None:
+        """Measure other drifts than those of the links."""
+        self.stretch = stretch
+        self.dashpots = np.zeros(len(stretch))
+
     def energy(self, u: _Array, v: _Array, d: _Array) -> float:
         """Return kinetic and potential energy; of curved links it is not known (NaN)."""
         if not self.linear:
@@ -163,6 +169,8 @@ class Measurer:
         In one section, at which a motion is given up.
     nodes
         See `Follower`. Energies need `NODES`.
+    stretch : ndarray, shape (row, mass)
+        What makes the drifts that are measured. Default: those of the links.
     """
 
     def __init__(
@@ -171,20 +179,27 @@ class Measurer:
         shaking: Repeated | Record,
         max_events: int = MAX_EVENTS,
         nodes: int = NODES,
+        stretch: _Array | None = None,
     ) -> None:
         self.parts = AssemblyParts(assembly)
+        if stretch is not None:
+            self.parts.watch(stretch)
         self.shaking = shaking
         self.follower = Follower(assembly, shaking, max_events, nodes)
         self.on = None
         if not isinstance(shaking, Record) and not shaking.moves_base:
             self.on = assembly.names.index(shaking.on or assembly.names[0])
 
-    def follow(self, state: _Array, sections: Sections) -> Measured:
-        """Follow a motion over sections, in place, and measure its pieces."""
+    def follow(
+        self, state: _Array, sections: Sections, told: Callable[[int], None] | None = None
+    ) -> Measured:
+        """Follow a motion over sections, in place, and measure its pieces.
+
+        ``told`` is called with the number of sections that are done.
+        """
         chunks: list[dict[str, _Array]] = []
         impacts: list[tuple[int, int, bool]] = []
         pieces, status = 0, Status.DONE
-        # Where a section begins; its lines are all of one length but the last.
         for first in range(0, len(sections.lines), _AT_ONCE):
             lines = sections.lines[first : first + _AT_ONCE]
             seen = self.follower.over(state, lines)
@@ -192,6 +207,8 @@ class Measurer:
             chunks.append(self._measured(seen, lines, first, sections))
             impacts += self._impacts(seen, pieces, sections.interval)
             pieces += len(seen.begin)
+            if told is not None:
+                told(first + len(lines))
             if status is not Status.DONE:
                 break
         if not chunks:
