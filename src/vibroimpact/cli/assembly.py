@@ -24,7 +24,7 @@ def is_assembly(what: Subject) -> bool:
 
 
 def refuse(what: Subject, **options: Any) -> None:
-    """Refuse options and keys of a study that only a rig of one mass has.
+    """Refuse options that only a rig of one mass has.
 
     Raises
     ------
@@ -33,10 +33,10 @@ def refuse(what: Subject, **options: Any) -> None:
     """
     for option, value in options.items():
         if value is not None and value is not False and value != ():
-            name = option.replace("_", "-")
+            given = "set" if value is True else repr(value)
             raise InputError(
-                f"--{name}: {value!r}, but {what.name!r} has several masses, of which this option "
-                f"is not computed; remove --{name}"
+                f"--{option}: {given}, but {what.name!r} has several masses, for which this option "
+                f"is not available; remove --{option}"
             )
 
 

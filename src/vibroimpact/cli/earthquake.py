@@ -155,7 +155,7 @@ def _of_masses(
             found = {"record": name, "peak": record.peak, **facts.motion_facts(motion)}
             told.append(found)
             responses[name] = groups["response"]
-            peak = pretty(float(f"{record.peak:.4g}"), ACCELERATION)
+            peak = pretty(record.peak, ACCELERATION, 4)
             text += [Line(), Line(f"{name}, peak {peak}", style="bold"), facts.motion_text(found)]
         path = vi.save(response_table(responses), written.path("earthquake", "csv"))
         written.files = {"table": path, **written.files}

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from vibroimpact.cli.options import RigOptions, by_path
 from vibroimpact.errors import InputError
-from vibroimpact.model import GRAVITY
+from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.names import kept_letters
 from vibroimpact.model.parameters import canonical, parameters
@@ -18,6 +18,8 @@ from vibroimpact.model.rig import Rig, System
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import unitless
 
+_PARTS = ("masses", "links", "stops", "forces")
+"""Parts of an assembly, with which the paths of its parameters begin."""
 _LONGEST = 120
 """Largest number of bytes of a file name, without the ending that a command adds. File systems
 allow 255."""
@@ -74,15 +76,23 @@ def _change(path: str, value: str, rig: System) -> Change:
     known = parameters(Rig(rig))
     name = canonical(path, known)
     words = name.removeprefix("oscillator.")
-    if words.count(".") == 2 or words in ("stops.right", "stops.left"):
+    if isinstance(rig, Oscillator) and (
+        words.count(".") == 2 or words in ("stops.right", "stops.left")
+    ):
         words = words.removeprefix("stops.")
+    part, _, rest = ("", "", "") if isinstance(rig, Oscillator) else words.partition(".")
+    if part in _PARTS and value.lower() != "none" and part != "masses":
+        words = rest
+    elif part in _PARTS:
+        words = f"{part.removesuffix('es' if part == 'masses' else 's')} {rest}"
     words = re.sub(r"[._-]", " ", words)
     if name == "amplitude":
         size, of = sized(value, None, path)
         in_g = of == "acceleration" and not unitless()
         text = f"{size / GRAVITY:.6g} g" if in_g else pretty(size, QUANTITIES[of])
     elif value.lower() == "none":
-        words, text = "no", words if words == "isolator" else f"{words} stop"
+        is_whole = words == "isolator" or part in _PARTS
+        words, text = "no", words if is_whole else f"{words} stop"
     elif name in known:
         quantity = known[name].quantity
         text = pretty(to_si(value, quantity, path), quantity)

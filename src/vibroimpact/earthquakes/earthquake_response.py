@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import xarray as xr
 
@@ -19,7 +17,6 @@ from vibroimpact.model.units import to_si
 from vibroimpact.model.written_units import has_no_units
 from vibroimpact.response.response_spectrum import response_spectrum
 from vibroimpact.response.simulate import compute_history
-from vibroimpact.response.totals import totals
 from vibroimpact.tasks.threads import Progress
 
 _PERIODS = np.geomspace(0.02, 5.0, 200)
@@ -102,23 +99,21 @@ def assembly_response(
     Returns
     -------
     dict of xarray.Dataset
-        ``response``: that of `totals`; ``motion``: that of `simulate`; ``ground``: the spectrum of
-        the record.
+        ``response``: that of `seismic_response`; ``motion``: that of `simulate`; ``ground``: the
+        spectrum of the record.
 
     Raises
     ------
     InputError
         If a value cannot be used, or the motion was given up.
     """
-    natural = rig.system.angular_frequency
-    usual = 4.0 * math.pi / natural if natural > 0.0 else 0.0
-    after = usual if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
+    after = free_tail(rig) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
     motion = compute_history(rig, None, None, samples, after, progress=progress)
     if int(motion["status"]) != Status.DONE:
         raise InputError(f"the motion could not be computed: {motion.attrs['message']}")
     ground = response_spectrum(rig.record, _PERIODS, _DAMPING)
     return {
-        "response": totals(motion),
+        "response": seismic_response(rig, tail=after, progress=progress),
         "motion": motion,
         "ground": remove_units(ground) if has_no_units(rig) else ground,
     }

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-import numpy as np
 import xarray as xr
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -23,13 +23,7 @@ from vibroimpact.response.contacts import contacts
 from vibroimpact.response.totals import totals
 
 _DIGITS = 4
-_MASSES = {
-    "peak_displacement": "displacement",
-    "displacement_max": "to the right",
-    "displacement_min": "to the left",
-    "peak_acceleration": "acceleration",
-}
-_UNITS = {"displacement": "m", "acceleration": "m s-2", "force": "N", "impulse": "N s"}
+_MASSES = ("peak_displacement", "displacement_max", "displacement_min", "peak_acceleration")
 
 
 def rig_facts(assembly: Assembly) -> dict[str, Any]:
@@ -79,18 +73,15 @@ def largest(motion: xr.Dataset) -> dict[str, Any]:
         else:
             of["peak_force"] = float(found["peak_force"].sel(stop=name))
         stops[name] = of
-    links = {
-        str(name): float(
-            np.abs([found["drift_max"].sel(link=name), found["drift_min"].sel(link=name)]).max()
-        )
-        for name in found["link"].values
-    }
     return {
         "masses": {
             name: {what: float(found[what].sel(mass=name)) + 0.0 for what in _MASSES}
             for name in assembly.names
         },
-        "links": {name: {"peak_drift": value} for name, value in links.items()},
+        "links": {
+            str(name): {"peak_drift": float(found["peak_drift"].sel(link=name))}
+            for name in found["link"].values
+        },
         "stops": stops,
         "peak_transmitted_force": float(found["peak_transmitted_force"]),
     }
@@ -98,8 +89,6 @@ def largest(motion: xr.Dataset) -> dict[str, Any]:
 
 def assembly_of(data: xr.Dataset) -> Assembly:
     """Return the assembly of a dataset."""
-    import json
-
     parameters = json.loads(data.attrs["parameters"])
     return Assembly.model_validate(parameters.get("rigs", [parameters])[0]["assembly"])
 
@@ -112,9 +101,9 @@ def largest_text(found: Mapping[str, Any], title: str = "Largest") -> Renderable
             "mass",
             found["masses"],
             {
-                "displacement_max": ("displacement", "m", 1.0),
+                "displacement_max": ("to the right", "m", 1.0),
                 "displacement_min": ("to the left", "m", -1.0),
-                "peak_acceleration": ("absolute acceleration", "m s-2", 1.0),
+                "peak_acceleration": ("acceleration", "m s-2", 1.0),
             },
         )
     ]
@@ -211,8 +200,8 @@ def motion_text(found: Mapping[str, Any]) -> RenderableType:
     if found["simultaneous_impacts"]:
         parts.append(
             Text(
-                f"Note: the order of the stops decided {found['simultaneous_impacts']} simultaneous "
-                "impacts"
+                f"Note: the order of the stops decided {found['simultaneous_impacts']} "
+                "simultaneous impacts"
             )
         )
     return Group(*parts)
@@ -223,8 +212,6 @@ def _size(force: float, quantity: Quantity = FORCE) -> str:
 
 
 def _parameters(data: xr.Dataset) -> dict[str, Any]:
-    import json
-
     parameters: dict[str, Any] = json.loads(data.attrs["parameters"])
     return parameters
 

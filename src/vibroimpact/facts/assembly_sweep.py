@@ -91,21 +91,19 @@ def _resonances(data: xr.Dataset) -> list[dict[str, Any]]:
     for mass in data["mass"].values:
         for direction in data["direction"].values:
             curve = data["peak_displacement"].sel(mass=mass, direction=direction).values
-            if not np.isfinite(curve).all():
-                curve = np.nan_to_num(curve)
+            curve = np.nan_to_num(curve)  # of holds that were given up
             least = _PROMINENCE * float(curve.max(initial=0.0))
-            for i in find_peaks(curve, prominence=least or None)[0]:
-                found.append(
-                    {
-                        "mass": str(mass),
-                        "direction": str(direction),
-                        "frequency": float(frequency[i]),
-                        "peak_displacement": float(curve[i]),
-                        "peak_acceleration": float(
-                            data["peak_acceleration"].sel(mass=mass, direction=direction)[i]
-                        ),
-                    }
-                )
+            shaken = data["peak_acceleration"].sel(mass=mass, direction=direction).values
+            found += [
+                {
+                    "mass": str(mass),
+                    "direction": str(direction),
+                    "frequency": float(frequency[i]),
+                    "peak_displacement": float(curve[i]),
+                    "peak_acceleration": float(shaken[i]),
+                }
+                for i in find_peaks(curve, prominence=least or None)[0]
+            ]
     return found
 
 
@@ -125,12 +123,15 @@ def _runs(data: xr.Dataset, where: NDArray[np.bool_]) -> list[tuple[float, float
 
 
 def _differing(data: xr.Dataset) -> list[dict[str, float]]:
-    """Return the ranges in which the two sweeps reach different motions of any mass."""
+    """Return the ranges in which the two sweeps reach different periodic motions."""
     if data.sizes["direction"] < 2:
         return []
     values = data["peak_displacement"].transpose("direction", "frequency", "mass").values
     scale = np.nanmax(np.abs(values), axis=(0, 1))
     apart = np.abs(values[0] - values[1]) > _APART * scale
+    # Extremes of a motion that has not settled depend on how long it is measured.
+    settled = (data["motion"] == "periodic").all("direction").values
+    apart &= settled[:, np.newaxis]
     return [{"low": low, "high": high} for low, high in _runs(data, apart.any(axis=1))]
 
 
@@ -156,7 +157,7 @@ def text(data: xr.Dataset, advice: list[str]) -> RenderableType:
     if len(found["directions"]) < 2:
         parts.append(Text("Hysteresis: not computed, because it needs both sweep directions"))
     else:
-        parts.append(Text(f"The two sweeps differ: {differ or 'at no frequency'}"))
+        parts.append(Text(f"Hysteresis: {differ or 'none'}"))
     parts.append(_spans("Contact", found["contact"], "stop"))
     parts.append(_spans("Motion not settled", found["unsettled"]))
     parts += [Text(f"Note: {line}") for line in noted(data)]
@@ -166,7 +167,7 @@ def text(data: xr.Dataset, advice: list[str]) -> RenderableType:
 
 _COLUMNS = {
     "peak_displacement": ("displacement", "m"),
-    "peak_acceleration": ("absolute acceleration", "m s-2"),
+    "peak_acceleration": ("acceleration", "m s-2"),
     "peak_force": ("force", "N"),
     "peak_impulse": ("impulse", "N s"),
 }
