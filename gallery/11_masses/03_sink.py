@@ -3,8 +3,8 @@ The jump of a vibro-impact energy sink
 ======================================
 
 A ball of 5 % of the mass of its host moves freely between two stops of the host. If it hits each
-stop once per cycle, it takes so much energy out of the host that the host moves 20 times less than
-without the ball. These motions begin at a fold. They are stable between a Neimark–Sacker
+stop once per cycle, it takes so much energy out of the host that the host moves 5 to 20 times less
+than without the ball. These motions begin at a fold. They are stable between a Neimark–Sacker
 bifurcation and a symmetry breaking.
 """
 
