@@ -175,6 +175,7 @@ def test_sweep(run, tmp_path):
                 any(low <= f <= high for low, high in ranges) for f in direct["frequency"].values
             ]
             assert inside == hit.values.tolist()
+            assert hit.any()
     assert facts["resonances"]
     for one in facts["resonances"]:
         curve = direct["peak_displacement"].sel(mass=one["mass"], direction=one["direction"])

@@ -128,6 +128,19 @@ def test_bands_are_the_contacts_of_the_masses_that_they_join() -> None:
         assert (len(expected) > 0) == (stop is not None)
 
 
+def test_a_contact_that_lasts_from_the_start_or_to_the_end_is_drawn() -> None:
+    squeezed = PAIR.replace(
+        stops={"pounding": vi.Link("north", "south", POUNDING.replace(gap=-0.005))}
+    )
+    data = vi.simulate(vi.Rig(squeezed, vi.Harmonic("0.3 g", "1.5 Hz")), 2)
+    kinds = data["event_contact"].values
+    assert kinds[0] == 0
+    (north, _) = figures.mass_histories(data)
+    (first, *_), at = spans(north), data["event_cycle_time"].values * 1.5
+    assert first == pytest.approx((0.0, at[0] + data["event_cycle"].values[0]))
+    assert len(spans(north)) == (kinds == 1).sum() + 1
+
+
 def test_forces_and_impulses_of_the_stops() -> None:
     data = quake()
     axes = dict(zip(BUILDINGS.stops, figures.contact_forces(data), strict=True))

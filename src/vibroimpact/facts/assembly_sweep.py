@@ -49,7 +49,8 @@ def facts(data: xr.Dataset, advice: list[str]) -> dict[str, Any]:
 
 
 def _hit(data: xr.Dataset) -> xr.DataArray:
-    return (data["impacts"] > 0.0) | (data["peak_force"] > 0.0)
+    """Return where stops are touched. The force of a rigid stop that is hit is infinite."""
+    return data["peak_force"] > 0.0
 
 
 def _largest(data: xr.Dataset) -> dict[str, Any]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import itertools
 import json
-import math
 from collections.abc import Iterator
 from html import escape
 from pathlib import Path
@@ -22,7 +21,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError
-from vibroimpact.figures.assembly_motion import history
+from vibroimpact.figures.assembly_motion import History, history
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.drawing import Drawing, Moved, column_width, drawing, gap_scale
 from vibroimpact.model.names import literal
@@ -117,7 +116,7 @@ def save_animation(
             f"{time[-1]:g} s, the earlier one first"
         )
     with written_for(motion):
-        moving = _Moving(shown.assembly, motion)
+        moving = _Moving(shown)
         speed = f"speed × {plain((last - first) / duration, 2)}"
         if file.suffix.lower() == ".gif":
             at = np.linspace(first, last, max(2, round(_RATE * duration)))
@@ -131,8 +130,9 @@ def save_animation(
 class _Moving:
     """A drawing whose points are linear functions of displacements and deformations."""
 
-    def __init__(self, assembly: Assembly, motion: xr.Dataset) -> None:
-        self.motion = motion
+    def __init__(self, shown: History) -> None:
+        assembly, motion = shown.assembly, shown.motion
+        self.shown = shown
         self.names, self.stops = assembly.names, tuple(assembly.stops)
         moved = motion["displacement"].transpose("time", "mass").values
         farthest = float(np.abs(moved).max(initial=0.0)) or 1.0
@@ -154,27 +154,20 @@ class _Moving:
 
     def values(self, at: _Array) -> _Array:
         """Return displacements and deformations at some times: one row for each time."""
-        time = self.motion["time"].values
+        time = self.shown.motion["time"].values
         columns = np.concatenate([self._moved, self._pressed], axis=1).T
         return np.column_stack([np.interp(at, time, one) for one in columns])
 
     def touched(self, at: _Array) -> NDArray[np.bool_]:
         """Return whether each stop is touched at some times, from its exact events."""
-        motion, time = self.motion, self.motion["time"].values
+        shown = self.shown
         found = np.zeros((len(at), len(self.stops)), dtype=bool)
-        width = float(np.diff(at).max(initial=0.0))
+        half = 0.5 * float(np.diff(at).max(initial=0.0))  # so that a short contact is seen, too
         for i, name in enumerate(self.stops):
-            mine = motion["event_stop"].values == name
-            kind, when = motion["event_contact"].values[mine], motion["event_time"].values[mine]
-            begins, ends = when[kind == 1], when[kind == 0]
-            if len(ends) and (not len(begins) or ends[0] < begins[0]):
-                begins = np.concatenate([time[:1], begins])
-            if len(begins) > len(ends):
-                ends = np.concatenate([ends, [math.inf]])
-            for a, b in zip(begins, ends, strict=True):
-                found[:, i] |= (at >= a - 0.5 * width) & (at <= b + 0.5 * width)
-            for hit in when[kind == 2]:
-                found[:, i] |= np.abs(at - hit) <= 0.5 * width
+            hits = shown.event_at[shown.hits(name)]
+            for span in [*shown.contacts(name), *zip(hits, hits, strict=True)]:
+                begin, end = shown.seconds(np.array(span))
+                found[:, i] |= (at >= begin - half) & (at <= end + half)
         return found
 
     def owners(self) -> list[str]:

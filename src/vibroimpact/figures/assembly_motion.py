@@ -232,7 +232,7 @@ def name_panels(made: Panels, names: list[str]) -> Panels:
 def label_values(given: Panels, axes: Any, label: str) -> None:
     """Label the vertical axes: those of a new figure, which have one scale, once for all."""
     figure = given[0].get_figure(root=True)
-    if axes is None and figure is not None and len(given) > 2:
+    if axes is None and figure is not None and len(given) > 1:
         words = without_unit(label) if unitless() else label
         figure.supylabel(words, fontsize=given[0].yaxis.label.get_fontsize())
     else:

@@ -325,7 +325,7 @@ def _panels(
     if quantity not in known:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(known)} is accepted")
     values = data[quantity]
-    hit = (data["impacts"] > 0.0) | (data["peak_force"] > 0.0)
+    hit = data["peak_force"] > 0.0  # infinite at a rigid stop that is hit
     dim = next((dim for dim in ("mass", "stop") if dim in values.dims), None)
     if dim is None:
         name = _BASE if "transmitted" in quantity else quantity.replace("_", " ")
