@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.response.engine_input import system_vector
+from vibroimpact.stability.parameter_family import family
 
 SHAKING = vi.Harmonic("1 m/s2", 0.9)
 
@@ -359,3 +361,18 @@ def test_masses_without_stops_have_one_orbit() -> None:
         for motion in (vi.orbit(rig), vi.steady(rig), vi.sweep(rig, [0.9], "forward")):
             values = motion["displacement_max"].values.reshape(masses)
             np.testing.assert_allclose(values, abs(u), rtol=1e-12)
+
+
+def test_a_path_that_breaks_the_symmetry_is_not_symmetric_at_any_value() -> None:
+    rig = alone(STOPS["bumpers"], assembled=True)
+    even = family(rig, "gap")
+    assert even.straight
+    assert even.symmetric
+    for path in ("stops.right.gap", "forces.m", "stops.left.stiffness"):
+        made = family(rig, path)
+        assert made.straight, path
+        assert not made.symmetric
+        assert not made.near(made.value).symmetric
+        # The vector of the engine is that of the rig, but for its mirror image.
+        vector, known = made.system(made.value), system_vector(rig)
+        assert (vector != known).sum() <= 3

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from typing import Any
 
 import numpy as np
@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_progress, is_list
+from vibroimpact.attraction.assembly_basins import assembly_basins, read_plane
 from vibroimpact.attraction.attractor_variables import ranked, shares, variables
 from vibroimpact.attraction.basin_metrics import border_distances, entropies, uncertainty_exponent
 from vibroimpact.attraction.find_attractors import Search
@@ -20,14 +21,16 @@ from vibroimpact.datasets.description import (
     describe,
     rig_parameters,
 )
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
-from vibroimpact.model import Oscillator, to_si
+from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
 from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
 
@@ -45,11 +48,12 @@ def basins(
     displacement: Sequence[float | str] | None = None,
     velocity: Sequence[float | str] | None = None,
     *,
+    plane: Mapping[str, tuple[float | str, float | str]] | None = None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None = None,
     frequency: float | str | None = None,
     nodes: int | tuple[int, int] = 200,
     refine: int = 0,
-    right_bumper: float | str = 0.0,
-    left_bumper: float | str = 0.0,
+    deformation: Mapping[str, float | str] | None = None,
     isolator: float | str = 0.0,
     max_cycles: int = 2000,
     max_events: int = 10_000,
@@ -71,6 +75,12 @@ def basins(
     displacement, velocity
         Lowest and highest displacement (m) and velocity (m/s) of the grid. Default: 1.6 times the
         range of the steady motions, which are first searched from a coarse grid of initial states.
+    plane
+        Of an assembly, which has no default plane: two coordinates of its state with their lowest
+        and highest value, such as ``{"displacement.base": (-0.1, 0.1), "velocity.base": (-1, 1)}``.
+    start
+        Of an assembly, a state with the values of all other coordinates. Default: at rest at the
+        equilibrium.
     frequency
         Forcing frequency (Hz). Default: the frequency of the rig.
     nodes
@@ -81,10 +91,10 @@ def basins(
         of the grid is halved there. No states are added between neighbouring states that lead to
         the same motion. Therefore parts of a basin that are narrower than the spacing of the first
         grid may be missed.
-    right_bumper, left_bumper
-        Initial deformation of the right and of the left bumper (m; negative on the left). If the
-        initial displacement compresses the bumper further, the larger deformation is used. Pass 0
-        for a relaxed bumper and for all other stops.
+    deformation
+        Initial deformations of bumpers (m), as a mapping such as ``{"right": "2 mm"}``. If the
+        initial displacement compresses the bumper further, the larger deformation is used. Default:
+        the bumpers are relaxed.
     isolator
         Initial internal variable (memory) of the isolator in m, if its law has one; see `State`.
     max_cycles
@@ -125,15 +135,20 @@ def basins(
         numbers ``basin_entropy``, ``border_entropy`` and ``uncertainty_exponent`` measure how
         strongly the basins are intermingled.
 
+        Of an assembly, the dims are the two coordinates of ``plane``, the second one first. Each
+        motion is followed until it repeats itself, so each state takes some milliseconds. The
+        motions have ``final_state`` in place of the points, and no borders and mirror images.
+
     Raises
     ------
     InputError
         If a value is invalid. Also if the rig has no dissipation, because then every initial state
         has its own motion.
     """
-    rig = as_rig(rig, frequency)
+    rig = as_rig_of_any_masses(rig, frequency=frequency)
     rig.check_frequency()
-    check_bounded(rig)
+    if isinstance(rig.system, Oscillator):
+        check_bounded(rig)
     check_progress(progress)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads, where)
@@ -147,7 +162,24 @@ def basins(
             f"nodes: {plan.shape[1]} × {plan.shape[0]} after refinement; lower nodes or refine "
             f"until there are at most {MOST_NODES} in total"
         )
-    others = _others(rig.oscillator, right_bumper, left_bumper, isolator)
+    if isinstance(rig.system, Assembly):
+        check_size(rig.system)
+        for name, value in (("displacement", displacement), ("velocity", velocity)):
+            if value is not None:
+                raise InputError(f"{name}: an Assembly has several; remove it, and pass plane")
+        for name, one in (("deformation", deformation), ("isolator", isolator or None)):
+            if one is not None:
+                raise InputError(f"{name}: {shown(one)}, but the rig is an Assembly; pass start")
+        chosen = read_plane(plane, rig.system)
+        data = assembly_basins(rig, chosen, start, plan, max_cycles, max_events, workers, progress)
+        parameters = {**rig_parameters(rig), "refine": refine, "max_cycles": max_cycles}
+        return describe(data, "vibroimpact.basins", parameters, varied=chosen)
+    for name, given in (("plane", plane), ("start", start)):
+        if given is not None:
+            raise InputError(
+                f"{name}: only for an Assembly; remove it, and pass displacement and velocity"
+            )
+    others = _others(rig.oscillator, deformation, isolator)
     stage = Stage(rig, max_events)
     search = Search(stage, max_cycles, workers)
     wide = span_of(displacement, LENGTH, "displacement")
@@ -164,8 +196,7 @@ def basins(
         "vibroimpact.basins",
         {
             **rig_parameters(rig),
-            "right_bumper": float(others[0]),
-            "left_bumper": -float(others[1]),
+            "deformation": dict(zip(SIDES, others[:2].tolist(), strict=True)),
             "isolator": float(others[2]),
             "refine": refine,
             "max_cycles": max_cycles,
@@ -204,24 +235,20 @@ def span_of(
 
 
 def _others(
-    oscillator: Oscillator, right: float | str, left: float | str, isolator: float | str
+    oscillator: Oscillator,
+    deformation: Mapping[str, float | str] | None,
+    isolator: float | str,
 ) -> NDArray[np.float64]:
     """Return the deformations of untouched bumpers and the memory of the isolator."""
-    values = [
-        to_si(right, LENGTH, "right_bumper", minimum=0.0),
-        -to_si(left, LENGTH, "left_bumper", maximum=0.0),
-        to_si(isolator, LENGTH, "isolator"),
-    ]
-    for side, value, stop in (
-        ("right", values[0], oscillator.right),
-        ("left", -values[1], oscillator.left),
-    ):
-        if value and not hasattr(stop, "damping"):
+    given = State(deformation=deformation).deformation
+    for side, value in given.items():
+        if value and not hasattr(getattr(oscillator, side), "damping"):
             raise InputError(
-                f"{side}_bumper: {value:g} m, but the {side} side has no bumper that keeps a "
-                f"deformation; pass 0, or leave {side}_bumper out"
+                f"deformation.{side}: {value:g} m, but the {side} side has no bumper that keeps a "
+                f"deformation; pass 0, or leave {side} out"
             )
-    return np.array(values)
+    memory = to_si(isolator, LENGTH, "isolator")
+    return np.array([*(given.get(side, 0.0) for side in SIDES), memory])
 
 
 def _labelled(
@@ -278,7 +305,7 @@ def _dataset(
         "basin": (("velocity", "displacement"), renamed),
         "capture_cycles": (("velocity", "displacement"), cycles),
         "level": (("velocity", "displacement"), levels),
-        **variables(known),
+        **variables(search.stage.oscillator, known),
         **shares(renamed, len(known), drawn),
         "border_distance": ("attractor", border_distances(renamed, u, v / omega, points)),
         "basin_entropy": mixed.basin,

@@ -8,28 +8,20 @@ _COUPLED = "if damping couples the modes (see the notes), an approximation"
 
 ASSEMBLIES: dict[str, Variable] = {
     "mass": Variable("1", "name of the mass"),
-    "stop": Variable("1", "name of the stop"),
-    "clearance": Variable("m", "clearance between the two bodies of the stop"),
-    "deformation": Variable("m", "deformation of the stop", "0 for a rigid stop"),
-    "contact_force": Variable(
-        "N",
-        "contact force of the stop, positive when it pushes its bodies apart",
-        "without the infinite force of an impact; at a jump: the value just after the event",
-    ),
-    "event_stop": Variable("1", "name of the stop of the event"),
     "simultaneous_impacts": Variable(
         "1",
         "number of impacts whose order was decided by the order of the stops",
         "impacts at the same instant as another impact or rest of the same mass",
     ),
-    "impacts": Variable("1", "contacts at the stop per forcing cycle"),
-    "peak_impulse": Variable("N s", "largest impulse of an impact at the rigid stop"),
     "link": Variable("1", "name of the link"),
-    "contact_stop": Variable("1", "name of the stop of the contact"),
     "drift_max": Variable("m", "largest drift of the link, u_right − u_left"),
     "drift_min": Variable("m", "smallest drift of the link, u_right − u_left"),
     "drift_excursion": Variable("m", "excursion of the drift of the link"),
     "peak_drift": Variable("m", "largest drift of the link, without sign"),
+    "peak_closing": Variable(
+        "m",
+        "largest closing displacement u_left − u_right of the bodies of the stop, without stops",
+    ),
     "total_links": Variable("J", "energy lost in the link during the whole motion"),
     "total_stops": Variable("J", "energy lost in the stop during the whole motion"),
     "total_damping": Variable(

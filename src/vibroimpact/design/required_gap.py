@@ -9,15 +9,25 @@ import xarray as xr
 
 from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
-from vibroimpact.design.design_shaking import AnyRecords, ByRecords, design_rig
+from vibroimpact.datasets.stops import SIDES
+from vibroimpact.design.assembly_gap import gaps_for_records, gaps_for_sines
+from vibroimpact.design.design_shaking import (
+    AnyRecords,
+    ByRecords,
+    BySines,
+    design_rig,
+    read_records,
+    read_span,
+)
 from vibroimpact.design.worst_sine import STEP, Sines
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, equilibrium
-from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model import Assembly, Harmonic, Oscillator, Record, equilibrium
+from vibroimpact.model.read_rig import AnyRig, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
+from vibroimpact.response.assembly_rig import check_laws
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
 
@@ -36,6 +46,9 @@ def required_gap(
 ) -> xr.Dataset:
     """Compute the gap without contact: the largest displacement of a rig without stops.
 
+    Of an assembly it is the largest closing displacement of the two bodies of each stop: the moat
+    of an isolated building, or the separation of neighbours. For sines this requires linear links.
+
     For records the gap is exact for a motion that starts at rest. For sines the gap holds for the
     steady motion; a transient may reach farther. If the isolator is linear, the frequency of the
     largest displacement is known in closed form, and the gap is exact for all frequencies of
@@ -52,11 +65,14 @@ def required_gap(
     Returns
     -------
     xarray.Dataset
-        ``required_gap`` (m) is the required gap if both sides have the same gap.
-        ``required_gap_right`` and ``required_gap_left`` (m) are the required gaps if the sides may
+        ``common_gap`` (m) is the required gap if both sides have the same gap. ``required_gap`` (m)
+        are the required gaps of the right and of the left side (dim ``stop``) if the sides may
         differ. For sines, ``displacement_frequency`` (Hz) is the frequency of the largest
-        displacement. For records, ``peak_displacement_right`` and ``peak_displacement_left`` are
-        the peaks of each record (dim ``record``).
+        displacement. For records, ``displacement_max`` and ``displacement_min`` are
+        the ends of the motion of each record (dim ``record``).
+
+        Of an assembly, ``required_gap`` and ``displacement_frequency`` have the dim ``stop``. For
+        records, ``peak_closing`` is the largest closing displacement of each record and stop.
 
     Raises
     ------
@@ -66,6 +82,11 @@ def required_gap(
     """
     check_progress(progress)
     workers = placed(threads, where)
+    system = one_system(rig)
+    if isinstance(system.system, Assembly):
+        return _of_assembly(
+            system, records, fractile, frequency_span, tail, workers=workers, progress=progress
+        )
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
@@ -76,12 +97,47 @@ def required_gap(
         found = _in_closed_form(free, what.sines)
     else:
         found = _swept(free, what.sines, workers, progress)
-    if not np.isfinite(found["required_gap"]):
+    if not np.isfinite(found["common_gap"]):
         raise InputError(
             "shaking: without stops the motion of the mass grows without bound, so no gap is wide "
             "enough; give the isolator more damping or stiffness, or reduce the shaking"
         )
     parameters = {"oscillator": oscillator_parameters(oscillator), **what.parameters()}
+    return describe(found, "vibroimpact.required_gap", parameters, what.notes())
+
+
+def _of_assembly(
+    rig: Rig,
+    records: AnyRecords | None,
+    fractile: float,
+    frequency_span: tuple[float | str, float | str] | None,
+    tail: float | str | None,
+    *,
+    workers: Workers,
+    progress: Progress | None,
+) -> xr.Dataset:
+    """Return the gap of each stop of an assembly."""
+    assembly = rig.system
+    assert isinstance(assembly, Assembly)
+    check_laws(assembly)
+    if records is None and isinstance(rig.shaking, Record):
+        records = rig.shaking
+    what: ByRecords | BySines
+    if records is not None:
+        what = read_records(records, fractile, frequency_span, tail)
+        found = gaps_for_records(
+            assembly, what.records, what.fractile, what.tail, workers, progress
+        )
+    else:
+        if not isinstance(rig.periodic, Harmonic):
+            raise InputError("shaking: a Periodic is not accepted; pass a Harmonic or records")
+        if not assembly.linear:
+            raise InputError(
+                "links: the gaps for sines require linear links; pass records, or use sweep"
+            )
+        what = BySines(Sines(rig.periodic, *read_span(frequency_span), STEP))
+        found = gaps_for_sines(assembly, rig.periodic, (what.sines.low, what.sines.high))
+    parameters = {"assembly": assembly.model_dump(), **what.parameters()}
     return describe(found, "vibroimpact.required_gap", parameters, what.notes())
 
 
@@ -113,27 +169,27 @@ def _of_records(
     runs = what.runs([free], workers, progress)
     for status in runs["status"].ravel():
         _refuse(int(status))
-    right, left = (runs[f"peak_displacement_{side}"][:, 0] for side in ("right", "left"))
+    right, left = runs["displacement_max"][:, 0], 0.0 - runs["displacement_min"][:, 0]
     # A fractile of both is not the larger of the two fractiles.
     wide, *each = (
         float(quantiles(one, [what.fractile], 0)[0])
         for one in (np.maximum(right, left), right, left)
     )
     data = _sides(*each)
-    data["required_gap"] = wide
-    data["peak_displacement_right"] = ("record", right)
-    data["peak_displacement_left"] = ("record", left)
+    data["common_gap"] = wide
+    data["displacement_max"] = ("record", right)
+    data["displacement_min"] = ("record", 0.0 - left)
     return data.assign_coords(record=list(what.records))
 
 
 def _sides(right: float, left: float, **others: Any) -> xr.Dataset:
     return xr.Dataset(
         {
-            "required_gap": max(right, left),
-            "required_gap_right": right,
-            "required_gap_left": left,
+            "common_gap": max(right, left),
+            "required_gap": ("stop", [right, left]),
             **others,
-        }
+        },
+        {"stop": list(SIDES)},
     )
 
 

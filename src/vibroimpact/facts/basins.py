@@ -10,6 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from vibroimpact.datasets.stops import plain_values
 from vibroimpact.facts.number_format import LENGTHS, fitting, plain, with_unit
 
 _MEASURES = (
@@ -23,8 +24,7 @@ _OF_A_MOTION = (
     "period",
     "displacement_excursion",
     "eccentricity",
-    "impacts_right",
-    "impacts_left",
+    "impacts",
     "states",
     "share",
     "share_low",
@@ -37,7 +37,7 @@ _OF_A_MOTION = (
 def facts(data: xr.Dataset) -> dict[str, Any]:
     """Return the motions with the shares of their states, and how the basins are mixed."""
     motions = [
-        {name: data[name].values[number].item() for name in _OF_A_MOTION}
+        {name: plain_values(data[name].isel(attractor=number)) for name in _OF_A_MOTION}
         for number in range(data.sizes["attractor"])
     ]
     labels = data["basin"].values

@@ -93,6 +93,17 @@ def as_assembly(value: Any, where: str = "rig") -> Assembly:
     return system
 
 
+def one_system(value: Any, where: str = "rig") -> Rig:
+    """Return the rig that an argument describes, of any masses, with or without shaking.
+
+    Raises
+    ------
+    InputError
+        If the value is not a rig, or if the study file is invalid.
+    """
+    return _read(value, where, oscillator_alone=True)
+
+
 def in_units_of_rig(function: Callable[_P, _R]) -> Callable[_P, _R]:
     """Read and write all values of a function in the units of its first argument, ``rig``.
 

@@ -29,15 +29,13 @@ _DEPARTED = 1e-6
 """Share of the largest displacement by which the end of a motion may differ from its record."""
 
 
-class _Origin(NamedTuple):
+class Origin(NamedTuple):
     """What a dataset's motion is of."""
 
     assembly: Assembly
     shaking: Repeated | Record
     periodic: bool
     """Whether it is one period of a periodic motion."""
-    measured: Measured
-    notes: list[str]
 
 
 def has_assembly(motion: xr.Dataset) -> bool:
@@ -46,8 +44,8 @@ def has_assembly(motion: xr.Dataset) -> bool:
     return held and "assembly" in json.loads(motion.attrs["parameters"])
 
 
-def _measured(motion: xr.Dataset) -> _Origin:
-    """Follow a recorded motion again, and measure its pieces.
+def assembly_origin(motion: xr.Dataset) -> Origin:
+    """Return what the motion of an assembly is of.
 
     Raises
     ------
@@ -62,18 +60,24 @@ def _measured(motion: xr.Dataset) -> _Origin:
     given = motion_parameters(motion)
     assembly = validate(Assembly, given["assembly"], "motion.assembly")
     assert isinstance(assembly, Assembly)
+    if "record" in given:
+        return Origin(assembly, shaken_by(motion, given["record"]), False)
+    first, last = (float(motion["cycle"].values[end]) for end in (0, -1))
+    periodic = "period" in motion and first == 0.0 and last == int(motion["period"])
+    return Origin(assembly, excitation_from(given), periodic)
+
+
+def _measured(motion: xr.Dataset, origin: Origin) -> tuple[Measured, list[str]]:
+    """Follow a recorded motion again, and measure its pieces; with notes of doubt."""
+    assembly, shaking = origin.assembly, origin.shaking
     state = as_assembly_state(motion["initial_state"], assembly)
     vector = assembly_vector(assembly, state)
-    shaking: Repeated | Record
-    if "record" in given:
-        shaking, periodic = shaken_by(motion, given["record"]), False
-        sections = _cut(sections_of(shaking, float(given["tail"]), 0.0), motion)
-        measurer = Measurer(assembly, shaking)
+    measurer = Measurer(assembly, shaking)
+    if isinstance(shaking, Record):
+        tail = float(motion_parameters(motion)["tail"])
+        sections = _cut(sections_of(shaking, tail, 0.0), motion)
     else:
-        shaking = excitation_from(given)
         first, last = (float(motion["cycle"].values[end]) for end in (0, -1))
-        periodic = "period" in motion and first == 0.0 and last == int(motion["period"])
-        measurer = Measurer(assembly, shaking)
         phase = shaking.phase
         if first > 0.0:  # its first samples were cut off
             measurer.follow(vector, sections_of(shaking, first, phase))
@@ -81,13 +85,7 @@ def _measured(motion: xr.Dataset) -> _Origin:
         sections = sections_of(shaking, last - first, phase)
     found = measurer.follow(vector, sections)
     begins = float(motion["time"].values[0])
-    return _Origin(
-        assembly,
-        shaking,
-        periodic,
-        found._replace(begin=found.begin + begins),
-        _doubts(motion, found),
-    )
+    return found._replace(begin=found.begin + begins), _doubts(motion, found)
 
 
 def _cut(sections: Sections, motion: xr.Dataset) -> Sections:
@@ -119,13 +117,12 @@ def _doubts(motion: xr.Dataset, found: Measured) -> list[str]:
 
 def assembly_totals(motion: xr.Dataset) -> xr.Dataset:
     """Do what `totals` does, of the motion of an assembly."""
-    origin = _measured(motion)
-    values = {
-        **extremes(origin.measured, AssemblyParts(origin.assembly)),
-        **energies(origin.measured, AssemblyParts(origin.assembly)),
-    }
+    origin = assembly_origin(motion)
+    found, doubts = _measured(motion, origin)
+    parts = AssemblyParts(origin.assembly)
+    values = {**extremes(found, parts), **energies(found, parts)}
     data = xr.Dataset(values, coordinates(origin.assembly))
-    notes = [*noted(motion), *origin.notes, *energy_notes(origin.assembly)]
+    notes = [*noted(motion), *doubts, *energy_notes(origin.assembly)]
     return describe(data, "vibroimpact.totals", motion_parameters(motion), notes)
 
 
@@ -206,8 +203,9 @@ class _Contact(NamedTuple):
 
 def assembly_contacts(motion: xr.Dataset, share: float) -> xr.Dataset:
     """Do what `contacts` does, of the motion of an assembly; ``share`` as ``grazing`` there."""
-    origin = _measured(motion)
-    parts, found = AssemblyParts(origin.assembly), origin.measured
+    origin = assembly_origin(motion)
+    found, doubts = _measured(motion, origin)
+    parts = AssemblyParts(origin.assembly)
     every = [*_impacts(found, parts), *_lasting(found, parts, origin)]
     every.sort(key=lambda one: one.order)
     masses = len(origin.assembly.names)
@@ -254,7 +252,7 @@ def assembly_contacts(motion: xr.Dataset, share: float) -> xr.Dataset:
     )
     for name, value in (("start", arrival), ("end", parting)):
         data[f"contact_{name}_velocity"] = (("contact_number", "mass"), value)
-    notes = [*noted(motion), *origin.notes]
+    notes = [*noted(motion), *doubts]
     return describe(data, "vibroimpact.contacts", motion_parameters(motion), notes)
 
 
@@ -274,7 +272,7 @@ def _impacts(found: Measured, parts: AssemblyParts) -> list[_Contact]:
     return rows
 
 
-def _lasting(found: Measured, parts: AssemblyParts, origin: _Origin) -> list[_Contact]:
+def _lasting(found: Measured, parts: AssemblyParts, origin: Origin) -> list[_Contact]:
     """Return the contacts with bumpers, and rests on rigid stops, that are complete."""
     rows = []
     mode, count = final_mode(found.final), len(found.begin)

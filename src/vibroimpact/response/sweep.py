@@ -30,7 +30,7 @@ from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_sweep import sweep_assembly
+from vibroimpact.response.assembly_sweep import sweep_assemblies, sweep_assembly
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import (
@@ -50,6 +50,9 @@ from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, each
 
 DIRECTIONS = ("forward", "backward")
+_NO_OUTPUTS = (
+    "outputs: own outputs are not computed for an Assembly of several masses so far; remove outputs"
+)
 
 
 def sweep(
@@ -102,10 +105,11 @@ def sweep(
           the base, without the infinite force of an impact on a rigid stop;
         - ``transmissibility``: the excursion of this force, divided by that of the exciting force
           (the force F on the mass, or M A_t if the base moves);
-        - ``peak_force_right`` and ``peak_force_left``: the largest contact forces of the stops,
-          infinite for an impact on a rigid stop;
-        - ``peak_impulse_right`` and ``peak_impulse_left``: the largest impulses of impacts on rigid
-          stops;
+        - ``impacts``: the contacts with each stop per forcing cycle (dim ``stop``: the stops of the
+          rig, ``right`` and ``left``, or those of an assembly);
+        - ``peak_force``: the largest contact force of each stop, infinite for an impact on a rigid
+          stop;
+        - ``peak_impulse``: the largest impulse of an impact on each rigid stop;
         - ``section``: the state at the end of the hold;
         - the ``outputs``, by their names;
         - ``status`` and ``motion``: how the hold ended, and the type of the motion. A motion that
@@ -114,8 +118,7 @@ def sweep(
 
         Values are NaN only where ``status`` reports that there is no value.
 
-        Of an assembly, displacements and accelerations have the additional dim ``mass``, and
-        ``impacts``, ``peak_force`` and ``peak_impulse`` the dim ``stop``;
+        Of an assembly, displacements and accelerations have the additional dim ``mass``;
         ``simultaneous_impacts`` counts the impacts whose order the order of the stops decided.
         ``eta_d``, ``eta_a`` and ``transmissibility`` are those of an oscillator alone.
 
@@ -171,10 +174,7 @@ def _of_several_masses(
     check_progress(progress)
     as_periodic(rig.shaking, "shaking")
     if outputs is not None:
-        raise InputError(
-            "outputs: own outputs are not computed for an Assembly of several masses so far; "
-            "remove outputs"
-        )
+        raise InputError(_NO_OUTPUTS)
     state = SectionStates(rig.system).read(start)
     assert isinstance(state, AssemblyState)
     return sweep_assembly(
@@ -259,7 +259,8 @@ def sweeps(
     Returns
     -------
     xarray.Dataset
-        As in `sweep`, with the additional first dim ``rig``.
+        As in `sweep`, with the additional first dim ``rig``. Several assemblies must have masses
+        and stops of the same names.
 
     Raises
     ------
@@ -267,7 +268,22 @@ def sweeps(
         If a value is invalid.
     """
     check_progress(progress)
-    named = periodic_rigs(rigs)
+    named = periodic_rigs(rigs, any_masses=True)
+    if any(isinstance(rig.system, Assembly) for rig in named.values()):
+        if outputs is not None:
+            raise InputError(_NO_OUTPUTS)
+        starts = {name: SectionStates(rig.system).read(start) for name, rig in named.items()}
+        begin = next(iter(starts.values())).phase
+        return sweep_assemblies(
+            named,
+            check_frequencies(frequencies),
+            _directions(directions),
+            starts,  # type: ignore[arg-type]
+            to_si(phase, ANGLE, "phase") if begin is None else begin,
+            _checked(Settling(tolerance, max_cycles, window, max_events)),
+            placed(threads, where),
+            progress,
+        )
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     directions = _directions(directions)

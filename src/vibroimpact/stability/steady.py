@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections import Counter
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, noted
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
-from vibroimpact.model import Assembly, State
+from vibroimpact.model import Assembly, AssemblyState, State
 from vibroimpact.model.count_checks import check_max_events, check_samples, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.response.analytic_free_response import exciting_excursion
@@ -62,7 +63,7 @@ MOST_CYCLES = 5_000_000
 
 def steady(
     rig: AnyRig,
-    start: State | xr.DataArray | xr.Dataset | None = None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None = None,
     samples: int = 256,
     *,
     frequency: float | str | None = None,
@@ -268,6 +269,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     every = phases(data, origin)
     log = contact_log(data, origin, every)
     cycles = max(origin.cycles, 1.0)
+    counts = Counter(log["contact_stop"].values.tolist())
     supplied, isolator, bumpers = energies(origin, every)
     sizes = extremes(origin, every)
     exciting = found.oscillator.mass * float(
@@ -276,8 +278,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     values: dict[str, Any] = {
         **sizes,
         "transmissibility": sizes["transmitted_force_excursion"] / (exciting or math.nan),
-        "impacts_right": int((log["contact_side"] == 1).sum()) / cycles,
-        "impacts_left": int((log["contact_side"] == -1).sum()) / cycles,
+        "impacts": ("stop", [counts.get(one, 0) / cycles for one in data["stop"].values.tolist()]),
         "energy_supplied": supplied / cycles,
         "energy_isolator": isolator / cycles,
         "energy_bumpers": bumpers / cycles,
