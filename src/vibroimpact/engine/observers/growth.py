@@ -20,9 +20,10 @@ from typing import NamedTuple
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
-from vibroimpact.engine.motion import LIMIT, PASSED
+from vibroimpact.engine.motion import LIMIT, PASSED, SETTLING
 from vibroimpact.engine.state import (
     EVENT,
+    FRESH,
     LARGEST,
     STEP,
     T,
@@ -206,6 +207,8 @@ def grow(
     flow.tangent(plan, before, ended, after, notes, rows.q)
     if orthonormalise(rows, LEAST, NOTHING) <= _vanished(rows):
         add_up(plan, after, rows)
+    elif int(before[FRESH]) & SETTLING:  # a chatter is completed at once
+        _pass_event(plan, before, ended, after, rows)
     elif not _grow_in_pieces(plan, before, ended, rows):
         for i in range(rows.n):
             rows.logarithms[i] = math.nan
@@ -310,7 +313,7 @@ def _is_alike(rows: Rows, last: Vector) -> bool:
     return alike
 
 
-@kernel
+@apart
 def _pass_event(plan: Vector, here: Vector, ended: Vector, there: Vector, rows: Rows) -> None:
     """Carry rows through an event that comes at once."""
     q, start, shares, _, logarithms, count, parts = rows
