@@ -20,9 +20,10 @@ from typing import NamedTuple
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
-from vibroimpact.engine.motion import LIMIT, PASSED
+from vibroimpact.engine.motion import LIMIT, PASSED, SETTLING
 from vibroimpact.engine.state import (
     EVENT,
+    FRESH,
     LARGEST,
     STEP,
     T,
@@ -198,18 +199,37 @@ def grow(
 ) -> None:
     """Carry disturbances through a stretch: an observer (see `event_loop.observed`).
 
-    The notes are those of `observers.tangent`. Rows that are orthonormal stay so. Of a stretch that
-    ends otherwise when it is carried in pieces, as rounding may decide at a grazing, the growth is
-    not known: the logarithms become NaN.
+    The notes are those of `observers.tangent`. Rows that are orthonormal stay so. Where a
+    stretch ends otherwise when it is carried in pieces, as rounding may decide at a grazing, a row
+    that has lost its digits to others has an unknown growth: its logarithm becomes NaN.
     """
     copy(rows.q, rows.start, rows.n * rows.parts)
     flow.tangent(plan, before, ended, after, notes, rows.q)
     if orthonormalise(rows, LEAST, NOTHING) <= _vanished(rows):
         add_up(plan, after, rows)
-    elif not _grow_in_pieces(plan, before, ended, rows):
-        for i in range(rows.n):
+    elif int(before[FRESH]) & SETTLING:  # a chatter is completed at once
+        _pass_event(plan, before, ended, after, rows)
+    else:
+        _grow_finely(plan, before, ended, after, rows)
+
+
+@apart
+def _grow_finely(plan: Vector, before: Vector, ended: Vector, after: Vector, rows: Rows) -> None:
+    """As `grow`; the rows and their shares are what the whole stretch leaves."""
+    size, n = rows.n * rows.parts, rows.n
+    q, shares, logarithms = square_room(), square_room(), parts_room()
+    copy(rows.q, q, size)
+    copy(rows.shares, shares, size)
+    copy(rows.logarithms, logarithms, n)
+    if _grow_in_pieces(plan, before, ended, rows):
+        return
+    copy(q, rows.q, size)
+    copy(shares, rows.shares, size)
+    copy(logarithms, rows.logarithms, n)
+    for i in range(n):
+        if -math.inf < shares[i * rows.parts + i] < 0.0:
             rows.logarithms[i] = math.nan
-        begin_rows(plan, after, rows, 0, rows.n)
+    add_up(plan, after, rows)
 
 
 @kernel
@@ -310,7 +330,7 @@ def _is_alike(rows: Rows, last: Vector) -> bool:
     return alike
 
 
-@kernel
+@apart
 def _pass_event(plan: Vector, here: Vector, ended: Vector, there: Vector, rows: Rows) -> None:
     """Carry rows through an event that comes at once."""
     q, start, shares, _, logarithms, count, parts = rows
