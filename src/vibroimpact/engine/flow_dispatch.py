@@ -122,7 +122,7 @@ _YIELDING: dict[float, type] = {
     par.SEVERAL: YieldingSeveral,
     par.RAMP: YieldingRecorded,
 }
-FLOWS = (*_ADVANCE, Masses)
+FLOWS = (*_ADVANCE, *SEVERAL_MASSES)
 """Every flow."""
 _LAWS = {Curved: par.BENT, **dict.fromkeys(_YIELDING.values(), par.YIELDING)}
 _FORCING = {
