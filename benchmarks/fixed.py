@@ -34,7 +34,8 @@ COMMANDS = {
     "map": ("--vary", "gap_ratio=0.2:0.4:2", "--vary", "stiffness_ratio=5:10:2", "--refine", "0"),
     "cache": (),
 }
-"""Words of each command by its name; `explore` serves a page until it is ended."""
+"""Words of each command by its name; `explore` serves a page until it is ended, and `init`
+writes a file and computes nothing."""
 
 
 def inputs(folder: Path) -> None:

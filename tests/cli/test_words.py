@@ -111,7 +111,7 @@ def test_an_unknown_command_lists_all_of_them(refused):
     line = refused("swep")
     assert line.startswith('Unknown command "swep". Did you mean "sweep"? ')
     listed = line.partition("? ")[2].partition(" are accepted")[0].split(", ")
-    assert len(listed) == 18
+    assert len(listed) == 19
     assert set(listed) == {name for name in _app() if not name.startswith("-")}
 
 

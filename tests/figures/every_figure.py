@@ -12,6 +12,7 @@ import xarray as xr
 import vibroimpact as vi
 from earthquakes.made import lognormal
 from earthquakes.rigs import RIGS, noise
+from figures import test_assembly_figures as masses
 from figures import test_basin_shares as shares
 from figures import test_basins as basins
 from figures import test_branches as branches
@@ -253,6 +254,25 @@ EVERY: dict[str, Drawn] = {
         0,
     ),
     "assembly_drawing": Drawn(_over(several_masses, figures.assembly_drawing)),
+    "mass_histories": Drawn(_over(masses.quake, figures.mass_histories), 6),
+    "mass_histories, cycles": Drawn(
+        _over(masses.motion, figures.mass_histories, quantity="acceleration", cycles=3), 6
+    ),
+    "mass_histories, no units": Drawn(_over(masses.ball, figures.mass_histories, cycles=8), 2),
+    "contact_forces": Drawn(_over(masses.quake, figures.contact_forces), 3),
+    "mass_envelopes": Drawn(_over(masses.compared, figures.mass_envelopes), 3),
+    "mass_envelopes, one": Drawn(_over(masses.ball, figures.mass_envelopes), 3),
+    "pair_portrait": Drawn(
+        _over(masses.motion, figures.pair_portrait, first="north3", second="south3", cycles=3)
+    ),
+    "pair_portrait, approach": Drawn(
+        _over(masses.ball, figures.pair_portrait, first="ball", second="host", quantity="approach")
+    ),
+    "mass_resonance": Drawn(_over(masses.swept, figures.mass_resonance), 6),
+    "mass_resonance, forces": Drawn(
+        _over(masses.swept, figures.mass_resonance, quantity="peak_force"), 3
+    ),
+    "mass_branches": Drawn(_over(masses.branch, figures.mass_branches), 2),
     "accelerogram": Drawn(
         lambda **how: figures.accelerogram(
             RECORD, vi.response_spectrum(RECORD, PERIODS, [0.02, 0.05]), **how

@@ -21,7 +21,14 @@ from vibroimpact.figures.legends import add_legend, break_lines
 
 COLUMN = 86.0 / 25.4
 """Width of a column in inches."""
-OTHERS = {"family_legend", "frequency_marks", "figure_size", "save_figure", "Mark"}
+OTHERS = {
+    "family_legend",
+    "frequency_marks",
+    "figure_size",
+    "save_figure",
+    "save_animation",
+    "Mark",
+}
 """Names that draw no figure."""
 SAVED = sample([*EVERY], [*EVERY][::8])
 """Figures whose files are looked at; of the others only what is drawn."""

@@ -127,3 +127,23 @@ def test_what_is_not_computed_is_refused() -> None:
     many = vi.chain([1.0] * 40, [100.0] * 40)
     with pytest.raises(vi.InputError, match="twice the number of masses"):
         vi.sweep(vi.Rig(many, vi.Harmonic("1 m/s2", 1.0)), [1.0])
+
+
+def test_many_assemblies_are_swept_as_one_at_a_time() -> None:
+    frequencies = [0.7, 0.9, 1.1]
+    rigs = {
+        name: vi.Rig(frame(gap=gap), "1 m/s2") for name, gap in (("near", 0.008), ("far", 0.016))
+    }
+    found = vi.sweeps(rigs, frequencies)
+    assert found["displacement_max"].dims == ("rig", "direction", "frequency", "mass")
+    for name, rig in rigs.items():
+        alone = vi.sweep(rig, frequencies)
+        for variable in alone.data_vars:
+            np.testing.assert_array_equal(found[variable].sel(rig=name), alone[variable])
+    other = vi.Rig(vi.chain([1.0], [30.0], 0.05), "1 m/s2")
+    with pytest.raises(vi.InputError, match=r"^rigs\[1\]: its masses are floor_1, not those of"):
+        vi.sweeps([rigs["near"], other], frequencies)
+    with pytest.raises(vi.InputError, match=r"^rigs\[.*\]: an Oscillator beside an Assembly"):
+        vi.sweeps([rigs["near"], "B2-G1-A3"], frequencies)
+    with pytest.raises(vi.InputError, match=r"^outputs: own outputs are not computed"):
+        vi.sweeps(rigs, frequencies, outputs={"x": "max(u)"})

@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from vibroimpact.response.engine_input import system_vector
+from vibroimpact.stability.parameter_family import family
 
 SHAKING = vi.Harmonic("1 m/s2", 0.9)
 
@@ -193,6 +195,58 @@ def test_a_branch_without_contacts_is_the_linear_response() -> None:
             assert float(abs(mine).max()) == pytest.approx(abs(flown).max(), rel=1e-10)
 
 
+PATHS = {
+    "gap": ("gap", (0.004, 0.012)),
+    "isolator.stiffness": ("links.isolator.stiffness", (1.2e4, 1.9e4)),
+    "stops.stiffness": ("stops.stiffness", (1e5, 4e5)),
+    "stops.damping": ("stops.damping", (1500.0, 6000.0)),
+    "right.gap": ("stops.right.gap", (0.005, 0.012)),
+    "mass": ("masses.m", (250.0, 350.0)),
+    "force": ("forces.m", (-60.0, 60.0)),
+}
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_a_branch_over_a_path_of_one_mass_is_the_oscillators(path: str) -> None:
+    """Also where the path makes the rig its own mirror image at one value only."""
+    of_parts, span = PATHS[path]
+    one = vi.branch(alone(STOPS["bumpers"], assembled=False), vary={path: span})
+    several = vi.branch(alone(STOPS["bumpers"], assembled=True), vary={of_parts: span})
+    assert several.sizes["point"] == one.sizes["point"] > 20
+    assert several["bifurcation_kind"].values.tolist() == one["bifurcation_kind"].values.tolist()
+    np.testing.assert_allclose(
+        several["bifurcation_value"].values, one["bifurcation_value"].values, rtol=1e-9
+    )
+    if path == "gap":
+        assert one.sizes["bifurcation"] == 1
+    np.testing.assert_allclose(several[of_parts].values, one[one.attrs["parameter"]].values)
+    np.testing.assert_allclose(
+        several["displacement_max"].values[:, 0], one["displacement_max"].values, rtol=1e-10
+    )
+    np.testing.assert_array_equal(several["antisymmetric"], one["antisymmetric"])
+
+
+def test_a_branch_over_a_storey_passes_its_orbits() -> None:
+    """Orbits along the path are those that `orbit` finds at its values."""
+    rig = vi.Rig(frame(), SHAKING)
+    for path, span in (("links.storey.stiffness", (4e4, 9e4)), ("masses.roof", (200.0, 300.0))):
+        found = vi.branch(rig, vary={path: span})
+        assert found[path].attrs["units"] == ("kg" if "mass" in path else "N m-1")
+        for i in (0, found.sizes["point"] // 2, found.sizes["point"] - 1):
+            here = found.isel(point=i)
+            value = float(here[path])
+            assembly = frame()
+            if path.startswith("masses"):
+                assembly = assembly.replace(masses={"base": 300.0, "roof": value})
+            else:
+                storey = vi.Link("base", "roof", vi.Isolator(value, 400.0))
+                assembly = assembly.replace(links={**assembly.links, "storey": storey})
+            single = vi.orbit(vi.Rig(assembly, SHAKING), here["section"], 1)
+            np.testing.assert_allclose(
+                here["displacement_max"], single["displacement_max"], rtol=1e-9
+            )
+
+
 def test_amplitudes_are_followed_and_other_parameters_refused() -> None:
     rig = vi.Rig(frame(), SHAKING)
     found = vi.branch(rig, vary={"amplitude": (0.2, 2.0)})
@@ -200,9 +254,9 @@ def test_amplitudes_are_followed_and_other_parameters_refused() -> None:
     assert "grazing" in found["bifurcation_kind"].values
     with pytest.raises(
         vi.InputError,
-        match="'gap' is not a parameter of this rig; one of freq",
+        match="'damping_ratio' is not a parameter of this rig; one of freq",
     ):
-        vi.branch(rig, vary={"gap": (0.01, 0.02)})
+        vi.branch(rig, vary={"damping_ratio": (0.01, 0.02)})
     with pytest.raises(vi.InputError, match="outputs: own outputs are not computed"):
         vi.branch(rig, vary={"frequency": (0.5, 1.0)}, outputs={"top": "max(velocity)"})
 
@@ -307,3 +361,18 @@ def test_masses_without_stops_have_one_orbit() -> None:
         for motion in (vi.orbit(rig), vi.steady(rig), vi.sweep(rig, [0.9], "forward")):
             values = motion["displacement_max"].values.reshape(masses)
             np.testing.assert_allclose(values, abs(u), rtol=1e-12)
+
+
+def test_a_path_that_breaks_the_symmetry_is_not_symmetric_at_any_value() -> None:
+    rig = alone(STOPS["bumpers"], assembled=True)
+    even = family(rig, "gap")
+    assert even.straight
+    assert even.symmetric
+    for path in ("stops.right.gap", "forces.m", "stops.left.stiffness"):
+        made = family(rig, path)
+        assert made.straight, path
+        assert not made.symmetric
+        assert not made.near(made.value).symmetric
+        # The vector of the engine is that of the rig, but for its mirror image.
+        vector, known = made.system(made.value), system_vector(rig)
+        assert (vector != known).sum() <= 3

@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_progress, is_list
+from vibroimpact.attraction.assembly_basins import assembly_basins, read_plane
 from vibroimpact.attraction.attractor_variables import ranked, shares, variables
 from vibroimpact.attraction.basin_metrics import border_distances, entropies, uncertainty_exponent
 from vibroimpact.attraction.find_attractors import Search
@@ -23,12 +24,13 @@ from vibroimpact.datasets.description import (
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
-from vibroimpact.model import Oscillator, State, to_si
+from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
 from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import check_bounded
+from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
 
@@ -46,6 +48,8 @@ def basins(
     displacement: Sequence[float | str] | None = None,
     velocity: Sequence[float | str] | None = None,
     *,
+    plane: Mapping[str, tuple[float | str, float | str]] | None = None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None = None,
     frequency: float | str | None = None,
     nodes: int | tuple[int, int] = 200,
     refine: int = 0,
@@ -71,6 +75,12 @@ def basins(
     displacement, velocity
         Lowest and highest displacement (m) and velocity (m/s) of the grid. Default: 1.6 times the
         range of the steady motions, which are first searched from a coarse grid of initial states.
+    plane
+        Of an assembly, which has no default plane: two coordinates of its state with their lowest
+        and highest value, such as ``{"displacement.base": (-0.1, 0.1), "velocity.base": (-1, 1)}``.
+    start
+        Of an assembly, a state with the values of all other coordinates. Default: at rest at the
+        equilibrium.
     frequency
         Forcing frequency (Hz). Default: the frequency of the rig.
     nodes
@@ -125,15 +135,20 @@ def basins(
         numbers ``basin_entropy``, ``border_entropy`` and ``uncertainty_exponent`` measure how
         strongly the basins are intermingled.
 
+        Of an assembly, the dims are the two coordinates of ``plane``, the second one first. Each
+        motion is followed until it repeats itself, so each state takes some milliseconds. The
+        motions have ``final_state`` in place of the points, and no borders and mirror images.
+
     Raises
     ------
     InputError
         If a value is invalid. Also if the rig has no dissipation, because then every initial state
         has its own motion.
     """
-    rig = as_rig(rig, frequency)
+    rig = as_rig_of_any_masses(rig, frequency=frequency)
     rig.check_frequency()
-    check_bounded(rig)
+    if isinstance(rig.system, Oscillator):
+        check_bounded(rig)
     check_progress(progress)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads, where)
@@ -147,6 +162,23 @@ def basins(
             f"nodes: {plan.shape[1]} × {plan.shape[0]} after refinement; lower nodes or refine "
             f"until there are at most {MOST_NODES} in total"
         )
+    if isinstance(rig.system, Assembly):
+        check_size(rig.system)
+        for name, value in (("displacement", displacement), ("velocity", velocity)):
+            if value is not None:
+                raise InputError(f"{name}: an Assembly has several; remove it, and pass plane")
+        for name, one in (("deformation", deformation), ("isolator", isolator or None)):
+            if one is not None:
+                raise InputError(f"{name}: {shown(one)}, but the rig is an Assembly; pass start")
+        chosen = read_plane(plane, rig.system)
+        data = assembly_basins(rig, chosen, start, plan, max_cycles, max_events, workers, progress)
+        parameters = {**rig_parameters(rig), "refine": refine, "max_cycles": max_cycles}
+        return describe(data, "vibroimpact.basins", parameters, varied=chosen)
+    for name, given in (("plane", plane), ("start", start)):
+        if given is not None:
+            raise InputError(
+                f"{name}: only for an Assembly; remove it, and pass displacement and velocity"
+            )
     others = _others(rig.oscillator, deformation, isolator)
     stage = Stage(rig, max_events)
     search = Search(stage, max_cycles, workers)
@@ -208,7 +240,7 @@ def _others(
     isolator: float | str,
 ) -> NDArray[np.float64]:
     """Return the deformations of untouched bumpers and the memory of the isolator."""
-    given = State(deformation=deformation).deformation
+    given = State(0.0, 0.0, deformation=deformation).deformation
     for side, value in given.items():
         if value and not hasattr(getattr(oscillator, side), "damping"):
             raise InputError(

@@ -62,6 +62,10 @@ def branch(
       shows a simulated sweep.
     - NAME-PARAMETER-branches-OUTPUT.png: the branches over each output of --compute
 
+    For a rig of several masses (table [assembly] of a study file), the command follows one branch,
+    that of the motion that is reached from the equilibrium, or with --period of its orbit of this
+    period. The figure shows the largest displacement of each mass.
+
     For example:
 
         vibroimpact branch B2-G1-A3
@@ -102,16 +106,26 @@ def branch(
     import numpy as np
 
     from vibroimpact.attraction.basins_along import basins_along
+    from vibroimpact.cli.assembly import is_assembly, refuse
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import draws_physical, results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import branch as facts
 
-    what = subject(rig, changes, output.name)
+    what = subject(rig, changes, output.name, masses=True)
+    several = is_assembly(what)
+    if several:
+        refuse(
+            what, start=begin, normalised=physical is False, compute=compute, basins=basins or None
+        )
     varied = read_one(what, vary, number=False)
     along, span = varied.name, varied.span
-    is_one = begin is not None or period is not None
-    shaken = rig_at(what, frequency, along="" if is_one else along)
+    is_one = begin is not None or period is not None or several
+    of_orbit = is_one and not (several and along == "frequency" and frequency is None)
+    shaken = rig_at(what, frequency, along="" if of_orbit else along)
+    if several and not of_orbit:
+        # Without a frequency, the branch starts at the lower end of the range.
+        shaken = shaken.with_parts(what.system, what.at(span[0]), keep_open=False)
     near = None if begin is None else state("--start", begin)
     swept, outputs = None, own_outputs(compute)
     with results(what, output) as written:
@@ -140,6 +154,14 @@ def branch(
                     values = data["frequency"].values
                     grid = np.linspace(values.min(), values.max(), _HOLDS)
                     swept = vi.sweep(what.rig, grid, outputs=outputs)
+        if several:
+            if along == "frequency":
+                grid = np.linspace(*span, _HOLDS)
+                swept = vi.sweep(what.rig, grid)
+            of = quantity or "peak_displacement"
+            ending = f"{varied.ending}-branches"
+            written.write(data, ending, figures.mass_branches, quantity=of, sweep=swept)
+            return written.tell(facts.facts(data), facts.text(data))
         # A quantity that is named is drawn in its own units.
         units = physical if quantity is None else bool(physical)
         shown = quantity or "eta_d"

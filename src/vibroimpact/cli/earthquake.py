@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import Parameter
 
@@ -19,6 +19,9 @@ from vibroimpact.cli.records import (
     records_of_design,
     scale_records,
 )
+
+if TYPE_CHECKING:
+    from vibroimpact.cli.rig import Subject
 
 
 @calls("seismic_response", "Motion")
@@ -44,6 +47,10 @@ def earthquake(
       values and energies), motion (time history), ground (response spectrum of the record) and
       floor (response spectrum of the acceleration of the mass)
 
+    For a rig of several masses (table [assembly] of a study file), the figures of each record show
+    displacements, accelerations and contact forces, and the largest values over the order of the
+    masses. The NetCDF file contains the groups response, motion and ground.
+
     For example:
 
         vibroimpact earthquake B2-G1-A3 RSN763_LOMAP_GIL067.AT2 --scale 0.2
@@ -57,7 +64,8 @@ def earthquake(
         in the study file.
     tail
         Duration of free vibration after each record, such as 10s. Default: two natural periods of
-        the mass, computed with the smallest stiffness of the isolator's force law.
+        the mass, computed with the smallest stiffness of the isolator's force law. For several
+        masses, the default is two of the longest natural periods.
     samples
         Number of samples of the motion per time step of a record, in the figures and files. This
         number affects the response spectrum of the mass. It does not affect the reported largest
@@ -65,6 +73,7 @@ def earthquake(
     """
     from rich.text import Text as Line
 
+    from vibroimpact.cli.assembly import is_assembly
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
@@ -78,9 +87,11 @@ def earthquake(
 
     found = reading.read(records or records_of_design(rig, with_own_record=False))
     first = next(iter(found.values()), None)
-    what = subject(rig, changes, output.name, shaken=first)
+    what = subject(rig, changes, output.name, shaken=first, masses=True)
     shaking = scale_records(found or record_of_study(what), scale, peak)
     samples = whole(samples, "samples")
+    if is_assembly(what):
+        return _of_masses(what, shaking, tail, samples, output)
     text: list[Any] = []
     told: list[dict[str, Any]] = []
     responses = {}
@@ -102,5 +113,50 @@ def earthquake(
             text += [Line(), facts.text(*about)]
         table = facts.together(list(responses), list(responses.values()))
         path = vi.save(table, written.path("earthquake", "csv"))
+        written.files = {"table": path, **written.files}
+    return written.tell({"records": told}, *text, shaking=False)
+
+
+def _of_masses(
+    what: Subject,
+    shaking: dict[str, vi.Record],
+    tail: str | None,
+    samples: int,
+    output: opt.OutputOptions,
+) -> int:
+    """Shake several masses with records."""
+    from rich.text import Text as Line
+
+    from vibroimpact.cli.assembly import draw_motion, response_table
+    from vibroimpact.cli.output import progress_bar
+    from vibroimpact.cli.results import results
+    from vibroimpact.earthquakes.earthquake_response import assembly_response
+    from vibroimpact.facts import assembly as facts
+    from vibroimpact.model.names import file_stem, literal
+    from vibroimpact.model.quantities import ACCELERATION
+    from vibroimpact.model.units import pretty
+
+    text: list[Any] = []
+    told: list[dict[str, Any]] = []
+    responses = {}
+    with results(what, output) as written:
+        for name, record in shaking.items():
+            with progress_bar("simulating") as progress:
+                groups = assembly_response(
+                    vi.Rig(what.system, record), tail=tail, samples=samples, progress=progress
+                )
+            ending = f"{file_stem(name)}-earthquake"
+            written.files[f"data of {name}"] = vi.save(groups, written.path(ending, "nc"))
+            title = f"{what.title}\n{literal(name)}"
+            motion = groups["motion"]
+            drawn = figures.mass_histories(motion, title=title)
+            written.draw(f"displacements of {name}", f"{ending}-displacements", drawn)
+            draw_motion(written, motion, ending, title, None, of=f" of {name}")
+            found = {"record": name, "peak": record.peak, **facts.motion_facts(motion)}
+            told.append(found)
+            responses[name] = groups["response"]
+            peak = pretty(record.peak, ACCELERATION, 4)
+            text += [Line(), Line(f"{name}, peak {peak}", style="bold"), facts.motion_text(found)]
+        path = vi.save(response_table(responses), written.path("earthquake", "csv"))
         written.files = {"table": path, **written.files}
     return written.tell({"records": told}, *text, shaking=False)

@@ -42,7 +42,7 @@ def default_range(what: Subject, coarser: float = 1.0) -> Range:
     For a laboratory case it is the range of the tests. For another rig it is a multiple of the
     natural frequency, so that it contains the resonance. The step is multiplied by `coarser`.
     """
-    natural = what.oscillator.angular_frequency / math.tau
+    natural = what.system.angular_frequency / math.tau
     if what.published:
         low, high, step = _PUBLISHED
     elif natural > 0.0:
@@ -58,7 +58,7 @@ def default_span(what: Subject) -> Span:
     It starts lower than the range of a sweep, because branches are cheap to compute there. If the
     study states an end of the range for its sweep, this end is also used for its branches.
     """
-    natural = what.oscillator.angular_frequency / math.tau
+    natural = what.system.angular_frequency / math.tau
     low: float | None
     high: float | None
     if what.published:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal
 
+import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
@@ -41,6 +42,10 @@ def motion(
       with one NetCDF group per motion
     - NAME-FREQUENCY-motion.png: phase portraits, spectra and time histories
 
+    For a rig of several masses (table [assembly] of a study file), the command finds the steady
+    motion that is reached from the equilibrium, at one frequency, and draws histories, contact
+    forces and the largest values over the order of the masses.
+
     For example:
 
         vibroimpact motion B2-G1-A3 --frequency 2.6Hz
@@ -64,6 +69,7 @@ def motion(
     samples
         Number of samples per forcing cycle. It affects only the time history in the files.
     """
+    from vibroimpact.cli.assembly import is_assembly
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
@@ -71,8 +77,10 @@ def motion(
     from vibroimpact.model.frequency_text import forcing, forcing_slug
     from vibroimpact.stability.named_motions import named_motions
 
-    what = subject(rig, changes, output.name)
+    what = subject(rig, changes, output.name, masses=True)
     shaken = _rigs(what, frequency)
+    if is_assembly(what):
+        return _of_masses(what, shaken, samples, output)
     options = {"random": random, "window": window, "samples": samples}
     with results(what, output) as written:
         found = {}
@@ -100,10 +108,35 @@ def motion(
     return written.tell({"motions": facts.facts(found)}, facts.text(found))
 
 
+def _of_masses(
+    what: Subject, shaken: dict[float, Rig], samples: int, output: opt.OutputOptions
+) -> int:
+    """Find, draw and print the steady motion of several masses that is reached from rest."""
+    from vibroimpact.cli.assembly import write_motion
+    from vibroimpact.cli.output import progress_bar
+    from vibroimpact.cli.results import results
+    from vibroimpact.facts import assembly as facts
+    from vibroimpact.model.frequency_text import forcing, forcing_slug
+
+    if len(shaken) > 1:
+        raise InputError(
+            f"--frequency: {len(shaken)} frequencies, but {what.name!r} has several masses, whose "
+            "motion is drawn at one frequency; pass one"
+        )
+    ((hertz, one),) = shaken.items()
+    with results(what, output) as written:
+        with progress_bar("finding motions") as progress:
+            data = vi.steady(one, samples=samples, progress=progress)
+        title = f"{what.title}, {forcing(hertz, 10)}"
+        write_motion(written, data, f"{forcing_slug(hertz)}-motion", title, None)
+        found = facts.steady_facts(data)
+    return written.tell(found, facts.steady_text(found))
+
+
 def _rigs(what: Subject, frequency: str | None) -> dict[float, Rig]:
     """Return the rig at each frequency of the option, or at the frequency in the study."""
     texts = [None] if frequency is None else [part.strip() for part in frequency.split(",")]
-    rigs = {one.harmonic.frequency: one for one in (rig_at(what, text) for text in texts)}
+    rigs = {one.periodic.frequency: one for one in (rig_at(what, text) for text in texts)}
     if len({f"{hertz:.6g}" for hertz in rigs}) < len(texts):
         raise InputError(
             f"--frequency: two frequencies in {frequency!r} have the same first six digits; remove "

@@ -12,6 +12,7 @@ from vibroimpact.cli.study import SimulateTable, Study, SweepTable, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
     GRAVITY,
+    Assembly,
     Harmonic,
     Model,
     Oscillator,
@@ -20,6 +21,7 @@ from vibroimpact.model import (
     Repeated,
     laboratory,
 )
+from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.derived_parameters import DERIVED
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.laboratory import Case, Parameters
@@ -33,7 +35,7 @@ from vibroimpact.model.parameters import (
 )
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
 from vibroimpact.model.quantities import FORCE
-from vibroimpact.model.rig import Rig, with_stated_units
+from vibroimpact.model.rig import Rig, System, with_stated_units
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.units import to_si
 from vibroimpact.model.varied import turn
@@ -48,12 +50,19 @@ class Subject(NamedTuple):
     """Name with the changes by the options."""
     slug: str
     """Name in file names."""
-    oscillator: Oscillator
+    system: System
+    """What vibrates: an oscillator, or an assembly if the command accepts one."""
     shaking: Repeated | Record
     """The shaking. If it is periodic, its frequency is open."""
     study: Study | None
     published: bool
     """Whether the rig is a laboratory case whose natural frequency was not changed."""
+
+    @property
+    def oscillator(self) -> Oscillator:
+        """The oscillator of a command that accepts no assembly."""
+        assert isinstance(self.system, Oscillator)
+        return self.system
 
     @property
     def repeated(self) -> Repeated:
@@ -91,7 +100,7 @@ class Subject(NamedTuple):
     def rig(self) -> Rig:
         """The rig. If its shaking is periodic, the frequency is open."""
         return Rig.of_open_frequency(
-            self.oscillator, self.shaking, self.name, published=self.study is None
+            self.system, self.shaking, self.name, published=self.study is None
         )
 
     def at(self, hertz: float, phase: float | None = None) -> Repeated:
@@ -111,7 +120,7 @@ class _Named(NamedTuple):
 
     title: str
     slug: str
-    oscillator: Oscillator
+    system: System
     shaking: Repeated | Record | None
     study: Study | None
     case: bool
@@ -125,6 +134,7 @@ def subject(
     shaken: Repeated | Record | None = None,
     otherwise: Repeated | None = None,
     unshaken: bool = False,
+    masses: bool = False,
 ) -> Subject:
     """Return the rig that a case code or the path of a study file names, with changes.
 
@@ -142,6 +152,8 @@ def subject(
         Shaking that is used if neither the case, nor the study, nor the options state one.
     unshaken
         Whether a rig that nothing shakes is accepted. Its shaking has the amplitude 0.
+    masses
+        Whether an assembly of several masses is accepted.
 
     Raises
     ------
@@ -149,23 +161,30 @@ def subject(
         If the code, the file or a value of the options is invalid.
     """
     found = _named(text, options)
+    if isinstance(found.system, Assembly) and not masses:
+        raise InputError(
+            f"study {text!r}: assembly: this command computes one mass, not an assembly of several "
+            "masses; use vibroimpact simulate, sweep, branch, motion or earthquake"
+        )
     if shaken is not None:
         found = found._replace(shaking=shaken)
 
-    def rig_of(given: RigOptions) -> tuple[Oscillator, Repeated | Record | None]:
+    def rig_of(given: RigOptions) -> tuple[System, Repeated | Record | None]:
         shaking = found.shaking
         if given.amplitude is not None:
-            shaking = _of_size(shaking, given.amplitude, found.oscillator.units == NONE)
+            shaking = _of_size(shaking, given.amplitude, found.system.units == NONE)
         stated: dict[str, Any] = {"--amplitude": given.amplitude, "--gap": given.gap}
         stated |= {f"--set: {k}": v for k, v in by_path("--set", given.values).items()}
         scale = otherwise if shaking is None else shaking
-        return with_stated_units(changed(found.oscillator, given, scale), stated), shaking
+        if isinstance(found.system, Assembly):
+            return with_stated_units(changed_assembly(found.system, given), stated), shaking
+        return with_stated_units(changed(found.system, given, scale), stated), shaking
 
-    oscillator, shaking = rig_of(options)
-    write_for(oscillator)  # until the end of the command
+    system, shaking = rig_of(options)
+    write_for(system)  # until the end of the command
     shaking = otherwise if shaking is None else shaking
     if shaking is None and unshaken:
-        shaking = Rig(oscillator).vibrating_freely().periodic
+        shaking = Rig(system).vibrating_freely().periodic
     if shaking is None:
         where = f"study {text!r}: excitation.amplitude: missing"
         raise InputError(
@@ -173,16 +192,17 @@ def subject(
             "--amplitude, such as 0.05g (acceleration), 2mm (displacement) or 500N (force); for a "
             "free vibration, use vibroimpact simulate"
         )
-    made = changes(options, rig_of, oscillator)
+    made = changes(options, rig_of, system)
     what = Subject(
         ", ".join((name or found.title, *(change.words for change in made))),
         file_stem(check_name(name, "--name")) if name else joined(found.slug, made),
-        oscillator,
+        system,
         shaking,
         found.study,
-        found.case and oscillator.angular_frequency == found.oscillator.angular_frequency,
+        found.case and system.angular_frequency == found.system.angular_frequency,
     )
-    doubt_stops(Rig(what.oscillator, what.shaking))
+    if isinstance(system, Oscillator):
+        doubt_stops(Rig(system, what.shaking))
     return what
 
 
@@ -207,7 +227,10 @@ def _of_size(
     is_plain = without_units and not has_unit(amplitude)
     kept = shaking.of if shaking is not None and is_plain else None
     found, _ = as_periodic(amplitude, "--amplitude", kept)
-    return found if shaking is None else found.replace(phase=shaking.phase)
+    if shaking is None:
+        return found
+    on = None if found.moves_base else shaking.on
+    return found.replace(phase=shaking.phase, on=on)
 
 
 def _named(text: str, options: RigOptions) -> _Named:
@@ -246,11 +269,42 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
             "laboratory cases have parameter sets; remove --parameters"
         )
     described = study.rig(Path(path), parameters)
-    title, oscillator, shaking = described.name or "", described.oscillator, described.shaking
+    title, system, shaking = described.name or "", described.system, described.shaking
     first = file_stem(title)
     if study.case is not None and parameters != (study.parameters or (parameters and "table")):
         title, first = f"{title}, {parameters} parameters", f"{first}-{parameters}"
-    return _Named(title, first, oscillator, shaking, study, study.case is not None)
+    return _Named(title, first, system, shaking, study, study.case is not None)
+
+
+def changed_assembly(assembly: Assembly, options: RigOptions) -> Assembly:
+    """Return the assembly with the values that the options replace.
+
+    Raises
+    ------
+    InputError
+        If a path does not exist, or if a value is invalid.
+    """
+    values = new_values(assembly, options)
+    for path, value in values.items():
+        part, _, name = path.partition(".")
+        if value is None and "." not in name and part in ("links", "stops", "forces"):
+            continue  # a whole part is removed
+        if value is None:
+            raise InputError(
+                f"--set: {path}=none; only a link, a stop or a force can be removed, such as "
+                "stops.moat=none"
+            )
+        parameter(path, assembly, "--set")  # names the nearest
+    removed = {path for path, value in values.items() if value is None}
+    try:
+        for path in removed:
+            part, _, name = path.partition(".")
+            kept = getattr(assembly, part)
+            check_known(name, list(kept), part.removesuffix("s"), path)
+            assembly = assembly.replace(**{part: {k: v for k, v in kept.items() if k != name}})
+        return set_values(assembly, {k: v for k, v in values.items() if k not in removed})
+    except InputError as error:
+        raise InputError(f"--set: {error}") from None
 
 
 def changed(
@@ -305,7 +359,7 @@ _SAME = (
 """Pairs of paths that set the same quantity."""
 
 
-def new_values(oscillator: Oscillator, options: RigOptions) -> dict[str, Any]:
+def new_values(system: System, options: RigOptions) -> dict[str, Any]:
     """Return the values of the options by path. "none" removes a part.
 
     Raises
@@ -314,7 +368,8 @@ def new_values(oscillator: Oscillator, options: RigOptions) -> dict[str, Any]:
         If a path is set twice.
     """
     found: dict[str, Any] = {}
-    known = [*parameters(Rig(oscillator)), *PARAMETERS]
+    known = list(parameters(Rig(system)))
+    known += [] if isinstance(system, Assembly) else PARAMETERS
     for path, text in by_path("--set", options.values).items():
         name = canonical(path, known)
         if name in ("amplitude", "frequency"):

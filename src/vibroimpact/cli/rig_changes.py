@@ -14,10 +14,12 @@ from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.names import kept_letters
 from vibroimpact.model.parameters import canonical, parameters
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, System
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import unitless
 
+_PARTS = ("masses", "links", "stops", "forces")
+"""Parts of an assembly, with which the paths of its parameters begin."""
 _LONGEST = 120
 """Largest number of bytes of a file name, without the ending that a command adds. File systems
 allow 255."""
@@ -33,7 +35,7 @@ class Change(NamedTuple):
 
 
 def changes(
-    options: RigOptions, rig_of: Callable[[RigOptions], Any], rig: Oscillator
+    options: RigOptions, rig_of: Callable[[RigOptions], Any], rig: System
 ) -> tuple[Change, ...]:
     """Return the options that change the rig.
 
@@ -70,19 +72,27 @@ def _same(rig_of: Callable[[RigOptions], Any], options: RigOptions, wanted: Any)
         return False
 
 
-def _change(path: str, value: str, rig: Oscillator) -> Change:
+def _change(path: str, value: str, rig: System) -> Change:
     known = parameters(Rig(rig))
     name = canonical(path, known)
     words = name.removeprefix("oscillator.")
-    if words.count(".") == 2 or words in ("stops.right", "stops.left"):
+    if isinstance(rig, Oscillator) and (
+        words.count(".") == 2 or words in ("stops.right", "stops.left")
+    ):
         words = words.removeprefix("stops.")
+    part, _, rest = ("", "", "") if isinstance(rig, Oscillator) else words.partition(".")
+    if part in _PARTS and value.lower() != "none" and part != "masses":
+        words = rest
+    elif part in _PARTS:
+        words = f"{part.removesuffix('es' if part == 'masses' else 's')} {rest}"
     words = re.sub(r"[._-]", " ", words)
     if name == "amplitude":
         size, of = sized(value, None, path)
         in_g = of == "acceleration" and not unitless()
         text = f"{size / GRAVITY:.6g} g" if in_g else pretty(size, QUANTITIES[of])
     elif value.lower() == "none":
-        words, text = "no", words if words == "isolator" else f"{words} stop"
+        is_whole = words == "isolator" or part in _PARTS
+        words, text = "no", words if is_whole else f"{words} stop"
     elif name in known:
         quantity = known[name].quantity
         text = pretty(to_si(value, quantity, path), quantity)

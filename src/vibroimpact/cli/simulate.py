@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from cyclopts import Parameter
 
 import vibroimpact as vi
 from vibroimpact import figures
@@ -30,6 +32,7 @@ def simulate(
     velocity: opt.Text = None,
     tail: opt.Text = None,
     shown: float = 3.0,
+    animation: Annotated[Literal["gif", "html"] | None, Parameter(group=opt.OUTPUT)] = None,
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
@@ -44,12 +47,18 @@ def simulate(
 
     If a record shakes the rig, the file names do not contain FREQUENCY.
 
+    For a rig of several masses (table [assembly] of a study file), the command prints the largest
+    displacement and acceleration of each mass, the largest deformation of each link, and the
+    largest force or impulse and the number of contacts of each stop. Further figures show
+    accelerations, contact forces, and the largest values over the order of the masses.
+
     For example:
 
         vibroimpact simulate B2-G1-A3 --frequency 2.5Hz
         vibroimpact simulate B3-10mm-A3 --frequency 1.06Hz --cycles 1000 --shown 10
         vibroimpact simulate B2-G1-A3 --frequency 2.5Hz --displacement 12mm
         vibroimpact simulate quake.toml --tail 10s
+        vibroimpact simulate neighbours.toml --frequency 1.9Hz --animation html
 
     Parameters
     ----------
@@ -71,11 +80,16 @@ def simulate(
         file (table [simulate]), or 0.
     shown
         Number of forcing cycles in the figure, counted back from the end of the motion.
+    animation
+        Write an animation of several masses, too: gif for slides, or html for a page with a slider.
+        Default: no animation.
     """
+    from vibroimpact.cli.assembly import is_assembly, write_motion
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.states import rig_at
+    from vibroimpact.facts import assembly as masses
     from vibroimpact.facts import trajectory as facts
     from vibroimpact.model import Record
     from vibroimpact.model.count_checks import whole
@@ -83,9 +97,14 @@ def simulate(
     from vibroimpact.model.quantities import DIMENSIONLESS
     from vibroimpact.model.units import to_si
 
-    what = subject(rig, changes, output.name, unshaken=True)
+    what = subject(rig, changes, output.name, unshaken=True, masses=True)
     table = what.simulate_table
     start = _start(what, displacement, velocity)
+    if animation is not None and not is_assembly(what):
+        raise InputError(
+            f"--animation: {animation!r}, but {what.name!r} has one mass; animations are made of "
+            "assemblies of several masses; remove --animation"
+        )
     samples = table.samples if samples is None else whole(samples, "samples")
     last = to_si(shown, DIMENSIONLESS, "--shown", above=0.0)
     of_record = isinstance(what.shaking, Record)
@@ -109,7 +128,16 @@ def simulate(
             )
         if not data.sizes["time"]:
             raise InputError(f"the motion could not be simulated: {data.attrs['message']}")
-        if of_record:
+        if is_assembly(what):
+            name, title, cycled = "history", what.title, None
+            if not of_record:
+                hertz = shaken.periodic.frequency
+                name, cycled = f"{forcing_slug(hertz)}-history", last
+                title = (
+                    f"{what.title}, {forcing(hertz, 10) if shaken.is_shaken else 'free vibration'}"
+                )
+            write_motion(written, data, name, title, cycled, animation)
+        elif of_record:
             written.write(data, "history", figures.record_history)
         else:
             hertz = shaken.harmonic.frequency
@@ -117,15 +145,30 @@ def simulate(
             title = f"{what.title}, {'free vibration' if free else forcing(hertz, 10)}"
             name = f"{forcing_slug(hertz)}-history"
             written.write(data, name, figures.time_history, title, cycles=last)
+    if is_assembly(what):
+        found = masses.motion_facts(data)
+        return written.tell(found, masses.motion_text(found))
     return written.tell(facts.facts(data), facts.text(data))
 
 
-def _start(what: Subject, displacement: str | None, velocity: str | None) -> vi.State:
-    """Return the initial state of the options, of the study, or at rest at the equilibrium."""
+def _start(what: Subject, displacement: str | None, velocity: str | None) -> vi.State | None:
+    """Return the initial state of the options, of the study, or at rest at the equilibrium.
+
+    Several masses start at the equilibrium, which is the default of the library function.
+    """
+    from vibroimpact.cli.assembly import is_assembly, refuse
     from vibroimpact.model import State, equilibrium, to_si
     from vibroimpact.model.quantities import LENGTH, VELOCITY
 
     u, v = what.simulate_table.displacement, what.simulate_table.velocity
+    if is_assembly(what):
+        refuse(what, displacement=displacement, velocity=velocity)
+        if u is not None or v:
+            raise InputError(
+                "simulate.displacement, simulate.velocity: the rig has several masses, which start "
+                "at rest at the equilibrium; remove them, or pass a State by names in Python"
+            )
+        return None
     if displacement is not None:
         u = to_si(displacement, LENGTH, "--displacement")
     elif u is None:

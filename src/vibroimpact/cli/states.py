@@ -76,7 +76,7 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
     else:
         raise InputError("--frequency: missing; pass the forcing frequency, such as 2Hz")
     start = what.phase if phase is None else to_si(phase, ANGLE, "--phase")
-    rig = what.rig.with_parts(what.oscillator, what.at(hertz, start), keep_open=False)
+    rig = what.rig.with_parts(what.system, what.at(hertz, start), keep_open=False)
     if along != "frequency":
         doubt_frequency(rig, "frequency" if frequency is None else "--frequency")
     return rig

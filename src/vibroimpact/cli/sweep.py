@@ -41,6 +41,9 @@ def sweep(
     - NAME-sweep.png: the resonance curves
     - NAME-sweep.txt: the summary
 
+    For a rig of several masses (table [assembly] of a study file), the figure shows the largest
+    displacement of each mass, and further figures show accelerations and contact forces.
+
     For example:
 
         vibroimpact sweep B2-G1-A3 --parameters identified
@@ -87,18 +90,22 @@ def sweep(
     """
     from rich.console import Group
 
+    from vibroimpact.cli.assembly import draw_sweep, is_assembly, refuse
     from vibroimpact.cli.frequency_grid import default_range, list_frequencies
     from vibroimpact.cli.output import as_plain_text, progress_bar
     from vibroimpact.cli.results import draws_physical, results
     from vibroimpact.cli.rig import subject
     from vibroimpact.datasets.files import write_whole
     from vibroimpact.engine.status import MORE_CYCLES
+    from vibroimpact.facts import assembly_sweep as masses
     from vibroimpact.facts import rig as rig_facts
     from vibroimpact.facts import sweeps
     from vibroimpact.response import resonance
     from vibroimpact.response.sweep import advice
 
-    what = subject(rig, changes, output.name)
+    what = subject(rig, changes, output.name, masses=True)
+    if is_assembly(what):
+        refuse(what, compute=compute, normalised=physical is False)
     table = what.sweep_table
     grid = list_frequencies(start, stop, step, frequencies, table, default_range(what))
     outputs = own_outputs(compute)
@@ -118,8 +125,14 @@ def sweep(
                 ),
                 progress=progress,
             )
-        found = resonance.features(data)
         hints = [line.replace(MORE_CYCLES, "--max-cycles") for line in advice(data)]
+        if is_assembly(what):
+            written.write(data, "sweep", figures.mass_resonance)
+            draw_sweep(written, data)
+            summary = as_plain_text(Group(rig_facts.text(what.rig), masses.text(data, hints)))
+            written.files["summary"] = write_whole(written.path("sweep", "txt"), summary)
+            return written.tell(masses.facts(data, hints), masses.text(data, hints))
+        found = resonance.features(data)
         text = sweeps.text(data, found, hints)
         curves = figures.resonance_curves
         units = draws_physical(data, physical)

@@ -13,6 +13,27 @@ ASSEMBLIES: dict[str, Variable] = {
         "number of impacts whose order was decided by the order of the stops",
         "impacts at the same instant as another impact or rest of the same mass",
     ),
+    "link": Variable("1", "name of the link"),
+    "drift_max": Variable("m", "largest drift of the link, u_right − u_left"),
+    "drift_min": Variable("m", "smallest drift of the link, u_right − u_left"),
+    "drift_excursion": Variable("m", "excursion of the drift of the link"),
+    "peak_drift": Variable("m", "largest drift of the link, without sign"),
+    "peak_closing": Variable(
+        "m",
+        "largest closing displacement u_left − u_right of the bodies of the stop, without stops",
+    ),
+    "total_links": Variable("J", "energy lost in the link during the whole motion"),
+    "total_stops": Variable("J", "energy lost in the stop during the whole motion"),
+    "total_damping": Variable(
+        "J",
+        "energy lost in damping that is not of a link during the whole motion",
+        "modal or Rayleigh damping, and damping of matrices",
+    ),
+    "total_stored": Variable(
+        "J",
+        "growth of the kinetic and potential energy during the whole motion",
+        "of links, bumpers and constant forces; relative to the base",
+    ),
     "mode": Variable("1", "number of the mode", "from 1, in the order of the natural frequencies"),
     "natural_frequency": Variable(
         "Hz", "undamped natural frequency without stops", "0 for a free motion"

@@ -104,7 +104,7 @@ MOTIONS: dict[str, Variable] = {
         "largest difference of states divided by the size of the motion; NaN if the rig is not "
         "symmetric",
     ),
-    "exponents": Variable("s-1", "largest two Lyapunov exponents"),
+    "exponents": Variable("s-1", "largest Lyapunov exponents"),
     "exponents_uncertainty": Variable("s-1", "standard uncertainty of the Lyapunov exponents"),
     "exponents_cycles": Variable(
         "1", "number of forcing cycles over which the exponents were computed"

@@ -13,6 +13,8 @@ from vibroimpact.model import Oscillator
 
 SIDES = ("right", "left")
 """Names of the stops of an oscillator, in the order of the dim ``stop``."""
+PARTS = ("stop", "mass", "link")
+"""Dims of the parts of a rig."""
 _SUMS = ("impacts", "impact_count", "impulse")
 """Variables whose value for all stops is their sum; for others it is the largest."""
 
@@ -97,17 +99,18 @@ def over_stops(values: xr.DataArray) -> xr.DataArray:
 
 
 def quantities(data: xr.Dataset) -> list[str]:
-    """Return the names that `quantity` accepts: of variables, and of each of their stops."""
+    """Return the names that `quantity` accepts: of variables, and of each of their parts."""
     found = []
     for name, one in data.data_vars.items():
         found.append(str(name))
-        if "stop" in one.dims:
-            found += [f"{name}.{stop}" for stop in data["stop"].values]
+        for dim in PARTS:
+            if dim in one.dims:
+                found += [f"{name}.{part}" for part in data[dim].values]
     return found
 
 
 def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
-    """Return a variable without the dim ``stop``.
+    """Return a variable without the dim ``stop``, or of one part.
 
     Parameters
     ----------
@@ -115,9 +118,12 @@ def quantity(data: xr.Dataset, name: str) -> xr.DataArray:
         The dataset.
     name
         One of `quantities`: ``"peak_force.right"`` is the force of one stop, and ``"peak_force"``
-        that of all stops (`over_stops`).
+        that of all stops (`over_stops`). ``"peak_drift.storey"`` is that of one link of an
+        assembly, and ``"peak_drift"`` keeps the dim ``link``; so do masses.
     """
-    variable, _, stop = name.partition(".")
-    if stop and variable in data and "stop" in data[variable].dims:
-        return data[variable].sel(stop=stop, drop=True)
+    variable, _, part = name.partition(".")
+    if part and variable in data:
+        for dim in PARTS:
+            if dim in data[variable].dims:
+                return data[variable].sel({dim: part}, drop=True)
     return over_stops(data[name])

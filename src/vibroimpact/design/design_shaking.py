@@ -204,24 +204,47 @@ def design_rig(
     if records is None and isinstance(found.shaking, Record):
         records = found.shaking
     if records is not None:
-        if frequency_span is not None:
-            raise InputError(
-                "frequency_span: the shaking is a record, which has no forcing frequency; remove "
-                "frequency_span"
-            )
-        shaking = suite(records)
-        return with_stated_units(found.oscillator, in_words(shaking)), ByRecords(
-            shaking,
-            to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),
-            None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
-        )
+        by_records = read_records(records, fractile, frequency_span, tail)
+        return with_stated_units(found.oscillator, in_words(by_records.records)), by_records
     shaken = one_sine(found)
     return found.oscillator, BySines(
-        Sines(shaken.sine, *_range(frequency_span), share(step, "step"))
+        Sines(shaken.sine, *read_span(frequency_span), share(step, "step"))
     )
 
 
-def _range(frequencies: Any) -> tuple[float | None, float | None]:
+def read_records(
+    records: Any,
+    fractile: float,
+    frequency_span: tuple[float | str, float | str] | None,
+    tail: float | str | None,
+) -> ByRecords:
+    """Read the records that a rig is designed for.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used.
+    """
+    if frequency_span is not None:
+        raise InputError(
+            "frequency_span: the shaking is a record, which has no forcing frequency; remove "
+            "frequency_span"
+        )
+    return ByRecords(
+        suite(records),
+        to_si(fractile, DIMENSIONLESS, "fractile", minimum=0.0, maximum=1.0),
+        None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
+    )
+
+
+def read_span(frequencies: Any) -> tuple[float | None, float | None]:
+    """Read the lowest and the highest frequency (Hz); None for 0 and infinity.
+
+    Raises
+    ------
+    InputError
+        If they are no such pair.
+    """
     if frequencies is None:
         return None, None
     if not is_pair(frequencies):

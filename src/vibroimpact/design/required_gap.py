@@ -10,15 +10,24 @@ import xarray as xr
 from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.stops import SIDES
-from vibroimpact.design.design_shaking import AnyRecords, ByRecords, design_rig
+from vibroimpact.design.assembly_gap import gaps_for_records, gaps_for_sines
+from vibroimpact.design.design_shaking import (
+    AnyRecords,
+    ByRecords,
+    BySines,
+    design_rig,
+    read_records,
+    read_span,
+)
 from vibroimpact.design.worst_sine import STEP, Sines
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, equilibrium
-from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model import Assembly, Harmonic, Oscillator, Record, equilibrium
+from vibroimpact.model.read_rig import AnyRig, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
+from vibroimpact.response.assembly_rig import check_laws
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
 
@@ -36,6 +45,9 @@ def required_gap(
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Compute the gap without contact: the largest displacement of a rig without stops.
+
+    Of an assembly it is the largest closing displacement of the two bodies of each stop: the moat
+    of an isolated building, or the separation of neighbours. For sines this requires linear links.
 
     For records the gap is exact for a motion that starts at rest. For sines the gap holds for the
     steady motion; a transient may reach farther. If the isolator is linear, the frequency of the
@@ -59,6 +71,9 @@ def required_gap(
         displacement. For records, ``displacement_max`` and ``displacement_min`` are
         the ends of the motion of each record (dim ``record``).
 
+        Of an assembly, ``required_gap`` and ``displacement_frequency`` have the dim ``stop``. For
+        records, ``peak_closing`` is the largest closing displacement of each record and stop.
+
     Raises
     ------
     InputError
@@ -67,6 +82,11 @@ def required_gap(
     """
     check_progress(progress)
     workers = placed(threads, where)
+    system = one_system(rig)
+    if isinstance(system.system, Assembly):
+        return _of_assembly(
+            system, records, fractile, frequency_span, tail, workers=workers, progress=progress
+        )
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
@@ -83,6 +103,41 @@ def required_gap(
             "enough; give the isolator more damping or stiffness, or reduce the shaking"
         )
     parameters = {"oscillator": oscillator_parameters(oscillator), **what.parameters()}
+    return describe(found, "vibroimpact.required_gap", parameters, what.notes())
+
+
+def _of_assembly(
+    rig: Rig,
+    records: AnyRecords | None,
+    fractile: float,
+    frequency_span: tuple[float | str, float | str] | None,
+    tail: float | str | None,
+    *,
+    workers: Workers,
+    progress: Progress | None,
+) -> xr.Dataset:
+    """Return the gap of each stop of an assembly."""
+    assembly = rig.system
+    assert isinstance(assembly, Assembly)
+    check_laws(assembly)
+    if records is None and isinstance(rig.shaking, Record):
+        records = rig.shaking
+    what: ByRecords | BySines
+    if records is not None:
+        what = read_records(records, fractile, frequency_span, tail)
+        found = gaps_for_records(
+            assembly, what.records, what.fractile, what.tail, workers, progress
+        )
+    else:
+        if not isinstance(rig.periodic, Harmonic):
+            raise InputError("shaking: a Periodic is not accepted; pass a Harmonic or records")
+        if not assembly.linear:
+            raise InputError(
+                "links: the gaps for sines require linear links; pass records, or use sweep"
+            )
+        what = BySines(Sines(rig.periodic, *read_span(frequency_span), STEP))
+        found = gaps_for_sines(assembly, rig.periodic, (what.sines.low, what.sines.high))
+    parameters = {"assembly": assembly.model_dump(), **what.parameters()}
     return describe(found, "vibroimpact.required_gap", parameters, what.notes())
 
 

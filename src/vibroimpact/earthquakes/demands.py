@@ -15,8 +15,9 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import check_list, check_progress, is_list
-from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.description import describe
 from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.earthquakes.assembly_demands import demands_of_assemblies
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import (
     MAX_EVENTS,
@@ -38,11 +39,11 @@ from vibroimpact.earthquakes.run_plan import (
 )
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
-from vibroimpact.model import Oscillator, Record, to_si
+from vibroimpact.model import Assembly, Oscillator, Record, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, whole
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, System
 from vibroimpact.model.units import with_si_unit
 from vibroimpact.model.varied import Values
 from vibroimpact.model.written_units import has_no_units
@@ -113,7 +114,7 @@ def demands(
     store
         Folder in which the demands are stored as a Zarr group. It is written block by block. If the
         folder holds an unfinished computation of the same demands, that computation is resumed.
-        Default: the demands are kept in memory.
+        Default: the demands are kept in memory. Demands of assemblies cannot be stored.
     block
         Number of rigs and number of records in a block. A block contains all scales. If the
         computation is stopped, at most the unfinished blocks are lost.
@@ -138,6 +139,9 @@ def demands(
         ``factor`` is the number by which a record was multiplied. ``intensity`` is the measure of
         the unscaled record.
 
+        Of assemblies, which must have masses, links and stops of the same names, the variables have
+        the dims ``mass``, ``link`` and ``stop``, as in `seismic_response`.
+
     Raises
     ------
     InputError
@@ -145,10 +149,15 @@ def demands(
     """
     check_progress(progress)
     shaking = suite(records)
-    rigs = runs(rig, vary, {**in_words(shaking), "scales": scales})
+    rigs = runs(rig, vary, {**in_words(shaking), "scales": scales}, any_masses=True)
     scaled = measure(intensity)
     levels = _levels(scales, scaled)
     known, factors = scaled.factors(list(shaking.values()), levels)
+    several = any(isinstance(one, Assembly) for one in rigs.rigs.values())
+    if several and store is not None:
+        raise InputError(
+            "store: demands of an Assembly are kept in memory; remove store, and save the result"
+        )
     task = _Task(
         rigs,
         list(shaking.values()),
@@ -158,7 +167,9 @@ def demands(
         placed(threads, where),
     )
     settings = {
-        "oscillators": {name: oscillator_parameters(one) for name, one in rigs.rigs.items()},
+        "assemblies" if several else "oscillators": {
+            name: one.model_dump() for name, one in rigs.rigs.items()
+        },
         "varied": {one.name: one.values.tolist() for one in rigs.varied},
         "records": {name: digest(one) for name, one in shaking.items()},
         "scales": levels.tolist(),
@@ -167,6 +178,21 @@ def demands(
         "max_events": task.max_events,
         "block": (most := whole(block, "block")),
     }
+    coordinates = {
+        "record": list(shaking),
+        "scale": levels,
+        **({"rig": list(rigs.rigs)} if rigs.several else {}),
+        **{one.name: one.values for one in rigs.varied},
+        "factor": (("record", "scale"), factors),
+        "intensity": ("record", known),
+    }
+    notes = record_notes(shaking)
+    if several:
+        variables, names = demands_of_assemblies(
+            rigs, task.records, factors, task.tail, task.max_events, task.threads, progress
+        )
+        data = xr.Dataset(variables, {**coordinates, **names})
+        return _described(data, settings, notes, rigs, scaled)
     parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, most))
     with folder(store, _KIND, settings, partial(_make, task=task, most=most), parts) as group:
         if not finished(group):
@@ -176,27 +202,26 @@ def demands(
     dims = ("record", "scale", *rigs.dims)
     data = xr.Dataset(
         {name: (_dims(name, dims), values) for name, values in found.items()},
-        {
-            "stop": task.stops,
-            "record": list(shaking),
-            "scale": levels,
-            **({"rig": list(rigs.rigs)} if rigs.several else {}),
-            **{one.name: one.values for one in rigs.varied},
-            "factor": (("record", "scale"), factors),
-            "intensity": ("record", known),
-        },
+        {"stop": task.stops, **coordinates},
     )
-    notes = [*record_notes(shaking), *_doubted(rigs.rigs, next(iter(shaking.values())), data)]
+    notes += _doubted(rigs.rigs, next(iter(shaking.values())), data)
+    return _described(data, settings, notes, rigs, scaled)
+
+
+def _described(
+    data: xr.Dataset, settings: dict[str, Any], notes: list[str], rigs: Runs, scaled: Measure
+) -> xr.Dataset:
+    """Describe the demands, and warn of runs that were given up."""
     data = describe(data, CREATED_BY, settings, notes, rigs.varied)
     for name in ("scale", "intensity"):
         data[name].attrs["long_name"] = scaled.name
         if not has_no_units(data):
             data[name].attrs["units"] = scaled.units
-    _warn(found["status"])
+    _warn(data["status"].values)
     return data
 
 
-def _doubted(rigs: Mapping[str, Oscillator], record: Record, data: xr.Dataset) -> list[str]:
+def _doubted(rigs: Mapping[str, System], record: Record, data: xr.Dataset) -> list[str]:
     """What is doubted of the rigs, each line once."""
     lines: dict[str, None] = {}
     for name, oscillator in rigs.items():
@@ -220,7 +245,7 @@ class _Task(NamedTuple):
     @property
     def stops(self) -> NDArray[np.str_]:
         """Names of the stops that at least one of the rigs has."""
-        return stops_of(*self.rigs.rigs.values())
+        return stops_of(*(one for one in self.rigs.rigs.values() if isinstance(one, Oscillator)))
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -79,3 +79,41 @@ def response_without_stops(
         return seismic_response(free, tail=tail, progress=progress)
     except InputError:
         return None
+
+
+def assembly_response(
+    rig: Rig, *, tail: float | str | None = None, samples: int = 1, progress: Progress | None = None
+) -> dict[str, xr.Dataset]:
+    """Compute the extremes of an assembly through its record, the motion, and the ground spectrum.
+
+    Parameters
+    ----------
+    rig
+        The rig with an assembly, shaken by a record.
+    tail
+        Duration of free vibration after the record (s, or text). None for two of the longest
+        natural periods.
+    samples, progress
+        As in `earthquake_response`.
+
+    Returns
+    -------
+    dict of xarray.Dataset
+        ``response``: that of `seismic_response`; ``motion``: that of `simulate`; ``ground``: the
+        spectrum of the record.
+
+    Raises
+    ------
+    InputError
+        If a value cannot be used, or the motion was given up.
+    """
+    after = free_tail(rig) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
+    motion = compute_history(rig, None, None, samples, after, progress=progress)
+    if int(motion["status"]) != Status.DONE:
+        raise InputError(f"the motion could not be computed: {motion.attrs['message']}")
+    ground = response_spectrum(rig.record, _PERIODS, _DAMPING)
+    return {
+        "response": seismic_response(rig, tail=after, progress=progress),
+        "motion": motion,
+        "ground": remove_units(ground) if has_no_units(rig) else ground,
+    }

@@ -5,15 +5,17 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from vibroimpact.errors import InputError
-from vibroimpact.model import Record
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model import Record, Repeated
+from vibroimpact.model.assembly.names import check_known
+from vibroimpact.response.assembly_contacts import assembly_origin, has_assembly
 from vibroimpact.response.motion_phases import any_recorded
 
 _GRID = 1e-6
 """Share of a step by which a sample may lie off the grid."""
 
 
-def floor_record(motion: xr.Dataset) -> Record:
+def floor_record(motion: xr.Dataset, mass: str | None = None) -> Record:
     """Compute the absolute acceleration of the mass as a record, for a floor spectrum.
 
     The `response_spectrum` of this record is the floor spectrum. It applies to equipment that
@@ -33,14 +35,17 @@ def floor_record(motion: xr.Dataset) -> Record:
     ----------
     motion
         Dataset of `simulate` through a `Record`, with samples.
+    mass
+        Name of the mass of an assembly on which the equipment stands.
 
     Raises
     ------
     InputError
-        If ``motion`` is not a motion through a record, or has fewer than four samples.
+        If ``motion`` is not a motion through a record, or has fewer than four samples. Also if the
+        assembly has no such mass, or if a mass is passed for an oscillator.
     """
-    origin = any_recorded(motion)
-    if not isinstance(origin.excitation, Record):
+    excitation, influence = _shaking(motion, mass)
+    if not isinstance(excitation, Record):
         raise InputError(
             "motion: its excitation is periodic, not a record; pass the result of simulate for a "
             "Record, or use fourier_spectrum for the harmonics of this motion"
@@ -54,13 +59,28 @@ def floor_record(motion: xr.Dataset) -> Record:
     step = float(time[1])
     if time[-1] - time[-2] < (1.0 - _GRID) * step:  # what is left of the tail
         time = time[:-1]
-    u = motion["displacement"].values[: len(time)]
-    pull = origin.excitation.at(time)
+    of_mass = motion if mass is None else motion.sel(mass=mass)
+    u = of_mass["displacement"].values[: len(time)]
+    pull = influence * excitation.at(time)
     # The base may stop at once, at the record's end.
-    still = time > origin.excitation.duration - _GRID * step
+    still = time > excitation.duration - _GRID * step
     begins, ends = np.where(still, 0.0, pull)[:-1], pull[1:]
-    before = u[0] - float(motion["velocity"].values[0]) * step
+    before = u[0] - float(of_mass["velocity"].values[0]) * step
     bend = np.diff(u, 2, prepend=before) / step**2
     shaken = (begins[:-1] + 2.0 * ends[:-1]) / 6.0 + (2.0 * begins[1:] + ends[1:]) / 6.0
     first = (2.0 * begins[0] + ends[0]) / 6.0
     return Record(bend + np.append(first, shaken), step)
+
+
+def _shaking(motion: xr.Dataset, mass: str | None) -> tuple[Repeated | Record, float]:
+    """Return what shakes a motion, and by how much the mass moves with the base."""
+    if not has_assembly(motion):
+        if mass is not None:
+            raise InputError(f"mass: {shown(mass)}, but an Oscillator has only one; remove mass")
+        return any_recorded(motion).excitation, 1.0
+    origin = assembly_origin(motion)
+    names = origin.assembly.names
+    if mass is None:
+        raise InputError(f"mass: missing; pass one of {', '.join(names)}")
+    check_known(mass, names, "mass", "mass")
+    return origin.shaking, float(origin.assembly.influence[names.index(mass)])

@@ -248,6 +248,8 @@ def _named(coordinate: xr.DataArray, at: int) -> str:
     """Return one value of a varied parameter in words, such as gap 200 mm."""
     name, value = str(coordinate.name), coordinate.values[at]
     words = name.replace("_", " ")
+    if coordinate.dtype.kind == "U":
+        return f"{words} {value}"
     try:
         quantity = in_units(str(coordinate.attrs.get("units", usual(name).units)))
     except StopIteration:  # the unit depends on an exponent

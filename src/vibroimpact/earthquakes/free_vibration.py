@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.rig import Rig
 
 _STIFFNESSES = (
@@ -29,14 +29,18 @@ SMALL = 1e-9
 def free_tail(rig: Rig) -> float:
     """Return the default duration of free vibration after a record (s).
 
-    Two natural periods with the softest of the isolator's springs, or as long as the record if it
-    has none; a minute at most, or as long as the record. The free motion has lost energy by then:
-    it was largest before.
+    Two natural periods with the softest of the isolator's springs, of an assembly the longest ones,
+    or as long as the record if it has none; a minute at most, or as long as the record. The free
+    motion has lost energy by then: it was largest before.
     """
-    oscillator, record = rig.oscillator, rig.record
+    record = rig.record
+    most = max(_LONGEST, record.duration)
+    if isinstance(rig.system, Assembly):
+        slowest = rig.system.angular_frequency
+        return min(_SWINGS * math.tau / slowest, most) if slowest else record.duration
+    oscillator = rig.oscillator
     law = dict(oscillator.isolator)
     springs = [law[name] for name in _STIFFNESSES if law.get(name, 0.0) > 0.0]
-    most = max(_LONGEST, record.duration)
     if not springs:
         return record.duration
     return min(_SWINGS * math.tau * math.sqrt(oscillator.mass / min(springs)), most)

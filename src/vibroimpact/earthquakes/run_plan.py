@@ -15,8 +15,8 @@ from vibroimpact.arguments import check_list, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, Rig
 from vibroimpact.model.parameters import parameter
-from vibroimpact.model.read_rig import as_rigs, is_one_rig
-from vibroimpact.model.rig import with_stated_units
+from vibroimpact.model.read_rig import as_rigs, as_rigs_of_any_masses, is_one_rig
+from vibroimpact.model.rig import System, with_stated_units
 from vibroimpact.model.varied import Values, Varied, read_values, stated, vary_all
 
 _Array = NDArray[np.float64]
@@ -29,7 +29,7 @@ WHY_NOT = "depends on the shaking, which is not varied here"
 class Runs(NamedTuple):
     """Rigs, and what is varied of them."""
 
-    rigs: dict[str, Oscillator]
+    rigs: dict[str, System]
     varied: tuple[Varied, ...]
     several: bool
     """Whether the rigs are a dim."""
@@ -48,7 +48,13 @@ class Runs(NamedTuple):
         )
 
     def oscillator(self, at: tuple[int, ...]) -> Oscillator:
-        """The rig at a place along the dims.
+        """The oscillator at a place along the dims, as `system` returns it."""
+        found = self.system(at)
+        assert isinstance(found, Oscillator)
+        return found
+
+    def system(self, at: tuple[int, ...]) -> System:
+        """The oscillator or the assembly at a place along the dims.
 
         Raises
         ------
@@ -60,7 +66,7 @@ class Runs(NamedTuple):
         values = dict(zip((one.name for one in self.varied), at[self.several :], strict=True))
         whole = Rig(rig)
         pairs = [(parameter(v.name, whole), float(v.values[values[v.name]])) for v in self.varied]
-        return vary_all(whole, pairs).oscillator
+        return vary_all(whole, pairs).system
 
 
 def runs(
@@ -68,19 +74,21 @@ def runs(
     vary: Values | None,
     others: Mapping[str, object] | None = None,
     least: int = 0,
+    any_masses: bool = False,
 ) -> Runs:
     """Read the rigs: one, or several by name or in a list; and what is varied of each.
 
     ``others`` are values, by their names in messages, that may state a unit, too. ``least`` is the
-    least number of parameters that are varied.
+    least number of parameters that are varied. ``any_masses`` accepts assemblies.
 
     Raises
     ------
     InputError
         If one cannot be used.
     """
-    read = as_rigs(rig, "rig", oscillator_alone=True)
-    rigs = {name: one.oscillator for name, one in read.items()}
+    reader = as_rigs_of_any_masses if any_masses else as_rigs
+    read = reader(rig, "rig", oscillator_alone=True)
+    rigs: dict[str, System] = {name: one.system for name, one in read.items()}
     if is_one_rig(rig):
         rigs = {"rig": next(iter(rigs.values()))}
     values = {**(others or {}), **stated(vary)}
@@ -89,7 +97,7 @@ def runs(
     every = read_values(vary, one, least=least, but=NOT_VARIED, why=WHY_NOT)
     found = Runs(rigs, every, not is_one_rig(rig))
     for at in itertools.product(*((0, n - 1) for n in found.shape)):
-        found.oscillator(at)  # refused before anything is computed
+        found.system(at)  # refused before anything is computed
     return found
 
 

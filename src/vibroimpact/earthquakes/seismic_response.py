@@ -11,15 +11,17 @@ import xarray as xr
 from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.earthquakes.assembly_demands import seismic_response_of_assembly
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, OF_STOPS, Shaken, peaks
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
-from vibroimpact.model import to_si
+from vibroimpact.model import Assembly, to_si
 from vibroimpact.model.count_checks import MOST_TAIL, check_max_events
 from vibroimpact.model.quantities import TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
 from vibroimpact.model.rig import Rig
+from vibroimpact.response.assembly_contacts import energy_notes
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.tasks.threads import Progress
@@ -78,6 +80,12 @@ def seismic_response(
         peak, it is an upper bound of the error of ``residual_displacement``. For other isolators
         ``residual_displacement`` is the equilibrium, and ``residual_swing`` is not computed.
 
+        Of an assembly, ``peak_displacement``, ``displacement_max``, ``displacement_min`` and
+        ``peak_acceleration`` have the dim ``mass``, the drift u_right − u_left (``peak_drift``,
+        ``drift_max``, ``drift_min``) has the dim ``link``, and ``peak_force``, ``impulse`` and
+        ``impact_count`` have the dim ``stop``. The energies are those of `totals`. The default
+        ``tail`` is two of the longest natural periods. There are no residual displacements.
+
         If the computation was given up, all values are NaN, and ``status`` gives the reason.
 
     Raises
@@ -85,20 +93,26 @@ def seismic_response(
     InputError
         If the rig is not shaken by a record, or if a value is invalid.
     """
-    rig = as_rig(rig)
-    oscillator, record = rig.oscillator, rig.record
+    rig = as_rig_of_any_masses(rig)
+    system, record = rig.system, rig.record
     check_progress(progress)
     behind = (
-        free_tail(Rig(oscillator, record))
+        free_tail(Rig(system, record))
         if tail is None
         else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
     )
+    limit = check_max_events(max_events)
+    if isinstance(system, Assembly):
+        status, data = seismic_response_of_assembly(rig, behind, limit, progress)
+        notes = [*record.about.notes, *energy_notes(system)]
+        return _described(data, status, rig, {"assembly": system.model_dump()}, behind, notes)
+    oscillator = rig.oscillator
     found = peaks(
         [Shaken(oscillator, record, np.ones(1))],
         tail=behind,
         energies=True,
         residuals=True,
-        max_events=check_max_events(max_events),
+        max_events=limit,
         threads=1,
         progress=progress,
         by_line=True,
@@ -107,14 +121,21 @@ def seismic_response(
     for name in OF_STOPS:
         values[name] = ("stop", by_stop(oscillator, values[name]))
     data = xr.Dataset(values, {"stop": stops_of(oscillator)})
-    status = Status(int(data["status"]))
+    notes = [*record.about.notes, *doubt_stops(Rig(oscillator, record), data["peak_displacement"])]
+    given = {"oscillator": oscillator_parameters(oscillator)}
+    return _described(data, Status(int(data["status"])), rig, given, behind, notes)
+
+
+def _described(
+    data: xr.Dataset,
+    status: Status,
+    rig: Rig,
+    system: dict[str, Any],
+    tail: float,
+    notes: list[str],
+) -> xr.Dataset:
     if status is not Status.DONE:
         warnings.warn(f"seismic_response: {status.advice}", RuntimeWarning, stacklevel=outside())
     data.attrs["message"] = status.advice
-    parameters = {
-        "oscillator": oscillator_parameters(oscillator),
-        "record": record_parameters(record),
-        "tail": behind,
-    }
-    notes = [*record.about.notes, *doubt_stops(Rig(oscillator, record), data["peak_displacement"])]
+    parameters = {**system, "record": record_parameters(rig.record), "tail": tail}
     return describe(data, "vibroimpact.seismic_response", parameters, notes)

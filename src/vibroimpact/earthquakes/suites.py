@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list, check_name
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.datasets.stops import quantities
+from vibroimpact.datasets.stops import PARTS, quantities
 from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
@@ -112,7 +112,7 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
         raise InputError(f"quantity: {shown(quantity)}; pass one of {', '.join(names)}")
     values = of_quantity(held, quantity)
     if "status" in data and data["status"].dims == values.dims:
-        values = _unbounded(values, data["status"].values, quantity)
+        values = _unbounded(values, data["status"], quantity)
     unknown = int(values.isnull().sum())
     if unknown:
         why = "; the variable status gives the reasons" if "status" in data else ""
@@ -168,9 +168,10 @@ def exceeds(values: xr.DataArray, quantity: str, limit: float) -> xr.DataArray:
     return sense * values > sense * limit
 
 
-def _unbounded(values: xr.DataArray, status: NDArray[Any], quantity: str) -> xr.DataArray:
+def _unbounded(values: xr.DataArray, status: xr.DataArray, quantity: str) -> xr.DataArray:
     """Return values of a quantity, infinite where a run exceeded all limits."""
-    return values.where(~np.isin(status, UNSTABLE), _sense(quantity) * math.inf)
+    found = values.where(~status.isin(UNSTABLE), _sense(quantity) * math.inf)
+    return found.transpose(*values.dims)
 
 
 def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> float:
@@ -205,11 +206,12 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
     held = isinstance(demands, xr.Dataset) and {"record", "scale"} <= set(demands.dims)
     if not held or "status" not in demands:
         raise InputError(f"demands: {shown(demands)}; pass the result of the function demands")
+    runs = {*demands["status"].dims}
     peaks = demands[
         [
             name
             for name, one in demands.data_vars.items()
-            if {*one.dims} - {"stop"} == {*demands["status"].dims} and name != "status"
+            if {*one.dims} - {*PARTS} == runs and name != "status"
         ]
     ]
     check_name(quantity, quantities(peaks), "quantity")
@@ -219,7 +221,7 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
             f"demands: {int((status == code).sum())} of {status.size} runs could not be computed: "
             f"{Status(int(code)).advice}"
         )
-    return _unbounded(of_quantity(peaks, quantity), status, quantity)
+    return _unbounded(of_quantity(peaks, quantity), demands["status"], quantity)
 
 
 def _coords(values: xr.DataArray) -> dict[str, Any]:

@@ -29,7 +29,8 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
                 "period": int(row["bifurcation_period"]),
                 "turns": bool(row["bifurcation_turns"]),
                 "contacts": row["bifurcation_contacts"].item(),
-                "eta_d": float(row["bifurcation_eta_d"]),
+                # Of several masses, no displacement without stops is the reference.
+                "eta_d": float(row["bifurcation_eta_d"]) if "bifurcation_eta_d" in row else None,
                 "multipliers": [
                     [float(real), float(imaginary)]
                     for real, imaginary in zip(
@@ -101,7 +102,8 @@ def bifurcations(data: xr.Dataset) -> RenderableType:
 def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
     table = Table("bifurcation", box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
     unit, words = heading(parameter, units, [one["value"] for one in found])
-    for name in (words, "η_d", "largest multipliers", ""):
+    has_eta = any(one["eta_d"] is not None for one in found)
+    for name in (words, *(["η_d"] if has_eta else []), "largest multipliers", ""):
         table.add_column(name, justify="right")
     for one in found:
         first, second = one["multipliers"][:2]
@@ -112,7 +114,7 @@ def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
         table.add_row(
             one["kind"],
             f"{plain(one['value'] / unit.size, _DIGITS)}",
-            f"{plain(one['eta_d'], 4)}",
+            *([f"{plain(one['eta_d'], 4)}"] if has_eta else []),
             largest,
             _note(one),
         )

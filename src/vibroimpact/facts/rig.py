@@ -11,9 +11,11 @@ from rich.text import Text
 from vibroimpact._version import __version__
 from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.errors import InputError
+from vibroimpact.facts import assembly
 from vibroimpact.facts.number_format import plain
 from vibroimpact.facts.tables import plain_table
 from vibroimpact.model import (
+    Assembly,
     Dimensionless,
     Periodic,
     Record,
@@ -33,6 +35,13 @@ from vibroimpact.model.written_units import NONE, unitless
 
 def facts(rig: Rig) -> dict[str, Any]:
     """Return the rig in SI units and, where they exist, in dimensionless parameters."""
+    if isinstance(rig.system, Assembly):
+        return {
+            "name": rig.name,
+            "vibroimpact_version": __version__,
+            **assembly.rig_facts(rig.system),
+            **_shaking_facts(rig.shaking),
+        }
     scaled = _dimensionless(rig)
     return {
         "name": rig.name,
@@ -49,6 +58,11 @@ def text(rig: Rig, shaking: bool = True, frequency: float | None = None) -> Rend
 
     The forcing frequency (Hz), if one is passed, is below the natural frequency.
     """
+    at = "" if frequency is None or not rig.is_shaken else f"at {forcing(frequency)}"
+    shaken = (*_shaking_words(rig.shaking), at) if shaking and rig.shaking is not None else ()
+    if isinstance(rig.system, Assembly):
+        table = assembly.rig_text(rig.system, shaken)
+        return Group(Text(rig.name or "", style="bold"), table)
     oscillator = rig.oscillator
     isolator = oscillator.isolator
     scaled, sprung = _dimensionless(rig), isolator.initial_stiffness > 0.0
@@ -81,9 +95,8 @@ def text(rig: Rig, shaking: bool = True, frequency: float | None = None) -> Rend
         table.add_row("units", "none; frequencies are angular, ω = 2π f", "")
     if oscillator.force:
         table.add_row("constant force", pretty(oscillator.force, FORCE), "")
-    if shaking and rig.shaking is not None:
-        at = "" if frequency is None or not rig.is_shaken else f"at {forcing(frequency)}"
-        table.add_row(*_shaking_words(rig.shaking), at)
+    if shaken:
+        table.add_row(*shaken)
     return Group(Text(rig.name or "", style="bold"), table)
 
 
@@ -101,14 +114,22 @@ def _shaking_words(shaken: Repeated | Record) -> tuple[str, str]:
         return "base", ", ".join(f"{name} {text}" for name, text in shaken.rows())
     if isinstance(shaken, Periodic):
         sizes = ", ".join(pretty(size, shaken.quantity) for size in shaken.amplitudes)
-        return _SHAKEN[shaken.of], f"harmonics of {sizes}"
+        return _shaken(shaken), f"harmonics of {sizes}"
     if shaken.amplitude == 0.0:
         return "base", "at rest: free vibration"
     text = pretty(shaken.amplitude, shaken.quantity)
     if shaken.of == "acceleration":
         exact = "" if unitless() else f"{plain(shaken.amplitude, 7)} m/s² = "
         text = f"A = {exact}{text}"
-    return _SHAKEN[shaken.of], text
+    return _shaken(shaken), text
+
+
+def _shaken(shaken: Repeated) -> str:
+    """What is shaken; of several masses the one on which a force acts."""
+    words = _SHAKEN[shaken.of]
+    if shaken.on is None:
+        return words
+    return f"{words.removesuffix(' on the mass')} on {shaken.on}"
 
 
 def _natural(frequency: float) -> str:

@@ -1,5 +1,12 @@
 from .accelerogram import accelerogram as accelerogram
 from .assembly import assembly_drawing as assembly_drawing
+from .assembly_animation import save_animation as save_animation
+from .assembly_envelopes import mass_envelopes as mass_envelopes
+from .assembly_histories import contact_forces as contact_forces
+from .assembly_histories import mass_histories as mass_histories
+from .assembly_portrait import pair_portrait as pair_portrait
+from .assembly_resonance import mass_branches as mass_branches
+from .assembly_resonance import mass_resonance as mass_resonance
 from .basin_shares import basin_shares as basin_shares
 from .basins import basin_portrait as basin_portrait
 from .branches import branch_diagram as branch_diagram

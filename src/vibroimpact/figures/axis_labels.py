@@ -5,7 +5,7 @@ from __future__ import annotations
 import xarray as xr
 
 from vibroimpact.figures.own_units import in_unit
-from vibroimpact.model.quantities import FORCE, GRAVITY
+from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
 
 _LABELS = {
     "eta_d": (1.0, "$\\eta_d$ (–)"),
@@ -19,8 +19,9 @@ _LABELS = {
     "peak_force.right": (0.0, "largest force of the right stop ({})"),
     "peak_force.left": (0.0, "largest force of the left stop ({})"),
     "peak_force": (0.0, "largest contact force ({})"),
+    "peak_impulse": (0.0, "largest impulse ({})"),
 }
-"""Factor and label. A force is drawn in a unit of fitting size."""
+"""Factor and label. A force or an impulse is drawn in a unit of fitting size."""
 
 
 def axis_label(values: xr.DataArray, quantity: str) -> tuple[float, str]:
@@ -32,6 +33,6 @@ def axis_label(values: xr.DataArray, quantity: str) -> tuple[float, str]:
         return in_unit(1e3) if unit == "m" else 1.0, f"{name} ({units.get(unit, unit)})"
     factor, label = _LABELS[quantity]
     if factor == 0.0:
-        fits = FORCE.unit(*values.values.ravel())
+        fits = (IMPULSE if quantity == "peak_impulse" else FORCE).unit(*values.values.ravel())
         return 1.0 / fits.size, label.format(fits.symbol)
     return in_unit(factor), label

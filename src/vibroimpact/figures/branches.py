@@ -120,7 +120,7 @@ def branch_diagram(
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])
     x, y = scale * data[name].values, factor * values.values
-    pieces = _pieces(data)
+    pieces = stable_pieces(data)
     for part, stable in pieces:
         ax.plot(
             x[part],
@@ -202,7 +202,7 @@ def axis_unit(values: xr.DataArray) -> tuple[float, str]:
     return 1.0, {"1": "–", "m s-2": "m/s²"}.get(units, units)
 
 
-def _pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:
+def stable_pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:
     """Return runs of points of a branch that are all stable, or all unstable."""
     branch, stable = data["branch"].values, data["stable"].values
     first, second = stable[:-1], stable[1:]

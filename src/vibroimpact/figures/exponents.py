@@ -63,7 +63,7 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
     for r in range(found.sizes["rig"]):
         one, look = found.isel(rig=r).transpose(name, "exponent"), MOTIONS[r % len(MOTIONS)]
         rig = f"{literal(str(one['rig'].item()))}, " if several else ""
-        for k, words in enumerate(("largest", "second")):
+        for k, words in enumerate(("largest", "second")[: found.sizes["exponent"]]):
             y, error = (one[key].values[:, k] for key in ("exponents", "exponents_uncertainty"))
             style: dict[str, Any] = {"color": look.colour, "linestyle": "-" if k == 0 else ":"}
             ax.plot(

@@ -6,13 +6,16 @@ Units, bounds and words are those of the annotations of the laws. A path without
 (``right.gap``), and the name of the part where only one part can have the number (``gap``,
 ``friction``). ``frequency`` and ``amplitude`` are those of the shaking. A few parameters set
 several numbers at once; they are listed in `derived_parameters`.
+
+The paths of an assembly have the names of its parts: ``masses.roof``, ``links.storey.stiffness``,
+``stops.moat.gap``, ``forces.roof``. ``gap`` and ``stops.stiffness`` are those of all stops.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 from vibroimpact.errors import InputError, meant, shown
 from vibroimpact.model.assembly import Assembly
@@ -60,6 +63,10 @@ _UNITS = {
 }
 """Units as they are written in datasets. For other quantities, the symbol is written, or 1."""
 
+_MASSES, _LINKS, _STOPS, _FORCES = "masses", "links", "stops", "forces"
+_LAW = "law"
+"""Fields of an assembly, and the field of a link or a stop that its paths leave out."""
+
 _BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
 """Words in names of parameters that refer to the stops on both sides."""
 
@@ -106,7 +113,7 @@ class Parameter(NamedTuple):
             return DERIVED[self.name].read(rig)
         if self.name in ("frequency", "amplitude"):
             return float(getattr(rig.periodic, self.name))
-        places = _places(rig.oscillator).get(self.name, [])
+        places = _places(rig.system).get(self.name, [])
         if not places:
             raise _unknown(self.name, rig, "parameter")
         first = places[0]
@@ -129,12 +136,12 @@ class Parameter(NamedTuple):
             changed = rig.periodic.replace(**{self.name: value})
             keep_open = self.name != "frequency"
             return rig.with_parts(rig.system, changed, keep_open=keep_open)
-        places = _places(rig.oscillator).get(self.name, [])
+        places = _places(rig.system).get(self.name, [])
         try:
-            oscillator = put(rig.oscillator, {one.steps: value for one in places})
+            system = put(rig.system, {one.steps: value for one in places})
         except InputError as error:
             raise InputError(f"parameter: {self.name} at {value:.6g}: {error}") from None
-        return rig.with_parts(oscillator)
+        return rig.with_parts(system)
 
     def beside(self, value: float, factor: float = 2.0) -> float:
         """Return another accepted value: `factor` times as large or as small, or for 0 near 1."""
@@ -155,7 +162,7 @@ class Parameter(NamedTuple):
         return (side,) if owner == "stops" and side else ()
 
 
-def parameter(path: str, rig: Rig | Oscillator, field: str = "parameter") -> Parameter:
+def parameter(path: str, rig: Rig | Oscillator | Assembly, field: str = "parameter") -> Parameter:
     """Return the parameter of a rig with a path, with its unit and its words in this rig.
 
     Raises
@@ -163,7 +170,7 @@ def parameter(path: str, rig: Rig | Oscillator, field: str = "parameter") -> Par
     InputError
         If the rig has no such parameter. The message names the nearest one, and all of them.
     """
-    rig = Rig(rig) if isinstance(rig, Oscillator) else rig
+    rig = Rig(rig) if isinstance(rig, Oscillator | Assembly) else rig
     known = parameters(rig)
     name = canonical(path, known)
     if name not in known:
@@ -184,8 +191,11 @@ def usual(name: str, of: Of = "acceleration") -> Parameter:
 def parameters(rig: Rig) -> dict[str, Parameter]:
     """Return the parameters of a rig by their paths."""
     of: Of = getattr(rig.shaking, "of", "acceleration")
-    if isinstance(rig.system, Assembly):  # whose links and stops have no paths so far
-        return {name: usual(name, of) for name in ("frequency", "amplitude")}
+    if isinstance(rig.system, Assembly):
+        of_parts = {
+            name: _of_part(name, first) for name, (first, *_) in _places(rig.system).items()
+        }
+        return {**{name: usual(name, of) for name in ("frequency", "amplitude")}, **of_parts}
     sides = [side for side in ("right", "left") if getattr(rig.oscillator, side, None) is not None]
     found = {name: one for name, one in PARAMETERS.items() if name == "frequency"}
     found["amplitude"] = _of("amplitude", amplitude_of(of))
@@ -212,7 +222,8 @@ def canonical(path: object, known: Iterable[str]) -> str:
     known = list(known)
     text = path.strip() if isinstance(path, str) else ""
     for name in (text, text.replace("-", "_")):
-        name = name.removeprefix("oscillator.").removeprefix("shaking.")
+        for whole in ("oscillator.", "assembly.", "shaking."):
+            name = name.removeprefix(whole)
         whole = "gap" if name == "stops.gap" else name
         stop = [f"stops.{whole}"] if "." in whole else []
         for one in (whole, *stop, *_only(whole)):
@@ -227,8 +238,11 @@ def _only(name: str) -> list[str]:
     return [f"{owners[0]}.{name}"] if len(owners) == 1 else []
 
 
-def set_values(oscillator: Oscillator, values: Mapping[str, Any]) -> Oscillator:
-    """Return an oscillator with other values at some paths, all set at once.
+_S = TypeVar("_S", Oscillator, Assembly)
+
+
+def set_values(system: _S, values: Mapping[str, Any]) -> _S:
+    """Return an oscillator or an assembly with other values at some paths, all set at once.
 
     The values are numbers in SI units, texts with units, or whole parts. A path may name any field,
     and the fields of an absent stop, which is then made.
@@ -240,13 +254,15 @@ def set_values(oscillator: Oscillator, values: Mapping[str, Any]) -> Oscillator:
     """
     changes: dict[Steps, Any] = {}
     for path, value in values.items():
-        for steps in _steps(oscillator, path):
+        for steps in _steps(system, path):
             changes[steps] = value
-    return cast("Oscillator", put(oscillator, changes))
+    return cast("_S", put(system, changes))
 
 
-def _steps(oscillator: Oscillator, path: str) -> list[Steps]:
-    name = canonical(path, PARAMETERS)
+def _steps(system: Oscillator | Assembly, path: str) -> list[Steps]:
+    if isinstance(system, Assembly):
+        return _steps_of_parts(system, path)
+    oscillator, name = system, canonical(path, PARAMETERS)
     first, _, rest = name.removeprefix("stops.").partition(".")
     if first in ("right", "left"):
         return [(first, *rest.split("."))] if rest else [(first,)]
@@ -258,12 +274,29 @@ def _steps(oscillator: Oscillator, path: str) -> list[Steps]:
     return [(side, field) for side in having or present or ("right", "left")]
 
 
-def _places(oscillator: Any) -> dict[str, list[Place]]:
-    """Return where the numbers of an oscillator stand, by path; several for the path of all stops.
+def _steps_of_parts(assembly: Assembly, path: str) -> list[Steps]:
+    places = _places(assembly)
+    name = canonical(path, places)
+    if name in places:
+        return [one.steps for one in places[name]]
+    part, *rest = name.split(".")
+    if part in (_LINKS, _STOPS) and len(rest) > 1 and rest[1] not in ("left", "right"):
+        # A field of a law that is no number, such as its kind.
+        return [(part, rest[0], _LAW, *rest[1:])]
+    return [(part, *rest)]
+
+
+def _places(system: Oscillator | Assembly) -> dict[str, list[Place]]:
+    """Return where the numbers of a system stand, by path; several for the path of all stops.
 
     A path without the name of a stop comes before those of each stop.
     """
-    each = {_path(one.steps): one for one in walk(oscillator)}
+    each = {_path(one.steps): one for one in walk(system)}
+    if isinstance(system, Assembly):
+        for name in system.names:
+            steps = (_FORCES, name)
+            still = Place(steps, 0.0, Accepts(FORCE, meaning="constant force"), system.forces)
+            each.setdefault(".".join(steps), still)
     found: dict[str, list[Place]] = {}
     shared: dict[str, list[Place]] = {}
     for name, one in each.items():
@@ -276,7 +309,12 @@ def _places(oscillator: Any) -> dict[str, list[Place]]:
 
 
 def _path(steps: Steps) -> str:
-    """Return the path of a number: the two sides of an oscillator are its stops."""
+    """Return the path of a number: the two sides of an oscillator are its stops.
+
+    The law of a link or a stop of an assembly is not part of it.
+    """
+    if len(steps) > 3 and steps[0] in (_LINKS, _STOPS):
+        return ".".join((*steps[:2], *steps[3:]))
     return ".".join(("stops", *steps) if steps[0] in ("right", "left") else steps)
 
 
@@ -349,6 +387,23 @@ def _of(name: str, accepts: Accepts, rigid: bool = False) -> Parameter:
         accepts.minimum if accepts.above is None else accepts.above,
         accepts.maximum,
     )
+
+
+def _of_part(name: str, first: Place) -> Parameter:
+    """Return the parameter of a number of an assembly."""
+    owner, _, field = name.rpartition(".")
+    part, _, own = owner.partition(".")
+    words = first.accepts.meaning or field.replace("_", " ")
+    if part in (_LINKS, _STOPS) and own:
+        words = f"{words} of the {part.removesuffix('s')} {own}"
+    elif part in (_MASSES, _FORCES):
+        words = f"{words} {'of' if part == _MASSES else 'on'} {field}"
+    elif not owner or part == _STOPS:
+        words = f"{words} of each stop"
+    else:
+        words = f"{words} of the {owner}"
+    found = _of(name, first.accepts)
+    return found._replace(long_name=words)
 
 
 def _fields(kinds: Kinds) -> dict[str, Accepts]:

@@ -93,6 +93,17 @@ def as_assembly(value: Any, where: str = "rig") -> Assembly:
     return system
 
 
+def one_system(value: Any, where: str = "rig") -> Rig:
+    """Return the rig that an argument describes, of any masses, with or without shaking.
+
+    Raises
+    ------
+    InputError
+        If the value is not a rig, or if the study file is invalid.
+    """
+    return _read(value, where, oscillator_alone=True)
+
+
 def in_units_of_rig(function: Callable[_P, _R]) -> Callable[_P, _R]:
     """Read and write all values of a function in the units of its first argument, ``rig``.
 
@@ -111,6 +122,8 @@ def in_units_of_rig(function: Callable[_P, _R]) -> Callable[_P, _R]:
 def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> dict[str, Rig]:
     """Return one or several rigs by their names. Several rigs are a list or a mapping from names.
 
+    Each has one mass.
+
     Returns
     -------
     dict
@@ -120,8 +133,23 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
     Raises
     ------
     InputError
-        If there are no rigs, or if one of them is not a rig.
+        If there are no rigs, or if one of them is not a rig, or has an assembly.
     """
+    return {
+        name: _with_one_mass(rig, place)
+        for name, (place, rig) in _each_rig(rigs, where, oscillator_alone).items()
+    }
+
+
+def as_rigs_of_any_masses(
+    rigs: Any, where: str = "rigs", oscillator_alone: bool = False
+) -> dict[str, Rig]:
+    """Do what `as_rigs` does, also for rigs with an assembly."""
+    return {name: rig for name, (_, rig) in _each_rig(rigs, where, oscillator_alone).items()}
+
+
+def _each_rig(rigs: Any, where: str, oscillator_alone: bool) -> dict[str, tuple[str, Rig]]:
+    """Return the place of each rig in messages, and the rig, by names."""
     alone = is_one_rig(rigs) or not (is_list(rigs) or isinstance(rigs, Mapping))
     if isinstance(rigs, Mapping):
         items = [(str(name), rig) for name, rig in rigs.items()]
@@ -134,12 +162,12 @@ def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> d
     read = []
     for i, (name, item) in enumerate(items):
         place = where if alone else f"{where}[{name or i}]"
-        rig = _with_one_mass(_read(item, place, oscillator_alone), place)
-        read.append((name or rig.name or str(i), rig))
+        rig = _read(item, place, oscillator_alone)
+        read.append((name or rig.name or str(i), (place, rig)))
     # As of two study files of one name in two folders.
     counts = Counter(name for name, _ in read)
     return {
-        f"{name} ({i})" if counts[name] > 1 else name: rig for i, (name, rig) in enumerate(read)
+        f"{name} ({i})" if counts[name] > 1 else name: one for i, (name, one) in enumerate(read)
     }
 
 

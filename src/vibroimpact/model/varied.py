@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import MOST_LISTED, check_list, check_mapping, is_pair
 from vibroimpact.errors import InputError, shown
+from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.rig import Rig
@@ -73,7 +74,9 @@ class Range(NamedTuple):
             )
 
 
-def read_ranges(vary: object, rig: Rig | Oscillator, count: int | None = 1) -> list[Range]:
+def read_ranges(
+    vary: object, rig: Rig | Oscillator | Assembly, count: int | None = 1
+) -> list[Range]:
     """Read parameters and their ranges, such as ``{"gap": ("3 mm", "7 mm")}``.
 
     Parameters
@@ -102,7 +105,7 @@ def read_ranges(vary: object, rig: Rig | Oscillator, count: int | None = 1) -> l
 
 def read_values(
     vary: object,
-    rig: Rig | Oscillator,
+    rig: Rig | Oscillator | Assembly,
     *,
     least: int = 0,
     most: int | None = None,
@@ -187,7 +190,7 @@ def _given(
     return given
 
 
-def _parameters(given: Mapping[str, Any], rig: Rig | Oscillator) -> list[Parameter]:
+def _parameters(given: Mapping[str, Any], rig: Rig | Oscillator | Assembly) -> list[Parameter]:
     found: dict[str, Parameter] = {}
     for name in given:
         one = parameter(name, rig, "vary")

@@ -102,7 +102,7 @@ def _systems(value: object) -> Iterator[Mapping[str, Any]]:
         for name, one in value.items():
             if name in ("oscillator", "assembly") and isinstance(one, Mapping):
                 yield one
-            elif name == "oscillators" and isinstance(one, Mapping):
+            elif name in ("oscillators", "assemblies") and isinstance(one, Mapping):
                 yield from one.values()
             else:
                 yield from _systems(one)

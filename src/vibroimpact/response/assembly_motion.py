@@ -26,11 +26,8 @@ from vibroimpact.model import Assembly, Periodic, Record, Repeated, equilibrium
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.count_checks import check_samples
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rig import (
-    assembly_numbers,
-    check_laws,
-    link_parts,
-)
+from vibroimpact.response.assembly_pieces import forcing_size
+from vibroimpact.response.assembly_rig import assembly_numbers, check_laws, link_parts
 from vibroimpact.response.assembly_state import (
     as_assembly_state,
     assembly_vector,
@@ -87,6 +84,17 @@ class Sections(NamedTuple):
         return np.array([[math.sin(angle), math.cos(angle), last]])
 
 
+def sections_of(shaking: Repeated | Record, length: float, phase: float) -> Sections:
+    """Return the sections of a motion of so many forcing cycles, or of a record with its tail."""
+    if isinstance(shaking, Record):
+        return Sections(straight(shaking, length), shaking.step, math.nan)
+    whole, rest = math.floor(length), length % 1.0
+    lasts = [shaking.period] * whole + ([rest * shaking.period] if rest > 0.0 else [])
+    clock = [math.sin(phase), math.cos(phase)]
+    lines = np.column_stack([np.tile(clock, (len(lasts), 1)), lasts])
+    return Sections(lines, shaking.period, phase)
+
+
 class _Seen(NamedTuple):
     """What the channels show at one instant: a row for each, a number for each mass or stop."""
 
@@ -132,6 +140,11 @@ def _fastest(assembly: Assembly, shaking: Repeated | Record) -> float:
     return max(most, harmonics * shaking.angular_frequency)
 
 
+def too_much_work(assembly: Assembly, shaking: Repeated | Record, interval: float) -> bool:
+    """Return whether a section of such a length (s) may take too many steps."""
+    return not _fastest(assembly, shaking) * interval < layout.STEP * _WORK_LIMIT
+
+
 class _Run:
     """A motion that is followed, and what was written down of it."""
 
@@ -150,11 +163,7 @@ class _Run:
         self.parts = self.stops + len(link_parts(system))
         self.sections, self.state, self.samples = sections, vector, samples
         self.closing = [system.closing(stop) for stop in system.stops.values()]
-        self.forcing = (
-            (shaking.peak, 0.0)
-            if isinstance(shaking, Record)
-            else (shaking.amplitude, shaking.angular_frequency)
-        )
+        self.forcing = forcing_size(shaking)
         self.plan = plan_of(assembly_numbers(system, shaking))
         self.sampling = self.plan.copy()
         self.max_events = max_events
@@ -164,8 +173,7 @@ class _Run:
         self.events: list[_Event] = []
         self.status = Status.DONE
         self.ordered_in: int | None = None
-        rate = _fastest(system, shaking) * sections.interval
-        if not rate < layout.STEP * _WORK_LIMIT:
+        if too_much_work(system, shaking, sections.interval):
             self.status = Status.TOO_MUCH_WORK
 
     def follow(self, progress: Progress | None) -> int:
@@ -342,19 +350,12 @@ def compute_assembly_history(
     state = equilibrium(assembly) if start is None else as_assembly_state(start, assembly)
     vector = assembly_vector(assembly, state)
     if isinstance(shaking, Record):
-        lines = straight(shaking, length)
-        check_samples(len(lines), samples, "samples", "time steps")
-        phase, sections = 0.0, Sections(lines, shaking.step, math.nan)
-        ends = shaking.duration + length
+        phase, ends = 0.0, shaking.duration + length
     else:
-        phase = shaking.phase if state.phase is None else state.phase
-        whole, rest = math.floor(length), length % 1.0
-        lasts = [shaking.period] * whole + ([rest * shaking.period] if rest > 0.0 else [])
-        clock = [math.sin(phase), math.cos(phase)]
-        sections = Sections(
-            np.column_stack([np.tile(clock, (len(lasts), 1)), lasts]), shaking.period, phase
-        )
-        ends = length
+        phase, ends = shaking.phase if state.phase is None else state.phase, length
+    sections = sections_of(shaking, length, phase)
+    if isinstance(shaking, Record):
+        check_samples(len(sections.lines), samples, "samples", "time steps")
     first = state_components(assembly, vector, phase)
     run = _Run(rig, shaking, sections, vector, samples, max_events)
     finished = run.follow(progress)

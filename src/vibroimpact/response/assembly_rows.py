@@ -49,9 +49,9 @@ def measured_variables(
         ("displacement", measures.U_LEAST, measures.U_MOST),
         ("acceleration", measures.A_LEAST, measures.A_MOST),
     ):
-        values |= _range(name, masses[..., low], masses[..., high], (*dims, "mass"))
+        values |= range_variables(name, masses[..., low], masses[..., high], (*dims, "mass"))
     least, most = carried[..., measures.T_LEAST], carried[..., measures.T_MOST]
-    values |= _range("transmitted_force", least, most, dims)
+    values |= range_variables("transmitted_force", least, most, dims)
     ordered = np.nan_to_num(carried[..., measures.ORDERED])
     values["simultaneous_impacts"] = (dims, ordered.astype(np.int64))
     values["eccentricity"] = (
@@ -99,9 +99,10 @@ def notes_on(assembly: Assembly, rows: _Array, what: str) -> list[str]:
     return notes
 
 
-def _range(
+def range_variables(
     name: str, least: _Array, most: _Array, dims: tuple[str, ...]
 ) -> dict[str, tuple[tuple[str, ...], _Array]]:
+    """Return the largest, the least, the excursion and the peak of a quantity as variables."""
     return {
         f"{name}_max": (dims, most + 0.0),
         f"{name}_min": (dims, least + 0.0),

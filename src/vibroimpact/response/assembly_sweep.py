@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import batch, hold
+from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, AssemblyState, Rig
 from vibroimpact.response.assembly_rig import assembly_numbers, check_size
 from vibroimpact.response.assembly_rows import measured_variables, notes_on
@@ -29,34 +32,90 @@ def sweep_assembly(
     progress: Progress | None,
 ) -> xr.Dataset:
     """Return what `sweep` returns of an assembly; the arguments are checked ones of `sweep`."""
-    assembly = rig.system
-    assert isinstance(assembly, Assembly)
-    check_size(assembly)
-    states = SectionStates(assembly)
-    levels = rig.levels(len(frequencies))
-    vector = assembly_numbers(assembly, rig.hardest.periodic, tables=True)
-    begin = states.vector_of(start)
-    batch.sweep.prepare(vector)  # once, before the threads would queue for it
+    given = (frequencies, directions, {"": start}, phase, settling)
+    data, notes = _swept({"": rig}, *given, workers, progress)
+    return _described(data.isel(rig=0), "sweep", {"": rig}, notes, phase, settling)
 
-    def follow(direction: str, tally: Tally) -> tuple[_Array, _Array]:
-        order = slice(None, None, 1 if direction == "forward" else -1)
+
+def sweep_assemblies(
+    rigs: Mapping[str, Rig],
+    frequencies: _Array,
+    directions: tuple[str, ...],
+    starts: Mapping[str, AssemblyState],
+    phase: float,
+    settling: Settling,
+    workers: Workers,
+    progress: Progress | None,
+) -> xr.Dataset:
+    """Return what `sweeps` returns of assemblies with parts of the same names.
+
+    Raises
+    ------
+    InputError
+        If their parts have other names.
+    """
+    first = next(iter(rigs.values())).system
+    for name, rig in rigs.items():
+        if not isinstance(rig.system, Assembly) or not isinstance(first, Assembly):
+            raise InputError(
+                f"rigs[{name}]: an Oscillator beside an Assembly; pass rigs with the same parts"
+            )
+        for part in ("names", "stops"):
+            mine, theirs = (list(getattr(one, part)) for one in (rig.system, first))
+            if mine != theirs:
+                raise InputError(
+                    f"rigs[{name}]: its {'masses' if part == 'names' else part} are "
+                    f"{', '.join(mine) or 'none'}, not those of the first rig, "
+                    f"{', '.join(theirs) or 'none'}; pass rigs with the same parts"
+                )
+    given = (frequencies, directions, starts, phase, settling)
+    data, notes = _swept(rigs, *given, workers, progress)
+    data = data.assign_coords(rig=list(rigs))
+    return _described(data, "sweeps", rigs, notes, phase, settling)
+
+
+def _swept(
+    rigs: Mapping[str, Rig],
+    frequencies: _Array,
+    directions: tuple[str, ...],
+    starts: Mapping[str, AssemblyState],
+    phase: float,
+    settling: Settling,
+    workers: Workers,
+    progress: Progress | None,
+) -> tuple[xr.Dataset, list[str]]:
+    """Return the sweeps of some assemblies, and what was doubted of them."""
+    ready = {}
+    for name, rig in rigs.items():
+        assert isinstance(rig.system, Assembly)
+        check_size(rig.system)
+        vector = assembly_numbers(rig.system, rig.hardest.periodic, tables=True)
+        begin = SectionStates(rig.system).vector_of(starts[name])
+        ready[name] = (vector, rig.levels(len(frequencies)), begin)
+    batch.sweep.prepare(*(vector for vector, _, _ in ready.values()))  # before threads would queue
+
+    def follow(item: tuple[str, str], tally: Tally) -> tuple[_Array, _Array]:
+        vector, levels, begin = ready[item[0]]
+        order = slice(None, None, 1 if item[1] == "forward" else -1)
         rows, reached = sweep_holds(
             vector, levels[order], frequencies[order], phase, begin, settling, tally
         )
         return rows.array[order], reached[order]
 
-    done = each(
-        follow,
-        list(directions),
-        steps=len(frequencies) * len(directions),
-        threads=workers,
-        progress=progress,
-    )
-    rows = np.array([found for found, _ in done])
-    ends = np.array([reached for _, reached in done])
-    dims = ("direction", "frequency")
+    items = [(name, direction) for name in rigs for direction in directions]
+    steps = len(frequencies) * len(items)
+    done = each(follow, items, steps=steps, threads=workers, progress=progress)
+    shape = (len(rigs), len(directions), len(frequencies), -1)
+    rows = np.array([found for found, _ in done]).reshape(shape)
+    ends = np.array([reached for _, reached in done]).reshape(shape)
+    dims = ("rig", "direction", "frequency")
     period = rows[..., hold.PERIOD].astype(np.int64)
-    sections = [[states.components(one, phase) for one in some] for some in ends]
+    assembly = next(iter(rigs.values())).system
+    assert isinstance(assembly, Assembly)
+    states = SectionStates(assembly)
+    sections = np.array(
+        [[[states.components(one, phase) for one in some] for some in of_rig] for of_rig in ends]
+    )
     data = xr.Dataset(
         {
             **measured_variables(assembly, rows, dims),
@@ -64,7 +123,7 @@ def sweep_assembly(
             "period": (dims, period),
             "cycles": (dims, rows[..., hold.CYCLES].astype(np.int64)),
             "status": (dims, rows[..., hold.OUTCOME].astype(np.int64)),
-            "section": ((*dims, "component"), np.array(sections)),
+            "section": ((*dims, "component"), sections),
         },
         coords={
             "direction": list(directions),
@@ -74,16 +133,27 @@ def sweep_assembly(
             "component": states.names,
         },
     )
+    return data, notes_on(assembly, rows, "motions")
+
+
+def _described(
+    data: xr.Dataset,
+    function: str,
+    rigs: Mapping[str, Rig],
+    notes: list[str],
+    phase: float,
+    settling: Settling,
+) -> xr.Dataset:
     return describe(
         data,
-        "vibroimpact.sweep",
+        f"vibroimpact.{function}",
         {
-            "rigs": [rig_parameters(rig, "frequency", "phase")],
+            "rigs": [rig_parameters(rig, "frequency", "phase") for rig in rigs.values()],
             "phase": phase,
             "tolerance": settling.tolerance,
             "max_cycles": settling.max_cycles,
             "window": settling.window,
             "max_events": settling.max_events,
         },
-        notes_on(assembly, rows, "motions"),
+        notes,
     )

@@ -14,6 +14,7 @@ from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers.record import IMPACT
 from vibroimpact.model import Record, Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.response.assembly_contacts import assembly_contacts, has_assembly
 from vibroimpact.response.motion_phases import SIDES, Phases, Recorded, any_recorded, phases
 
 _Array = NDArray[np.float64]
@@ -54,12 +55,18 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
         motion through a `Record` has no period. Therefore its contacts have no phases and no shares
         of the period.
 
+        Of an assembly, ``contact_stop`` is the name of the stop, and the velocities have the dim
+        ``mass``. A closing speed is that of the two bodies of the stop, and the coefficient of
+        restitution is the ratio of their relative velocities. There are no accelerations.
+
     Raises
     ------
     InputError
         If the dataset does not hold a motion with samples, or if ``grazing`` is negative.
     """
     share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
+    if has_assembly(motion):
+        return assembly_contacts(motion, share)
     origin = any_recorded(motion)
     every = phases(motion, origin)
     data = contact_log(motion, origin, every, share)

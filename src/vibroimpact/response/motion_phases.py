@@ -109,7 +109,7 @@ def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
     oscillator = validate(Oscillator, parameters["oscillator"], "motion.oscillator")
     assert isinstance(oscillator, Oscillator)
     if "record" in parameters:
-        return Recorded(oscillator, _shaken_by(motion, parameters["record"]), math.nan, False)
+        return Recorded(oscillator, shaken_by(motion, parameters["record"]), math.nan, False)
     first, cycles = (float(motion["cycle"].values[end]) for end in (0, -1))
     # What was cut out of one period is no period.
     periodic = "period" in motion and first == 0.0 and cycles == int(motion["period"])
@@ -135,7 +135,7 @@ def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
     return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
 
 
-def _shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
+def shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
     """Return the record as far as the motion shows it: its last line may go on behind the motion.
 
     Raises

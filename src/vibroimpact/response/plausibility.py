@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.errors import InputError, warn_of_input
-from vibroimpact.model import Harmonic, equilibrium
+from vibroimpact.model import Assembly, Harmonic, equilibrium
 from vibroimpact.model.quantities import FREQUENCY, LENGTH
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound, undamped_frequency
@@ -112,15 +112,19 @@ def doubt_frequency(rig: Rig, field: str) -> None:
     field
         Name of the frequency in the warning.
     """
-    oscillator = rig.oscillator
-    if oscillator.units == NONE or not oscillator.isolator.initial_stiffness > 0.0:
+    system, forced = rig.system, rig.periodic.frequency
+    # Of several masses, the highest natural frequency is compared.
+    highest = "highest " if isinstance(system, Assembly) else ""
+    natural = system.angular_frequency / math.tau
+    if isinstance(system, Assembly):
+        natural = float(system.natural_frequencies.max())
+    if system.units == NONE or not natural > 0.0:
         return
-    natural, forced = oscillator.natural_frequency, rig.periodic.frequency
     if forced <= _FAST * natural:
         return
     told = (
-        f"{pretty(forced, FREQUENCY)} is {forced / natural:.3g} times the natural frequency of "
-        f"{pretty(float(f'{natural:.4g}'), FREQUENCY)}; is {plain(forced, 6)} rpm, "
+        f"{pretty(forced, FREQUENCY)} is {forced / natural:.3g} times the {highest}natural "
+        f"frequency of {pretty(float(f'{natural:.4g}'), FREQUENCY)}; is {plain(forced, 6)} rpm, "
         f"{pretty(float(f'{forced / 60.0:.6g}'), FREQUENCY)}, meant?"
     )
     warn_of_input(field, [told])

@@ -160,6 +160,7 @@ class PreparedRig(NamedTuple):
         *,
         transient: int = 0,
         discard: int = 0,
+        count: int = 2,
         progress: Progress | None = None,
     ) -> Status:
         """As `sections`, in parts, so that no more rows are in memory than are kept.
@@ -168,9 +169,11 @@ class PreparedRig(NamedTuple):
         ----------
         keep
             Called with the next rows, which are overwritten afterwards.
+        count
+            Perturbations whose growth is seen.
         """
         parts, shaking = self.states.parts, self.shaking
-        rows = np.empty((min(cycles, _ROWS), lyapunov.SECTION + parts))
+        rows = np.empty((min(cycles, _ROWS), count + 1 + parts))
         perturbations = np.zeros((parts, parts))
         first = -transient - discard
         calls = Calls(cycles - first, progress, _ROWS)

@@ -28,9 +28,9 @@ from vibroimpact.model import Assembly, AssemblyState, State, to_si
 from vibroimpact.model.count_checks import check_max_events, share, whole
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_sweep import sweep_assembly
+from vibroimpact.response.assembly_sweep import sweep_assemblies, sweep_assembly
 from vibroimpact.response.engine_input import as_state, state_from
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import (
@@ -50,6 +50,9 @@ from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, each
 
 DIRECTIONS = ("forward", "backward")
+_NO_OUTPUTS = (
+    "outputs: own outputs are not computed for an Assembly of several masses so far; remove outputs"
+)
 
 
 def sweep(
@@ -171,10 +174,7 @@ def _of_several_masses(
     check_progress(progress)
     as_periodic(rig.shaking, "shaking")
     if outputs is not None:
-        raise InputError(
-            "outputs: own outputs are not computed for an Assembly of several masses so far; "
-            "remove outputs"
-        )
+        raise InputError(_NO_OUTPUTS)
     state = SectionStates(rig.system).read(start)
     assert isinstance(state, AssemblyState)
     return sweep_assembly(
@@ -259,7 +259,8 @@ def sweeps(
     Returns
     -------
     xarray.Dataset
-        As in `sweep`, with the additional first dim ``rig``.
+        As in `sweep`, with the additional first dim ``rig``. Several assemblies must have masses
+        and stops of the same names.
 
     Raises
     ------
@@ -267,7 +268,22 @@ def sweeps(
         If a value is invalid.
     """
     check_progress(progress)
-    named = periodic_rigs(rigs)
+    named = periodic_rigs(rigs, any_masses=True)
+    if any(isinstance(rig.system, Assembly) for rig in named.values()):
+        if outputs is not None:
+            raise InputError(_NO_OUTPUTS)
+        starts = {name: SectionStates(rig.system).read(start) for name, rig in named.items()}
+        begin = next(iter(starts.values())).phase
+        return sweep_assemblies(
+            named,
+            check_frequencies(frequencies),
+            _directions(directions),
+            starts,  # type: ignore[arg-type]
+            to_si(phase, ANGLE, "phase") if begin is None else begin,
+            _checked(Settling(tolerance, max_cycles, window, max_events)),
+            placed(threads, where),
+            progress,
+        )
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     directions = _directions(directions)
@@ -402,15 +418,17 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     return grid
 
 
-def periodic_rigs(rigs: Any) -> dict[str, Rig]:
+def periodic_rigs(rigs: Any, *, any_masses: bool = False) -> dict[str, Rig]:
     """Read one or several rigs, each with a periodic shaking, by their names.
+
+    ``any_masses`` accepts assemblies.
 
     Raises
     ------
     InputError
         If there is none, or one is invalid.
     """
-    found = as_rigs(rigs)
+    found = as_rigs_of_any_masses(rigs) if any_masses else as_rigs(rigs)
     for name, rig in found.items():
         as_periodic(rig.shaking, "shaking" if len(found) == 1 else f"rigs[{name}].shaking")
     return found

@@ -9,6 +9,7 @@ import xarray as xr
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine.observers import phases as layout
+from vibroimpact.response.assembly_contacts import assembly_totals, has_assembly
 from vibroimpact.response.motion_phases import SIDES, Phases, Recorded, any_recorded, phases
 
 
@@ -33,11 +34,20 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
         moves into it, the energies include this impact, although the first sample lies after it. In
         that case a note reports the impact.
 
+        Of an assembly, the extremes have the dim ``mass``, and the drift u_right − u_left the dim
+        ``link``. ``peak_force`` (infinite if a rigid stop is hit), ``impact_count`` and ``impulse``
+        have the dim ``stop``. ``total_links`` and ``total_stops`` are the energies lost in each
+        link and stop, ``total_damping`` those lost in damping that is not of a link, and
+        ``total_stored`` is the growth of the kinetic and potential energy. ``total_supplied`` is
+        the sum of these four.
+
     Raises
     ------
     InputError
         If the dataset does not hold a motion with samples.
     """
+    if has_assembly(motion):
+        return assembly_totals(motion)
     origin = any_recorded(motion)
     every = phases(motion, origin)
     supplied, isolator, bumpers = energies(origin, every)

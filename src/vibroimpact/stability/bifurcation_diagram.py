@@ -23,22 +23,25 @@ from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
     excitation_parameters,
-    oscillator_parameters,
 )
 from vibroimpact.datasets.stops import stop_names, stops_of
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Rig, State
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model import Assembly, Oscillator, Rig, State
 from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, share, whole
 from vibroimpact.model.periodic_shaking import as_periodic
-from vibroimpact.model.read_rig import AnyRig, as_rig, from_lowest, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest, in_units_of_rig
+from vibroimpact.model.rig import System
 from vibroimpact.model.varied import Ranges, read_ranges
-from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
+from vibroimpact.response.assembly_rig import check_size
+from vibroimpact.response.engine_input import components, engine_rig
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sections import section_variables
 from vibroimpact.response.sweep_dataset import sized, sizes
+from vibroimpact.stability.assembly_diagram import assembly_diagram
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
 from vibroimpact.tasks.executors import THREADS, placed
@@ -144,16 +147,32 @@ def bifurcation_diagram(
         as in `sweep`; the ``outputs`` have their names. ``section`` is the final state of each
         motion. You can pass it to `branch` as the start.
 
+        Of an assembly, the sizes have the dims ``mass`` and ``stop`` as in `sweep`, and
+        ``section_displacement``, ``section_velocity`` and ``section_deformation`` have the last dim
+        ``mass`` or ``stop``.
+
     Raises
     ------
     InputError
         If a value is invalid.
     """
     check_progress(progress)
-    rig = as_rig(rig, frequency)
+    rig = as_rig_of_any_masses(rig, frequency=frequency)
+    system = rig.system
+    if isinstance(system, Assembly):
+        check_size(system)
+        if section != "stroboscopic":
+            raise InputError(
+                f"section: {shown(section)}; for an Assembly, only 'stroboscopic' is accepted"
+            )
+        if outputs is not None:
+            raise InputError(
+                "outputs: own outputs are not computed for an Assembly of several masses so far; "
+                "remove outputs"
+            )
     (along,) = read_ranges(vary, rig)
     rig, varied, ends = from_lowest(rig, along), along.parameter, along.ends
-    oscillator, excitation = rig.oscillator, as_periodic(rig.harmonic, "shaking")[0]
+    excitation = as_periodic(rig.harmonic, "shaking")[0]
     log = check_flag(log, "log")
     if log and ends[0] <= 0.0:
         raise InputError(
@@ -175,8 +194,8 @@ def bifurcation_diagram(
     )
     random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
     workers = placed(threads, where)
-    own = read_outputs(outputs, rig)
-    ways = _ways(directions, starts, random, oscillator)
+    own = () if outputs is None else read_outputs(outputs, rig)
+    ways = _ways(directions, starts, random, system)
     every = rigs_along(varied, rig, values)
     vectors = [engine_rig(one) for one in every]
     for entry in (batch.sweep, lyapunov.growth, lyapunov.monodromy):
@@ -213,26 +232,26 @@ def bifurcation_diagram(
         states = random_states(met, every, random, seed)
         drawn = {f"random {i}": state for i, state in enumerate(states, start=1)}
         found |= done(_parts(drawn, count), count * len(ways))
-    data = _dataset(oscillator, varied.name, values, found, section, excitation.phase)
+    about_motions = {
+        "assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump(),
+        **excitation_parameters(excitation),
+        "parameter": varied.name,
+        "low": ends[0],
+        "high": ends[1],
+        "seed": seed,
+        **settling._asdict(),
+        **look._asdict(),
+        **about(own),
+    }
+    if isinstance(system, Assembly):
+        data, notes = assembly_diagram(system, varied.name, values, found, excitation.phase)
+        data.attrs["parameter"] = varied.name
+        return describe(data, CREATED_BY, about_motions, notes, varied=[varied])
+    data = _dataset(system, varied.name, values, found, section, excitation.phase)
     numbers = [one.outputs for some in found.values() for one in some]
     add_outputs(data, own, np.reshape(numbers, (*data["period"].shape, len(own))))
     data.attrs["parameter"] = varied.name
-    return describe(
-        data,
-        CREATED_BY,
-        {
-            "oscillator": oscillator_parameters(oscillator),
-            **excitation_parameters(excitation),
-            "parameter": varied.name,
-            "low": ends[0],
-            "high": ends[1],
-            "seed": seed,
-            **settling._asdict(),
-            **look._asdict(),
-            **about(own),
-        },
-        varied=[varied, *own],
-    )
+    return describe(data, CREATED_BY, about_motions, varied=[varied, *own])
 
 
 class _Part(NamedTuple):
@@ -246,7 +265,7 @@ class _Part(NamedTuple):
 
 
 def _ways(
-    directions: Sequence[str], starts: Mapping[str, Any] | None, random: int, rig: Oscillator
+    directions: Sequence[str], starts: Mapping[str, Any] | None, random: int, system: System
 ) -> dict[str, _Array | None]:
     """Return the initial states: None for directions, in which motions are continued."""
     given = (directions,) if isinstance(directions, str) else check_list(directions, "directions")
@@ -261,8 +280,9 @@ def _ways(
             "directions: neither a direction nor a start is given; pass at least one direction, "
             "such as 'up', or a start"
         )
+    states = SectionStates(system)
     ways: dict[str, _Array | None] = dict.fromkeys(given)
-    return ways | {str(name): engine_state(rig, as_state(one)) for name, one in named.items()}
+    return ways | {str(name): states.vector_of(states.read(one)) for name, one in named.items()}
 
 
 def _parts(ways: Mapping[str, _Array | None], count: int) -> list[_Part]:
@@ -311,7 +331,7 @@ def _dataset(
             for key, value in scalars.items()
         },
         **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
-        **_points(oscillator, padded.reshape(*shape, most, -1), (*dims, "section_point")),
+        **_points(oscillator, padded.reshape(*shape, *padded.shape[1:]), (*dims, "section_point")),
         "section": ((*dims, "component"), states.reshape(*shape, -1)),
     }
     coordinates = {

@@ -9,7 +9,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import lyapunov
 from vibroimpact.stability.motion_type import LONGEST, averages, settling
 
 _Array = NDArray[np.float64]
@@ -19,9 +18,6 @@ GROUPS = 65_536
 STRETCH = 2 * LONGEST
 """Cycles of a stretch of the section."""
 
-_LOGARITHMS = lyapunov.SECTION
-"""Columns that are summed: logarithms of the growth, and the damping."""
-
 
 class Averaged:
     """What is kept of the rows of `engine.lyapunov.growth`.
@@ -30,23 +26,28 @@ class Averaged:
     ----------
     cycles
         How many rows there will be, at most.
+    parts
+        Parts of a state, with which a row ends.
+    count
+        Exponents, with whose logarithms a row begins; the damping is between them and the state.
     """
 
-    def __init__(self, cycles: int) -> None:
+    def __init__(self, cycles: int, parts: int = 5, count: int = 2) -> None:
         self.done = 0
+        self._summed = count + 1
         self._group = -(-cycles // GROUPS)
-        self._sums = np.empty((-(-cycles // self._group), _LOGARITHMS))
-        self._waiting = np.empty((0, _LOGARITHMS))
+        self._sums = np.empty((-(-cycles // self._group), self._summed))
+        self._waiting = np.empty((0, self._summed))
         self._apart = max(STRETCH, -(-cycles * STRETCH // GROUPS))
         """Cycles from the beginning of a stretch to that of the next."""
-        self._section = np.empty((min(cycles, GROUPS), lyapunov.GROWTH - _LOGARITHMS))
+        self._section = np.empty((min(cycles, GROUPS), parts))
         self._kept = 0
         self._last = self._section[:0]
 
     def add(self, rows: _Array) -> None:
         """Take the rows that follow."""
-        self._add_sums(rows[:, :_LOGARITHMS])
-        section = rows[:, _LOGARITHMS:]
+        self._add_sums(rows[:, : self._summed])
+        section = rows[:, self._summed :]
         cycle = np.arange(self.done, self.done + len(rows))
         chosen = section[cycle % self._apart < STRETCH][: len(self._section) - self._kept]
         self._section[self._kept : self._kept + len(chosen)] = chosen
@@ -58,18 +59,18 @@ class Averaged:
         """Sum complete groups, so that it does not matter how many rows come at once."""
         held = np.concatenate([self._waiting, rows])
         count = len(held) // self._group
-        whole = held[: count * self._group].reshape(count, self._group, _LOGARITHMS)
+        whole = held[: count * self._group].reshape(count, self._group, self._summed)
         begin = self.done // self._group
         self._sums[begin : begin + count] = whole.sum(axis=1)
         self._waiting = held[count * self._group :]
 
     def exponents(self) -> tuple[_Array, _Array]:
-        """Both exponents per cycle, and their standard uncertainties."""
-        return averages(self._used()[:, : lyapunov.DISSIPATION], self._group, self.done)
+        """Exponents per cycle, and their standard uncertainties."""
+        return averages(self._used()[:, :-1], self._group, self.done)
 
     def damping(self) -> float:
         """The damping per unit mass, integrated over a cycle, on average."""
-        return float(self._used()[:, lyapunov.DISSIPATION].sum() / self.done)
+        return float(self._used()[:, -1].sum() / self.done)
 
     def is_settling(self, size: _Array) -> bool:
         """Whether the motion still comes closer to a periodic one; `size`: units of its points."""

@@ -65,6 +65,8 @@ def branch(
         - of the stop on one side: "right.gap", "left.gap", "right.stiffness" and so on;
         - of the isolator: "isolator.stiffness", "isolator.damping" or any other number of
           its law, such as "isolator.yield_force";
+        - of an assembly: numbers of its parts, such as "masses.roof", "links.storey.stiffness",
+          "stops.moat.gap" or "forces.roof"; "gap" and "stops.stiffness" are those of all stops;
         - the stiffness of the bumpers at a fixed C_j/K_j: "proportional_stiffness" or
           "stiffness_ratio" (λ);
         - the stiffness of the bumpers at a fixed coefficient of restitution:
@@ -97,8 +99,7 @@ def branch(
           the largest first), and ``stable``;
         - ``section``, the state of the orbit at the stroboscopic section.
 
-        Of an assembly, the sizes have the dims ``mass`` and ``stop`` as in `sweep`. The parameter
-        is "frequency" or "amplitude".
+        Of an assembly, the sizes have the dims ``mass`` and ``stop`` as in `sweep`.
 
         The dim ``bifurcation`` counts the bifurcations, with the kind, the parameter, the state and
         the multipliers of each. The attributes ``ended_low`` and ``ended_high`` state why the

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import xarray as xr
@@ -13,12 +13,14 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import STARTS, check_mapping, check_progress
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Repeated, State, Stop, equilibrium
+from vibroimpact.model import Assembly, AssemblyState, Repeated, State, Stop
 from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, whole
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import as_state, state_from
+from vibroimpact.response.assembly_rig import check_size
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sweep_starts import arrivals
+from vibroimpact.stability.assembly_diagram import place_assembly
 from vibroimpact.stability.equivalence import image_of, mirrors, same
 from vibroimpact.stability.settle import (
     Settled,
@@ -31,6 +33,7 @@ from vibroimpact.stability.steady import describe_motion, read_lengths, steady
 from vibroimpact.tasks.threads import Progress, counted
 
 _RANDOM_SIZE = 1.5
+_Start: TypeAlias = State | AssemblyState | NDArray[np.float64]
 
 
 class _Kept(NamedTuple):
@@ -103,12 +106,17 @@ def coexisting_motions(
         history of the first motion in a result ``found``, call
         ``steady(rig, start=found.isel(attractor=0))``.
 
+        Of an assembly, sizes have the dims ``mass`` and ``stop``. The order is that of the largest
+        excursion of all masses.
+
     Raises
     ------
     InputError
         If a value is invalid.
     """
-    rig = as_rig(rig, frequency)
+    rig = as_rig_of_any_masses(rig, frequency=frequency)
+    if isinstance(rig.system, Assembly):
+        check_size(rig.system)
     motions = find_motions(
         rig,
         frequencies=frequencies,
@@ -122,9 +130,11 @@ def coexisting_motions(
         max_events=max_events,
         progress=progress,
     )
-    data = xr.concat(
-        [_without_history(one) for one in motions], "attractor", combine_attrs="drop_conflicts"
-    )
+    bare = [_without_history(one) for one in motions]
+    most = max(one.sizes["exponent"] for one in bare)
+    # Of an assembly, more exponents are known of a periodic motion.
+    bare = [one.pad(exponent=(0, most - one.sizes["exponent"])) for one in bare]
+    data = xr.concat(bare, "attractor", combine_attrs="drop_conflicts")
     data = data.assign_coords(attractor=np.arange(len(motions)))
     return describe(data, "vibroimpact.coexisting_motions")
 
@@ -134,7 +144,7 @@ def _without_history(motion: xr.Dataset) -> xr.Dataset:
     kept = [
         name
         for name, one in motion.items()
-        if set(one.dims) <= {"component", "exponent", "stop"} and name != "initial_state"
+        if set(one.dims) <= {"component", "exponent", "mass", "stop"} and name != "initial_state"
     ]
     words = {name: motion.attrs[name] for name in ("evidence", "starts", "mirrored_starts")}
     bare = motion[kept].assign(words)
@@ -161,18 +171,19 @@ def find_motions(
     The attributes ``starts`` and ``mirrored_starts`` of each name the initial states that led to it
     and to its mirror image. Parameters and errors are those of `coexisting_motions`.
     """
-    oscillator, excitation = rig.oscillator, rig.harmonic
+    system, excitation = rig.system, rig.harmonic
+    states = SectionStates(system)
     random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
     samples, window, exponent_cycles = read_lengths(samples, window, exponent_cycles)
     max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     kept: list[_Kept] = []
-    given_up: dict[Status, tuple[State | NDArray[np.float64], list[str]]] = {}
+    given_up: dict[Status, tuple[_Start, list[str]]] = {}
     options = (samples, window, exponent_cycles, max_events)
     check_progress(progress)
     followed = counted(progress) or (lambda _: None)
 
-    def go(name: str, start: State | NDArray[np.float64]) -> None:
+    def go(name: str, start: _Start) -> None:
         found = approach(rig, start, max_cycles=max_cycles, max_events=max_events)
         if found.status in (Status.DONE, Status.NOT_SETTLED):
             found = _at_phase(found, excitation, max_events)
@@ -182,32 +193,30 @@ def find_motions(
             given_up.setdefault(found.status, (start, []))[1].append(name)
         followed(name)
 
-    go("rest", equilibrium(oscillator).replace(phase=excitation.phase))
+    go("rest", states.read(None).replace(phase=excitation.phase))
     for name, start in arrivals(rig, frequencies, max_cycles, max_events).items():
         go(name, start)
     for name, state in named.items():
-        go(name, as_state(state))
+        go(name, states.read(state))
     size = max((reach(one.found, one.found.state) for one in kept), default=0.0)
     size = size or reach_at_rest(rig)
     generator = np.random.default_rng(seed)
     for number in range(random):
-        u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
-        u = min(max(u, -_wall(oscillator.left)), _wall(oscillator.right))
-        state = State(u, v * excitation.angular_frequency, phase=excitation.phase)
-        go(f"random {number + 1}", state)
-    if oscillator.symmetric and excitation.half_wave:
+        drawn = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2 * states.masses) * size
+        go(f"random {number + 1}", _placed(rig, drawn))
+    if kept and kept[0].found.symmetric:
         for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
                 image = image_of(one.found, max_events)
                 if image is not None:
                     go("mirror image", image.state)
-    kept.sort(key=lambda one: -float(one.motion["displacement_excursion"]))
+    kept.sort(key=lambda one: -float(one.motion["displacement_excursion"].max()))
     motions = [_labelled(one, max_events) for one in kept]
     for given, names in given_up.values():
         # Told with a warning, and once.
         motion = steady(
-            Rig(oscillator, excitation),
-            given if isinstance(given, State) else state_from(given, excitation.phase),
+            Rig(system, excitation),
+            states.state(given, excitation.phase) if isinstance(given, np.ndarray) else given,
             samples,
             window=window,
             max_cycles=max_cycles,
@@ -216,6 +225,19 @@ def find_motions(
         motion.attrs |= {"starts": ", ".join(names), "mirrored_starts": ""}
         motions.append(describe(motion, "vibroimpact.coexisting_motions"))
     return motions
+
+
+def _placed(rig: Rig, drawn: NDArray[np.float64]) -> _Start:
+    """Return a start of drawn displacements, and of velocities divided by ω."""
+    system, excitation = rig.system, rig.periodic
+    n = len(drawn) // 2
+    u, v = drawn[:n], drawn[n:] * excitation.angular_frequency
+    if isinstance(system, Assembly):
+        states = SectionStates(system)
+        parts = np.concatenate([u, v, np.zeros(states.stops)])
+        return place_assembly(rig, states.vector(parts, 0.0))
+    at = min(max(float(u[0]), -_wall(system.left)), _wall(system.right))
+    return State(at, float(v[0]), phase=excitation.phase)
 
 
 def _wall(stop: Stop | None) -> float:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
+from vibroimpact.model import Oscillator
 from vibroimpact.response.engine_input import state_from
 from vibroimpact.response.outputs import NamedOutput, computed
 from vibroimpact.stability.exponents import DISCARD
@@ -62,6 +63,8 @@ def look_at(held: Held, look: Look, outputs: tuple[NamedOutput, ...] = ()) -> Se
     seen = _looked_at(held, look)
     if seen.status not in (Status.DONE, Status.NOT_SETTLED):
         return seen._replace(outputs=(math.nan,) * len(outputs))
+    if not outputs:
+        return seen
     found = seen.held.found
     start = state_from(found.state, found.excitation.phase)
     cycles = seen.kind.period or look.points
@@ -72,7 +75,7 @@ def _looked_at(held: Held, look: Look) -> Seen:
     found = held.found
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
         return _nothing(held, look, found.status)
-    rows = np.empty((0, lyapunov.GROWTH))
+    rows = np.empty((0, lyapunov.SECTION + found.states.parts))
     if not found.period:
         kind, rows, status = _wandering(found, look)
         if kind.returns and (orbit := approached(found, kind.returns)) is not None:
@@ -88,7 +91,9 @@ def _looked_at(held: Held, look: Look) -> Seen:
     else:
         if not len(rows):
             status, rows = _followed(found, cycles, look.max_events)
-        points = rows[:cycles, lyapunov.SECTION :][:, : len(POINT["stroboscopic"])]
+        points = rows[:cycles, lyapunov.SECTION :]
+        if isinstance(found.states.system, Oscillator):
+            points = points[:, : len(POINT["stroboscopic"])]
     if status is not Status.DONE:
         return _nothing(held, look, status)
     named = Status.NOT_SETTLED if kind.motion == "undecided" else Status.DONE
@@ -99,8 +104,12 @@ def _wandering(found: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
     """As `growth.judge_wandering`, with what it has seen of the section."""
     cycles = max(look.exponent_cycles, look.points)
     status, rows = _followed(found, cycles, look.max_events, DISCARD)
-    size = np.array([1.0, found.excitation.angular_frequency, 1.0, 1.0, 1.0])
-    lost = rows[:, lyapunov.DISSIPATION]
+    states = found.states
+    size = np.ones(states.parts)
+    size[states.velocities()] = found.excitation.angular_frequency
+    # That no motion is quasi-periodic where bumpers forget holds for one mass alone.
+    one_mass = isinstance(states.system, Oscillator)
+    lost = rows[:, lyapunov.DISSIPATION] if one_mass else None
     kind = judge(rows[:, : lyapunov.DISSIPATION], rows[:, lyapunov.SECTION :] / size, lost)
     return kind, rows, status
 
@@ -142,4 +151,6 @@ def _nothing(held: Held, look: Look, status: Status) -> Seen:
     """Of a motion that was given up."""
     empty = np.full(2, np.nan)
     kind = Judgement("undecided", 0, empty, empty, status.advice)
-    return Seen(held, kind, np.empty((0, len(POINT[look.section]))), status)
+    states = held.found.states
+    width = len(POINT[look.section]) if isinstance(states.system, Oscillator) else states.parts
+    return Seen(held, kind, np.empty((0, width)), status)

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
-from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.settle import Settled, apart, later, reach
 
@@ -21,9 +20,10 @@ _SEEN = 5000
 
 
 def image_of(found: Settled, max_events: int) -> Settled | None:
-    """The mirror image, half a cycle later; None if a limit is met on the way."""
+    """The mirror image, half a cycle later; None if there is none, or a limit is met on the way."""
     status, state = later(found, found.state, 0.5, max_events)
-    return found._replace(state=mirror_image(state)) if status is Status.DONE else None
+    image = found.states.mirror_image(state) if status is Status.DONE else None
+    return None if image is None else found._replace(state=image)
 
 
 def mirrors(one: Settled, other: Settled, max_events: int) -> bool:

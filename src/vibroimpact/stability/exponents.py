@@ -16,15 +16,16 @@ from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
-from vibroimpact.model import Rig, State, to_si
+from vibroimpact.model import Assembly, AssemblyState, Oscillator, Rig, State, to_si
 from vibroimpact.model.count_checks import check_max_events, whole
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.varied import Values, Varied, read_values, vary_all
 from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.engine_input import as_state
+from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sweep import check_frequencies, periodic_rigs
 from vibroimpact.stability.block_averages import Averaged
 from vibroimpact.tasks.executors import THREADS, placed
@@ -53,13 +54,14 @@ def lyapunov_exponents(
     transient: int = 500,
     start: State | xr.DataArray | xr.Dataset | None = None,
     vary: Values | None = None,
+    count: int | None = None,
     phase: float | str = 0.0,
     max_events: int = 10_000,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Compute the two largest Lyapunov exponents of many motions in parallel.
+    """Compute the largest Lyapunov exponents of many motions in parallel.
 
     Small disturbances are propagated exactly: in closed form between events, and by saltation
     matrices at contacts and detachments (docs/theory.md, section 6). The computation does not wait
@@ -71,7 +73,7 @@ def lyapunov_exponents(
     rigs
         One or several rigs. Each is a `Rig`, a published case or its code such as ``"B2-G1-A3"``,
         or the path of a study file. If they are passed as a mapping, its keys are the names of the
-        rigs.
+        rigs. A `Rig` may have an `Assembly`.
     frequencies
         Rising forcing frequencies, in Hz.
     cycles
@@ -85,6 +87,9 @@ def lyapunov_exponents(
         Parameters that are varied, as a mapping from names to values, such as
         ``{"gap": [5e-3, 6e-3]}``. The names are those of `branch`. All combinations of the values
         are computed.
+    count
+        Number of exponents, at most two for each mass. Default: two for each mass, which are those
+        of its displacement and velocity.
     phase
         Phase φ of the base acceleration A sin(ωt + φ) at the start, in rad.
     max_events
@@ -107,7 +112,7 @@ def lyapunov_exponents(
         The dims are ``rig``, ``frequency``, one dim for each parameter that is varied, and
         ``exponent`` (the largest exponent first). The variables are:
 
-        - ``exponents``, in 1/s;
+        - ``exponents``, in 1/s. If the rigs have different numbers of masses, NaN fills the rest;
         - ``exponents_uncertainty``, the uncertainty of the mean, estimated from 32 blocks of
           cycles. It is infinite if there are fewer than 32 cycles;
         - ``effective_damping``, the mean damping per unit mass, in 1/s;
@@ -121,50 +126,58 @@ def lyapunov_exponents(
         If a value is invalid.
     """
     check_progress(progress)
-    named = periodic_rigs(rigs)
+    named = periodic_rigs(rigs, any_masses=True)
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     angle = to_si(phase, ANGLE, "phase")
-    state = None if start is None else as_state(start)
-    if state is not None and state.phase is not None:
-        angle = state.phase
+    starts = [_start(rig, start) for rig in pairs]
+    for one in starts:
+        if one is not None and one.phase is not None:
+            angle = one.phase
     cycles, transient = whole(cycles, "cycles"), whole(transient, "transient", 0)
     max_events = check_max_events(max_events)
     workers = placed(threads, where)
-    first = pairs[0].oscillator
-    every = read_values(vary, first, but=("frequency",), why="is set by the argument frequencies")
+    counts = [2 * SectionStates(rig.system).masses for rig in pairs]
+    if count is not None:
+        asked = whole(count, "count", most=max(counts))
+        counts = [min(asked, one) for one in counts]
+    every = read_values(
+        vary, pairs[0], but=("frequency",), why="is set by the argument frequencies"
+    )
     shape = (len(pairs), len(grid), *(len(one.values) for one in every))
     items = [
-        _rig_at(pairs[r], grid, i, angle, zip(every, at, strict=True))
+        (r, prepare(_rig_at(pairs[r], grid, i, angle, zip(every, at, strict=True))))
         for r, i, *at in np.ndindex(shape)
     ]
-    engines = [prepare(item) for item in items]
 
     steps = transient + DISCARD + cycles
 
-    def follow(engine: PreparedRig, tally: Tally) -> _Grown:
-        here = engine.shaking
+    def follow(item: tuple[int, PreparedRig], tally: Tally) -> _Grown:
+        r, engine = item
+        here, states = engine.shaking, engine.states
         frequency = here.frequency
-        kept = Averaged(cycles)
+        kept = Averaged(cycles, states.parts, counts[r])
 
-        def count(done: int, _: int | None) -> None:
+        def told(done: int, _: int | None) -> None:
             tally[DONE] = done
 
         status = engine.grow(
-            engine.state(state),
+            engine.state(starts[r]),
             cycles,
             kept.add,
             max_events,
             transient=transient,
             discard=DISCARD,
-            progress=count,
+            count=counts[r],
+            progress=told,
         )
         tally[DONE] = steps
         if not kept.done:
-            nothing = np.full(2, np.nan)
+            nothing = np.full(counts[r], np.nan)
             return _Grown(nothing, nothing, math.nan, 0, status, False)
         mean, spread = kept.exponents()
-        size = np.array([1.0, here.angular_frequency, 1.0, 1.0, 1.0])
+        size = np.ones(states.parts)
+        size[states.velocities()] = here.angular_frequency
         return _Grown(
             mean * frequency,
             spread * frequency,
@@ -175,24 +188,29 @@ def lyapunov_exponents(
         )
 
     lyapunov.growth.prepare(
-        *(engine.vector for engine in engines)
+        *(engine.vector for _, engine in items)
     )  # once, before threads would queue
     found = each(
         follow,
-        engines,
+        items,
         steps=steps * len(items),
         threads=workers,
         progress=progress,
     )
     dims = ("rig", "frequency", *(one.name for one in every))
+    most = max(counts)
+
+    def filled(values: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.append(values, np.full(most - len(values), np.nan))
+
     rates = {
-        "exponents": [f.exponents for f in found],
-        "exponents_uncertainty": [f.uncertainty for f in found],
+        "exponents": [filled(f.exponents) for f in found],
+        "exponents_uncertainty": [filled(f.uncertainty) for f in found],
     }
     data = xr.Dataset(
         {
             **{
-                name: ((*dims, "exponent"), np.reshape(values, (*shape, 2)))
+                name: ((*dims, "exponent"), np.reshape(values, (*shape, most)))
                 for name, values in rates.items()
             },
             "effective_damping": (dims, np.reshape([f.damping for f in found], shape)),
@@ -222,6 +240,13 @@ def lyapunov_exponents(
     return data
 
 
+def _start(rig: Rig, start: Any) -> State | AssemblyState | None:
+    """Return the initial state of a rig; None for its rest."""
+    if isinstance(rig.system, Assembly):
+        check_size(rig.system)
+    return None if start is None else SectionStates(rig.system).read(start)
+
+
 def _rig_at(
     rig: Rig,
     grid: NDArray[np.float64],
@@ -233,6 +258,7 @@ def _rig_at(
     numbers = [(parameter(one.name, rig), float(one.values[k])) for one, k in values]
     size = float(rig.levels(len(grid))[i])
     here = rig.hardest.periodic.replace(amplitude=size, frequency=float(grid[i]), phase=phase)
-    moved = vary_all(Rig(rig.oscillator, here), numbers)
-    check_bounded(moved, f"frequencies[{i}]")
+    moved = vary_all(Rig(rig.system, here), numbers)
+    if isinstance(moved.system, Oscillator):
+        check_bounded(moved, f"frequencies[{i}]")
     return moved

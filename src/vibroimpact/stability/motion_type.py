@@ -71,7 +71,7 @@ def averages(
 
     Parameters
     ----------
-    logarithms : ndarray, shape (group, 2)
+    logarithms : ndarray, shape (group, exponent)
         Of each cycle, or their sums over groups of cycles that follow each other.
     group
         Cycles of a group.
@@ -80,15 +80,15 @@ def averages(
 
     Returns
     -------
-    mean, uncertainty : ndarray, shape (2,)
+    mean, uncertainty : ndarray, shape (exponent,)
         The uncertainty is infinite with fewer groups than `BLOCKS`.
     """
     count = len(logarithms)
     cycles = count * group if cycles is None else cycles
-    mean = logarithms.sum(axis=0) / cycles if count else np.full(2, np.nan)
+    mean = logarithms.sum(axis=0) / cycles if count else np.full(logarithms.shape[1], np.nan)
     size = count // BLOCKS
     if not size:
-        return mean, np.full(2, np.inf)
+        return mean, np.full(len(mean), np.inf)
     lengths = np.full((count, 1), float(group))
     lengths[-1] -= count * group - cycles
     sums, long = (

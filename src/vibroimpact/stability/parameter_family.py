@@ -50,6 +50,8 @@ class Family(NamedTuple):
     """The engine's system vector is base + p · direction, here at least."""
     straight: bool = True
     """Whether it is so at any p."""
+    uneven: bool = False
+    """Whether the parameter makes an assembly its own mirror image at one value only."""
 
     @property
     def oscillator(self) -> Oscillator:
@@ -140,11 +142,12 @@ class Family(NamedTuple):
     def system(self, value: float) -> _Array:
         """The engine's vector at a value of the parameter."""
         if not self.straight:
-            return system_vector(self.at(value))
+            return _numbers(self.at(value), self.uneven)
         vector = self.base.copy()
         moving = self.direction != 0.0
         vector[moving] += value * self.direction[moving]
         if self.of_several_masses:
+            _complete(vector)
             return vector
         for at in _BUMPERS:
             if vector[at + par.KIND] == par.KELVIN_VOIGT and vector[at + par.BUMPER_DAMPING] > 0.0:
@@ -183,14 +186,19 @@ def family(rig: Rig, name: str) -> Family:
     step = varied.beside(value) - value
     here = system_vector(rig)
     there = system_vector(varied.vary(rig, value + step))
-    if not isinstance(rig.system, Assembly):
+    uneven = False
+    if isinstance(rig.system, Assembly):
+        uneven = bool(here[layout.SYMMETRIC] != there[layout.SYMMETRIC])
+        for vector in (here, there):
+            _make_plain(vector, uneven)
+    else:
         # A rate follows from stiffness and damping, and is infinite without damping.
         here[RATES] = there[RATES] = np.inf
     same = here == there
     difference = np.subtract(there, here, out=np.zeros_like(here), where=~same)
     direction = difference / step
     base = np.subtract(here, value * direction, out=here.copy(), where=~same)
-    made = Family(varied, rig, value, base, direction)
+    made = Family(varied, rig, value, base, direction, uneven=uneven)
     return made._replace(straight=_straight(made, step))
 
 
@@ -203,6 +211,47 @@ def _straight(made: Family, step: float) -> bool:
 def _vector(made: Family, value: float) -> _Array:
     """The engine's vector; rates follow from stiffness and damping, and move along no line."""
     vector = system_vector(made.at(value))
-    if not made.of_several_masses:
+    if made.of_several_masses:
+        _make_plain(vector, made.uneven)
+    else:
         vector[RATES] = made.base[RATES]
     return vector
+
+
+def _numbers(rig: Rig, uneven: bool) -> _Array:
+    """Return the engine's vector, of an assembly that is its own mirror image by chance or not."""
+    vector = system_vector(rig)
+    if isinstance(rig.system, Assembly) and uneven:
+        _make_uneven(vector)
+    return vector
+
+
+def _make_plain(vector: _Array, uneven: bool) -> None:
+    """Take out of an assembly's vector what follows from the rest, and moves along no line."""
+    _of_stops(vector)[:, layout.RELAXATION] = np.inf
+    if uneven:
+        _make_uneven(vector)
+
+
+def _make_uneven(vector: _Array) -> None:
+    vector[layout.SYMMETRIC] = 0.0
+    _of_stops(vector)[:, layout.PARTNER] = -1.0
+
+
+def _of_stops(vector: _Array) -> _Array:
+    """Return the numbers of the stops of an assembly's vector, a row each, to be written to."""
+    first, count = int(vector[layout.STOP]), int(vector[layout.STOPS])
+    return vector[first : first + count * layout.STOP_WIDTH].reshape(count, layout.STOP_WIDTH)
+
+
+def _complete(vector: _Array) -> None:
+    """Put right what follows from the numbers of an assembly, as `flow.complete` does."""
+    n, stops = int(vector[layout.MASSES]), _of_stops(vector)
+    dashpot, spring = stops[:, layout.STOP_DAMPING], stops[:, layout.STOP_STIFFNESS]
+    rates = np.full(len(stops), np.inf)
+    stops[:, layout.RELAXATION] = np.divide(spring, dashpot, out=rates, where=dashpot > 0.0)
+    sums = int(vector[layout.ROW_SUMS])
+    for i, block in enumerate((layout.STIFFNESS, layout.DAMPING)):
+        first = int(vector[block])
+        rows = vector[first : first + n * n].reshape(n, n)
+        vector[sums + i * n : sums + (i + 1) * n] = np.abs(rows).sum(axis=1)

@@ -16,7 +16,7 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import State, equilibrium
+from vibroimpact.model import Assembly, Oscillator, State
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.varied import field_of
@@ -25,6 +25,7 @@ from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.response.softening_limit import judged
+from vibroimpact.stability.assembly_diagram import place_assembly, random_assembly_states
 from vibroimpact.stability.settle import Settled, reach_at_rest
 from vibroimpact.tasks.threads import Stopped, Tally
 
@@ -52,7 +53,8 @@ def rigs_along(varied: Parameter, rig: Rig, values: Iterable[float]) -> list[Rig
     varied.read(rig)  # refuses what the rig does not have
     found = [varied.vary(rig, float(value)) for value in values]
     for one in found:
-        check_bounded(one)
+        if isinstance(one.system, Oscillator):
+            check_bounded(one)
         shaken = one.periodic
         if not (shaken.amplitude > 0.0 and shaken.frequency > 0.0):
             field = field_of(varied.name)
@@ -93,10 +95,10 @@ def stepped(
         going_on = carry and before is not None and before.found.status in _SOUND
         if going_on and before is not None:
             state = before.found.state
-            if rig.oscillator != before.found.rig.oscillator:
+            if rig.system != before.found.rig.system:
                 state = placed(rig, state)
         elif start is None:
-            state = engine_state(rig.oscillator, equilibrium(rig.oscillator))
+            state = prepare(rig).state()
         else:
             state = placed(rig, start)
         before = _held(rig, state, settling)
@@ -107,13 +109,17 @@ def stepped(
 def _held(rig: Rig, state: _Array, settling: Settling) -> Held:
     engine = prepare(rig)
     row, reached = engine.dwell(state, settling)
-    status = Status(int(judged(rig.oscillator, row.status, row.peak_displacement)))
+    status = Status(int(row.status))
+    if isinstance(rig.system, Oscillator):
+        status = Status(int(judged(rig.system, row.status, row.peak_displacement)))
     found = Settled(engine, reached, int(row.period), int(row.cycles), status)
     return Held(found, row)
 
 
 def placed(rig: Rig, state: _Array) -> _Array:
     """The nearest state that a rig can have: no mass inside a stop, no memory beyond its bounds."""
+    if isinstance(rig.system, Assembly):
+        return place_assembly(rig, state)
     oscillator = rig.oscillator
     u, v = float(state[layout.U]), float(state[layout.V])
     if oscillator.right is not None and oscillator.right.rigid:
@@ -139,6 +145,8 @@ def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: i
     Vectors of the engine. Where there is neither, they are as large as the mass is moved by what
     shakes it slowly.
     """
+    if isinstance(every[0].system, Assembly):
+        return random_assembly_states(met, every, count, seed)
     sizes = [float(one.measured.peak_displacement) for one in met if one.found.status in _SOUND]
     gaps = [stop.gap for rig in every for stop in rig.oscillator.stops]
     size = max([0.0, *sizes, *gaps]) or max(reach_at_rest(one) for one in every)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, AssemblyState, Oscillator, Repeated, State
 from vibroimpact.model.count_checks import share
@@ -58,7 +59,12 @@ class Settled(NamedTuple):
     @property
     def symmetric(self) -> bool:
         """Whether its mirror image, half a cycle later, is a motion as well."""
-        return self.oscillator.symmetric and self.excitation.half_wave
+        system = self.rig.system
+        if isinstance(system, Assembly):
+            alike = self.engine.vector[layout.SYMMETRIC] == 1.0
+        else:
+            alike = system.symmetric
+        return bool(alike and self.excitation.half_wave)
 
 
 def approach(

@@ -15,7 +15,7 @@ from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, noted
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
-from vibroimpact.model import Assembly, State
+from vibroimpact.model import Assembly, AssemblyState, State
 from vibroimpact.model.count_checks import check_max_events, check_samples, whole
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.response.analytic_free_response import exciting_excursion
@@ -63,7 +63,7 @@ MOST_CYCLES = 5_000_000
 
 def steady(
     rig: AnyRig,
-    start: State | xr.DataArray | xr.Dataset | None = None,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None = None,
     samples: int = 256,
     *,
     frequency: float | str | None = None,

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import origin
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Oscillator, Rig
+from vibroimpact.model import Assembly, Oscillator, Rig
 from vibroimpact.model.count_checks import whole
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.threads import Progress, each
@@ -37,7 +37,7 @@ _GROWS = 8
 
 
 def ensemble(
-    rig: AnyRig | Oscillator,
+    rig: AnyRig | Oscillator | Assembly,
     distributions: Mapping[str, Distribution | str],
     response: Response,
     draws: int = 128,
@@ -61,7 +61,7 @@ def ensemble(
     rig
         The rig with the nominal values: a `Rig`, a published case or its code such as
         ``"B2-G1-A3"``, or the path of a study file. For a response to records, it may be an
-        `Oscillator` alone.
+        `Oscillator` or an `Assembly` alone.
     distributions
         Distributions of the uncertain parameters, as a mapping from names to distributions. The
         names are those of `branch`. A distribution is a frozen distribution of ``scipy.stats`` in

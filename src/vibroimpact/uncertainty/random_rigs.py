@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from vibroimpact.arguments import check_name
-from vibroimpact.datasets.description import oscillator_parameters, rig_parameters
+from vibroimpact.datasets.description import rig_parameters
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Repeated
+from vibroimpact.model import Assembly, Oscillator, Repeated
 from vibroimpact.model.count_checks import MOST_DRAWS, whole
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, in_units_of_rig, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.varied import vary_all
 from vibroimpact.uncertainty.distributions import (
@@ -63,11 +63,6 @@ class Uncertain(NamedTuple):
         return np.column_stack(columns)
 
     @property
-    def oscillator(self) -> Oscillator:
-        """What vibrates."""
-        return self.base.oscillator
-
-    @property
     def shaken(self) -> Repeated | None:
         """The shaking, unless it is open."""
         return None if self.base.shaking is None else self.base.periodic
@@ -107,14 +102,15 @@ class Uncertain(NamedTuple):
     def about(self) -> dict[str, Any]:
         """Return the attributes for a dataset."""
         if self.shaken is None:
-            rig = {"oscillator": oscillator_parameters(self.oscillator)}
+            name = "assembly" if isinstance(self.base.system, Assembly) else "oscillator"
+            rig = {name: self.base.system.model_dump()}
         else:
             rig = rig_parameters(self.base)
         return {**rig, "distributions": self.texts}
 
 
 @in_units_of_rig
-def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
+def uncertain(rig: AnyRig | Oscillator | Assembly, distributions: Any) -> Uncertain:
     """Read a rig and the distributions of its parameters.
 
     Raises
@@ -122,8 +118,8 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     InputError
         If a distribution is invalid, or the rig has no such parameter.
     """
-    alone = isinstance(rig, Oscillator)
-    base = as_rig(rig, oscillator_alone=True)
+    alone = isinstance(rig, Oscillator | Assembly)
+    base = one_system(rig)
     shaken = None if alone else base.periodic
     given = check_names(distributions)
     parameters, made = [], []

@@ -12,7 +12,7 @@ from scipy.stats import qmc
 
 from vibroimpact.arguments import check_name, check_progress
 from vibroimpact.datasets.description import describe
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.count_checks import MOST_DRAWS, MOST_RESAMPLES, whole
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.threads import Progress
@@ -29,7 +29,7 @@ _RESAMPLES = 100
 
 
 def sensitivity(
-    rig: AnyRig | Oscillator,
+    rig: AnyRig | Oscillator | Assembly,
     distributions: Mapping[str, Distribution | str],
     response: Response,
     quantity: str,
@@ -145,7 +145,7 @@ def _orders(found: _Array) -> tuple[_Array, _Array]:
 
 
 def peak_sensitivity(
-    rig: AnyRig | Oscillator,
+    rig: AnyRig | Oscillator | Assembly,
     distributions: Mapping[str, Distribution | str],
     response: Response,
     quantities: Sequence[str],

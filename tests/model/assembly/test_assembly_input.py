@@ -296,12 +296,12 @@ def test_a_rig_keeps_its_system():
 
 
 REFUSED = {
-    "sweeps": lambda rig: vi.sweeps([rig], [1.0]),
-    "basins": lambda rig: vi.basins(rig, (-1, 1), (-1, 1), frequency=1.0),
-    "lyapunov_exponents": lambda rig: vi.lyapunov_exponents(rig, [1.0]),
     "classify_scenario": vi.classify_scenario,
-    "demands": lambda rig: vi.demands(rig, vi.Record([0.0, 1.0, 0.0], 0.1)),
-    "required_gap": lambda rig: vi.required_gap(rig, frequency_span=(1.0, 2.0)),
+    "basin_stability": lambda rig: vi.basin_stability(rig, (-1, 1), (-1, 1)),
+    "manifolds": lambda rig: vi.manifolds(rig, None),
+    "bifurcation_curve": lambda rig: vi.bifurcation_curve(rig, None, vary={}),
+    "resonance_diagram": lambda rig: vi.resonance_diagram(rig, vary={"frequency": (1.0, 2.0)}),
+    "design_chart": lambda rig: vi.design_chart(rig, {"gap": [0.1, 0.2]}),
     "to_dimensionless": vi.to_dimensionless,
     "explore": vi.explore,
 }

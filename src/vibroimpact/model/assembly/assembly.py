@@ -31,8 +31,8 @@ from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import Accepts, Model, constructor
 from vibroimpact.model.written_units import NONE, SI, written_for
 
-_MASS = Accepts(MASS, above=0.0)
-_FORCE = Accepts(FORCE)
+_MASS = Accepts(MASS, above=0.0, meaning="mass")
+_FORCE = Accepts(FORCE, meaning="constant force")
 _ZERO = 1e-14
 """Squared natural frequency, relative to the largest one and per mode, that counts as 0."""
 _MATRIX_KEYS = ("names", "mass", "damping", "stiffness", "influence")
@@ -102,10 +102,10 @@ class Assembly(Model):
         "matrices": None,
     }
 
-    masses: FrozenMapping[float] = FrozenMapping()
+    masses: FrozenMapping[Annotated[float, _MASS]] = FrozenMapping()
     links: FrozenMapping[Link] = FrozenMapping()
     stops: FrozenMapping[Link] = FrozenMapping()
-    forces: FrozenMapping[float] = FrozenMapping()
+    forces: FrozenMapping[Annotated[float, _FORCE]] = FrozenMapping()
     damping: Annotated[AnyDamping | None, DAMPINGS] = None
     units: Units = "SI"
     matrices: Matrices | None = None

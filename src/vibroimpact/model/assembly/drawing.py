@@ -8,7 +8,7 @@ on its right body, and its gap is the distance from the stem of its left body.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from html import escape
 from typing import TYPE_CHECKING, Literal
@@ -64,13 +64,35 @@ class Drawing:
         self.lines.append(Line(kind, points, closed))
 
 
-def drawing(assembly: Assembly) -> Drawing:
-    """Return the drawing of an assembly."""
+@dataclass(frozen=True)
+class Moved:
+    """Where the parts of an assembly are at one instant of a motion."""
+
+    displacement: Mapping[str, float]
+    """Displacement of each mass (m)."""
+    deformation: Mapping[str, float]
+    """Deformation of each stop (m)."""
+    scale: float
+    """Points of the drawing per metre of displacements, deformations and gaps."""
+
+
+def drawing(assembly: Assembly, moved: Moved | None = None) -> Drawing:
+    """Return the drawing of an assembly: at rest, or at one instant of a motion.
+
+    Every point of the drawing is a linear function of the displacements and deformations.
+    """
     names = assembly.names
     parts = [*assembly.links.items(), *assembly.stops.items()]
-    column = max(_COLUMN, 8.0 * max(len(name) for name in names) + 40.0)
+    column = column_width(assembly)
     made = Drawing(column * (len(names) + 1), _BOX + 12.0 + _ROW * max(len(parts), 1) + 10.0)
     place = {name: column * (i + 1) for i, name in enumerate(names)}
+    scale = gap_scale(assembly)
+    rest, pressed = dict(place), dict.fromkeys(assembly.stops, 0.0)
+    if moved is not None:
+        scale = moved.scale
+        for name, by in moved.displacement.items():
+            place[name] += scale * by
+        pressed.update({name: scale * by for name, by in moved.deformation.items()})
     rows = {name: _BOX + 12.0 + _ROW * (i + 0.75) for i, (name, _) in enumerate(parts)}
     left, right = 10.0, made.width - 10.0
     sides = {
@@ -85,22 +107,35 @@ def drawing(assembly: Assembly) -> Drawing:
         if ends:
             made.line("stem", (x, _BOX), (x, max(ends)))
         _draw_mass(made, assembly, name, x, column)
-    gaps = [abs(stop.stop.gap) for stop in assembly.stops.values()]
-    scale = _LONGEST_GAP * column / (max(gaps, default=0.0) or 1.0)
     for name, link in parts:
         y = rows[name]
         x0 = left if link.left == GROUND else place[link.left]
         x1 = right if link.right == GROUND else place[link.right]
+        r0, r1 = rest.get(link.left, left), rest.get(link.right, right)
         if link.is_stop:
-            _draw_stop(made, name, link, (x0, x1, y), scale)
+            # The face of a stop moves with its right body, and a deformation brings it nearer.
+            length = abs(r1 - r0) - max(link.stop.gap, 0.0) * scale
+            face = x1 - math.copysign(1.0, r1 - r0) * (length - pressed[name])
+            _draw_stop(made, name, link, (x0, face, x1, y), length)
         else:
-            _draw_spring(made, "link", x0, x1, y)
+            _draw_spring(made, "link", x0, x1, y, abs(r1 - r0))
             made.words.append(Words(name, (0.5 * (x0 + x1), y - 11.0)))
-        low, high = sorted((x0, x1))
+        low, high = sorted((r0, r1))
         for other, x in place.items():
-            if low < x < high and other not in (link.left, link.right):
+            if low < rest[other] < high and other not in (link.left, link.right):
                 made.line("bridge", (x - 5.0, y), (x + 5.0, y))
     return made
+
+
+def column_width(assembly: Assembly) -> float:
+    """Return the distance between two bodies of a drawing, in points."""
+    return max(_COLUMN, 8.0 * max(len(name) for name in assembly.names) + 40.0)
+
+
+def gap_scale(assembly: Assembly) -> float:
+    """Return the scale of the gaps in a drawing at rest, in points per metre."""
+    gaps = [abs(stop.stop.gap) for stop in assembly.stops.values()]
+    return _LONGEST_GAP * column_width(assembly) / (max(gaps, default=0.0) or 1.0)
 
 
 def _draw_ground(made: Drawing, x: float, side: float) -> None:
@@ -119,10 +154,11 @@ def _draw_mass(made: Drawing, assembly: Assembly, name: str, x: float, column: f
     made.words.append(Words(f"{name}{mass}", (x, 0.5 * (2.0 + _BOX)), over_lines=False))
 
 
-def _draw_spring(made: Drawing, kind: Kind, x0: float, x1: float, y: float) -> None:
+def _draw_spring(made: Drawing, kind: Kind, x0: float, x1: float, y: float, length: float) -> None:
+    """Draw a spring, whose number of teeth depends on its length at rest."""
     lead = 0.15 * (x1 - x0)
     start, end = x0 + lead, x1 - lead
-    count = max(2 * _TEETH, 2 * round(abs(end - start) / 16.0))
+    count = max(2 * _TEETH, 2 * round(0.7 * length / 16.0))
     teeth = [
         (start + (end - start) * (i + 0.5) / count, y + (5.0 if i % 2 else -5.0))
         for i in range(count)
@@ -131,17 +167,20 @@ def _draw_spring(made: Drawing, kind: Kind, x0: float, x1: float, y: float) -> N
 
 
 def _draw_stop(
-    made: Drawing, name: str, link: Link, where: tuple[float, float, float], scale: float
+    made: Drawing,
+    name: str,
+    link: Link,
+    where: tuple[float, float, float, float],
+    length: float,
 ) -> None:
-    x0, x1, y = where
+    """Draw a stop from its face to its right body, and its gap, which begins at the left body."""
+    x0, face, x1, y = where
     gap = link.stop.gap
-    way = math.copysign(1.0, x1 - x0)
-    face = x0 + way * max(gap, 0.0) * scale
     made.line("stop", (face, y - 8.0), (face, y + 8.0))
     if isinstance(link.law, RigidStop):
         made.line("stop", (face, y - 3.0), (x1, y - 3.0), (x1, y + 3.0), (face, y + 3.0))
     else:
-        _draw_spring(made, "stop", face, x1, y)
+        _draw_spring(made, "stop", face, x1, y, length)
     if gap > 0.0:
         made.line("gap", (x0, y + 6.0), (face, y + 6.0))
     label = f"{name}: {'preload' if gap < 0.0 else 'gap'} {pretty(abs(gap), LENGTH)}"

@@ -1,0 +1,125 @@
+"""The commands for assemblies of several masses: their figures, files and summaries."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+from vibroimpact import figures
+from vibroimpact.errors import InputError
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from vibroimpact.cli.results import Results
+    from vibroimpact.cli.rig import Subject
+
+Animation = Literal["gif", "html"]
+
+
+def is_assembly(what: Subject) -> bool:
+    """Return whether the rig of a command has several masses."""
+    from vibroimpact.model import Assembly
+
+    return isinstance(what.system, Assembly)
+
+
+def refuse(what: Subject, **options: Any) -> None:
+    """Refuse options that only a rig of one mass has.
+
+    Raises
+    ------
+    InputError
+        If one of them has a value.
+    """
+    for option, value in options.items():
+        if value is not None and value is not False and value != ():
+            given = "set" if value is True else repr(value)
+            raise InputError(
+                f"--{option}: {given}, but {what.name!r} has several masses, for which this option "
+                f"is not available; remove --{option}"
+            )
+
+
+def write_motion(
+    written: Results,
+    motion: xr.Dataset,
+    ending: str,
+    title: str,
+    cycles: float | None,
+    animation: Animation | None = None,
+) -> None:
+    """Save a motion, its histories, its contact forces and its envelopes.
+
+    Parameters
+    ----------
+    written
+        The files of the command.
+    motion
+        Dataset of `simulate`, `steady` or `orbit`.
+    ending
+        Ending of the names of the files.
+    title
+        Title of the figures.
+    cycles
+        Number of forcing cycles in the histories. None for a record, which is drawn whole.
+    animation
+        Format of an animation, if one is wanted.
+    """
+    stem = ending.removesuffix("-history")
+    written.write(motion, ending, figures.mass_histories, title, cycles=cycles)
+    draw_motion(written, motion, stem, title, cycles, animation)
+
+
+def draw_motion(
+    written: Results,
+    motion: xr.Dataset,
+    stem: str,
+    title: str,
+    cycles: float | None,
+    animation: Animation | None = None,
+    of: str = "",
+) -> None:
+    """Draw the accelerations, the contact forces and the envelopes of a motion."""
+    drawn = {
+        "accelerations": figures.mass_histories(
+            motion, quantity="acceleration", cycles=cycles, title=title
+        )
+    }
+    if motion.sizes["stop"]:
+        drawn["forces"] = figures.contact_forces(motion, cycles=cycles, title=title)
+    drawn["envelopes"] = figures.mass_envelopes(motion, title=title)
+    for name, figure in drawn.items():
+        written.draw(f"{name}{of}", f"{stem}-{name}", figure)
+    if animation is not None:
+        path = written.path(stem, animation)
+        written.files[f"animation{of}"] = figures.save_animation(motion, path, title=title)
+
+
+def draw_sweep(written: Results, data: xr.Dataset) -> None:
+    """Draw the accelerations and the contact forces of a sweep, after the displacements."""
+    title = written.what.title
+    for name, quantity in (("accelerations", "peak_acceleration"), ("forces", "peak_force")):
+        if quantity == "peak_force" and not data.sizes["stop"]:
+            continue
+        figure = figures.mass_resonance(data, quantity=quantity, title=title)
+        written.draw(name, f"sweep-{name}", figure)
+
+
+def response_table(responses: dict[str, xr.Dataset]) -> xr.Dataset:
+    """Return the extremes of several records as one dataset with the dim ``record``."""
+    import xarray as xr
+
+    joined = xr.concat(list(responses.values()), "record", combine_attrs="drop")
+    joined = joined.assign_coords(record=("record", list(responses)))
+    flat: dict[str, Any] = {"record": joined["record"]}
+    for name, one in joined.data_vars.items():
+        dims = [dim for dim in one.dims if dim != "record"]
+        if not dims:
+            flat[str(name)] = one
+            continue
+        for part in joined[dims[0]].values:
+            flat[f"{name}_{part}"] = one.sel({dims[0]: part}, drop=True)
+    flat.pop("record")
+    table = xr.Dataset(flat, coords={"record": list(responses)})
+    table.attrs = dict(next(iter(responses.values())).attrs)
+    return table

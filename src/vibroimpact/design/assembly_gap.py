@@ -1,0 +1,156 @@
+"""The gaps with which the bodies of an assembly do not meet, from their motion without stops."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from vibroimpact.earthquakes.free_vibration import free_tail
+from vibroimpact.earthquakes.suites import quantiles
+from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
+from vibroimpact.model import Assembly, Harmonic, Record, equilibrium
+from vibroimpact.model.rig import Rig
+from vibroimpact.response.assembly_contacts import coordinates
+from vibroimpact.response.assembly_motion import sections_of, too_much_work
+from vibroimpact.response.assembly_phases import MAX_EVENTS, Measurer
+from vibroimpact.response.assembly_pieces import NODES_OF_RANGES
+from vibroimpact.response.assembly_state import assembly_vector
+from vibroimpact.tasks.threads import Progress, Tally, Workers, each
+
+_Array = NDArray[np.float64]
+
+_WIDE = 20
+"""Half-widths of a resonance on either side of it at which the closing is sampled."""
+_FAR = 1e9
+"""A frequency so many times the largest natural one stands for infinity."""
+_UNDAMPED = 1e-12
+"""Decay of a mode over its frequency that is none."""
+_GROWS = (
+    "shaking: without stops the motion of the masses grows without bound, so no gap is wide "
+    "enough; add damping, or reduce the span of frequencies"
+)
+
+
+def gaps_for_records(
+    assembly: Assembly,
+    records: dict[str, Record],
+    fractile: float,
+    tail: float | None,
+    workers: Workers,
+    progress: Progress | None,
+) -> xr.Dataset:
+    """Return the fractile over records of the largest closing displacement at each stop.
+
+    Raises
+    ------
+    InputError
+        If the motion without stops cannot be computed.
+    """
+    closing = _closing(assembly)
+    free = assembly.without_stops()
+
+    def task(record: Record, tally: Tally) -> tuple[Status, _Array]:
+        if too_much_work(free, record, record.step):
+            return Status.TOO_MUCH_WORK, np.full(len(closing), np.nan)
+        after = free_tail(Rig(free, record)) if tail is None else tail
+        measurer = Measurer(free, record, MAX_EVENTS, NODES_OF_RANGES, closing)
+        state = assembly_vector(free, equilibrium(free))
+        found = measurer.follow(state, sections_of(record, after, 0.0))
+        return found.status, found.drift[..., 1].max(axis=0, initial=-math.inf)
+
+    found = each(task, list(records.values()), threads=workers, progress=progress)
+    for status, _ in found:
+        if status is Status.NOT_FINITE:
+            raise InputError(_GROWS)
+        if status is not Status.DONE:
+            raise InputError(
+                f"shaking: the motion without stops could not be computed: {status.advice}"
+            )
+    reached = np.array([one for _, one in found])
+    (gap,) = quantiles(reached, [fractile], 0)
+    return xr.Dataset(
+        {"required_gap": ("stop", gap), "peak_closing": (("record", "stop"), reached)},
+        {"stop": coordinates(assembly)["stop"], "record": list(records)},
+    )
+
+
+def gaps_for_sines(assembly: Assembly, sine: Harmonic, span: tuple[Any, Any]) -> xr.Dataset:
+    """Return the largest closing displacement at each stop, of sines at all frequencies of a span.
+
+    An end that is None is 0, or infinity.
+
+    Raises
+    ------
+    InputError
+        If a mode without damping lies in the span.
+    """
+    free = assembly.without_stops()
+    n = len(free.names)
+    m, c, k = free.mass_matrix, free.damping_matrix, free.stiffness_matrix
+    flow = np.block(
+        [[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(m, k), -np.linalg.solve(m, c)]]
+    )
+    rates = np.linalg.eigvals(flow)
+    rates = rates[np.abs(rates) > 1e-9 * np.abs(rates).max()]  # the others are of free masses
+    size = np.abs(rates)
+    low = 1e-9 * size.min() if span[0] is None else math.tau * span[0]
+    high = _FAR * size.max() if span[1] is None else math.tau * span[1]
+    undamped = (-rates.real <= _UNDAMPED * size) & (low <= size) & (size <= high)
+    if undamped.any():
+        raise InputError(_GROWS)
+    near = np.linspace(-_WIDE, _WIDE, 40 * _WIDE + 1)
+    peaks = (np.abs(rates.imag)[:, np.newaxis] - np.outer(rates.real, near)).ravel()
+    grid = np.concatenate([np.geomspace(low, high, 4000), peaks, [low, high]])
+    grid = np.unique(grid[(grid >= low) & (grid <= high)])
+    on = None if sine.moves_base else free.names.index(sine.on or free.names[0])
+    weights = m @ free.influence if on is None else np.eye(n)[on] * float(m[on, on])
+    closing = _closing(assembly)
+
+    def reach(omega: _Array) -> _Array:
+        """Return the amplitude of the closing displacement, shape (frequency, stop)."""
+        forcing = np.asarray(sine.acceleration(float(m[on, on]) if on is not None else 1.0, omega))
+        w = omega[:, np.newaxis, np.newaxis]
+        stiff = k - w**2 * m + 1j * w * c
+        # At rest in free flight, far beyond resonance, the solution loses no digits.
+        u = np.linalg.solve(stiff, np.broadcast_to(weights[:, np.newaxis], (len(omega), n, 1)))
+        found: _Array = np.abs(np.einsum("fi,wi->wf", closing, u[..., 0])) * forcing[:, np.newaxis]
+        return found
+
+    swing = reach(grid)
+    best, at = swing.max(axis=0), grid[swing.argmax(axis=0)]
+    for f, i in enumerate(swing.argmax(axis=0)):
+        if 0 < i < len(grid) - 1:
+            at[f], best[f] = _refined(lambda x, f=f: reach(x)[:, f], grid[i - 1], grid[i + 1])
+    rest = equilibrium(free).displacement
+    still = closing @ np.array([rest.get(name, 0.0) for name in free.names])
+    return xr.Dataset(
+        {
+            "required_gap": ("stop", best + still),
+            "displacement_frequency": ("stop", at / math.tau),
+        },
+        {"stop": coordinates(assembly)["stop"]},
+    )
+
+
+def _refined(function: Any, low: float, high: float) -> tuple[float, float]:
+    """Return where a function is largest between two places, and its value there."""
+    for _ in range(8):
+        x = np.linspace(low, high, 41)
+        values = function(x)
+        i = int(values.argmax())
+        low, high = x[max(i - 1, 0)], x[min(i + 1, 40)]
+    return float(x[i]), float(values[i])
+
+
+def _closing(assembly: Assembly) -> _Array:
+    if not assembly.stops:
+        raise InputError(
+            "rig: the assembly has no stops, so no gap is required; add the stops, with any gap, "
+            "between the bodies that may meet"
+        )
+    return np.array([assembly.closing(stop) for stop in assembly.stops.values()])

@@ -1,0 +1,454 @@
+"""Animations of several masses: a GIF for slides, or an HTML page with a slider."""
+
+from __future__ import annotations
+
+import io
+import itertools
+import json
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+from matplotlib.patheffects import withStroke
+from numpy.typing import NDArray
+
+from vibroimpact.datasets.files import write_whole
+from vibroimpact.errors import InputError
+from vibroimpact.figures.assembly_motion import History, history
+from vibroimpact.model import Assembly
+from vibroimpact.model.assembly.drawing import Drawing, Moved, column_width, drawing, gap_scale
+from vibroimpact.model.names import literal
+from vibroimpact.model.units import plain
+from vibroimpact.model.written_units import unit, written_for
+
+_Array = NDArray[np.float64]
+
+_ENDINGS = (".gif", ".html")
+_RATE = 20.0
+"""Frames per second of a GIF."""
+_HTML_RATE = 60.0
+"""Most states per second in an HTML page, between which it interpolates."""
+_COLOURS, _DPI = 32, 100.0
+"""Number of colours, and pixels per inch, of a GIF."""
+_LONGEST = 120.0
+"""Longest animation (s)."""
+_FARTHEST = 0.32
+"""Largest displacement on the screen, relative to the distance between two bodies."""
+_PENS: dict[str, tuple[str, float]] = {
+    "mass": ("black", 1.2),
+    "stem": ("black", 2.0),
+    "ground": ("#555555", 1.0),
+    "link": ("black", 1.2),
+    "stop": ("#c8102e", 1.6),
+    "gap": ("#1f4fbf", 1.0),
+    "bridge": ("white", 5.0),
+}
+"""Colour and width of each kind of line."""
+_ORDER = ("ground", "stem", "bridge", "mass", "link", "stop", "gap")
+"""Kinds of lines, from the lowest layer to the top."""
+
+
+def save_animation(
+    motion: xr.Dataset,
+    path: Path | str,
+    *,
+    duration: float = 10.0,
+    start: float | None = None,
+    end: float | None = None,
+    title: str | None = None,
+) -> Path:
+    """Write an animation of the masses of an assembly: a GIF file, or an HTML page.
+
+    Displacements, deformations of stops and gaps have one scale, so that the bodies meet on the
+    screen when they meet in the motion. The displacements are relative to the base, which is drawn
+    at rest. A touched stop is drawn thick. The page works without a network; it has a slider and a
+    button, and shows the motion more smoothly than the GIF.
+
+    Parameters
+    ----------
+    motion
+        Dataset of `simulate`, `steady` or `orbit` with samples, of a rig with an `Assembly`.
+    path
+        File name. Its ending (``.gif`` or ``.html``) selects the format.
+    duration
+        Duration of the animation (s), at most 120. Its ratio to the duration of the motion is
+        shown as the speed.
+    start, end
+        First and last time of the motion (s). Default: the whole motion.
+    title
+        Title above the animation. Default: none.
+
+    Returns
+    -------
+    Path
+        The path of the file.
+
+    Raises
+    ------
+    InputError
+        If the dataset does not hold such a motion, if a time is invalid, if the file name has
+        another ending, or if the file cannot be written.
+    """
+    shown = history(motion)
+    file = Path(path)
+    if file.suffix.lower() not in _ENDINGS:
+        raise InputError(
+            f"path: {str(path)!r} does not end in {' or '.join(_ENDINGS)}; use one of these "
+            "endings, which select the format"
+        )
+    if not 0.0 < duration <= _LONGEST:
+        raise InputError(
+            f"duration: {duration!r}; pass a duration greater than 0 and at most {_LONGEST:g} s"
+        )
+    time = motion["time"].values
+    first = float(time[0]) if start is None else float(start)
+    last = float(time[-1]) if end is None else float(end)
+    if not time[0] <= first < last <= time[-1]:
+        raise InputError(
+            f"start, end: {first:g} s and {last:g} s; pass times from {time[0]:g} s to "
+            f"{time[-1]:g} s, the earlier one first"
+        )
+    with written_for(motion):
+        moving = _Moving(shown)
+        speed = f"speed × {plain((last - first) / duration, 2)}"
+        if file.suffix.lower() == ".gif":
+            at = np.linspace(first, last, max(2, round(_RATE * duration)))
+            return write_whole(file, _gif(moving, at, title, speed))
+        kept = time[(time >= first) & (time <= last)]
+        most = round(_HTML_RATE * duration)
+        at = kept if 1 < len(kept) <= most else np.linspace(first, last, max(2, most))
+        return write_whole(file, _page(moving, at, duration, title, speed).encode("utf-8"))
+
+
+class _Moving:
+    """A drawing whose points are linear functions of displacements and deformations."""
+
+    def __init__(self, shown: History) -> None:
+        assembly, motion = shown.assembly, shown.motion
+        self.shown = shown
+        self.names, self.stops = assembly.names, tuple(assembly.stops)
+        moved = motion["displacement"].transpose("time", "mass").values
+        farthest = float(np.abs(moved).max(initial=0.0)) or 1.0
+        self.scale = min(_FARTHEST * column_width(assembly) / farthest, gap_scale(assembly))
+        self.rest = self._drawn(assembly, {}, {})
+        base = _points(self.rest)
+        shifts = [_points(self._drawn(assembly, {one: 1.0}, {})) - base for one in self.names]
+        shifts += [_points(self._drawn(assembly, {}, {one: 1.0})) - base for one in self.stops]
+        self.base = base
+        self.shifts = np.array(shifts).reshape(len(shifts), len(base), 2)[:, :, 0]
+        """Shift to the right of each point, for each displacement and deformation of 1 m."""
+        self._moved = moved
+        self._pressed = motion["deformation"].transpose("time", "stop").values
+
+    def _drawn(
+        self, assembly: Assembly, displacement: dict[str, float], deformation: dict[str, float]
+    ) -> Drawing:
+        return drawing(assembly, Moved(displacement, deformation, self.scale))
+
+    def values(self, at: _Array) -> _Array:
+        """Return displacements and deformations at some times: one row for each time."""
+        time = self.shown.motion["time"].values
+        columns = np.concatenate([self._moved, self._pressed], axis=1).T
+        return np.column_stack([np.interp(at, time, one) for one in columns])
+
+    def touched(self, at: _Array) -> NDArray[np.bool_]:
+        """Return whether each stop is touched at some times, from its exact events."""
+        shown = self.shown
+        found = np.zeros((len(at), len(self.stops)), dtype=bool)
+        half = 0.5 * float(np.diff(at).max(initial=0.0))  # so that a short contact is seen, too
+        for i, name in enumerate(self.stops):
+            hits = shown.event_at[shown.hits(name)]
+            for span in [*shown.contacts(name), *zip(hits, hits, strict=True)]:
+                begin, end = shown.seconds(np.array(span))
+                found[:, i] |= (at >= begin - half) & (at <= end + half)
+        return found
+
+    def owners(self) -> list[str]:
+        """Return for each line the stop that it is drawn for, or ""."""
+        rows = {
+            words.text.partition(":")[0]: words.at[1] + 14.0
+            for words in self.rest.words
+            if words.over_lines and ":" in words.text
+        }
+        found = []
+        for line in self.rest.lines:
+            middle = 0.5 * (line.points[0][1] + line.points[-1][1])
+            near = [name for name, y in rows.items() if abs(y - middle) < 2.0]
+            found.append(near[0] if line.kind == "stop" and near else "")
+        return found
+
+
+def _points(made: Drawing) -> _Array:
+    """Return all points of a drawing: of its lines, then of its words."""
+    lines = [point for line in made.lines for point in line.points]
+    return np.array([*lines, *(words.at for words in made.words)])
+
+
+def _gif(moving: _Moving, at: _Array, title: str | None, speed: str) -> bytes:
+    """Return the animation as the bytes of a GIF file."""
+    from PIL import Image
+
+    frames = [
+        Image.fromarray(picture).quantize(_COLOURS, dither=Image.Dither.NONE)
+        for picture in _pictures(moving, at, title, speed)
+    ]
+    file = io.BytesIO()
+    frames[0].save(
+        file,
+        format="GIF",
+        save_all=True,
+        append_images=frames[1:],
+        duration=round(1000.0 / _RATE),
+        loop=0,
+    )
+    return file.getvalue()
+
+
+def _pictures(
+    moving: _Moving, at: _Array, title: str | None, speed: str
+) -> Iterator[NDArray[np.uint8]]:
+    """Yield the pixels of each frame."""
+    made = moving.rest
+    wide = float(np.clip(made.width / 72.0, 4.0, 9.0))
+    share = wide * 72.0 / made.width
+    head = 26.0
+    figure = Figure(figsize=(wide, share * (made.height + head) / 72.0), dpi=_DPI)
+    canvas = FigureCanvasAgg(figure)
+    ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    ax.set_xlim(0.0, made.width)
+    ax.set_ylim(made.height, -head)
+    ax.set_axis_off()
+    size = max(5.0, 8.0 * min(share, 1.0))
+    slices = _slices(made)
+    collections: dict[str, LineCollection] = {}
+    boxes: dict[int, Polygon] = {}
+    for kind, (colour, width) in _PENS.items():
+        order = 2.0 + 0.1 * _ORDER.index(kind)
+        lines = LineCollection([], colors=colour, linewidths=share * width, zorder=order)
+        if kind == "gap":
+            lines.set_linestyle("--")
+        ax.add_collection(lines)
+        collections[kind] = lines
+    for i, line in enumerate(made.lines):
+        if line.closed:
+            box = Polygon([(0.0, 0.0)], facecolor="#e8edf5", edgecolor="black", zorder=3)
+            ax.add_patch(box)
+            boxes[i] = box
+    texts = [
+        ax.text(
+            *words.at,
+            words.text,
+            ha="center",
+            va="center",
+            fontsize=size,
+            zorder=4,
+            path_effects=[withStroke(linewidth=2.5, foreground="white")] * words.over_lines,
+        )
+        for words in made.words
+    ]
+    if title:
+        ax.text(8.0, 8.0 - head, literal(title), va="top", fontsize=size + 1.0)
+    clock = ax.text(made.width - 8.0, 8.0 - head, "", ha="right", va="top", fontsize=size + 1.0)
+    owners = moving.owners()
+    for now, values, hit in zip(at, moving.values(at), moving.touched(at), strict=True):
+        points = moving.base.copy()
+        points[:, 0] += values @ moving.shifts
+        pressed = {name for name, one in zip(moving.stops, hit, strict=True) if one}
+        for kind, lines in collections.items():
+            mine = [i for i, line in enumerate(made.lines) if line.kind == kind and i not in boxes]
+            lines.set_segments([points[slices[i]] for i in mine])
+            if kind == "stop":
+                pen = share * _PENS[kind][1]
+                lines.set_linewidth([2.2 * pen if owners[i] in pressed else pen for i in mine])
+        for i, box in boxes.items():
+            box.set_xy(points[slices[i]])
+        for text, point in zip(texts, points[len(points) - len(texts) :], strict=True):
+            text.set_position((float(point[0]), float(point[1])))
+        clock.set_text(f"{_instant(now)}, {speed}")
+        canvas.draw()  # type: ignore[no-untyped-call]
+        pixels: Any = canvas.buffer_rgba()  # type: ignore[no-untyped-call]
+        yield np.asarray(pixels)[:, :, :3].copy()
+
+
+def _instant(now: float) -> str:
+    return f"t = {now:.2f}{unit(' s')}"
+
+
+def _slices(made: Drawing) -> list[slice]:
+    """Return where the points of each line are among all points."""
+    ends = np.cumsum([0, *(len(line.points) for line in made.lines)]).tolist()
+    return [slice(first, last) for first, last in itertools.pairwise(ends)]
+
+
+def _page(moving: _Moving, at: _Array, duration: float, title: str | None, speed: str) -> str:
+    """Return the animation as an HTML page of its own."""
+    made = moving.rest
+    owners, slices = moving.owners(), _slices(made)
+    shapes: list[dict[str, Any]] = []
+    for line, owner, where in zip(made.lines, owners, slices, strict=True):
+        colour, width = _PENS[line.kind]
+        shapes.append(
+            {
+                "closed": line.closed,
+                "colour": colour,
+                "width": width,
+                "dashes": "3 2" if line.kind == "gap" else "",
+                "stop": moving.stops.index(owner) if owner else -1,
+                "points": _linear(moving, range(where.start, where.stop)),
+            }
+        )
+    kinds = [line.kind for line in made.lines]
+    shapes = [shapes[i] for i in sorted(range(len(kinds)), key=lambda i: _ORDER.index(kinds[i]))]
+    count = sum(len(line.points) for line in made.lines)
+    texts = [
+        {
+            "rows": words.text.split("\n"),
+            "points": _linear(moving, range(i, i + 1)),
+            "outlined": words.over_lines,
+        }
+        for i, words in enumerate(made.words, count)
+    ]
+    data = {
+        "shapes": shapes,
+        "texts": texts,
+        "times": [float(f"{one:.7g}") for one in at],
+        "values": [[float(f"{one:.5g}") for one in row] for row in moving.values(at)],
+        "touched": [[int(one) for one in row] for row in moving.touched(at)],
+        "masses": len(moving.names),
+        "duration": duration,
+        "speed": speed,
+        "unit": unit(" s"),
+    }
+    heading = escape(title or "")
+    # "</" would end the script.
+    written = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
+    return (
+        _PAGE.replace("$TITLE", heading or "Motion")
+        .replace("$HEADING", f"<h1>{heading}</h1>" if heading else "")
+        .replace("$WIDTH", f"{made.width:g}")
+        .replace("$HEIGHT", f"{made.height:g}")
+        .replace("$DATA", written)
+    )
+
+
+def _linear(moving: _Moving, where: range) -> list[list[Any]]:
+    """Return points as x, y and the shifts of x, as pairs of an index and a number."""
+    found = []
+    for i in where:
+        shifts = [
+            [k, float(f"{one:.6g}")] for k, one in enumerate(moving.shifts[:, i]) if one != 0.0
+        ]
+        found.append([*(float(f"{one:.6g}") for one in moving.base[i]), shifts])
+    return found
+
+
+_PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>$TITLE</title>
+<style>
+body { font-family: sans-serif; margin: 1rem; background: white; color: black; }
+h1 { font-size: 1.1rem; }
+svg { display: block; width: 100%; max-width: calc(1.6px * $WIDTH); height: auto; }
+.bar { display: flex; gap: 0.8rem; align-items: center; max-width: calc(1.6px * $WIDTH); }
+.bar input { flex: 1; }
+output { font-variant-numeric: tabular-nums; }
+</style>
+</head>
+<body>
+$HEADING
+<svg viewBox="0 0 $WIDTH $HEIGHT" role="img" aria-label="masses in motion"></svg>
+<div class="bar">
+<button type="button" id="play">pause</button>
+<input type="range" id="at" min="0" max="1" step="any" value="0" aria-label="time">
+<output id="clock"></output>
+</div>
+<script>
+"use strict";
+const data = $DATA;
+const svg = document.querySelector("svg");
+const slider = document.getElementById("at");
+const clock = document.getElementById("clock");
+const button = document.getElementById("play");
+function made(tag, attributes) {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  svg.appendChild(element);
+  return element;
+}
+for (const one of data.shapes) {
+  one.element = made(one.closed ? "polygon" : "polyline", {
+    fill: one.closed ? "#e8edf5" : "none", stroke: one.colour,
+    "stroke-width": one.width, "stroke-dasharray": one.dashes,
+  });
+}
+for (const one of data.texts) {
+  one.elements = one.rows.map((row, i) => {
+    const element = made("text", {
+      "text-anchor": "middle", "font-family": "sans-serif", "font-size": 11,
+      "stroke-width": one.outlined ? 3 : 0, stroke: "white", "paint-order": "stroke",
+      y: one.points[0][1] + 3.5 + 14 * (i - 0.5 * (one.rows.length - 1)),
+    });
+    element.textContent = row;
+    return element;
+  });
+}
+const place = (point, state) => point[2].reduce((x, [k, by]) => x + by * state[k], point[0]);
+function show(share) {
+  const first = data.times[0], last = data.times[data.times.length - 1];
+  const now = first + share * (last - first);
+  let low = 0, high = data.times.length - 1;
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (data.times[middle] <= now) low = middle; else high = middle;
+  }
+  const part = (now - data.times[low]) / (data.times[high] - data.times[low]);
+  const state = data.values[low].map((value, k) => value + part * (data.values[high][k] - value));
+  const touched = data.touched[part < 0.5 ? low : high];
+  for (const one of data.shapes) {
+    one.element.setAttribute(
+      "points", one.points.map((point) => `${place(point, state)},${point[1]}`).join(" "));
+    if (one.stop >= 0) {
+      one.element.setAttribute("stroke-width", touched[one.stop] ? 2.2 * one.width : one.width);
+    }
+  }
+  for (const one of data.texts) {
+    for (const element of one.elements) element.setAttribute("x", place(one.points[0], state));
+  }
+  clock.textContent = `t = ${now.toFixed(2)}${data.unit}, ${data.speed}`;
+}
+let share = 0, before = null, playing = true;
+function step(now) {
+  if (playing && before !== null) {
+    share = (share + (now - before) / (1000 * data.duration)) % 1;
+    slider.value = share;
+    show(share);
+  }
+  before = now;
+  requestAnimationFrame(step);
+}
+button.addEventListener("click", () => {
+  playing = !playing;
+  button.textContent = playing ? "pause" : "play";
+});
+slider.addEventListener("input", () => {
+  playing = false;
+  button.textContent = "play";
+  share = Number(slider.value);
+  show(share);
+});
+show(0);
+requestAnimationFrame(step);
+</script>
+</body>
+</html>
+"""

@@ -1,0 +1,267 @@
+"""Common parts of figures of several masses: the assembly of a dataset, contacts, and panels."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.notebook import Panels, new_axes
+from vibroimpact.figures.own_units import without_unit
+from vibroimpact.figures.sizes import columns_that_fit
+from vibroimpact.figures.style import EDGE, panels
+from vibroimpact.model import Assembly, Link, RigidStop
+from vibroimpact.model.assembly.names import GROUND, check_known
+from vibroimpact.model.names import literal
+from vibroimpact.model.written_units import unitless
+
+_Array = NDArray[np.float64]
+
+BANDS = (
+    ("#f7dc8b", ""),
+    ("#b9dcec", "\\\\"),
+    ("#c4e3c1", "//"),
+    ("#ecc3df", ".."),
+    ("#f3c6a5", "xx"),
+    ("#d9d3ee", "--"),
+)
+"""Colours and hatches of contacts, by stop, in turn."""
+BEGINS, HIT = 1, 2
+"""Kinds of events: a contact begins, and an impact on a rigid stop."""
+_PAGE = 7.2
+"""Width of a new figure in inches."""
+
+
+def assembly_of(data: Any, what: str) -> Assembly:
+    """Return the assembly of a dataset.
+
+    Parameters
+    ----------
+    data
+        The dataset.
+    what
+        What is expected, such as ``"motion: … the result of simulate"``, for the error.
+
+    Raises
+    ------
+    InputError
+        If the dataset is not of an assembly.
+    """
+    parameters = json.loads(getattr(data, "attrs", {}).get("parameters", "{}"))
+    table = parameters.get("rigs", [parameters])[0].get("assembly")
+    if not isinstance(data, xr.Dataset) or table is None:
+        raise InputError(f"{what} of a Rig with an Assembly of several masses")
+    return Assembly.model_validate(table)
+
+
+class History(NamedTuple):
+    """The motion of an assembly as it is drawn: over t/T, or over seconds of a record."""
+
+    assembly: Assembly
+    motion: xr.Dataset
+    """The samples that are drawn."""
+    at: _Array
+    """Time of each sample: in forcing cycles, or in seconds."""
+    label: str
+    """Label of the time axis."""
+    event_at: _Array
+    """Time of each event, in the same unit."""
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """First and last time."""
+        return float(self.at[0]), float(self.at[-1])
+
+    def seconds(self, at: _Array) -> _Array:
+        """Return the time of the dataset (s) at times of the axis."""
+        return np.asarray(np.interp(at, self.at, self.motion["time"].values))
+
+    def contacts(self, stop: str) -> list[tuple[float, float]]:
+        """Return starts and ends of the contacts of a stop, cut to what is drawn."""
+        mine = self.motion["event_stop"].values == stop
+        kind, at = self.motion["event_contact"].values[mine], self.event_at[mine]
+        begins, ends = at[kind == BEGINS], at[kind == 0]
+        if len(ends) and (not len(begins) or ends[0] < begins[0]):
+            begins = np.concatenate([[-math.inf], begins])
+        if len(begins) > len(ends):
+            ends = np.concatenate([ends, [math.inf]])
+        first, last = self.span
+        pairs = zip(np.maximum(begins, first), np.minimum(ends, last), strict=True)
+        return [(float(a), float(b)) for a, b in pairs if a <= b]
+
+    def hits(self, stop: str) -> NDArray[np.intp]:
+        """Return the indices of the impacts on a rigid stop that are drawn."""
+        mine = (self.motion["event_stop"].values == stop) & (
+            self.motion["event_contact"].values == HIT
+        )
+        first, last = self.span
+        return np.flatnonzero(mine & (self.event_at >= first) & (self.event_at <= last))
+
+    def touched(self) -> list[str]:
+        """Return the stops that are touched in what is drawn, in the order of the assembly."""
+        return [name for name in self.assembly.stops if self.contacts(name) or len(self.hits(name))]
+
+
+def history(motion: Any, cycles: float | None = None) -> History:
+    """Return the motion of an assembly as it is drawn: its last cycles, or through a whole record.
+
+    Raises
+    ------
+    InputError
+        If it is not the motion of an assembly with samples, or if `cycles` is invalid.
+    """
+    what = "motion: this is not a motion with samples; pass the result of simulate, steady or orbit"
+    assembly = assembly_of(motion, what)
+    if "event_stop" not in motion or not motion.sizes.get("time"):
+        raise InputError(f"{what}, with samples greater than 0")
+    if cycles is not None and not 0.0 < cycles < math.inf:
+        raise InputError(f"cycles: {cycles!r}; a finite number greater than 0 is accepted")
+    if "cycle" not in motion:
+        at, events = motion["time"].values, motion["event_time"].values
+        return History(assembly, motion, at, "time (s)", events)
+    at = motion["cycle"].values
+    period = motion["time"].values[-1] / at[-1] if at[-1] > 0.0 else 1.0
+    events = motion["event_cycle"].values + motion["event_cycle_time"].values / period
+    if cycles is not None:
+        kept = at >= at[-1] - cycles - 1e-9
+        motion, at = motion.isel(time=kept), at[kept]
+    return History(assembly, motion, at, "time in forcing cycles $t/T$ (–)", events)
+
+
+def touching(assembly: Assembly, mass: str) -> list[str]:
+    """Return the names of the stops of a mass."""
+    return [name for name, stop in assembly.stops.items() if mass in (stop.left, stop.right)]
+
+
+def is_rigid(stop: Link) -> bool:
+    """Return whether a stop is rigid, so that impacts have an impulse and no force."""
+    return isinstance(stop.law, RigidStop)
+
+
+def band_of(assembly: Assembly, stop: str) -> tuple[str, str]:
+    """Return colour and hatch of the contacts of a stop."""
+    return BANDS[list(assembly.stops).index(stop) % len(BANDS)]
+
+
+def draw_contacts(ax: Axes, shown: History, stops: list[str]) -> None:
+    """Draw the contacts of some stops as bands: one strip of the panel for each stop."""
+    strip = 1.0 / max(len(stops), 1)
+    for i, name in enumerate(stops):
+        colour, hatch = band_of(shown.assembly, name)
+        ax.broken_barh(
+            [(a, b - a) for a, b in shown.contacts(name)],
+            (1.0 - (i + 1) * strip, strip),
+            transform=ax.get_xaxis_transform(),
+            facecolor=colour,
+            edgecolor=EDGE,
+            hatch=hatch,
+            linewidth=0.3,  # so that a short contact is seen, too
+            zorder=0,
+        )
+
+
+def contact_legend(assembly: Assembly, stops: list[str]) -> list[Any]:
+    """Return the legend entries of the bands of some stops."""
+    entries = []
+    for name in stops:
+        colour, hatch = band_of(assembly, name)
+        label = f"contact, {literal(name)}"
+        entries.append(Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=label))
+    return entries
+
+
+def chosen(given: Any, names: tuple[str, ...], what: str, field: str) -> list[str]:
+    """Return the names that were passed, checked, or all of them.
+
+    Raises
+    ------
+    InputError
+        If a name does not exist, or if there is none.
+    """
+    if given is None:
+        found = list(names)
+    else:
+        listed = [given] if isinstance(given, str) else list(given)
+        found = [check_known(name, names, what, field) for name in listed]
+    if not found:
+        raise InputError(f"{field}: empty; pass the name of at least one {what}")
+    return found
+
+
+def rows_of_panels(
+    axes: Any, names: list[str], height: float, title: str | None, apart: float = 0.8
+) -> Panels:
+    """Return one panel for each name below each other, with the name above its left end."""
+    size = (_PAGE, apart + height * len(names))
+    made = panels(axes, len(names), "one for each name", size, title)
+    return name_panels(made, names)
+
+
+def grid_of_panels(axes: Any, names: list[str], height: float, title: str | None) -> Panels:
+    """Return one panel for each name: two side by side if there are many and if they fit."""
+    count = len(names)
+    if axes is not None:
+        return name_panels(panels(axes, count, "one for each name", (_PAGE, height), title), names)
+    columns = min(columns_that_fit(2), 2) if count > 2 else 1
+    rows = -(-count // columns)
+    made = new_axes(rows, columns, (_PAGE, 0.8 + height * rows), sharex=True)
+    for unused in made.ravel()[count:]:
+        unused.remove()
+    given = Panels(made.ravel()[:count])
+    for above in given[count - columns :]:  # those without a panel below them
+        above.tick_params(labelbottom=True)
+    if title:
+        given[0].figure.suptitle(title)
+    return name_panels(given, names)
+
+
+def name_panels(made: Panels, names: list[str]) -> Panels:
+    """Write the name of each panel above its left end."""
+    for ax, name in zip(made, names, strict=True):
+        ax.set_title(literal(name), loc="left", fontsize="small")
+    return made
+
+
+def label_values(given: Panels, axes: Any, label: str) -> None:
+    """Label the vertical axes: those of a new figure, which have one scale, once for all."""
+    figure = given[0].get_figure(root=True)
+    if axes is None and figure is not None and len(given) > 1:
+        words = without_unit(label) if unitless() else label
+        figure.supylabel(words, fontsize=given[0].yaxis.label.get_fontsize())
+    else:
+        for ax in given:
+            ax.set_ylabel(label)
+
+
+def chains(assembly: Assembly) -> list[list[tuple[str, str]]]:
+    """Return the masses in rows from the ground upwards, each with the body below it.
+
+    A row begins with a mass that no link joins to an earlier mass. Masses without links, such as
+    those of matrices, are one row.
+    """
+    names = assembly.names
+    if not assembly.links:
+        return [list(zip(names, (GROUND, *names[:-1]), strict=True))]
+    rows: list[list[tuple[str, str]]] = []
+    for i, name in enumerate(names):
+        joined = {
+            one.left if one.right == name else one.right
+            for one in assembly.links.values()
+            if name in (one.left, one.right)
+        }
+        earlier = [other for other in names[:i] if other in joined]
+        if earlier:
+            row = next((row for row in rows if row[-1][0] == earlier[-1]), None)
+            if row is None:
+                rows.append(row := [])
+            row.append((name, earlier[-1]))
+        else:
+            rows.append([(name, GROUND)])
+    return rows

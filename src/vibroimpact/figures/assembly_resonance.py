@@ -1,0 +1,368 @@
+"""Resonance curves and branches of several masses: one panel for each mass or stop."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from vibroimpact.errors import InputError
+from vibroimpact.figures.assembly_motion import (
+    assembly_of,
+    chosen,
+    grid_of_panels,
+    is_rigid,
+    touching,
+)
+from vibroimpact.figures.axis_labels import axis_label
+from vibroimpact.figures.branches import MARKS, axis_unit, stable_pieces
+from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.notebook import Panels
+from vibroimpact.figures.own_units import in_own_units
+from vibroimpact.figures.style import EDGE, SHADE, SWEEPS, curve_style
+from vibroimpact.model import Assembly
+
+_Array = NDArray[np.float64]
+
+_BASE = "transmitted force"
+_HEIGHT = 1.75
+_MARKS = 20
+"""Approximate number of marks on a curve."""
+_CONTACT = {"both": "", "one": "/////"}
+_LABELS = {"both": "contact", "one": "contact in one sweep"}
+
+
+@in_own_units
+def mass_resonance(
+    data: xr.Dataset,
+    axes: Any = None,
+    *,
+    quantity: str = "peak_displacement",
+    names: Sequence[str] | None = None,
+    title: str | None = None,
+) -> Panels:
+    """Draw the resonance curves of an assembly: one panel for each mass, or for each stop.
+
+    The forward sweep is a solid red line with dots, the backward sweep a dashed blue line with
+    squares. Frequencies at which a stop of the mass is touched are shaded, and hatched if it is
+    touched in one of the two sweeps alone. Crosses mark motions that did not become periodic.
+
+    Parameters
+    ----------
+    data
+        Dataset of `sweep` of a rig with an `Assembly`.
+    axes
+        One Axes per panel. Default: a new figure.
+    quantity
+        Name of a variable of the sweep: one by mass, such as ``"peak_displacement"``,
+        ``"displacement_excursion"`` or ``"peak_acceleration"``; one by stop, such as
+        ``"peak_force"``, ``"peak_impulse"`` or ``"impacts"``; or ``"peak_transmitted_force"``. Of
+        a rigid stop, whose force is infinite, the panel of ``"peak_force"`` shows the largest
+        impulse instead.
+    names
+        Names of the masses, or of the stops, that are drawn. Default: all.
+    title
+        Title of the figure, if a new one is made.
+
+    Returns
+    -------
+    tuple of Axes
+        One Axes per mass or stop. ``axes[0].figure`` is the figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset does not hold the sweep of an assembly, or if the quantity or a name does not
+        exist.
+    """
+    what = "data: this is not a sweep; pass the result of sweep"
+    assembly = assembly_of(data, what)
+    if "direction" not in data.dims or "frequency" not in data.dims:
+        raise InputError(f"{what} of a Rig with an Assembly of several masses")
+    drawn = _panels(data, quantity, names, assembly)
+    given = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
+    frequency = data["frequency"].values
+    kinds: set[str] = set()
+    loose = set()
+    for ax, one in zip(given, drawn, strict=True):
+        kinds |= _shade(ax, frequency, one.touched)
+        for layer, (direction, style) in enumerate(SWEEPS.items()):
+            if direction not in data["direction"].values:
+                continue
+            curve = one.factor * one.values.sel(direction=direction).values
+            ax.plot(
+                frequency,
+                curve,
+                label=style.label,
+                zorder=3 + layer,
+                **curve_style(style, len(frequency), _MARKS),
+            )
+            wild = data["motion"].sel(direction=direction).values != "periodic"
+            if wild.any():
+                loose.add(direction)
+                ax.plot(
+                    frequency[wild],
+                    curve[wild],
+                    linestyle="",
+                    marker="x" if style.filled else "+",
+                    markersize=6.0,
+                    color=style.colour,
+                    zorder=5 + layer,
+                )
+        ax.set_xlim(frequency[0], max(frequency[-1], 1.001 * frequency[0]))
+        if not (one.values < 0.0).any():
+            ax.set_ylim(bottom=0.0)
+        ax.set_ylabel(one.label)
+    label_lowest(given, axes, "excitation frequency $f$ (Hz)")
+    entries: list[Any] = []
+    for direction, look in SWEEPS.items():
+        if direction in data["direction"].values:
+            entries.append(Line2D([], [], label=look.label, **curve_style(look, 1)))
+            if direction in loose:
+                entries.append(
+                    Line2D(
+                        [],
+                        [],
+                        linestyle="",
+                        marker="x" if look.filled else "+",
+                        color=look.colour,
+                        label=f"{look.label}, not settled",
+                    )
+                )
+    entries += [
+        Patch(facecolor=SHADE, edgecolor=EDGE, lw=0.0, hatch=_CONTACT[kind], label=_LABELS[kind])
+        for kind in _CONTACT
+        if kind in kinds
+    ]
+    legend_of(given, axes, entries)
+    fit_labels(*given)
+    return given
+
+
+@in_own_units
+def mass_branches(
+    data: xr.Dataset,
+    axes: Any = None,
+    *,
+    quantity: str = "peak_displacement",
+    names: Sequence[str] | None = None,
+    sweep: xr.Dataset | None = None,
+    title: str | None = None,
+) -> Panels:
+    """Draw a branch of an assembly over its parameter: one panel for each mass, or for each stop.
+
+    Stable parts are solid, unstable parts are dashed, and bifurcations are marked. Parts with
+    contacts at the mass, or at the stop, are thicker.
+
+    Parameters
+    ----------
+    data
+        Dataset of `branch` of a rig with an `Assembly`.
+    axes
+        One Axes per panel. Default: a new figure.
+    quantity, names
+        As in `mass_resonance`.
+    sweep
+        Dataset of `sweep` over the same frequencies, which is drawn as marks. Default: no sweep.
+    title
+        Title of the figure, if a new one is made.
+
+    Returns
+    -------
+    tuple of Axes
+        One Axes per mass or stop. ``axes[0].figure`` is the figure.
+
+    Raises
+    ------
+    InputError
+        If the dataset does not hold the branch of an assembly, or if the quantity or a name does
+        not exist. Also if a sweep is passed although the parameter is not the frequency.
+    """
+    what = "data: this is not a branch; pass the result of branch"
+    assembly = assembly_of(data, what)
+    if "parameter" not in data.attrs or "branch" not in data:
+        raise InputError(f"{what} of a Rig with an Assembly of several masses")
+    parameter = data.attrs["parameter"]
+    if sweep is not None and (parameter != "frequency" or quantity not in sweep):
+        raise InputError(
+            f"sweep: the branches are of {quantity!r} along {parameter!r}; pass a sweep of the "
+            "same rig with branches along 'frequency', or leave sweep out"
+        )
+    drawn = _panels(data, quantity, names, assembly)
+    given = grid_of_panels(axes, [one.name for one in drawn], _HEIGHT, title)
+    scale, unit = axis_unit(data[parameter])
+    x = scale * data[parameter].values
+    pieces = stable_pieces(data)
+    kinds = data["bifurcation_kind"].values
+    styles: dict[tuple[bool, bool], dict[str, Any]] = {}
+    found: dict[str, Any] = {}
+    for ax, one in zip(given, drawn, strict=True):
+        y = one.factor * one.values.values
+        for piece, stable in pieces:
+            for run, touched in _runs(piece, one.touched):
+                styles[stable, touched] = style = _line(stable, touched)
+                ax.plot(x[run], y[run], zorder=2.5 if stable else 2, **style)
+        for direction, look in SWEEPS.items():
+            if sweep is None or direction not in sweep["direction"].values:
+                continue
+            found[look.label] = ax.plot(
+                scale * sweep["frequency"].values,
+                one.factor * one.of(sweep[one.quantity].sel(direction=direction)),
+                linestyle="",
+                marker=look.marker,
+                markersize=0.7 * look.size,
+                markevery=max(1, sweep.sizes["frequency"] // _MARKS),
+                color=look.colour,
+                markerfacecolor=look.colour if look.filled else "none",
+                label=look.label,
+                zorder=3,
+            )[0]
+        for kind, mark in MARKS.items():
+            mine = kinds == kind
+            if not mine.any() or f"bifurcation_{one.quantity}" not in data:
+                continue
+            found[kind] = ax.plot(
+                scale * data["bifurcation_value"].values[mine],
+                one.factor * one.of(data[f"bifurcation_{one.quantity}"])[mine],
+                linestyle="",
+                marker=mark.marker,
+                markersize=mark.size,
+                markerfacecolor=mark.colour if mark.filled else "none",
+                markeredgecolor=mark.colour,
+                label=kind.replace("-", "–"),
+                zorder=4,
+            )[0]
+        ax.set_xlim(x.min(), x.max() if x.max() > x.min() else None)
+        ax.set_ylabel(one.label)
+    label_lowest(given, axes, f"{data[parameter].attrs['long_name']} ({unit})")
+    words = {True: "stable", False: "unstable"}
+    entries = [
+        Line2D([], [], label=f"{words[stable]}{', contact' if touched else ''}", **style)
+        for (stable, touched), style in sorted(styles.items(), reverse=True)
+    ]
+    legend_of(given, axes, [*entries, *found.values()])
+    fit_labels(*given)
+    return given
+
+
+def label_lowest(given: Panels, axes: Any, label: str) -> None:
+    """Label the horizontal axes of the panels that have none below them."""
+    for i, ax in enumerate(given):
+        place = ax.get_subplotspec()
+        columns = 1 if place is None or axes is not None else place.get_gridspec().ncols
+        if i >= len(given) - columns:
+            ax.set_xlabel(label)
+
+
+def legend_of(given: Panels, axes: Any, entries: list[Any]) -> None:
+    """Add one legend for all panels: above the first, or below all panels of a new figure."""
+    figure = given[0].get_figure(root=True)
+    if axes is None and figure is not None and len(given) > 2:
+        add_legend(figure, entries, columns=4)
+    else:
+        add_legend(given[0], entries, columns=3)
+
+
+def _line(stable: bool, touched: bool) -> dict[str, Any]:
+    return {
+        "color": "black",
+        "linestyle": "-" if stable else (0, (4, 2)),
+        "linewidth": (2.0 if touched else 0.9) * (1.0 if stable else 0.8),
+        "gapcolor": None if stable else "white",
+    }
+
+
+def _runs(piece: slice, hit: NDArray[np.bool_]) -> list[tuple[slice, bool]]:
+    """Return parts of a piece of a branch whose segments all have contacts, or none."""
+    runs: list[tuple[slice, bool]] = []
+    for i in range(piece.start, piece.stop - 1):
+        touched = bool(hit[i] and hit[i + 1])
+        if runs and runs[-1][1] == touched:
+            runs[-1] = (slice(runs[-1][0].start, i + 2), touched)
+        else:
+            runs.append((slice(i, i + 2), touched))
+    return runs
+
+
+class _Panel(NamedTuple):
+    """What a panel shows of a mass or a stop."""
+
+    name: str
+    """Name of the mass or the stop, or the words of a quantity of the whole assembly."""
+    quantity: str
+    values: xr.DataArray
+    factor: float
+    label: str
+    touched: NDArray[np.bool_]
+    """Where a stop of this part is touched: of a mass its own stops, of the assembly all."""
+
+    def of(self, values: xr.DataArray) -> _Array:
+        """Return the values of this part from those of all."""
+        for dim in ("mass", "stop"):
+            if dim in values.dims:
+                values = values.sel({dim: self.name})
+        return np.asarray(values.values, dtype=float)
+
+
+def _panels(
+    data: xr.Dataset, quantity: str, names: Sequence[str] | None, assembly: Assembly
+) -> list[_Panel]:
+    """Return the panels of a quantity: one per mass, one per stop, or one of the assembly."""
+    along = {"point"} if "point" in data.dims else {"direction", "frequency"}
+    known = [
+        str(name)
+        for name, one in data.data_vars.items()
+        if along <= set(one.dims) <= along | {"mass", "stop"}
+        and one.dtype.kind == "f"
+        and not str(name).startswith("bifurcation_")
+    ]
+    if quantity not in known:
+        raise InputError(f"quantity: {quantity!r}; one of {', '.join(known)} is accepted")
+    values = data[quantity]
+    hit = data["peak_force"] > 0.0  # infinite at a rigid stop that is hit
+    dim = next((dim for dim in ("mass", "stop") if dim in values.dims), None)
+    if dim is None:
+        name = _BASE if "transmitted" in quantity else quantity.replace("_", " ")
+        factor, label = axis_label(values, quantity)
+        return [_Panel(name, quantity, values, factor, label, hit.any("stop").values)]
+    every = assembly.names if dim == "mass" else tuple(assembly.stops)
+    found = []
+    shared = axis_label(values, quantity)
+    for name in chosen(names, every, dim, "names"):
+        of, (factor, label) = quantity, shared
+        if quantity == "peak_force" and is_rigid(assembly.stops[name]):
+            of = "peak_impulse"
+            factor, label = axis_label(data[of], of)
+        stops = touching(assembly, name) if dim == "mass" else [name]
+        touched = hit.sel(stop=stops).any("stop").values
+        found.append(_Panel(name, of, data[of].sel({dim: name}), factor, label, touched))
+    return found
+
+
+def _shade(ax: Axes, frequency: _Array, hit: NDArray[np.bool_]) -> set[str]:
+    """Shade the frequencies with contact, and return which kinds of shades were drawn."""
+    edges = np.concatenate([frequency[:1], 0.5 * (frequency[1:] + frequency[:-1]), frequency[-1:]])
+    state = np.where(hit.all(axis=0), "both", np.where(hit.any(axis=0), "one", ""))
+    drawn, first = set(), 0
+    for i in range(1, len(state) + 1):
+        if i < len(state) and state[i] == state[first]:
+            continue
+        if state[first]:
+            drawn.add(str(state[first]))
+            ax.axvspan(
+                edges[first],
+                edges[i],
+                facecolor=SHADE,
+                edgecolor=EDGE,
+                lw=0.0,
+                hatch=_CONTACT[str(state[first])],
+                zorder=0,
+            )
+        first = i
+    return drawn

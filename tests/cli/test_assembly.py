@@ -1,0 +1,313 @@
+"""Commands with a study file of several masses."""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.cli import main
+from vibroimpact.cli.options import RigOptions
+from vibroimpact.cli.rig import subject
+
+NEIGHBOURS = """
+name = "neighbours"
+
+[assembly.masses]
+west = "200 t"
+east = "250 t"
+
+[assembly.links]
+frame_west = { left = "ground", right = "west", stiffness = "30 MN/m", damping = "0.2 MN s/m" }
+frame_east = { left = "ground", right = "east", stiffness = "90 MN/m", damping = "0.4 MN s/m" }
+
+[assembly.stops.pounding]
+left = "west"
+right = "east"
+stiffness = "500 MN/m"
+damping = "2 MN s/m"
+gap = "2 cm"
+
+[assembly.stops.wall]
+left = "east"
+right = "ground"
+kind = "rigid"
+restitution = 0.6
+gap = "1 cm"
+
+[excitation]
+amplitude = "0.1 g"
+
+[sweep]
+from = "1.5 Hz"
+to = "2.5 Hz"
+step = "0.1 Hz"
+
+[simulate]
+frequency = "1.9 Hz"
+cycles = 5
+"""
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Run a command in a folder with the study file of the neighbours."""
+    (tmp_path / "neighbours.toml").write_text(NEIGHBOURS, encoding="utf-8")
+
+    def run(*words: str) -> tuple[int, str, str]:
+        out, errors = io.StringIO(), io.StringIO()
+        with (
+            contextlib.chdir(tmp_path),
+            contextlib.redirect_stdout(out),
+            contextlib.redirect_stderr(errors),
+        ):
+            code = main(words)
+        return code, out.getvalue(), errors.getvalue()
+
+    return run
+
+
+def rig() -> vi.Rig:
+    spring = vi.Isolator
+    return vi.Rig(
+        vi.Assembly(
+            {"west": "200 t", "east": "250 t"},
+            {
+                "frame_west": vi.Link("ground", "west", spring("30 MN/m", "0.2 MN s/m")),
+                "frame_east": vi.Link("ground", "east", spring("90 MN/m", "0.4 MN s/m")),
+            },
+            {
+                "pounding": vi.Link("west", "east", vi.Bumper("500 MN/m", "2 MN s/m", "2 cm")),
+                "wall": vi.Link("east", "ground", vi.RigidStop(0.6, "1 cm")),
+            },
+        ),
+        "0.1 g",
+    )
+
+
+def files(folder: Path) -> set[str]:
+    return {path.name for path in (folder / "out").iterdir()}
+
+
+def test_simulate(run, tmp_path):
+    code, told, _ = run("simulate", "neighbours", "--animation", "html")
+    assert code == 0
+    stem = "neighbours-1.9Hz"
+    pictures = ("history", "accelerations", "forces", "envelopes")
+    assert files(tmp_path) == {
+        f"{stem}-history.nc",
+        f"{stem}.html",
+        *(f"{stem}-{name}.png" for name in pictures),
+    }
+    motion = vi.simulate(rig(), 5, frequency=1.9)
+    data = vi.load(tmp_path / f"out/{stem}-history.nc")
+    np.testing.assert_array_equal(data["displacement"], motion["displacement"])
+    rows = [line.split() for line in told.splitlines()]
+    found = vi.totals(motion)
+    for mass in ("west", "east"):
+        shown = next(row for row in rows if row[:1] == [mass])
+        assert float(shown[1]) == pytest.approx(
+            1e3 * float(found["displacement_max"].sel(mass=mass)), rel=1e-3
+        )
+        assert float(shown[2]) == pytest.approx(
+            -1e3 * float(found["displacement_min"].sel(mass=mass)), rel=1e-3
+        )
+    assert "frame_west        K = 30 MN/m, C = 200 kN s/m" in told
+    assert "natural frequencies    1.949, 3.02 Hz" in told
+
+
+def test_facts_of_a_motion_are_exact(run):
+    code, told, _ = run("simulate", "neighbours", "--json")
+    assert code == 0
+    facts = json.loads(told)
+    motion = vi.simulate(rig(), 5, frequency=1.9)
+    found, log = vi.totals(motion), vi.contacts(motion)
+    largest = facts["largest"]
+    assert largest["masses"]["west"]["peak_acceleration"] == float(
+        found["peak_acceleration"].sel(mass="west")
+    )
+    assert largest["links"]["frame_east"]["peak_drift"] == float(
+        found["peak_drift"].sel(link="frame_east")
+    )
+    pounding, wall = largest["stops"]["pounding"], largest["stops"]["wall"]
+    assert pounding["peak_force"] == float(found["peak_force"].sel(stop="pounding"))
+    mine = log["contact_stop"].values == "wall"
+    assert wall == {
+        "contacts": int(mine.sum()),
+        "peak_impulse": float(log["contact_impulse"].values[mine].max()),
+    }
+    assert wall["contacts"] > 0
+    assert pounding["contacts"] == int((log["contact_stop"] == "pounding").sum()) > 0
+    assert facts["natural_frequencies"] == rig().system.natural_frequencies.tolist()
+
+
+def test_sweep(run, tmp_path):
+    code, told, _ = run("sweep", "neighbours", "--json")
+    assert code == 0
+    assert files(tmp_path) == {
+        "neighbours-sweep.nc",
+        "neighbours-sweep.txt",
+        *(f"neighbours-sweep{name}.png" for name in ("", "-accelerations", "-forces")),
+    }
+    facts = json.loads(told)
+    data = vi.load(tmp_path / "out/neighbours-sweep.nc")
+    direct = vi.sweep(rig(), np.round(np.arange(1.5, 2.51, 0.1), 10))
+    np.testing.assert_array_equal(data["peak_displacement"], direct["peak_displacement"])
+    west = facts["largest"]["masses"]["west"]["peak_displacement"]
+    assert west["value"] == float(direct["peak_displacement"].sel(mass="west").max())
+    at = direct["peak_displacement"].sel(mass="west", direction=west["direction"])
+    assert float(at.sel(frequency=west["frequency"])) == west["value"]
+    for stop in ("pounding", "wall"):
+        for direction in ("forward", "backward"):
+            hit = direct["impacts"].sel(stop=stop, direction=direction) > 0.0
+            ranges = [
+                (one["low"], one["high"])
+                for one in facts["contact"]
+                if (one["stop"], one["direction"]) == (stop, direction)
+            ]
+            inside = [
+                any(low <= f <= high for low, high in ranges) for f in direct["frequency"].values
+            ]
+            assert inside == hit.values.tolist()
+            assert hit.any()
+    assert facts["resonances"]
+    for one in facts["resonances"]:
+        curve = direct["peak_displacement"].sel(mass=one["mass"], direction=one["direction"])
+        i = int(np.flatnonzero(curve["frequency"] == one["frequency"])[0])
+        assert curve[i - 1] < curve[i] > curve[i + 1]
+    summary = (tmp_path / "out/neighbours-sweep.txt").read_text(encoding="utf-8")
+    assert "Resonances, by mass" in summary
+    assert "Largest, by stop" in summary
+
+
+def test_branch(run, tmp_path):
+    words = ("branch", "neighbours", "--vary", "frequency=1.5Hz:2Hz", "--set", "stops.wall=none")
+    code, told, _ = run(*words)
+    assert code == 0
+    stem = "neighbours-no-stop-wall-frequency-branches"
+    assert files(tmp_path) == {f"{stem}.nc", f"{stem}.png"}
+    data = vi.load(tmp_path / f"out/{stem}.nc")
+    assert float(data["frequency"].min()) == 1.5
+    assert float(data["frequency"].max()) == 2.0
+    assert "grazing" in told
+    assert "η_d" not in told
+
+
+def test_a_branch_along_a_path(run, tmp_path):
+    words = ("--vary", "stops.pounding.gap=1cm:2cm", "--set", "stops.wall=none")
+    code, _, _ = run("branch", "neighbours", *words)
+    assert code == 0
+    data = vi.load(tmp_path / "out/neighbours-no-stop-wall-stops-pounding-gap-branches.nc")
+    assert data.attrs["parameter"] == "stops.pounding.gap"
+
+
+def test_motion(run, tmp_path):
+    code, told, _ = run("motion", "neighbours", "--json", "--set", "stops.wall=none")
+    assert code == 0
+    facts = json.loads(told)
+    stops = {"pounding": rig().system.stops["pounding"]}
+    steady = vi.steady(vi.Rig(rig().system.replace(stops=stops), "0.1 g"), frequency=1.9)
+    assert facts["motion"] == str(steady["motion"].values) == "periodic"
+    assert facts["largest"]["masses"]["west"]["displacement_max"] == pytest.approx(
+        float(steady["displacement_max"].sel(mass="west")), rel=1e-12
+    )
+    assert "neighbours-no-stop-wall-1.9Hz-motion-envelopes.png" in files(tmp_path)
+    code, _, errors = run("motion", "neighbours", "--frequency", "1Hz,2Hz")
+    assert code == 2
+    assert "2 frequencies, but 'neighbours' has several masses" in errors
+
+
+def test_earthquake(run, tmp_path):
+    time = np.arange(400) * 0.01
+    ground = 3.0 * np.sin(12.0 * time) * np.exp(-0.3 * time)
+    rows = "".join(f"{t:.2f},{a:.6f}\n" for t, a in zip(time, ground, strict=True))
+    path = tmp_path / "quake.csv"
+    path.write_text(f"time (s),acceleration (m/s^2)\n{rows}", encoding="utf-8")
+    code, told, _ = run("earthquake", "neighbours", "quake.csv", "--peak", "0.3g", "--json")
+    assert code == 0
+    stem = "neighbours-quake.csv-earthquake"
+    pictures = ("displacements", "accelerations", "forces", "envelopes")
+    assert files(tmp_path) == {
+        "neighbours-earthquake.csv",
+        f"{stem}.nc",
+        *(f"{stem}-{name}.png" for name in pictures),
+    }
+    record = vi.Record.read(path).scaled(peak="0.3 g")
+    response = vi.seismic_response(vi.Rig(rig().system, record))
+    with (tmp_path / "out/neighbours-earthquake.csv").open(encoding="utf-8") as file:
+        (row,) = csv.DictReader(file)
+    assert row["record"] == "quake.csv"
+    for mass in ("west", "east"):
+        exact = float(response["peak_displacement"].sel(mass=mass))
+        assert float(row[f"peak_displacement_{mass}"]) == exact
+        (one,) = json.loads(told)["records"]
+        shown = one["largest"]["masses"][mass]["peak_displacement"]
+        assert shown == pytest.approx(exact, rel=1e-9)
+    assert float(row["peak_force_pounding"]) == float(response["peak_force"].sel(stop="pounding"))
+    saved = {name: vi.load(tmp_path / f"out/{stem}.nc", name) for name in ("response", "motion")}
+    assert saved["response"]["peak_drift"].equals(response["peak_drift"])
+    assert saved["motion"].sizes["mass"] == 2
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("basins", "neighbours"), "assembly: this command computes one mass"),
+        (("simulate", "neighbours", "--displacement", "2mm"), "--displacement: '2mm', but"),
+        (("sweep", "neighbours", "--compute", "p = mean(velocity)"), "--compute: "),
+        (("sweep", "neighbours", "--normalised"), "--normalised: set, but"),
+        (("branch", "neighbours", "--start", "1mm,0"), "--start: '1mm,0', but"),
+        (("simulate", "neighbours", "--set", "stops.pound.gap=1cm"), "did you mean stops.pounding"),
+        (
+            ("simulate", "neighbours", "--set", "stops.moat=none"),
+            "--set: stops.moat: 'moat' is not",
+        ),
+        (("simulate", "neighbours", "--set", "masses.west=none"), "only a link, a stop or a force"),
+        (("simulate", "neighbours", "--set", "masses.west=-1t"), "--set: masses.west: '-1t'"),
+        (
+            ("simulate", "B2-G1-A3", "--frequency", "2Hz", "--animation", "gif"),
+            "--animation: 'gif'",
+        ),
+    ],
+)
+def test_wrong_input_is_one_line(run, tmp_path, words, named):
+    code, told, errors = run(*words)
+    assert (code, told) == (2, "")
+    assert errors.startswith("vibroimpact: error: ")
+    assert errors.count("\n") == 1
+    assert named in errors
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("values", "words", "slug"),
+    [
+        (("stops.pounding.gap=1cm",), "pounding gap 10 mm", "pounding-gap-10mm"),
+        (("masses.west=300t",), "mass west 300 t", "mass-west-300t"),
+        (("links.frame_west=none",), "no link frame west", "no-link-frame-west"),
+        (("gap=3cm",), "gap 30 mm", "gap-30mm"),
+        (("forces.east=5kN",), "east 5 kN", "east-5kN"),
+    ],
+)
+def test_changes_are_in_the_title(run, tmp_path, values, words, slug):
+    path = str(tmp_path / "neighbours.toml")
+    what = subject(path, RigOptions(values=values), masses=True)
+    assert what.name == f"neighbours, {words}"
+    assert what.slug == f"neighbours-{slug}"
+
+
+def test_a_force_stays_on_its_mass(run, tmp_path):
+    text = NEIGHBOURS.replace('amplitude = "0.1 g"', 'amplitude = "10 kN"\non = "west"')
+    path = tmp_path / "pushed.toml"
+    path.write_text(text, encoding="utf-8")
+    what = subject(str(path), RigOptions(amplitude="20kN"), masses=True)
+    assert (what.repeated.amplitude, what.repeated.on) == (20e3, "west")
+    code, told, _ = run("simulate", "pushed")
+    assert code == 0
+    assert "force on west" in told

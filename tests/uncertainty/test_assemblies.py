@@ -1,0 +1,55 @@
+"""Random assemblies: draws by path, and the sensitivity of a response."""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from response.test_assembly_motion import QUAKE
+from stability.test_assembly_orbits import STOPS, alone, frame
+
+
+def test_an_ensemble_of_one_mass_is_the_oscillators() -> None:
+    paths = ({"gap": "normal:5%", "isolator.stiffness": "uniform:10%"},
+             {"gap": "normal:5%", "links.isolator.stiffness": "uniform:10%"})  # fmt: skip
+
+    def response(rigs: list[vi.Rig]) -> object:
+        return vi.lyapunov_exponents(rigs, [1.3], 40, transient=20)
+
+    one, several = (
+        vi.ensemble(alone(STOPS["bumpers"], assembled=assembled), drawn, response, 8)
+        for assembled, drawn in zip((False, True), paths, strict=True)
+    )
+    np.testing.assert_array_equal(several["gap"], one["gap"])
+    np.testing.assert_array_equal(several["links.isolator.stiffness"], one["isolator.stiffness"])
+    np.testing.assert_allclose(several["effective_damping"], one["effective_damping"], rtol=1e-9)
+    assert several["links.isolator.stiffness"].attrs["units"] == "N m-1"
+
+
+def test_demands_of_random_frames_and_their_sensitivity() -> None:
+    response = functools.partial(
+        vi.demands, records=vi.Record(QUAKE.acceleration[:80], 0.02), tail=0
+    )
+    paths = {"masses.roof": "normal:5%", "links.isolator.stiffness": "lognormal:0.1"}
+    drawn = vi.ensemble(frame(), paths, response, 8)
+    assert set(drawn["peak_drift"].dims) == {"sample", "record", "scale", "link"}
+    at = drawn.isel(sample=3)
+    roof, stiffness = float(at["masses.roof"]), float(at["links.isolator.stiffness"])
+    assembly = frame()
+    isolator = vi.Link("ground", "base", vi.Isolator(stiffness, 900.0))
+    again = response(
+        assembly.replace(
+            masses={"base": 300.0, "roof": roof}, links={**assembly.links, "isolator": isolator}
+        )
+    )
+    np.testing.assert_allclose(at["peak_drift"], again["peak_drift"], rtol=1e-12)
+    found = vi.sensitivity(frame(), paths, response, "peak_drift", 8)
+    assert found["total_order"].sizes["uncertain_parameter"] == 2
+    assert found["total_order"].sizes["link"] == 2
+    with pytest.raises(vi.InputError, match="'damping_ratio' is not a parameter of this rig"):
+        vi.ensemble(frame(), {"damping_ratio": "normal:5%"}, response, 8)
+    with pytest.raises(vi.InputError, match="amplitude requires sinusoidal shaking"):
+        vi.ensemble(frame(), {"amplitude": "normal:5%"}, response, 8)
