@@ -27,11 +27,7 @@ from vibroimpact.model.assembly import numbers
 from vibroimpact.model.count_checks import check_samples
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_pieces import forcing_size
-from vibroimpact.response.assembly_rig import (
-    assembly_numbers,
-    check_laws,
-    link_parts,
-)
+from vibroimpact.response.assembly_rig import assembly_numbers, check_laws, link_parts
 from vibroimpact.response.assembly_state import (
     as_assembly_state,
     assembly_vector,

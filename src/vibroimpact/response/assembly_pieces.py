@@ -20,7 +20,7 @@ from vibroimpact.engine.assembly.entries import follow_sections
 from vibroimpact.engine.assembly.plan import plan_of
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Record, Repeated
-from vibroimpact.response.assembly_rig import assembly_numbers
+from vibroimpact.response.assembly_rig import assembly_numbers, link_parts
 
 _Array = NDArray[np.float64]
 
@@ -122,6 +122,8 @@ class Seen(NamedTuple):
     status: Status
     masses: int
     stops: int
+    parts: int
+    """Stops, and behind them the curved parts of links."""
 
     def _of(self, first: int, count: int) -> _Array:
         return self.values[:, first : first + count]
@@ -149,12 +151,12 @@ class Seen(NamedTuple):
     @property
     def force(self) -> _Array:
         """Of each stop; 0 while it is free."""
-        return self._of(4 * self.masses + self.stops, self.stops)
+        return self._of(4 * self.masses + self.parts, self.stops)
 
     @property
     def deformation(self) -> _Array:
         """Of each stop."""
-        return self._of(4 * self.masses + 2 * self.stops, self.stops)
+        return self._of(4 * self.masses + 2 * self.parts, self.stops)
 
 
 class Follower:
@@ -178,11 +180,12 @@ class Follower:
         nodes: int = NODES,
     ) -> None:
         self.plan = plan_of(assembly_numbers(assembly, shaking))
-        self.shape = len(assembly.names), len(assembly.stops)
+        stops = len(assembly.stops)
+        self.shape = len(assembly.names), stops, stops + len(link_parts(assembly))
         self.forcing = forcing_size(shaking)
         self.max_events = max_events
         self.tau = _rule(nodes).tau
-        self._rows = np.empty((1024, 2 + 4 * self.shape[0] + 3 * self.shape[1]))
+        self._rows = np.empty((1024, 2 + 4 * self.shape[0] + 3 * self.shape[2]))
 
     def over(self, state: _Array, lines: _Array) -> Seen:
         """Follow a motion over sections, in place, and return what is seen of them."""

@@ -250,6 +250,7 @@ def _complete(vector: _Array) -> None:
     dashpot, spring = stops[:, layout.STOP_DAMPING], stops[:, layout.STOP_STIFFNESS]
     rates = np.full(len(stops), np.inf)
     stops[:, layout.RELAXATION] = np.divide(spring, dashpot, out=rates, where=dashpot > 0.0)
+    stops[stops[:, layout.KIND] == layout.LINK, layout.RELAXATION] = 0.0
     sums = int(vector[layout.ROW_SUMS])
     for i, block in enumerate((layout.STIFFNESS, layout.DAMPING)):
         first = int(vector[block])

@@ -59,7 +59,14 @@ STOPS = {
         ("bouc-wen", "rigid"),
         ("bilinear", "bumper"),
         ("friction", "rigid"),
-        ("square", "jankowski"),
+        ("square", "dissipation"),
+        pytest.param(
+            "square",
+            "jankowski",
+            marks=pytest.mark.xfail(
+                reason="the slope of c δ^¼ δ' where it is left out, 1e-3, is not yet carried"
+            ),
+        ),
     ],
 )
 def test_differences(link: str, stop: str) -> None:
