@@ -84,6 +84,8 @@ kernels: $(VENV)/.installed-release
 dist: $(VENV)/.installed-release
 	rm -rf dist
 	$(BIN)/python -m build --outdir dist .
+	@for platform in $$(cd src/vibroimpact/engine/libraries && ls | sed -n 's/-v[0-9]*\..*//p' | sort -u); do \
+	    VIBROIMPACT_PLATFORM=$$platform $(BIN)/python -m build --wheel --outdir dist . || exit 1; done
 	$(BIN)/python -m twine check --strict dist/*
 	$(BIN)/python tests/distribution.py dist $(PYTHONS)
 

@@ -57,6 +57,10 @@ def motions(engine: str) -> tuple[bool, bool, list[str]]:
     return native_code, numba, hexes
 
 
+def test_the_library_of_the_repository_is_of_these_sources() -> None:
+    assert (native.FOLDER / native.DIGEST).read_text() == native.digest(), "run make kernels"
+
+
 @here
 def test_numba_is_not_imported() -> None:
     assert motions("")[:2] == (True, False)
