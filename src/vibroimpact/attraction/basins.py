@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress, is_list
+from vibroimpact.arguments import is_list
 from vibroimpact.attraction.attractor_variables import ranked, shares, variables
 from vibroimpact.attraction.basin_metrics import border_distances, entropies, uncertainty_exponent
 from vibroimpact.attraction.find_attractors import Search
@@ -23,9 +23,10 @@ from vibroimpact.datasets.description import (
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
 from vibroimpact.model import Oscillator, to_si
-from vibroimpact.model.count_checks import check_max_events, whole
+from vibroimpact.model.argument_types import MaxEvents, PositiveInt, Refinements, whole
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
@@ -36,10 +37,9 @@ _Labels = NDArray[np.int16]
 UNDECIDED, NOWHERE = -1, -2
 """Number of a state that was given up, and of a state beyond a rigid stop."""
 MOST_NODES = 100_000_000
-MOST_REFINED = 8
 
 
-@in_units_of_rig
+@public
 def basins(
     rig: AnyRig,
     displacement: Sequence[float | str] | None = None,
@@ -47,12 +47,12 @@ def basins(
     *,
     frequency: float | str | None = None,
     nodes: int | tuple[int, int] = 200,
-    refine: int = 0,
+    refine: Refinements = 0,
     right_bumper: float | str = 0.0,
     left_bumper: float | str = 0.0,
     isolator: float | str = 0.0,
-    max_cycles: int = 2000,
-    max_events: int = 10_000,
+    max_cycles: PositiveInt = 2000,
+    max_events: MaxEvents = 10_000,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -134,13 +134,8 @@ def basins(
     rig = as_rig(rig, frequency)
     rig.check_frequency()
     check_bounded(rig)
-    check_progress(progress)
-    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads, where)
-    refine = whole(refine, "refine", 0)
     first = _nodes(nodes)
-    if refine > MOST_REFINED:
-        raise InputError(f"refine: {refine}; pass a whole number from 0 to {MOST_REFINED}")
     plan = Nodes((((first[1] - 1) << refine) + 1, ((first[0] - 1) << refine) + 1), refine)
     if plan.shape[0] * plan.shape[1] > MOST_NODES:
         raise InputError(

@@ -11,7 +11,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.design.design_shaking import AnyRecords, design_rig
 from vibroimpact.design.limits import limits_of
@@ -21,6 +20,8 @@ from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
 from vibroimpact.model import Oscillator
+from vibroimpact.model.argument_types import Share
+from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.varied import Values
 from vibroimpact.tasks.executors import THREADS, placed
@@ -34,6 +35,7 @@ _STIFFNESSES = {
 }
 
 
+@public
 def design_chart(
     rig: AnyRig | Oscillator,
     vary: Values,
@@ -42,7 +44,7 @@ def design_chart(
     limits: Mapping[str, float | str] | None = None,
     fractile: float = 1.0,
     frequency_span: tuple[float | str, float | str] | None = None,
-    step: float = STEP,
+    step: Share = STEP,
     tail: float | str | None = None,
     threads: int | None = None,
     where: Any = THREADS,
@@ -127,7 +129,6 @@ def design_chart(
     InputError
         If a value is invalid.
     """
-    check_progress(progress)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )

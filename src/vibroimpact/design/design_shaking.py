@@ -19,7 +19,7 @@ from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.count_checks import MOST_TAIL, share
+from vibroimpact.model.argument_types import MOST_TAIL
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
 from vibroimpact.model.read_rig import as_rig
 from vibroimpact.model.rig import with_stated_units
@@ -215,9 +215,7 @@ def design_rig(
             None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
         )
     shaken = one_sine(found)
-    return found.oscillator, BySines(
-        Sines(shaken.sine, *_range(frequency_span), share(step, "step"))
-    )
+    return found.oscillator, BySines(Sines(shaken.sine, *_range(frequency_span), step))
 
 
 def _range(frequencies: Any) -> tuple[float | None, float | None]:

@@ -10,7 +10,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
@@ -20,8 +19,9 @@ from vibroimpact.earthquakes.run_plan import runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Oscillator
-from vibroimpact.model.count_checks import whole
+from vibroimpact.model.argument_types import NonNegativeInt, Share
 from vibroimpact.model.parameters import parameter
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig, with_stated_units
@@ -110,6 +110,7 @@ _VAST = 1e30
 """Finite stand-in for infinity, for the search."""
 
 
+@public
 def least_acceleration(
     rig: AnyRig | Oscillator,
     vary: Ranges | None = None,
@@ -119,9 +120,9 @@ def least_acceleration(
     limits: Mapping[str, float | str] | None = None,
     fractile: float = 1.0,
     frequency_span: tuple[float | str, float | str] | None = None,
-    step: float = STEP,
+    step: Share = STEP,
     tail: float | str | None = None,
-    seed: int = 0,
+    seed: NonNegativeInt = 0,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -176,8 +177,6 @@ def least_acceleration(
     """
     from scipy.optimize import NonlinearConstraint, differential_evolution
 
-    check_progress(progress)
-    seed = whole(seed, "seed", 0)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )

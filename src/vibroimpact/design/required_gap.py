@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.design.design_shaking import AnyRecords, ByRecords, design_rig
 from vibroimpact.design.worst_sine import STEP, Sines
@@ -15,6 +14,8 @@ from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, equilibrium
+from vibroimpact.model.argument_types import Share
+from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
@@ -22,13 +23,14 @@ from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
 
 
+@public
 def required_gap(
     rig: AnyRig | Oscillator,
     *,
     records: AnyRecords | None = None,
     fractile: float = 1.0,
     frequency_span: tuple[float | str, float | str] | None = None,
-    step: float = STEP,
+    step: Share = STEP,
     tail: float | str | None = None,
     threads: int | None = None,
     where: Any = THREADS,
@@ -64,7 +66,6 @@ def required_gap(
         If a value is invalid. Also if the motion without stops is unbounded, or if its computation
         was given up.
     """
-    check_progress(progress)
     workers = placed(threads, where)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail

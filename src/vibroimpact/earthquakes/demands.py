@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.arguments import check_list, check_progress, is_list
+from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, PEAKS, RESIDUALS, Shaken, peaks
@@ -32,7 +32,12 @@ from vibroimpact.earthquakes.seismic_response import with_both_sides
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, whole
+from vibroimpact.model.argument_types import (
+    MOST_TAIL,
+    MaxEvents,
+    PositiveInt,
+)
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig
@@ -57,6 +62,7 @@ _KIND = Kind("set of demands", CREATED_BY, frozenset({*_VALUES, "status"}))
 _PENDING = -1
 
 
+@public
 def demands(
     rig: Oscillator | AnyRig | Mapping[str, Oscillator | AnyRig] | list[Oscillator | AnyRig],
     records: Record | Sequence[Record] | Mapping[str, Record],
@@ -65,9 +71,9 @@ def demands(
     intensity: Literal["factor", "PGA"] | tuple[float | str, float] = "factor",
     vary: Values | None = None,
     tail: float | str | None = None,
-    max_events: int = MAX_EVENTS,
+    max_events: MaxEvents = MAX_EVENTS,
     store: Path | str | None = None,
-    block: int = 512,
+    block: PositiveInt = 512,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -135,7 +141,6 @@ def demands(
     InputError
         If a value is invalid, or if the folder ``store`` holds another computation.
     """
-    check_progress(progress)
     shaking = suite(records)
     rigs = runs(rig, vary, {**in_words(shaking), "scales": scales})
     scaled = measure(intensity)
@@ -146,7 +151,7 @@ def demands(
         list(shaking.values()),
         factors,
         None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
-        check_max_events(max_events),
+        max_events,
         placed(threads, where),
     )
     settings = {
@@ -157,12 +162,12 @@ def demands(
         "intensity": [scaled.name, scaled.period, scaled.damping],
         "tail": task.tail,
         "max_events": task.max_events,
-        "block": (most := whole(block, "block")),
+        "block": block,
     }
-    parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, most))
-    with folder(store, _KIND, settings, partial(_make, task=task, most=most), parts) as group:
+    parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, block))
+    with folder(store, _KIND, settings, partial(_make, task=task, most=block), parts) as group:
         if not finished(group):
-            _complete(group, task, most, progress)
+            _complete(group, task, block, progress)
             group.attrs["finished"] = True
         found = {name: read(group, _KIND.word, name) for name in (*_VALUES, "status")}
     dims = ("record", "scale", *rigs.dims)

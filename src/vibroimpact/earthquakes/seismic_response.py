@@ -7,16 +7,16 @@ import warnings
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
 from vibroimpact.model import to_si
-from vibroimpact.model.count_checks import MOST_TAIL, check_max_events
+from vibroimpact.model.argument_types import MOST_TAIL, MaxEvents
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_parameters
@@ -34,12 +34,12 @@ SUMS = {
 """Variables that are the sum of both sides."""
 
 
-@in_units_of_rig
+@public
 def seismic_response(
     rig: AnyRig,
     *,
     tail: float | str | None = None,
-    max_events: int = MAX_EVENTS,
+    max_events: MaxEvents = MAX_EVENTS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Compute the peak response of a rig to a record from rest, and the energies of the motion.
@@ -95,7 +95,6 @@ def seismic_response(
     """
     rig = as_rig(rig)
     oscillator, record = rig.oscillator, rig.record
-    check_progress(progress)
     behind = (
         free_tail(Rig(oscillator, record))
         if tail is None
@@ -106,7 +105,7 @@ def seismic_response(
         tail=behind,
         energies=True,
         residuals=True,
-        max_events=check_max_events(max_events),
+        max_events=max_events,
         threads=1,
         progress=progress,
         by_line=True,

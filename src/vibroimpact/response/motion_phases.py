@@ -27,7 +27,7 @@ from vibroimpact.engine.phases import integrate_motion, measure_motion
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
 from vibroimpact.model import Oscillator, Record, Repeated, RigidStop, State, validate
-from vibroimpact.model.count_checks import MOST_EVENTS
+from vibroimpact.model.argument_types import MOST_EVENTS
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
 from vibroimpact.response.record_history import straight

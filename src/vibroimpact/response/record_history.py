@@ -16,7 +16,7 @@ from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, outside
 from vibroimpact.model import AssemblyState, Record, State, equilibrium
-from vibroimpact.model.count_checks import MOST_SAMPLES, check_samples
+from vibroimpact.model.argument_types import MOST_SAMPLES, check_samples
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import (

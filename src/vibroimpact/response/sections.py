@@ -13,7 +13,8 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
 from vibroimpact.model import to_si
-from vibroimpact.model.count_checks import check_samples, whole
+from vibroimpact.model.argument_types import PositiveInt, check_samples
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.contacts import contacts
@@ -24,8 +25,9 @@ _MAX_EVENTS = 10_000
 _NAMES = ("displacement", "velocity", "right_bumper", "left_bumper")
 
 
+@public
 def stroboscopic_section(
-    motion: xr.Dataset, phase: float | str = 0.0, cycles: int | None = None
+    motion: xr.Dataset, phase: float | str = 0.0, cycles: PositiveInt | None = None
 ) -> xr.Dataset:
     """Compute the stroboscopic section of a motion: its state once per forcing cycle.
 
@@ -54,7 +56,7 @@ def stroboscopic_section(
     """
     origin = recorded(motion)
     angle = to_si(phase, ANGLE, "phase")
-    count = max(1, math.floor(origin.cycles)) if cycles is None else whole(cycles, "cycles")
+    count = max(1, math.floor(origin.cycles)) if cycles is None else cycles
     check_samples(count, 1, "cycles")
     start = beginning(motion)
     engine = prepare(Rig(origin.oscillator, origin.excitation))

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list, check_progress
+from vibroimpact.arguments import check_list
 from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
@@ -25,8 +25,13 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, AssemblyState, State, to_si
-from vibroimpact.model.count_checks import check_max_events, share, whole
+from vibroimpact.model.argument_types import (
+    MaxEvents,
+    PositiveInt,
+    Share,
+)
 from vibroimpact.model.periodic_shaking import as_periodic
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs
 from vibroimpact.model.rig import Rig
@@ -52,6 +57,7 @@ from vibroimpact.tasks.threads import Progress, each
 DIRECTIONS = ("forward", "backward")
 
 
+@public
 def sweep(
     rig: AnyRig,
     frequencies: Iterable[float | str],
@@ -59,10 +65,10 @@ def sweep(
     *,
     start: State | xr.DataArray | xr.Dataset | None = None,
     phase: float | str = 0.0,
-    tolerance: float = 1e-12,
-    max_cycles: int = 2000,
-    window: int = 500,
-    max_events: int = 10_000,
+    tolerance: Share = 1e-12,
+    max_cycles: PositiveInt = 2000,
+    window: PositiveInt = 500,
+    max_events: MaxEvents = 10_000,
     outputs: Outputs | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -168,7 +174,6 @@ def _of_several_masses(
     progress: Progress | None,
 ) -> xr.Dataset:
     """Return the sweep of an assembly, the arguments read."""
-    check_progress(progress)
     as_periodic(rig.shaking, "shaking")
     if outputs is not None:
         raise InputError(
@@ -183,22 +188,13 @@ def _of_several_masses(
         _directions(directions),
         state,
         to_si(phase, ANGLE, "phase") if state.phase is None else state.phase,
-        _checked(settling),
+        settling,
         placed(threads),
         progress,
     )
 
 
-def _checked(settling: Settling) -> Settling:
-    tolerance, max_cycles, window, max_events = settling
-    return Settling(
-        share(tolerance, "tolerance"),
-        whole(max_cycles, "max_cycles"),
-        whole(window, "window"),
-        check_max_events(max_events),
-    )
-
-
+@public
 def sweeps(
     rigs: Iterable[AnyRig] | Mapping[str, AnyRig] | AnyRig,
     frequencies: Iterable[float | str],
@@ -206,10 +202,10 @@ def sweeps(
     *,
     start: State | xr.DataArray | xr.Dataset | None = None,
     phase: float | str = 0.0,
-    tolerance: float = 1e-12,
-    max_cycles: int = 2000,
-    window: int = 500,
-    max_events: int = 10_000,
+    tolerance: Share = 1e-12,
+    max_cycles: PositiveInt = 2000,
+    window: PositiveInt = 500,
+    max_events: MaxEvents = 10_000,
     outputs: Outputs | None = None,
     threads: int | None = None,
     where: Any = THREADS,
@@ -266,7 +262,6 @@ def sweeps(
     InputError
         If a value is invalid.
     """
-    check_progress(progress)
     named = periodic_rigs(rigs)
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
@@ -275,8 +270,7 @@ def sweeps(
     state = None if start is None else as_state(start)
     if state is not None and state.phase is not None:
         angle = state.phase
-    settling = _checked(Settling(tolerance, max_cycles, window, max_events))
-    tolerance, max_cycles, window, max_events = settling
+    settling = Settling(tolerance, max_cycles, window, max_events)
     workers = placed(threads, where)
 
     own = [read_outputs(outputs, rig) for rig in pairs]
@@ -340,10 +334,7 @@ def sweeps(
         {
             "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
             "phase": angle,
-            "tolerance": tolerance,
-            "max_cycles": max_cycles,
-            "window": window,
-            "max_events": max_events,
+            **settling._asdict(),
             **about(own[0]),
         },
         dict.fromkeys(doubts),

@@ -11,14 +11,18 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
 from vibroimpact.model import Rig, State, to_si
-from vibroimpact.model.count_checks import check_max_events, whole
+from vibroimpact.model.argument_types import (
+    MaxEvents,
+    NonNegativeInt,
+    PositiveInt,
+)
 from vibroimpact.model.parameters import parameter
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.varied import Values, Varied, read_values, vary_all
@@ -45,16 +49,17 @@ class _Grown(NamedTuple):
     settling: bool
 
 
+@public
 def lyapunov_exponents(
     rigs: Iterable[AnyRig] | Mapping[str, AnyRig] | AnyRig,
     frequencies: Iterable[float | str],
-    cycles: int = 1000,
+    cycles: PositiveInt = 1000,
     *,
-    transient: int = 500,
+    transient: NonNegativeInt = 500,
     start: State | xr.DataArray | xr.Dataset | None = None,
     vary: Values | None = None,
     phase: float | str = 0.0,
-    max_events: int = 10_000,
+    max_events: MaxEvents = 10_000,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -120,7 +125,6 @@ def lyapunov_exponents(
     InputError
         If a value is invalid.
     """
-    check_progress(progress)
     named = periodic_rigs(rigs)
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
@@ -128,8 +132,6 @@ def lyapunov_exponents(
     state = None if start is None else as_state(start)
     if state is not None and state.phase is not None:
         angle = state.phase
-    cycles, transient = whole(cycles, "cycles"), whole(transient, "transient", 0)
-    max_events = check_max_events(max_events)
     workers = placed(threads, where)
     first = pairs[0].oscillator
     every = read_values(vary, first, but=("frequency",), why="is set by the argument frequencies")
