@@ -29,7 +29,7 @@ from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.stops import STOPS, Bumper, JankowskiBumper, RigidStop, Stop
 from vibroimpact.model.stops.bumper import returning
 from vibroimpact.model.units import pretty, to_si
-from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import NONE, SI, written_for
 
 Units: TypeAlias = Literal["SI", "none"]
@@ -87,7 +87,7 @@ class Oscillator(Model):
     force: Annotated[float, Accepts(FORCE, meaning="constant force on the mass")] = 0.0
     units: Units = Field(default=cast("Units", None), validate_default=True)
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         mass: float | str,
@@ -96,10 +96,7 @@ class Oscillator(Model):
         left: Stop | Mapping[str, Any] | None = None,
         force: float | str = 0.0,
         units: Units | None = None,
-    ) -> None:
-        super().__init__(
-            mass=mass, isolator=isolator, right=right, left=left, force=force, units=units
-        )
+    ) -> None: ...
 
     @classmethod
     def table_keys(cls) -> list[str]:

@@ -11,6 +11,7 @@ import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import wraps
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
 
 from pydantic import (
@@ -112,6 +113,32 @@ def constructor(init: _Init) -> _Init:
     """
     init.__pydantic_base_init__ = True  # type: ignore[attr-defined]
     return init
+
+
+def takes_fields(init: _Init) -> _Init:
+    """Let an ``__init__``, which has no body, pass its arguments on as the fields of these names.
+
+    An argument that is None by default is left out if it is None. The signature is written out for
+    calls by position, for ``help``, and because texts with units are accepted, too.
+    """
+    signature = inspect.signature(init)
+    optional = {one.name for one in signature.parameters.values() if one.default is None}
+    others = [one.name for one in signature.parameters.values() if one.kind is one.VAR_KEYWORD]
+
+    @wraps(init)
+    def passed(self: Model, /, *args: Any, **values: Any) -> None:
+        try:
+            bound = signature.bind(self, *args, **values)
+        except TypeError:
+            init(self, *args, **values)  # the message names the class
+            raise
+        _, *given = bound.arguments.items()
+        fields = {name: one for name, one in given if name not in optional or one is not None}
+        for name in others:
+            fields |= fields.pop(name, {})
+        Model.__init__(self, **fields)
+
+    return constructor(cast("_Init", passed))
 
 
 if TYPE_CHECKING:

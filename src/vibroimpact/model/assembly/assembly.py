@@ -28,7 +28,7 @@ from vibroimpact.model.oscillator import Units
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.units import pretty
-from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import NONE, SI, written_for
 
 _MASS = Accepts(MASS, above=0.0)
@@ -110,7 +110,7 @@ class Assembly(Model):
     units: Units = "SI"
     matrices: Matrices | None = None
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         masses: Mapping[str, float | str] | None = None,
@@ -120,16 +120,7 @@ class Assembly(Model):
         damping: AnyDamping | Mapping[str, Any] | None = None,
         units: Units = "SI",
         matrices: Matrices | None = None,
-    ) -> None:
-        super().__init__(
-            masses=masses,
-            links=links,
-            stops=stops,
-            forces=forces,
-            damping=damping,
-            units=units,
-            matrices=matrices,
-        )
+    ) -> None: ...
 
     @classmethod
     def from_matrices(
