@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -16,9 +15,8 @@ from vibroimpact.design.design_shaking import AnyRecords, design_rig
 from vibroimpact.design.limits import limits_of
 from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
+from vibroimpact.earthquakes.demands import warn_given_up
 from vibroimpact.earthquakes.run_plan import Runs, runs
-from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
 from vibroimpact.model import Oscillator
 from vibroimpact.model.argument_types import Share
 from vibroimpact.model.public import public
@@ -138,7 +136,7 @@ def design_chart(
     places = list(itertools.product(*(range(n) for n in plan.shape)))
     rigs = [plan.oscillator(at) for at in places]
     data = _dataset(plan, {**what.peaks(rigs, workers, progress), **_dampings(plan, rigs)}, most)
-    warn(data["status"].values, "design")
+    warn_given_up(data["status"].values, "design", "designs")
     parameters = {
         "oscillator": oscillator_parameters(oscillator),
         "varied": {one.name: one.values.tolist() for one in plan.varied},
@@ -174,15 +172,3 @@ def _dataset(
         name: (plan.dims, values.reshape(plan.shape)) for name, values in {**found, **own}.items()
     }
     return xr.Dataset(shaped, {one.name: one.values for one in plan.varied})
-
-
-def warn(status: NDArray[Any], who: str) -> None:
-    """Warn of designs that were given up."""
-    for code in np.unique(status[status != Status.DONE]):
-        count = int((status == code).sum())
-        warnings.warn(
-            f"{who}: {count} of {status.size} designs could not be computed: "
-            f"{Status(int(code)).advice}",
-            RuntimeWarning,
-            stacklevel=outside(),
-        )

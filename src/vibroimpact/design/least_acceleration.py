@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
-from vibroimpact.design.limits import QUANTITIES, limits_of
+from vibroimpact.design.limits import limits_of
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Oscillator
 from vibroimpact.model.argument_types import NonNegativeInt, Share
-from vibroimpact.model.parameters import parameter
+from vibroimpact.model.parameters import in_units, parameter
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig
@@ -274,7 +274,7 @@ def _slack(best: Mapping[str, float], limits: Mapping[str, float]) -> Iterator[s
     """Describe the limits that do not bind."""
     for name, limit in limits.items():
         if best[name] < (1.0 - _NEAR) * limit:
-            quantity = QUANTITIES[VARIABLES[name].units]
+            quantity = in_units(VARIABLES[name].units)
             reached, allowed = (
                 pretty(float(f"{value:.4g}"), quantity) for value in (best[name], limit)
             )
@@ -302,7 +302,7 @@ def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:
         raise InputError(f"vary: no design could be computed: {Status(int(best['status'])).advice}")
     for name, limit in limits.items():
         if best[name] > limit:
-            quantity = QUANTITIES[VARIABLES[name].units]
+            quantity = in_units(VARIABLES[name].units)
             raise InputError(
                 f"limits[{name!r}]: no design that was tried meets this limit of "
                 f"{pretty(limit, quantity)} and all other limits (the best design has "

@@ -12,10 +12,8 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import PEAKS
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import to_si
-from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
+from vibroimpact.model.parameters import in_units
 
-QUANTITIES = {"m": LENGTH, "m s-2": ACCELERATION, "N": FORCE}
-"""Of a peak, by its unit."""
 _EXAMPLE = 'a dict of limits by name, such as {"peak_force": "2 MN"}'
 
 
@@ -34,7 +32,7 @@ def limits_of(limits: Any) -> dict[str, float]:
         key = name.replace("-", "_")
         if key not in accepted:
             raise InputError(f"limits: {unknown(name, accepted)}")
-        quantity = QUANTITIES[VARIABLES[key].units]
+        quantity = in_units(VARIABLES[key].units)
         found[key] = to_si(value, quantity, f"limits[{name!r}]", minimum=0.0)
     return found
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import warnings
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -30,7 +29,7 @@ from vibroimpact.earthquakes.run_plan import (
 )
 from vibroimpact.earthquakes.seismic_response import with_both_sides
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.argument_types import (
     MOST_TAIL,
@@ -189,7 +188,7 @@ def demands(
         data[name].attrs["long_name"] = scaled.name
         if not has_no_units(data):
             data[name].attrs["units"] = scaled.units
-    _warn(found["status"])
+    warn_given_up(found["status"], "demands", "runs")
     return data
 
 
@@ -293,13 +292,11 @@ def _levels(scales: Any, scaled: Measure) -> _Array:
     return levels
 
 
-def _warn(status: NDArray[Any]) -> None:
-    """Warn of runs that were given up."""
+def warn_given_up(status: NDArray[Any], who: str, what: str) -> None:
+    """Warn of runs that were given up. ``what`` they are, in words."""
     for code in np.unique(status[status != Status.DONE]):
         count = int((status == code).sum())
-        warnings.warn(
-            f"demands: {count} of {status.size} runs could not be computed: "
-            f"{Status(int(code)).advice}",
-            RuntimeWarning,
-            stacklevel=outside(),
+        warn_of_result(
+            f"{who}: {count} of {status.size} {what} could not be computed: "
+            f"{Status(int(code)).advice}"
         )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.earthquakes.credible_curves import begin_to_exceed, credible_curves
 from vibroimpact.earthquakes.suites import described, exceedance, known, limit_of
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model.argument_types import Share
 from vibroimpact.model.parameters import in_units, usual
 from vibroimpact.model.public import public
@@ -127,11 +126,11 @@ def fragility(
         beginning = "demands:" if limit is None else f"limit: {limit!r};"
         raise InputError(f"{beginning} {undetermined}")
     if undetermined:
-        warnings.warn(f"fragility: {undetermined}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"fragility: {undetermined}")
     others = order[2:]
     unbounded = _unbounded(found["median_capacity_bound"], values, above)
     if unbounded:
-        warnings.warn(f"fragility: {unbounded}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"fragility: {unbounded}")
     dims = {
         "fitted_probability": ("scale", *others),
         "fitted_probability_bound": ("bound", "scale", *others),

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 import xarray as xr
 
@@ -11,7 +9,7 @@ from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import to_si
 from vibroimpact.model.argument_types import MOST_TAIL, MaxEvents
 from vibroimpact.model.public import public
@@ -113,7 +111,7 @@ def seismic_response(
     data = with_both_sides(xr.Dataset({name: values[0, 0] for name, values in found.items()}))
     status = Status(int(data["status"]))
     if status is not Status.DONE:
-        warnings.warn(f"seismic_response: {status.advice}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"seismic_response: {status.advice}")
     data.attrs["message"] = status.advice
     parameters = {
         "oscillator": oscillator_parameters(oscillator),

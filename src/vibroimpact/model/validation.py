@@ -23,9 +23,9 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
-from vibroimpact.errors import DependentError, InputError, shown
+from vibroimpact.errors import DependentError, InputError, shown, similar
 from vibroimpact.model.html_table import table
-from vibroimpact.model.keys import MOST, SHOWN, listed, similar_key, unknown_key
+from vibroimpact.model.keys import LIKENESS, MOST, SHOWN, listed, unknown_key
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.sizes import SMALLEST, check_size
 from vibroimpact.model.units import accepted, pretty, read
@@ -378,7 +378,7 @@ def _meant(mistake: ErrorDetails, model: type[BaseModel]) -> tuple[int | str, ..
     """Return the location of the key that an unknown key probably means."""
     *table, name = mistake["loc"]
     keys = cast("type[Model]", _along(model, tuple(table))[1]).table_keys()
-    return (*table, similar_key(keys, str(name)))
+    return (*table, similar(str(name), keys, LIKENESS))
 
 
 def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 
 import numpy as np
 import xarray as xr
@@ -11,7 +10,7 @@ import xarray as xr
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import to_si
 from vibroimpact.model.argument_types import PositiveInt, check_samples
 from vibroimpact.model.public import public
@@ -76,10 +75,8 @@ def stroboscopic_section(
         known = rows[:, lyapunov.SECTION :][:, : len(_NAMES)]
         points = np.vstack([first, known])[:count]
     if len(points) < count:
-        warnings.warn(
-            f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}",
-            RuntimeWarning,
-            stacklevel=outside(),
+        warn_of_result(
+            f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}"
         )
     data = xr.Dataset(
         {f"section_{name}": ("section_point", points[:, i]) for i, name in enumerate(_NAMES)}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Any
 
 import numpy as np
@@ -21,7 +20,7 @@ from vibroimpact.engine import batch
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, AssemblyState, Record, Repeated, State, equilibrium, to_si
 from vibroimpact.model.argument_types import (
     MOST_TAIL,
@@ -209,11 +208,7 @@ def compute_history(
     if status is not Status.DONE:
         # The cycle that was given up is left out; its events until then are kept.
         finished = max(at - 1, 0)
-        warnings.warn(
-            f"simulate stopped in cycle {finished}: {told.advice}",
-            RuntimeWarning,
-            stacklevel=outside(),
-        )
+        warn_of_result(f"simulate stopped in cycle {finished}: {told.advice}")
         out = out[:, : finished * samples]
         length = float(finished)
     variables: dict[str, Any] = {
@@ -238,7 +233,7 @@ def compute_history(
     variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
-        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"simulate: {told.advice}")
     data.attrs["message"] = told.advice
     return describe(
         data,

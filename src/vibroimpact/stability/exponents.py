@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Rig, State, to_si
 from vibroimpact.model.argument_types import (
     MaxEvents,
@@ -214,12 +213,10 @@ def lyapunov_exponents(
     }
     data = describe(data, "vibroimpact.lyapunov_exponents", parameters, varied=every)
     if count := sum(f.settling for f in found):
-        warnings.warn(
+        warn_of_result(
             f"{count} of {len(found)} motions were still converging to a periodic motion after "
             f"{transient + DISCARD} cycles, so their exponents are not those of the periodic "
-            f"motion; pass a transient larger than {transient}; `settling` marks these motions",
-            RuntimeWarning,
-            stacklevel=outside(),
+            f"motion; pass a transient larger than {transient}; `settling` marks these motions"
         )
     return data
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, noted
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, State
 from vibroimpact.model.argument_types import (
     MaxEvents,
@@ -180,7 +180,7 @@ def describe_motion(
         kind = kind._replace(evidence=f"{kind.evidence}; {_UNDECIDED}")
         if used:
             told = f"{_UNDECIDED}; to find out which, compare it with the motion from another start"
-            warnings.warn(f"steady: {told}", RuntimeWarning, stacklevel=outside())
+            warn_of_result(f"steady: {told}")
     data = _record(found, found.state, samples, kind.period or window, max_events)
     if int(data["status"]) not in (Status.DONE, Status.REVERSED):
         return _given_up(found._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)
@@ -301,11 +301,7 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
     if not data.sizes["time"]:
         told = found.status.advice
         raise InputError(f"excitation: the motion could not be simulated: {told}")
-    warnings.warn(
-        f"steady stopped in cycle {found.cycles}: {found.status.advice}",
-        RuntimeWarning,
-        stacklevel=outside(),
-    )
+    warn_of_result(f"steady stopped in cycle {found.cycles}: {found.status.advice}")
     nothing = ("exponent", np.full(exponents(found.states), np.nan))
     scalars: dict[str, Any] = {
         "motion": "undecided",
