@@ -149,18 +149,19 @@ def _without_history(motion: xr.Dataset) -> xr.Dataset:
     return bare
 
 
+@public
 def find_motions(
     rig: Rig,
     *,
     frequencies: Iterable[float | str] | None = None,
     starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
-    random: int = 12,
-    seed: int = 0,
-    samples: int = 256,
-    window: int = 200,
-    max_cycles: int = 2000,
-    exponent_cycles: int = 20_000,
-    max_events: int = 10_000,
+    random: RandomStarts = 12,
+    seed: NonNegativeInt = 0,
+    samples: PositiveInt = 256,
+    window: PositiveInt = 200,
+    max_cycles: PositiveInt = 2000,
+    exponent_cycles: ExponentCycles = 20_000,
+    max_events: MaxEvents = 10_000,
     progress: Progress | None = None,
 ) -> list[xr.Dataset]:
     """Find the coexisting motions as datasets of `steady`, with their histories.

@@ -13,10 +13,10 @@ from vibroimpact.datasets.description import oscillator_parameters, rig_paramete
 from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.varied import vary_all
+from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.uncertainty.distributions import (
     Distribution,
     check_names,
@@ -111,7 +111,6 @@ class Uncertain(NamedTuple):
         return {**rig, "distributions": self.texts}
 
 
-@public
 def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     """Read a rig and the distributions of its parameters.
 
@@ -120,9 +119,12 @@ def uncertain(rig: AnyRig | Oscillator, distributions: Any) -> Uncertain:
     InputError
         If a distribution is invalid, or the rig has no such parameter.
     """
-    alone = isinstance(rig, Oscillator)
     base = as_rig(rig, oscillator_alone=True)
-    shaken = None if alone else base.periodic
+    return _read(base, None if isinstance(rig, Oscillator) else base.periodic, distributions)
+
+
+@as_first_argument
+def _read(base: Rig, shaken: Repeated | None, distributions: Any) -> Uncertain:
     given = check_names(distributions)
     parameters, made = [], []
     for name, one in given.items():
