@@ -161,11 +161,11 @@ def test_where_nothing_dies_out_it_is_said():
     [
         (
             {"displacement": (0.01, -0.01)},
-            "displacement: the first value, 10 mm, is not below the second, -10 mm",
+            "displacement[1]: -0.01 m is not greater than displacement[0], 0.01 m",
         ),
         (
             {"displacement": 0.01},
-            "displacement: 0.01; pass the lowest and the highest value as a pair",
+            "displacement: 0.01; pass the lowest and the highest value as",
         ),
         ({"velocity": ("1 m", "2 m")}, "velocity[0]"),
         ({"nodes": 1}, "nodes: 1"),

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import is_list
 from vibroimpact.attraction.attractor_variables import ranked, shares, variables
 from vibroimpact.attraction.basin_metrics import border_distances, entropies, uncertainty_exponent
 from vibroimpact.attraction.find_attractors import Search
@@ -26,8 +25,8 @@ from vibroimpact.model import Oscillator, to_si
 from vibroimpact.model.argument_types import MaxEvents, PositiveInt, Refinements, whole
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
+from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.model.units import pretty
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
@@ -182,20 +181,7 @@ def span_of(
     given: Sequence[float | str] | None, quantity: Quantity, field: str
 ) -> tuple[float, float] | None:
     """Read the lowest and the highest value of a window; return None without a window."""
-    if given is None:
-        return None
-    is_ordered = is_list(given) and hasattr(given, "__len__") and not isinstance(given, Set)
-    if not is_ordered or getattr(given, "ndim", 1) != 1 or len(given) != 2:
-        raise InputError(
-            f"{field}: {shown(given)}; pass the lowest and the highest value as a pair (low, high)"
-        )
-    low, high = (to_si(one, quantity, f"{field}[{i}]") for i, one in enumerate(given))
-    if not low < high:
-        raise InputError(
-            f"{field}: the first value, {pretty(low, quantity)}, is not below the second, "
-            f"{pretty(high, quantity)}; pass the lower value first"
-        )
-    return low, high
+    return None if given is None else read_span(given, quantity, field)
 
 
 def _others(

@@ -10,17 +10,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import is_pair
 from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.design.worst_sine import Sines
 from vibroimpact.earthquakes.peak_demands import Shaken, peaks
 from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.argument_types import MOST_TAIL
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
+from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.read_rig import as_rig
 from vibroimpact.model.rig import with_stated_units
 from vibroimpact.response.record_dataset import record_notes
@@ -215,24 +215,9 @@ def design_rig(
             None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
         )
     shaken = one_sine(found)
-    return found.oscillator, BySines(Sines(shaken.sine, *_range(frequency_span), step))
-
-
-def _range(frequencies: Any) -> tuple[float | None, float | None]:
-    if frequencies is None:
-        return None, None
-    if not is_pair(frequencies):
-        raise InputError(
-            f"frequency_span: {shown(frequencies)}; pass the lowest and the highest frequency, "
-            'such as ("0.2 Hz", "3 Hz")'
-        )
     low, high = (
-        to_si(one, FREQUENCY, f"frequency_span[{i}]", above=0.0)
-        for i, one in enumerate(frequencies)
+        (None, None)
+        if frequency_span is None
+        else read_span(frequency_span, FREQUENCY, "frequency_span", "frequency", above=0.0)
     )
-    if not low < high:
-        raise InputError(
-            f"frequency_span[1]: {high:g} Hz is not above the first frequency, {low:g} Hz; pass "
-            "the lower frequency first"
-        )
-    return low, high
+    return found.oscillator, BySines(Sines(shaken.sine, low, high, step))

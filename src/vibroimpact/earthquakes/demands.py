@@ -29,7 +29,7 @@ from vibroimpact.earthquakes.run_plan import (
 )
 from vibroimpact.earthquakes.seismic_response import with_both_sides
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, warn_of_result
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Oscillator, Record, to_si
 from vibroimpact.model.argument_types import (
     MOST_TAIL,
@@ -38,9 +38,9 @@ from vibroimpact.model.argument_types import (
 )
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
+from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.units import with_si_unit
 from vibroimpact.model.varied import Values
 from vibroimpact.model.written_units import has_no_units
 from vibroimpact.response.plausibility import doubt_stops
@@ -275,21 +275,7 @@ def _make(group: zarr.Group, task: _Task, most: int) -> None:
 def _levels(scales: Any, scaled: Measure) -> _Array:
     """Read the levels of shaking, in SI units."""
     scales = check_list(scales, "scales") if is_list(scales) else [scales]
-    levels = np.array(
-        [to_si(value, scaled.quantity, f"scales[{i}]", above=0.0) for i, value in enumerate(scales)]
-    )
-    if not len(levels):
-        raise InputError("scales: the list is empty; pass at least one scale")
-    for i in np.flatnonzero(np.diff(levels) <= 0.0):
-        last, this = (
-            text if isinstance(text, str) else with_si_unit(level, scaled.quantity)
-            for text, level in zip(scales[i : i + 2], levels[i : i + 2], strict=True)
-        )
-        raise InputError(
-            f"scales[{i + 1}]: {this} is not above the scale before it, {last}; pass the scales in "
-            "rising order"
-        )
-    return levels
+    return read_rising(scales, scaled.quantity, "scales", above=0.0)
 
 
 def warn_given_up(status: NDArray[Any], who: str, what: str) -> None:

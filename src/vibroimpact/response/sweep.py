@@ -33,6 +33,7 @@ from vibroimpact.model.argument_types import (
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
+from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_sweep import sweep_assembly
@@ -372,25 +373,7 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     InputError
         If they are not; the message has the position and the value of the first wrong one.
     """
-    if isinstance(frequencies, str):
-        raise InputError(
-            f"frequencies: {shown(frequencies)} is a single text; pass a list, such as "
-            '["2 Hz", "2.1 Hz"]'
-        )
-    items = list(check_list(frequencies, "frequencies"))
-    if isinstance(frequencies, np.ndarray) and frequencies.dtype == float and frequencies.ndim == 1:
-        items = frequencies.tolist()  # of plain floats, which are read at once
-    grid = np.array(
-        [to_si(f, FREQUENCY, f"frequencies[{i}]", above=0.0) for i, f in enumerate(items)]
-    )
-    if not len(grid):
-        raise InputError("frequencies: the list is empty; pass at least one frequency")
-    for i in np.flatnonzero(np.diff(grid) <= 0.0):
-        raise InputError(
-            f"frequencies[{i + 1}]: {grid[i + 1]:g} Hz follows {grid[i]:g} Hz; sort the "
-            "frequencies in increasing order, and pass each one only once"
-        )
-    return grid
+    return read_rising(frequencies, FREQUENCY, "frequencies", above=0.0)
 
 
 def periodic_rigs(rigs: Any) -> dict[str, Rig]:
