@@ -121,22 +121,18 @@ def takes_fields(init: _Init) -> _Init:
     An argument that is None by default is left out if it is None. The signature is written out for
     calls by position, for ``help``, and because texts with units are accepted, too.
     """
-    signature = inspect.signature(init)
-    optional = {one.name for one in signature.parameters.values() if one.default is None}
-    others = [one.name for one in signature.parameters.values() if one.kind is one.VAR_KEYWORD]
+    _, *parameters = inspect.signature(init).parameters.values()
+    names = [one.name for one in parameters]
+    optional = {one.name for one in parameters if one.default is None}
 
     @wraps(init)
     def passed(self: Model, /, *args: Any, **values: Any) -> None:
-        try:
-            bound = signature.bind(self, *args, **values)
-        except TypeError:
-            init(self, *args, **values)  # the message names the class
-            raise
-        _, *given = bound.arguments.items()
-        fields = {name: one for name, one in given if name not in optional or one is not None}
-        for name in others:
-            fields |= fields.pop(name, {})
-        Model.__init__(self, **fields)
+        init(self, *args, **values)  # refuses arguments that do not fit the signature
+        given = dict(zip(names, args, strict=False)) | values
+        for name in optional & given.keys():
+            if given[name] is None:
+                del given[name]
+        Model.__init__(self, **given)
 
     return constructor(cast("_Init", passed))
 
