@@ -163,7 +163,7 @@ def test_where_nothing_dies_out_it_is_said():
     [
         (
             {"displacement": (0.01, -0.01)},
-            "displacement[1]: -0.01 m is not greater than displacement[0], 0.01 m",
+            "displacement: the first value, 10 mm, is not below the second, -10 mm",
         ),
         (
             {"displacement": 0.01},

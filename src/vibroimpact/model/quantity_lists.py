@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_list, is_pair
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.quantities import Quantity
-from vibroimpact.model.units import pretty, to_si, with_si_unit
+from vibroimpact.model.units import pretty, to_si
 
 _COUNTS = ("is empty", "has one value", "has two values")
 
@@ -40,10 +40,10 @@ def read_span(
         )
     low, high = (to_si(end, quantity, f"{field}[{i}]", **bounds) for i, end in enumerate(span))
     if not low < high:
-        first, last = (with_si_unit(end, quantity) for end in (low, high))
+        first, second = (pretty(end, quantity) for end in (low, high))
         raise InputError(
-            f"{field}[1]: {last} is not greater than {field}[0], {first}; pass the lowest {what} "
-            "first, and then the highest"
+            f"{field}: the first value, {first}, is not below the second, {second}; pass the lower "
+            "value first"
         )
     return low, high
 
