@@ -51,7 +51,7 @@ def orbit() -> Orbit:
     events = int(np.sum(data["event_cycle"].values == _SETTLED - 1))
     last = slice(-events - 1, None)
     touching = data["event_contact"].values[last][:-1] == 1
-    right = data["event_side"].values[last][:-1] == 1
+    right = data["event_stop"].values[last][:-1] == "right"
     modes = np.where(touching, np.where(right, RIGHT, LEFT), FLIGHT)
     u = data["event_displacement"].values[last][0]
     v = data["event_velocity"].values[last][0]

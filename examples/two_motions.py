@@ -24,7 +24,7 @@ found = vi.coexisting_motions(case, frequency="2 Hz")
 motions = {}
 for number in range(found.sizes["attractor"]):
     start = found.isel(attractor=number)
-    name = "forward" if start["impacts_right"] else "backward"
+    name = "forward" if start["impacts"].sel(stop="right") else "backward"
     motions[name] = vi.steady(case, start, frequency="2 Hz", samples=1024)
 
 figure = Figure(figsize=(10.0, 4.2), layout="constrained")

@@ -251,8 +251,7 @@ class PublishedStudy:
             image = State(
                 -end.displacement,
                 -end.velocity,
-                -(end.left_bumper or 0.0),
-                -(end.right_bumper or 0.0),
+                {"right": end.deformation.get("left"), "left": end.deformation.get("right")},
                 contact=-(end.contact or 0),
             )
             return steady(Rig(case.oscillator, excitation), image)

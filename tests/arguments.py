@@ -251,8 +251,6 @@ def calls(folder: Path) -> Mapping[str, Call]:
         "State": {
             "displacement": 0.0,
             "velocity": 0.0,
-            "right_bumper": None,
-            "left_bumper": None,
             "phase": None,
             "contact": None,
             "isolator": 0.0,
@@ -280,8 +278,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "velocity": near,
             "nodes": 3,
             "refine": 0,
-            "right_bumper": 0.0,
-            "left_bumper": 0.0,
+            "deformation": None,
             "isolator": 0.0,
             "threads": 1,
             "where": "threads",

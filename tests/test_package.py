@@ -54,7 +54,7 @@ def test_describing_a_rig_needs_no_compiler():
         ("Bumper", "stiffness damping gap"),
         ("Oscillator", "mass isolator right left"),
         ("Harmonic", "amplitude frequency phase"),
-        ("State", "displacement velocity right_bumper left_bumper"),
+        ("State", "displacement velocity deformation"),
         ("from_dimensionless", "stiffness_ratio gap relaxation_time damping_ratio"),
         ("laboratory.case", "code parameters"),
         ("simulate", "rig cycles start samples"),

@@ -129,10 +129,8 @@ def recovered(study: PublishedStudy) -> Finding:
     """Use the deformations in the log of events."""
     motion = study.motion(_CODE, _resonance(study), "forward")
     largest = float(motion["contact_penetration"].max())
-    side, begins = motion["event_side"].values, motion["event_contact"].values == 1
-    own = np.where(
-        side == 1, motion["event_right_bumper"].values, -motion["event_left_bumper"].values
-    )
+    begins = motion["event_contact"].values == 1
+    own = motion["event_deformation"].sel(stop=motion["event_stop"]).values
     left, met = (np.abs(own[where]).max() / largest for where in (~begins, begins))
     return Finding(
         bool(0.0 < left < 0.1 and met < 0.01),

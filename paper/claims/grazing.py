@@ -114,7 +114,7 @@ def at_one(study: PublishedStudy) -> Finding:
             f"B2-{delta * gap:.9g}mm-{a}" for gap, a in zip(gaps, ACCELERATIONS, strict=True)
         )
         data = study.family(codes)
-        hit = (data["impacts_right"] > 0).any(["direction", "frequency"])
+        hit = (data["impacts"].sel(stop="right") > 0).any(["direction", "frequency"])
         hits.append(hit.values.tolist())
     return Finding(
         hits == [[True] * 3, [False] * 3],

@@ -170,7 +170,7 @@ def more_impacts(study: PublishedStudy) -> Finding:
     for item in reversed(_left(study)):
         inside = data.sel(frequency=slice(item.low - 1e-9, item.high + 1e-9))
         middle = inside.isel(frequency=inside.sizes["frequency"] // 2)
-        rows.append([float(middle["impacts_right"].sel(direction=way)) for way in BOTH])
+        rows.append([float(middle["impacts"].sel(stop="right").sel(direction=way)) for way in BOTH])
     if len(rows) < 2:
         raise AbsentError(f"{len(rows)} left hystereses below 0.9 Hz")
     counts = np.array(rows)

@@ -127,14 +127,14 @@ def quasi_periodic(study: PublishedStudy) -> Finding:
 
 def _by_cycle(motion: xr.Dataset) -> dict[str, list[int]]:
     """Return the number of contacts that begin in each recorded forcing cycle, by side."""
-    start, side = motion["contact_start"].values, motion["contact_side"].values
+    start, stop = motion["contact_start"].values, motion["contact_stop"].values
     time, cycle = motion["time"].values, motion["cycle"].values
     period = (time[-1] - time[0]) / (cycle[-1] - cycle[0])
     number = np.floor((start - time[0]) / period).astype(int)
     whole = round(float(cycle[-1] - cycle[0]))
     return {
-        name: [int(((side == sign) & (number == k)).sum()) for k in range(whole)]
-        for name, sign in (("right", 1), ("left", -1))
+        name: [int(((stop == name) & (number == k)).sum()) for k in range(whole)]
+        for name in motion["stop"].values.tolist()
     }
 
 

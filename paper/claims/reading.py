@@ -258,7 +258,7 @@ def regular_places(
 
 def impacts(motion: xr.Dataset) -> tuple[float, float]:
     """Return the impacts per forcing cycle, right and left."""
-    return float(motion["impacts_right"]), float(motion["impacts_left"])
+    return float(motion["impacts"].sel(stop="right")), float(motion["impacts"].sel(stop="left"))
 
 
 Line = Literal["displacement", "acceleration"]

@@ -41,7 +41,10 @@ def returned(stop, speed: float, side: int = 1, mass: float = 1.0) -> float:
     )
     data = flown(stop, speed, side, mass, depth)
     assert data["status"] == 0
-    kinds, sides = data["event_contact"].values, data["event_side"].values
+    kinds, sides = (
+        data["event_contact"].values,
+        np.where(data["event_stop"].values == "right", 1, -1),
+    )
     assert list(zip(kinds, sides, strict=True)) == [(1, side), (0, side)]
     closing, parting = data["event_velocity"].values
     return float(-parting / closing)
@@ -81,7 +84,7 @@ def test_depth_of_an_elastic_impact(exponent: float) -> None:
     assert returned(stop, 1.3, mass=2.0) == pytest.approx(1.0, abs=1e-13)
     depth = ((exponent + 1.0) * 0.5 * 2.0 * 1.3**2 / 250.0) ** (1.0 / (exponent + 1.0))
     data = flown(stop, 1.3, mass=2.0, reach=depth)
-    v, face = data["velocity"].values, data["right_bumper"].values
+    v, face = data["velocity"].values, data["deformation"].sel(stop="right").values
     pressed = face > 0.0
     assert pressed.sum() > 2
     energy = 0.5 * 2.0 * v**2 + 250.0 * face ** (exponent + 1.0) / (exponent + 1.0)

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 import vibroimpact as vi
 from reference import fifty_digits
+from reference.paper_signs import in_paper_signs
 from reference.rig import Rig, Stop
 from samples import sample
 
@@ -64,7 +65,7 @@ SETUPS = {
     "high frequency": symmetric(19.4, 0.3, 1e-4, 12.0, phase=0.7),
     "pressing start": symmetric(19.4, 0.01, 7.5e-3, 2.2, start=vi.State(9e-3, 0.05)),
     "start before relaxing bumpers": symmetric(
-        10.0, 1.0, 5e-3, 1.6, start=vi.State(1e-3, -0.02, 3e-3, -6e-3), phase=0.4
+        10.0, 1.0, 5e-3, 1.6, start=vi.State(1e-3, -0.02, {"right": 3e-3, "left": 6e-3}), phase=0.4
     ),
 }
 
@@ -84,12 +85,10 @@ def oscillator_and_reference_rig(setup: Setup) -> tuple[vi.Oscillator, Rig]:
 
 
 def reference_start(setup: Setup) -> tuple[float, float, float, float]:
-    u, v, right, left = list(setup.start.model_dump().values())[:4]
-    if right is None:
-        right = max(u - setup.right[2], 0.0) if setup.right else 0.0
-    if left is None:
-        left = min(u + setup.left[2], 0.0) if setup.left else 0.0
-    return u, v, right, left
+    u, v, given = setup.start.displacement, setup.start.velocity, setup.start.deformation
+    right = given.get("right", max(u - setup.right[2], 0.0) if setup.right else 0.0)
+    left = given.get("left", max(-u - setup.left[2], 0.0) if setup.left else 0.0)
+    return u, v, right, 0.0 - left
 
 
 def follow(setup: Setup) -> tuple[NDArray[np.float64], list[str], NDArray[np.float64]]:
@@ -98,6 +97,7 @@ def follow(setup: Setup) -> tuple[NDArray[np.float64], list[str], NDArray[np.flo
     shaken = vi.Harmonic(AMPLITUDE, setup.frequency, setup.phase)
     data = vi.simulate(vi.Rig(oscillator, shaken), CYCLES, setup.start, samples=1)
     last = vi.simulate(vi.Rig(oscillator, shaken), CYCLES, setup.start, samples=0)["final_state"]
+    data = in_paper_signs(data)
     sampled = ("displacement", "velocity", "right_bumper", "left_bumper")
     sections = np.stack([data[name].values for name in sampled], axis=-1)
     np.testing.assert_array_equal(sections[-1], last.values[:4])

@@ -90,7 +90,7 @@ def touches(
         samples=1,
     )
     turns = data["event_cycle"] + data["event_cycle_time"] * flight.frequency
-    return phase + math.tau * turns.values, data["event_side"].values
+    return phase + math.tau * turns.values, np.where(data["event_stop"].values == "right", 1, -1)
 
 
 @pytest.mark.parametrize("depth", DEPTHS)
@@ -178,7 +178,7 @@ def test_grazing_a_relaxing_bumper(
         low, high = t[i - 1], t[i + 1]
     nearest = float(ahead(t).min())
     stop = vi.Bumper(20.0 * STIFFNESS, 20.0 * STIFFNESS / rate, 0.0)
-    start = flight.state(phase).replace(right_bumper=pressed, contact=0)
+    start = flight.state(phase).replace(deformation={"right": pressed}, contact=0)
     shaken = vi.Harmonic(AMPLITUDE, flight.frequency, phase)
     for share in (depth, -depth):
         gap = -nearest - share * flight.swing

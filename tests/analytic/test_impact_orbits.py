@@ -111,7 +111,7 @@ def test_a_branch_turns_back_at_the_fold() -> None:
         unstable = 0
         for i in range(0, data.sizes["point"], 5):
             gap = float(data["gap"][i])
-            if not (0.15 < gap < fold - 1e-6) or float(data["impacts_right"][i]) != 1.0:
+            if not (0.15 < gap < fold - 1e-6) or float(data["impacts"].sel(stop="right")[i]) != 1.0:
                 continue
             exact = [complex(o.trace) for o in orbits(one._replace(gap=gap)) if o.velocity > 0]
             shown = sum(largest(data.isel(point=i)))

@@ -97,7 +97,7 @@ def test_the_force_dips_to_zero(
             assume(x >= 0.0)  # a bumper is never longer than at rest
             # Towards the right the base acts where its acceleration is negative.
             phase = math.atan2(-side * sine, -side * cosine)
-            faces = {"right_bumper" if side == 1 else "left_bumper": side * x}
+            faces = {"deformation": {"right" if side == 1 else "left": x}}
             start = vi.State(side * (gap + x), side * v, contact=side, phase=phase, **faces)
             shaken = vi.Harmonic(AMPLITUDE, FREQUENCY)
             data = vi.simulate(vi.Rig(rig, shaken), fall * FREQUENCY, start, samples=1)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from reference.paper_signs import start as start_at
 from vibroimpact.response import analytic_free_response
 
 ISOLATORS = {"spring": vi.Isolator(8.0, 0.8), "undamped": vi.Isolator(8.0, 0.0)}
@@ -73,7 +74,7 @@ def differences(rig: vi.Oscillator, shaken, state: np.ndarray, steps: float) -> 
     """Derivative of the state after a cycle with respect to displacement and velocity."""
 
     def after(change: np.ndarray) -> np.ndarray:
-        start = vi.State(*(state[:4] + change), phase=state[4])
+        start = start_at([*(state[:4] + change), state[4]])
         return vi.simulate(vi.Rig(rig, shaken), 1, start, samples=0)["final_state"].values[:4]
 
     columns = []
@@ -151,7 +152,7 @@ def test_a_branch_of_orbits(kind: dict) -> None:
     for i in range(0, data.sizes["point"], max(1, data.sizes["point"] // 12)):
         section = data["section"].values[i]
         here = shaken.replace(frequency=float(data["frequency"][i]))
-        start = vi.State(*section[:4], phase=section[4], contact=int(section[5]))
+        start = start_at(section)
         motion = vi.simulate(vi.Rig(rig, here), 1, start, samples=400)
         np.testing.assert_allclose(motion["final_state"].values[:4], section[:4], atol=1e-10)
         seen = np.ptp(motion["displacement"].values)

@@ -49,8 +49,8 @@ def test_a_mass_held_fast_follows_the_shaking(damping: float, exponent: float) -
     rig = pressed(damping, exponent)
     motion = vi.simulate(vi.Rig(rig, SHAKEN), 2, samples=32)
     assert motion["status"] == 0
-    for side in ("right_bumper", "left_bumper"):
-        assert (abs(motion[side]) > 0.0).all()
+    assert (motion["deformation"] > 0.0).all()
+    assert motion["stop"].values.tolist() == ["right", "left"]
     late = motion.isel(time=slice(32, None))
     swing = held(rig, -SHAKEN.amplitude) - held(rig, SHAKEN.amplitude)
     names = ("displacement", "velocity", "base_acceleration")

@@ -139,11 +139,13 @@ def test_bumpers_that_remember():
     case = vi.laboratory.case(CODE)
     rig = vi.Oscillator(550.0, case.oscillator.isolator, slow, slow)
     excitation = vi.Harmonic(case.amplitude, HERTZ)
-    data = vi.basins(vi.Rig(rig, excitation), *WINDOW, nodes=4, right_bumper="2 mm")
+    data = vi.basins(vi.Rig(rig, excitation), *WINDOW, nodes=4, deformation={"right": "2 mm"})
     for v in data["velocity"].values:
         for u in data["displacement"].values:
             given = max(u - 0.005, 0.002)
-            alone = vi.steady(vi.Rig(rig, excitation), vi.State(u, v, right_bumper=given), 1)
+            alone = vi.steady(
+                vi.Rig(rig, excitation), vi.State(u, v, deformation={"right": given}), 1
+            )
             number = int(data["basin"].sel(displacement=u, velocity=v))
             size = float(data["displacement_excursion"][number])
             assert float(alone["displacement_excursion"]) == pytest.approx(size, rel=1e-8)
@@ -171,8 +173,8 @@ def test_where_nothing_dies_out_it_is_said():
         ({"nodes": 1}, "nodes: 1"),
         ({"nodes": (3, 4, 5)}, "nodes: "),
         ({"refine": 9}, "refine: 9"),
-        ({"right_bumper": -0.001}, "right_bumper"),
-        ({"left_bumper": 0.001}, "left_bumper"),
+        ({"deformation": {"right": -0.001}}, "deformation.right: -0.001"),
+        ({"deformation": {"top": 0.001}}, "deformation.top: this is not a stop"),
         ({"max_cycles": 0}, "max_cycles: 0"),
     ],
 )

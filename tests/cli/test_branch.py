@@ -163,7 +163,7 @@ def test_along_the_gap(gaps):
     (grazing,) = (one for one in of_kind(facts, "grazing") if one["branch"] == 0)
     assert grazing["value"] == pytest.approx(swing(CASE.oscillator, 2.0), rel=1e-9)
     # From there on nothing changes with the gap.
-    free = data["impacts_right"].values == 0
+    free = data["impacts"].sel(stop="right").values == 0
     np.testing.assert_allclose(
         data["displacement_max"].values[free], swing(CASE.oscillator, 2.0), rtol=1e-9
     )
@@ -238,7 +238,9 @@ def test_study_with_unequal_sides(run, tmp_path):
     assert swing(rig, last) == pytest.approx(7.5e-3, rel=1e-9)
     hits = {
         (int(r), int(left))
-        for r, left in zip(data["impacts_right"], data["impacts_left"], strict=True)
+        for r, left in zip(
+            data["impacts"].sel(stop="right"), data["impacts"].sel(stop="left"), strict=True
+        )
     }
     assert hits == {(0, 0), (1, 0), (1, 1)}
 

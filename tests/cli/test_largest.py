@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
+from vibroimpact.datasets.stops import quantity
 from vibroimpact.facts import largest
 from vibroimpact.model import GRAVITY
 
@@ -39,9 +40,9 @@ def test_a_building_in_millimetres_g_and_meganewtons(run, tmp_path):
         ("displacement to the right", "displacement_max", 1e-3, "mm"),
         ("displacement to the left", "displacement_min", -1e-3, "mm"),
         ("absolute acceleration", "peak_acceleration", GRAVITY, "g"),
-        ("force of the right stop", "peak_force_right", 1e6, "MN"),
+        ("force of the right stop", "peak_force.right", 1e6, "MN"),
     ):
-        values = data[name].values / unit
+        values = quantity(data, name).values / unit
         line = next(row for row in rows if row.startswith(words))
         number, found = line.removeprefix(words).split()
         assert found == symbol
@@ -84,12 +85,18 @@ def test_as_json_in_si_units(run, tmp_path):
     assert code == 0
     found = json.loads(told)["largest"]
     data = vi.load(tmp_path / "out/wall-sweep.nc")
-    assert "force_right" not in found  # an impact has no finite one
-    one = found["impulse_right"]
-    assert one["value"] == pytest.approx(float(data["peak_impulse_right"].max()), rel=1e-9)
-    at = data["peak_impulse_right"].sel(frequency=one["frequency"], direction=one["direction"])
+    assert "peak_force.right" not in found  # an impact has no finite one
+    one = found["peak_impulse.right"]
+    assert one["value"] == pytest.approx(
+        float(data["peak_impulse"].sel(stop="right").max()), rel=1e-9
+    )
+    at = (
+        data["peak_impulse"]
+        .sel(stop="right")
+        .sel(frequency=one["frequency"], direction=one["direction"])
+    )
     assert float(at) == one["value"]
-    assert np.isinf(data["peak_force_right"].max())
+    assert np.isinf(data["peak_force"].sel(stop="right").max())
 
 
 def test_of_what_is_the_same_to_rounding_the_forward_sweep_is_named():
@@ -99,8 +106,8 @@ def test_of_what_is_the_same_to_rounding_the_forward_sweep_is_named():
     for name in ("displacement_max", "peak_acceleration"):
         data[name] = data[name] * more
     found = largest.facts(data)
-    assert [found[name]["direction"] for name in ("displacement_right", "acceleration")] == [
+    assert [found[name]["direction"] for name in ("displacement_max", "peak_acceleration")] == [
         "forward",
         "forward",
     ]
-    assert set(found) == {"displacement_right", "displacement_left", "acceleration"}
+    assert set(found) == {"displacement_max", "displacement_min", "peak_acceleration"}

@@ -123,15 +123,15 @@ def test_json_exponents(two):
 def test_json_contacts(two, settled):
     forward, backward = two[0]["motions"]
     assert backward["contacts"] == []
-    assert (backward["impacts_right"], backward["impacts_left"]) == (0, 0)
-    assert (forward["impacts_right"], forward["impacts_left"]) == (1, 1)
+    assert (backward["impacts"]["right"], backward["impacts"]["left"]) == (0, 0)
+    assert (forward["impacts"]["right"], forward["impacts"]["left"]) == (1, 1)
     # The last events of the plain simulation: begin and end on the left, on the right.
     events = settled.isel(event=slice(-4, None))
     assert list(events["event_contact"].values) == [1, 0, 1, 0]
     mass, damping = CASE.oscillator.mass, CASE.oscillator.right.damping
     for contact, i in zip(forward["contacts"], (0, 2), strict=True):
         first, last = events.isel(event=i), events.isel(event=i + 1)
-        assert contact["side"] == int(first["event_side"])
+        assert contact["stop"] == first["event_stop"].item()
         length = float(last["event_time"] - first["event_time"])
         assert contact["duration"] == pytest.approx(length, rel=1e-7)
         assert contact["duration_share"] == pytest.approx(length * 2.0, rel=1e-7)
@@ -306,11 +306,11 @@ def test_rig_with_one_bumper(run):
     hits = int((on["event_contact"] == 1).sum())
     motions = json.loads(out)["motions"]
     (motion,) = [motion for motion in motions if "rest" in motion["starts"]]
-    assert motion["impacts_left"] == 0
-    assert motion["impacts_right"] * 20 == hits
+    assert motion["impacts"]["left"] == 0
+    assert motion["impacts"]["right"] * 20 == hits
     assert motion["antisymmetric"] is False
     assert motion["mirror_pair"] is False  # its mirror image is no motion of this rig
-    assert all(contact["side"] == 1 for contact in motion["contacts"])
+    assert all(contact["stop"] == "right" for contact in motion["contacts"])
 
 
 @pytest.mark.full

@@ -38,7 +38,7 @@ def test_a_sweep(sweep):
         here = one.sel(direction=way, frequency=hertz)
         assert row["eta_a"] == float(here["eta_a"])
         assert row["motion"] == here["motion"].item()
-        assert row["section_velocity"] == float(here["section"].sel(component="velocity"))
+        assert row["section.velocity"] == float(here["section"].sel(component="velocity"))
         assert row["free_displacement_excursion"] == float(here["free_displacement_excursion"])
 
 
@@ -68,7 +68,7 @@ def test_other_datasets():
     branch = vi.branch(CODE, frequency="2 Hz", vary={"frequency": (1.98, 2.02)})
     table = vi.to_table(branch)
     assert len(table) == branch.sizes["point"]
-    assert {"frequency", "eta_d", "multiplier_real_0", "section_displacement"} <= set(table)
+    assert {"frequency", "eta_d", "multiplier_real.0", "section.displacement"} <= set(table)
     state = vi.to_table(vi.simulate(CODE, 3, frequency="2 Hz", samples=0))
     assert list(state["component"]) == list(steady["component"].values)
 

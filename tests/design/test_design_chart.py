@@ -77,8 +77,8 @@ def test_sines_against_a_fine_sweep(ratio: float, gap: float) -> None:
             motion = vi.simulate(vi.Rig(rig.oscillator, shaken), 4, start=start, samples=1)
             peaks = vi.contacts(motion)["contact_peak_force"].values
             force = max(force, *peaks[np.isfinite(peaks)], 0.0)
-    assert float(data["peak_force"]) == pytest.approx(force, rel=5e-3)
-    assert float(data["peak_force"]) > force * (1.0 - 1e-6)
+    assert float(data["peak_force"].max()) == pytest.approx(force, rel=5e-3)
+    assert float(data["peak_force"].max()) > force * (1.0 - 1e-6)
 
 
 @pytest.mark.parametrize("name", ["bumpers", "walls", "bilinear", "curved", "preloaded"])
@@ -92,11 +92,11 @@ def test_records_against_responses_one_by_one(name: str) -> None:
         )
         found = [vi.seismic_response(vi.Rig(moved, record)) for record in RECORDS.values()]
         for peak in PEAKS:
-            middle = sorted(float(one[peak]) for one in found)[1]
-            assert float(data[peak].sel(gap=gap)) == pytest.approx(middle, rel=1e-10)
+            middle = np.sort([one[peak].values for one in found], axis=0)[1]
+            np.testing.assert_allclose(data[peak].sel(gap=gap), middle, rtol=1e-10)
         deep = sorted(max(float(one["peak_displacement"]) - gap, 0.0) for one in found)[1]
         assert float(data["penetration"].sel(gap=gap)) == pytest.approx(deep, rel=1e-9)
-        hits = sum(float(one["impact_count"]) > 0 for one in found) / 3.0
+        hits = sum(bool(one["impact_count"].any()) for one in found) / 3.0
         assert float(data["hitting"].sel(gap=gap)) == pytest.approx(hits)
     largest = vi.design_chart(rig, {"gap": gaps}, records=RECORDS)
     assert (largest["peak_displacement"] >= data["peak_displacement"]).all()
@@ -123,7 +123,7 @@ def test_what_exceeds_a_limit_beats_nobody() -> None:
     every = vi.design_chart(BUILDING, vary, records=RECORDS)
     limits = {"penetration": "10 mm", "peak-force": 2e7}
     data = vi.design_chart(BUILDING, vary, records=RECORDS, limits=limits)
-    within = ((every["penetration"] <= 0.01) & (every["peak_force"] <= 2e7)).values
+    within = ((every["penetration"] <= 0.01) & (every["peak_force"] <= 2e7).all("stop")).values
     assert 0 < within.sum() < within.size
     np.testing.assert_array_equal(data["within_limits"], within)
     for name in PEAKS:
@@ -220,3 +220,16 @@ def test_a_sweep_of_too_many_frequencies_is_refused_before_it_is_made() -> None:
     heavy = vi.Oscillator(1e30, vi.Isolator(1.0, 1.0), right=vi.Bumper(1e4, 1.0, 0.01))
     with pytest.raises(vi.InputError, match=r"step: .* gives .* frequencies .* at most 100000"):
         vi.design_chart(vi.Rig(heavy, 0.5), {"gap": [0.01]}, frequency_span=(1.0, 2.0))
+
+
+def test_limits_of_one_side_have_the_sign_of_the_displacement() -> None:
+    vary = {"gap": np.linspace(0.01, 0.3, 8)}
+    every = vi.design_chart(BUILDING, vary, records=RECORDS)
+    for name, sense in (("displacement_max", 1.0), ("displacement_min", -1.0)):
+        limit = float(every[name].median())
+        data = vi.design_chart(BUILDING, vary, records=RECORDS, limits={name: limit})
+        within = sense * every[name] <= sense * limit
+        assert 0 < int(within.sum()) < within.size
+        np.testing.assert_array_equal(data["within_limits"], within)
+        with pytest.raises(vi.InputError, match=rf"^limits\['{name}'\]: "):
+            vi.design_chart(BUILDING, vary, records=RECORDS, limits={name: -limit})

@@ -37,9 +37,11 @@ def test_of_a_record_by_bisection(name: str) -> None:
             motion = vi.simulate(vi.Rig(one, record), samples=1, tail="4 s")
             return bool(motion.sizes["event"])
 
-        assert float(found[f"required_gap_{side}"]) == pytest.approx(_bisected(hits), rel=1e-6)
-    both = [float(found[f"required_gap_{side}"]) for side in ("right", "left")]
-    assert float(found["required_gap"]) == max(both)
+        assert float(found["required_gap"].sel(stop=side)) == pytest.approx(
+            _bisected(hits), rel=1e-6
+        )
+    both = [float(found["required_gap"].sel(stop=side)) for side in ("right", "left")]
+    assert float(found["common_gap"]) == max(both)
 
 
 def test_of_sines_by_bisection() -> None:
@@ -56,7 +58,9 @@ def test_of_sines_by_bisection() -> None:
             motion = vi.simulate(vi.Rig(one, vi.Harmonic("0.1 g", at)), 200, samples=1)
             return bool((motion["event_cycle"] > 190).any())
 
-        assert float(found[f"required_gap_{side}"]) == pytest.approx(_bisected(hits), rel=1e-6)
+        assert float(found["required_gap"].sel(stop=side)) == pytest.approx(
+            _bisected(hits), rel=1e-6
+        )
 
 
 @pytest.mark.parametrize("amplitude", ["0.1 g", "5 mm", "2 N"])
@@ -69,8 +73,8 @@ def test_no_frequency_needs_more(amplitude: str, ratio: float, ends) -> None:
     grid = np.geomspace(*(ends or (0.02, 60.0)), 4001)
     sweep = vi.sweep(vi.Rig(rig, amplitude), grid[::4], "forward", max_cycles=1, window=1)
     most = 0.5 * float(sweep["free_displacement_excursion"].max())
-    assert float(found["required_gap"]) >= most * (1.0 - 1e-12)
-    assert float(found["required_gap"]) == pytest.approx(most, rel=2e-2)
+    assert float(found["common_gap"]) >= most * (1.0 - 1e-12)
+    assert float(found["common_gap"]) == pytest.approx(most, rel=2e-2)
 
 
 def test_of_curved_isolators_by_sweeps() -> None:
@@ -78,22 +82,22 @@ def test_of_curved_isolators_by_sweeps() -> None:
     linear = vi.Oscillator(2.0, vi.Isolator(50.0, 1.5))
     curved = vi.Oscillator(2.0, vi.PolynomialIsolator(50.0, 1.5, 1e-6, 0.0))
     one, other = (vi.required_gap(vi.Rig(rig, 0.5)) for rig in (linear, curved))
-    assert float(one["required_gap"]) == pytest.approx(float(other["required_gap"]), rel=1e-5)
+    assert float(one["common_gap"]) == pytest.approx(float(other["common_gap"]), rel=1e-5)
 
 
 def test_fractiles_of_records() -> None:
     records = [noise(seed, count=150) for seed in range(5)]
     every = vi.required_gap(RIG, records=records)
-    right, left = (every[f"peak_displacement_{side}"].values for side in ("right", "left"))
+    right, left = (every["displacement_max"].values, -every["displacement_min"].values)
     wide = np.maximum(right, left)
     assert every["record"].values.tolist() == ["0", "1", "2", "3", "4"]
-    assert float(every["required_gap"]) == wide.max()
+    assert float(every["common_gap"]) == wide.max()
     middle = vi.required_gap(RIG, records=records, fractile=0.5)
-    assert float(middle["required_gap"]) == pytest.approx(np.sort(wide)[2])
-    assert float(middle["required_gap_left"]) == pytest.approx(np.sort(left)[2])
-    assert float(middle["required_gap_right"]) == pytest.approx(np.sort(right)[2])
+    assert float(middle["common_gap"]) == pytest.approx(np.sort(wide)[2])
+    assert float(middle["required_gap"].sel(stop="left")) == pytest.approx(np.sort(left)[2])
+    assert float(middle["required_gap"].sel(stop="right")) == pytest.approx(np.sort(right)[2])
     # Nothing is hit from there on, and something is below.
-    for share, gap in ((0.0, float(every["required_gap"])), (0.2, np.sort(wide)[-1] - 1e-6)):
+    for share, gap in ((0.0, float(every["common_gap"])), (0.2, np.sort(wide)[-1] - 1e-6)):
         data = vi.design_chart(
             RIG, {"gap": [gap + (1e-12 if share == 0.0 else 0.0)]}, records=records
         )

@@ -42,7 +42,7 @@ def test_what_a_bumper_remembers_counts() -> None:
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.2), slow, slow)
     one = vi.sweep(vi.Rig(rig, 1.0), [0.3], "forward").isel(direction=0, frequency=0)
     assert one["motion"] == "periodic"
-    assert one["impacts_right"] > 0
+    assert one["impacts"].sel(stop="right") > 0
     later = vi.simulate(vi.Rig(rig, vi.Harmonic(1.0, 0.3)), 200, one["section"], samples=0)[
         "final_state"
     ]

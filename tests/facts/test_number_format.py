@@ -48,7 +48,7 @@ def test_a_heavy_building_in_meganewtons():
     row |= {"contact_start_velocity": [0.35], "contact_end_velocity": [-0.21]}
     row |= {"contact_peak_force": [79.2e6], "contact_impulse": [4.1e6]}
     row |= {"contact_penetration": [0.031], "contact_dissipated": [8.1e5]}
-    row |= {"contact_restitution": [0.6], "contact_side": [1], "contact_grazing": [False]}
+    row |= {"contact_restitution": [0.6], "contact_stop": [1], "contact_grazing": [False]}
     data = xr.Dataset({name: ("contact_number", np.array(v)) for name, v in row.items()})
     console = Console(record=True, width=100, file=io.StringIO())
     for part in verdict.contact_tables(data):

@@ -16,9 +16,9 @@ RIG = vi.Oscillator(550.0, vi.Isolator("26.8 kN/m", "1.1 kN s/m"), right=PRESSED
 def test_a_sweep_says_that_its_bumpers_are_touched():
     """Its page said "force of the right stop 1.8 kN" and "Contact with a bumper: nowhere"."""
     data = vi.sweep(vi.Rig(RIG, "0.05 g"), [1.0, 1.5, 2.0])
-    assert not data["impacts_right"].any()
+    assert not data["impacts"].sel(stop="right").any()
     # At rest each bumper is pressed by 10 mm.
-    assert (data["peak_force_right"] > 500.0).all()
+    assert (data["peak_force"].sel(stop="right") > 500.0).all()
     found = features(data)
     assert {(one.low, one.high) for one in found.contact} == {(1.0, 2.0)}
     text = as_text(sweeps.text(data, found, []))

@@ -26,9 +26,9 @@ def test_what_is_drawn() -> None:
     assert gaps == [30.0, -50.0]
     # Every contact is marked where it begins, with the acceleration behind its beginning.
     begun = motion["event_contact"].values >= 1
-    for mark, side in (("^", 1), ("v", -1)):
+    for mark, side in (("^", "right"), ("v", "left")):
         (marked,) = [line for line in shaken.lines if line.get_marker() == mark]
-        here = begun & (motion["event_side"].values == side)
+        here = begun & (motion["event_stop"].values == side)
         assert here.sum() > 2
         np.testing.assert_array_equal(marked.get_xdata(), motion["event_time"].values[here])
     # The force that is drawn is that of spring, dashpot and stops at the samples.
@@ -37,7 +37,7 @@ def test_what_is_drawn() -> None:
     near = np.isin(u, 1e3 * motion["displacement"].values)
     assert near.sum() >= motion.sizes["time"]
     assert np.abs(drawn).max() >= np.abs(expected).max()
-    flight = motion["contact"].values == 0
+    flight = ~motion["touching"].any("stop").values
     spring = 50.0 * motion["displacement"].values + 0.8 * motion["velocity"].values
     np.testing.assert_allclose(expected[flight], spring[flight], atol=1e-9)
     assert [line.get_label() for line in floor.lines] == [

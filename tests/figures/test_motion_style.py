@@ -15,6 +15,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 import vibroimpact as vi
+from reference.paper_signs import in_paper_signs
 from samples import sample
 from vibroimpact.figures import (
     clearances,
@@ -49,7 +50,7 @@ def across() -> xr.Dataset:
     """The same orbit as `hitting`, cut where the mass presses the right bumper."""
     begin = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 0.83, hitting(), samples=0)
     data = vi.steady(vi.Rig(CASE.oscillator, SHAKEN), begin, samples=64)
-    assert list(data["contact"].values[[0, -1]]) == [1, 1]
+    assert data["touching"].sel(stop="right").values[[0, -1]].all()
     return data
 
 
@@ -265,9 +266,8 @@ def test_a_repeated_period_is_the_motion_going_on(name):
     start = vi.State(
         float(first["displacement"]),
         float(first["velocity"]),
-        right_bumper=float(first["right_bumper"]),
-        left_bumper=float(first["left_bumper"]),
-        contact=int(first["contact"]),
+        {name: float(first["deformation"].sel(stop=name)) for name in ("right", "left")},
+        contact=int(in_paper_signs(motion)["contact"][0]),
         phase=phase,
     )
     rig = vi.Oscillator(**parameter(motion, "oscillator"))
@@ -294,7 +294,11 @@ def test_a_repeated_period_is_the_motion_going_on(name):
 
 def test_a_contact_across_the_end_of_the_period_is_one_band():
     motion = across()
-    at, side, begins = at_events(motion), motion["event_side"].values, motion["event_contact"]
+    at, side, begins = (
+        at_events(motion),
+        np.where(motion["event_stop"].values == "right", 1, -1),
+        motion["event_contact"],
+    )
     (stop,) = at[(side == 1) & (begins == 0)]
     (begin,) = at[(side == 1) & (begins == 1)]
     assert stop < begin
@@ -302,7 +306,7 @@ def test_a_contact_across_the_end_of_the_period_is_one_band():
         found = bands(ax)["right contact"]
         expected = [(0, stop), (begin, stop + 1), (begin + 1, stop + 2), (begin + 2, 3)]
         np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12)
-    length = float(motion["contact_duration_share"][motion["contact_side"] == 1].item())
+    length = float(motion["contact_duration_share"][motion["contact_stop"] == "right"].item())
     assert found[1][1] - found[1][0] == pytest.approx(length, rel=1e-9)
     # It is the orbit of the other record, later by 0.83 cycles.
     other = bands(time_history(hitting(), cycles=3.0)[0])["left contact"]
@@ -315,7 +319,10 @@ def test_stars_at_the_peaks_of_every_turn():
     """Those of a contact across the end of the record, too."""
     motion = hitting()
     peaks = motion["contact_peak_time"].values * 2.0
-    heights = -motion["contact_side"].values * motion["contact_peak_acceleration"].values
+    heights = (
+        -np.where(motion["contact_stop"].values == "right", 1, -1)
+        * motion["contact_peak_acceleration"].values
+    )
     np.testing.assert_allclose(
         np.sort(heights), [float(motion[f"acceleration_{end}"]) for end in ("min", "max")]
     )
@@ -353,18 +360,18 @@ def test_clearances_are_the_distances_to_the_bumpers():
             right, left = curves(ax)
             assert [right.get_label(), left.get_label()] == ["$G_R$, right", "$G_L$, left"]
             assert [right.get_linestyle(), left.get_linestyle()] == ["-", "--"]
-            for line, side, towards, bumper in (
-                (right, 1, -u, "right_bumper"),
-                (left, -1, u, "left_bumper"),
+            for line, _, towards, bumper in (
+                (right, 1, -u, "right"),
+                (left, -1, u, "left"),
             ):
                 x, y = points(line).T
                 index = np.searchsorted(x, motion["cycle"].values - 1e-9)
-                pressed = motion["contact"].values == side
-                expected = gap + towards + side * 1e3 * motion[bumper].values
+                pressed = motion["touching"].sel(stop=bumper).values
+                expected = gap + towards + 1e3 * motion["deformation"].sel(stop=bumper).values
                 np.testing.assert_allclose(y[index][~pressed], expected[~pressed], rtol=1e-12)
                 assert (y[index][pressed] == 0.0).all()
                 assert y.min() == 0.0
-                at = at_events(motion)[motion["event_side"].values == side]
+                at = at_events(motion)[motion["event_stop"].values == bumper]
                 for time in at:  # exactly zero where a contact begins or ends
                     assert (y[np.isclose(x, time, rtol=0, atol=1e-12)] == 0.0).all()
         assert whole.get_xlim() == (0.0, 1.0)

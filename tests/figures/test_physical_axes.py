@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
+from vibroimpact.datasets.stops import quantity
 from vibroimpact.figures import branch_diagram, resonance_curves
 from vibroimpact.model import GRAVITY
 
@@ -40,12 +41,12 @@ def test_curves_in_g_millimetres_and_meganewtons() -> None:
     ]
     for ax, name, factor in zip(
         axes,
-        ("peak_acceleration", "peak_displacement", "peak_force_right"),
+        ("peak_acceleration", "peak_displacement", "peak_force.right"),
         (1.0 / GRAVITY, 1e3, 1e-6),
         strict=True,
     ):
         for direction in ("forward", "backward"):
-            values = factor * data[name].sel(direction=direction).values
+            values = factor * quantity(data, name).sel(direction=direction).values
             found = drawn(ax, f"{direction} sweep")
             np.testing.assert_allclose(np.sort(found), np.sort(values), rtol=1e-12)
             assert ax.get_ylim()[1] > values.max()
@@ -71,7 +72,7 @@ def test_a_rigid_stop_has_impulses_and_free_flight_is_shifted_by_a_force() -> No
     axes = resonance_curves(data, physical=True)
     assert axes[2].get_ylabel().replace("\n", " ") == "largest contact impulse (MN s)"
     found = drawn(axes[2], "forward sweep")
-    values = 1e-6 * data["peak_impulse_right"].sel(direction="forward").values
+    values = 1e-6 * data["peak_impulse"].sel(stop="right").sel(direction="forward").values
     np.testing.assert_allclose(np.sort(found), np.sort(values), rtol=1e-12)
     free = vi.sweep(vi.Rig(RIGID.without_bumpers(), "0.12 g"), data["frequency"].values)
     expected = 1e3 * free["peak_displacement"].sel(direction="forward").values
@@ -92,15 +93,15 @@ def test_a_branch_in_engineers_units() -> None:
     start = swept(BUILDING)["section"].sel(direction="forward").isel(frequency=4)
     shaken = vi.Harmonic("0.12 g", 0.4)
     data = vi.branch(vi.Rig(BUILDING, shaken), start, vary={"frequency": (0.38, 0.42)})
-    for quantity, unit, factor in (
+    for name, unit, factor in (
         ("peak_acceleration", "(g)", 1.0 / GRAVITY),
         ("peak_displacement", "(mm)", 1e3),
-        ("peak_force_right", "(MN)", 1e-6),
+        ("peak_force.right", "(MN)", 1e-6),
     ):
-        ax = branch_diagram(data, quantity=quantity)
+        ax = branch_diagram(data, quantity=name)
         assert ax.get_ylabel().endswith(unit)
         most = max(line.get_ydata().max() for line in ax.lines if len(line.get_ydata()) > 1)
-        assert most == pytest.approx(factor * float(data[quantity].max()), rel=1e-12)
+        assert most == pytest.approx(factor * float(quantity(data, name).max()), rel=1e-12)
     stiff = vi.branch(vi.Rig(BUILDING, shaken), start, vary={"isolator.stiffness": (31e6, 32e6)})
     assert branch_diagram(stiff).get_xlabel().endswith("(MN/m)")
 

@@ -58,8 +58,8 @@ def test_last_cycles_are_shown():
 def test_bands_between_the_exact_events():
     data = motion()
     at = data["event_cycle"].values + data["event_cycle_time"].values * 0.58
-    for side, name in ((1, "right contact"), (-1, "left contact")):
-        mine = data["event_side"].values == side
+    for side, name in (("right", "right contact"), ("left", "left contact")):
+        mine = data["event_stop"].values == side
         begins = at[mine & (data["event_contact"].values == 1)]
         stops = at[mine & (data["event_contact"].values == 0)]
         expected = [(a, b) for a, b in zip(begins, stops, strict=True) if b >= 17.0]
@@ -73,13 +73,12 @@ def test_band_of_a_contact_that_was_there_from_the_start_or_is_there_at_the_end(
     data = vi.simulate(
         vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.0)), 0.05, vi.State(0.009, 0.1)
     )
-    assert data["contact"].values[0] == 1
+    assert data["touching"].sel(stop="right").values[0]
     (band,) = bands(time_history(data)[0])["right contact"]
     assert band[0] == 0.0
     inside = vi.simulate(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 0.58)), 19.7)
-    assert inside["contact"].values[-1] != 0
-    name = "right contact" if inside["contact"].values[-1] == 1 else "left contact"
-    assert bands(time_history(inside)[0])[name][-1][1] == pytest.approx(19.7)
+    (name,) = inside["stop"].values[inside["touching"].values[-1]]
+    assert bands(time_history(inside)[0])[f"{name} contact"][-1][1] == pytest.approx(19.7)
 
 
 def test_the_jump_of_acceleration_is_drawn_upright():
@@ -113,7 +112,7 @@ def test_dots_at_the_events_and_stars_at_the_peaks():
     at = data["event_time"].values * 0.58
     shown = at > 17.0
     begins = data["event_contact"].values == 1
-    sides = data["event_side"].values
+    sides = np.where(data["event_stop"].values == "right", 1, -1)
     for ax, values in zip(
         time_history(data),
         (
@@ -215,8 +214,10 @@ def test_several_motions_have_strips_of_their_own():
         for number, ((name, data), frequency) in enumerate(
             zip(named.items(), (0.58, 0.6, 0.58), strict=True)
         ):
-            for strip, side in zip(strips[2 * number : 2 * number + 2], (1, -1), strict=True):
-                at = data["event_time"].values[data["event_side"].values == side] * frequency
+            for strip, side in zip(
+                strips[2 * number : 2 * number + 2], ("right", "left"), strict=True
+            ):
+                at = data["event_time"].values[data["event_stop"].values == side] * frequency
                 expected = [pair for pair in at.reshape(-1, 2) if pair[1] >= 18.0]
                 corners = [path.vertices for path in strip.get_paths()]
                 assert len(corners) == len(expected) == (0 if name == "free" else 2)

@@ -135,7 +135,7 @@ def ours(name: str) -> tuple[float, NDArray[np.float64]]:
         data = vi.simulate(vi.Rig(pair.rig, pair.shaken), 2, samples=EIGHTHS)
         span = pair.shaken.period / EIGHTHS
     assert data["status"] == 0
-    assert set(data["event_side"].values.tolist()) == {-1, 1}
+    assert set(np.where(data["event_stop"].values == "right", 1, -1).tolist()) == {-1, 1}
     return span, np.stack([data[name].values[1:] for name in ("displacement", "velocity")], axis=-1)
 
 

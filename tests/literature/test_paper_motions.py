@@ -35,7 +35,10 @@ class TestSecondaryResonance:
         for frequency in (0.58, 0.80, 2.60):
             motion = reached(motions("B2-G1-A3", frequency), "forward")
             assert motion["motion"].item() == "periodic"
-            assert (float(motion["impacts_right"]), float(motion["impacts_left"])) == (1.0, 1.0)
+            assert (
+                float(motion["impacts"].sel(stop="right")),
+                float(motion["impacts"].sel(stop="left")),
+            ) == (1.0, 1.0)
             share = motion["contact_duration_share"].values
             assert share[0] == pytest.approx(share[1], rel=1e-9)
             shares.append(share[0])
@@ -45,8 +48,12 @@ class TestSecondaryResonance:
     def test_two_motions_coexist_before_the_jump(self):
         found = motions("B2-G1-A3", 2.60)
         forward, backward = (reached(found, way) for way in ("forward", "backward"))
-        assert float(forward["impacts_right"]) == 1.0
-        assert float(backward["impacts_right"]) == float(backward["impacts_left"]) == 0.0
+        assert float(forward["impacts"].sel(stop="right")) == 1.0
+        assert (
+            float(backward["impacts"].sel(stop="right"))
+            == float(backward["impacts"].sel(stop="left"))
+            == 0.0
+        )
         assert float(forward["displacement_excursion"]) > 5 * float(
             backward["displacement_excursion"]
         )
@@ -61,7 +68,11 @@ class TestNonRegular:
             motion = reached(found, way)
             assert motion["motion"].item() == "periodic"
             assert bool(motion["antisymmetric"])
-            assert float(motion["impacts_right"]) == float(motion["impacts_left"]) == count
+            assert (
+                float(motion["impacts"].sel(stop="right"))
+                == float(motion["impacts"].sel(stop="left"))
+                == count
+            )
 
     @pytest.mark.parametrize("frequency", [1.02, 1.06, 1.10])
     def test_a_mirrored_pair_that_does_not_settle(self, frequency):
@@ -119,9 +130,14 @@ class TestNoGap:
     def test_a_very_short_flight_in_each_half_cycle(self):
         case = vi.laboratory.case("B3-0mm-A3")
         motion = vi.steady(vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 5.7)), samples=4096)
-        assert (float(motion["impacts_right"]), float(motion["impacts_left"])) == (1.0, 1.0)
+        assert (
+            float(motion["impacts"].sel(stop="right")),
+            float(motion["impacts"].sel(stop="left")),
+        ) == (1.0, 1.0)
         flights = 0.5 - motion["contact_duration_share"].values
         assert ((flights > 0.001) & (flights < 0.02)).all()
         # In flight, and only there, both clearances are open.
-        both = (motion["right_clearance"] > 0) & (motion["left_clearance"] > 0)
+        both = (motion["clearance"].sel(stop="right") > 0) & (
+            motion["clearance"].sel(stop="left") > 0
+        )
         assert float(both[:-1].mean()) == pytest.approx(float(flights.sum()), abs=2 / 4096)

@@ -29,7 +29,7 @@ def test_grazing_to_rounding(phase):
 def test_free_flight_multipliers_on_the_branch():
     """exp((−ζ ± i√(1 − ζ²)) T), to 1e-13, wherever nothing is touched."""
     data = elastic_stops()
-    free = (data["impacts_right"] + data["impacts_left"]).values == 0
+    free = (data["impacts"].sel(stop="right") + data["impacts"].sel(stop="left")).values == 0
     assert free.sum() > 10
     for i in np.flatnonzero(free):
         period = 1.0 / float(data["frequency"][i])

@@ -12,23 +12,26 @@ from vibroimpact.model import State
 def test_everything_has_a_default():
     state = State()
     assert (state.displacement, state.velocity) == (0.0, 0.0)
-    assert state.right_bumper is None
-    assert state.left_bumper is None
+    assert state.deformation == {}
     assert state.phase is None
     assert state.contact is None
 
 
 def test_positions_and_text():
-    state = State("2 mm", "-0.1 m/s", "1 mm", "-3 mm", "90 deg", 1)
-    assert state == State(0.002, -0.1, 0.001, -0.003, math.pi / 2, 1)
+    state = State("2 mm", "-0.1 m/s", {"left": "3 mm", "right": "1 mm"}, "90 deg", 1)
+    assert state == State(0.002, -0.1, {"right": 0.001, "left": 0.003}, math.pi / 2, 1)
 
 
-def test_the_signs_of_the_deformations_are_the_paper_s():
-    with pytest.raises(InputError, match=r"^right_bumper: '-1 mm' is less than 0"):
-        State(right_bumper="-1 mm")
-    with pytest.raises(InputError, match=r"^left_bumper: 1.0 is greater than 0; a length of at mo"):
-        State(left_bumper=1.0)
-    assert State(right_bumper=0.0, left_bumper=-0.0) == State(0.0, 0.0, 0.0, 0.0)
+def test_deformations_are_positive_on_both_sides():
+    for side in ("right", "left"):
+        with pytest.raises(InputError, match=rf"^deformation\.{side}: '-1 mm' is less than 0"):
+            State(deformation={side: "-1 mm"})
+    with pytest.raises(InputError, match=r"^deformation\.top: this is not a stop of an Osc"):
+        State(0.0, 0.0, {"top": 0.0})
+    with pytest.raises(InputError, match=r"^deformation: 0.1 is not a mapping from stops; pass "):
+        State(deformation=0.1)
+    assert State(deformation={"right": 1.0, "left": None}) == State(0.0, 0.0, {"right": 1.0})
+    assert State(deformation={"moat": 1.0}).deformation == {"moat": 1.0}  # of an assembly
 
 
 @pytest.mark.parametrize(
@@ -46,7 +49,7 @@ def test_a_contact_is_a_side(contact):
         State(contact=contact)
 
 
-@pytest.mark.parametrize("name", ["displacement", "velocity", "right_bumper", "phase"])
+@pytest.mark.parametrize("name", ["displacement", "velocity", "deformation", "phase"])
 @pytest.mark.parametrize("bad", [math.nan, math.inf, True, "1 kg", ""])
 def test_nothing_else_is_taken(name, bad):
     with pytest.raises(InputError, match=f"^{name}: "):
@@ -61,6 +64,5 @@ def test_displacement_and_velocity_are_known(name):
 
 def test_str():
     assert str(State("2 mm", 0.1, contact=1)) == (
-        "State(displacement=2 mm, velocity=100 mm/s, right_bumper=None, left_bumper=None, "
-        "phase=None, contact=1)"
+        "State(displacement=2 mm, velocity=100 mm/s, phase=None, contact=1)"
     )

@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 import vibroimpact as vi
+from reference.paper_signs import in_paper_signs
 
 SAMPLES = 8
 """A cycle, of `tame` motions."""
@@ -152,7 +153,8 @@ def simulated(motion: Motion, cycles: float, samples: int = 1) -> xr.Dataset:
 def states(data: xr.Dataset) -> NDArray[np.float64]:
     """Samples of displacement, velocity, right and left deformation, as rows."""
     names = ("displacement", "velocity", "right_bumper", "left_bumper")
-    return np.stack([data[name].values for name in names])
+    signed = in_paper_signs(data)
+    return np.stack([signed[name].values for name in names])
 
 
 def distance(data: xr.Dataset, other: NDArray[np.float64]) -> float:

@@ -56,7 +56,11 @@ def simulated(rig: vi.Oscillator, cycles: float, start: vi.State | xr.Dataset) -
 
 
 def events(data: xr.Dataset) -> list[tuple[int, int]]:
-    pairs = zip(data["event_contact"].values, data["event_side"].values, strict=True)
+    pairs = zip(
+        data["event_contact"].values,
+        np.where(data["event_stop"].values == "right", 1, -1),
+        strict=True,
+    )
     return [(int(kind), int(side)) for kind, side in pairs]
 
 

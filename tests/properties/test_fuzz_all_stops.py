@@ -87,9 +87,9 @@ def faults(
     scale = max(float(np.abs(u).max()), *gaps, 0.0)
     for sign, name in ((1, "right"), (-1, "left")):
         stop = getattr(rig, name)
-        face = sign * data[f"{name}_bumper"].values
         if stop is None:
             continue
+        face = data["deformation"].sel(stop=name).values
         inside = float((sign * u - face - stop.gap).max())
         if inside > 1e-15 * scale:
             found.append(f"penetration of the {name} stop by {inside / scale:.1e}")
@@ -98,7 +98,7 @@ def faults(
         if isinstance(stop, vi.RigidStop) and (face != 0.0).any():
             found.append(f"the rigid {name} stop was pressed in")
     impacts = data["event_contact"].values == 2
-    towards = data["event_side"].values * data["event_velocity"].values
+    towards = np.where(data["event_stop"].values == "right", 1, -1) * data["event_velocity"].values
     if (towards[impacts] < 0.0).any():
         found.append("an impact from behind")
     return "done", found

@@ -122,8 +122,12 @@ def check_contacts(log: xr.Dataset, motion: xr.Dataset, rig: vi.Oscillator, shar
     begun = motion["event_contact"].values == 1
     for side, stop in ((1, rig.right), (-1, rig.left)):
         if stop is not None and not isinstance(stop, vi.RigidStop):
-            begins = motion["event_time"].values[begun & (motion["event_side"].values == side)]
-            listed = log["contact_start"].values[log["contact_side"].values == side]
+            begins = motion["event_time"].values[
+                begun & (np.where(motion["event_stop"].values == "right", 1, -1) == side)
+            ]
+            listed = log["contact_start"].values[
+                np.where(log["contact_stop"].values == "right", 1, -1) == side
+            ]
             assert len(begins) - 1 <= len(listed) <= len(begins)  # the end may cut the last one
             np.testing.assert_allclose(listed, begins[: len(listed)], rtol=1e-13, atol=1e-15)
     return count

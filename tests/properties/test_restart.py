@@ -89,6 +89,6 @@ def test_the_section_of_a_sweep_repeats_itself(code: str) -> None:
         seen = np.ptp(again["displacement"].values) / float(held["displacement_excursion"])
         assert 1 - 1e-2 <= seen <= 1 + ROUNDING
         begins = again["event_contact"].values == 1
-        for side, name in ((1, "impacts_right"), (-1, "impacts_left")):
-            hits = np.sum(begins & (again["event_side"].values == side))
-            assert hits == held[name] * period
+        for stop in ("right", "left"):
+            hits = np.sum(begins & (again["event_stop"].values == stop))
+            assert hits == held["impacts"].sel(stop=stop) * period

@@ -18,6 +18,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 import vibroimpact as vi
+from reference.paper_signs import in_paper_signs
 
 Array = NDArray[np.float64]
 
@@ -122,6 +123,7 @@ def _line(record: vi.Record, time: float, interval: float) -> Shaking:
 
 def lines(rig: vi.Oscillator, record: vi.Record, data: xr.Dataset) -> Iterator[Phase]:
     """The phases of a motion through a record, one sample a step, each cut where lines meet."""
+    data = in_paper_signs(data)
     names = ("displacement", "velocity", "right_bumper", "left_bumper")
     at = [
         (float(t), Mechanics(*(float(data[name][i]) for name in names)), None)
@@ -131,7 +133,10 @@ def lines(rig: vi.Oscillator, record: vi.Record, data: xr.Dataset) -> Iterator[P
         (
             float(data["event_time"][i]),
             Mechanics(*(float(data[f"event_{name}"][i]) for name in names)),
-            (EVENTS[int(data["event_contact"][i])], int(data["event_side"][i])),
+            (
+                EVENTS[int(data["event_contact"][i])],
+                int(data["event_side"][i]),
+            ),
         )
         for i in range(data.sizes["event"])
     ]
@@ -166,6 +171,7 @@ def phases(
     rig: vi.Oscillator, shaken: vi.Harmonic | vi.Periodic, data: xr.Dataset
 ) -> Iterator[Phase]:
     """The phases of a simulation with samples, in order."""
+    data = in_paper_signs(data)
     names = ("displacement", "velocity", "right_bumper", "left_bumper")
     first, last = ([float(data[name][i]) for name in names] for i in (0, -1))
     rows = np.stack([data[f"event_{name}"].values for name in names], axis=-1)
@@ -175,7 +181,9 @@ def phases(
     happened = [
         (EVENTS[what], side)
         for what, side in zip(
-            data["event_contact"].values.tolist(), data["event_side"].values.tolist(), strict=True
+            data["event_contact"].values.tolist(),
+            data["event_side"].values.tolist(),
+            strict=True,
         )
     ]
     touched = frozenset(

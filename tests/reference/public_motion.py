@@ -9,6 +9,7 @@ import xarray as xr
 from mpmath import mp, mpf
 
 import vibroimpact as vi
+from reference.paper_signs import in_paper_signs
 from reference.rig import Reference, Rig, Stop, Wall
 from reference.shaking import Lines, Shaking, Sines
 from vibroimpact.model import equilibrium
@@ -28,12 +29,9 @@ class Seen(NamedTuple):
 
 
 def events(data: xr.Dataset) -> list[Seen]:
-    columns = ("event_contact", "event_side", "event_time", "event_displacement", "event_velocity")
+    columns = ("event_contact", "event_stop", "event_time", "event_displacement", "event_velocity")
     rows = zip(*(data[name].values.tolist() for name in columns), strict=True)
-    return [
-        Seen(f"{WORDS[what]}_{'right' if side == 1 else 'left'}", time, u, v)
-        for what, side, time, u, v in rows
-    ]
+    return [Seen(f"{WORDS[what]}_{stop}", time, u, v) for what, stop, time, u, v in rows]
 
 
 def reference_rig(rig: vi.Oscillator) -> Rig:
@@ -97,7 +95,8 @@ def assert_agreement(data: xr.Dataset, run: Reference, span: float, tolerance: f
     shares of a span.
     """
     sampled = ("displacement", "velocity", "right_bumper", "left_bumper")
-    sections = np.stack([data[name].values for name in sampled], axis=-1)
+    signed = in_paper_signs(data)
+    sections = np.stack([signed[name].values for name in sampled], axis=-1)
     known = [*run.states, *((event.u, event.v) for event in run.events)]
     size, speed = (max(abs(float(state[i])) for state in known) for i in (0, 1))
     for row, exact in zip(sections.tolist(), run.states, strict=True):

@@ -32,9 +32,10 @@ def stored(oscillator: vi.Oscillator, data: xr.Dataset, at: int) -> float:
         if stop is None:
             continue
         depth = side * u - stop.gap
-        touched = int(data["contact"][at]) in (side, 2)
+        name = "right" if side == 1 else "left"
+        touched = bool(data["touching"].sel(stop=name)[at])
         if isinstance(stop, vi.Bumper):
-            x = float(data["right_bumper" if side == 1 else "left_bumper"][at])
+            x = float(data["deformation"].sel(stop=name)[at])
             held += stop.stiffness * x**2 / 2
         elif touched and isinstance(stop, vi.Law):
             held += quad(stop.read.value, 0.0, depth, (0.0,), epsabs=1e-14)[0]

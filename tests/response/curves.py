@@ -36,10 +36,13 @@ def made(frequency, forward, backward=None, *, settled=True, period=1) -> xr.Dat
             "eta_d": (dims, eta),
             "motion": (dims, np.where(settled, "periodic", "undecided")),
             "period": (dims, np.broadcast_to(period, shape)),
-            "impacts_right": (dims, np.zeros(shape)),
-            "impacts_left": (dims, np.zeros(shape)),
+            "impacts": ((*dims, "stop"), np.zeros((*shape, 2))),
         },
-        coords={"direction": list(curves), "frequency": np.asarray(frequency, dtype=float)},
+        coords={
+            "direction": list(curves),
+            "frequency": np.asarray(frequency, dtype=float),
+            "stop": ["right", "left"],
+        },
     )
 
 

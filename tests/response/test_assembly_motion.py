@@ -73,13 +73,10 @@ def test_one_mass_is_an_oscillator(what: str, stops: str) -> None:
     shaken = "applied_force" if what in ("force", "unbalance") else "base_acceleration"
     near(found[shaken], plain[shaken], 1e-15)
     for side in assembly.stops:
-        near(found["clearance"].sel(stop=side), plain[f"{side}_clearance"])
-        sign = 1.0 if side == "right" else -1.0
-        deformation = np.maximum(sign * plain[f"{side}_bumper"], 0.0)
-        near(found["deformation"].sel(stop=side), deformation)
+        near(found["clearance"].sel(stop=side), plain["clearance"].sel(stop=side))
+        near(found["deformation"].sel(stop=side), plain["deformation"].sel(stop=side))
     assert found["event_contact"].values.tolist() == plain["event_contact"].values.tolist()
-    sides = [{1: "right", -1: "left"}[one] for one in plain["event_side"].values]
-    assert found["event_stop"].values.tolist() == sides
+    assert found["event_stop"].values.tolist() == plain["event_stop"].values.tolist()
     near(found["event_time"], plain["event_time"])
     near(found["event_displacement"].sel(mass="m"), plain["event_displacement"])
     near(found["event_velocity"].sel(mass="m"), plain["event_velocity"])

@@ -9,7 +9,9 @@ import pytest
 
 import vibroimpact as vi
 
-RIG = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), right=vi.Bumper(10.0, 0.1, 0.5))
+BUMPER = vi.Bumper(10.0, 0.1, 0.5)
+# With both stops all that the engine writes is in the result.
+RIG = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), BUMPER, BUMPER)
 SHAKEN = vi.Harmonic(1.0, 0.2)
 
 

@@ -30,12 +30,12 @@ def test_an_elastic_bumper_cannot_lag_behind() -> None:
     ("start", "message"),
     [
         (
-            vi.State(0.02, right_bumper=0.001),
-            "start.right_bumper: 0.001 m, but a displacement of 0.02 m compresses",
+            vi.State(0.02, deformation={"right": 0.001}),
+            "start.deformation.right: 0.001 m, but a displacement of 0.02 m compresses",
         ),
         (
-            vi.State(-0.02, left_bumper=-0.001),
-            "start.left_bumper: -0.001 m, but a displacement of -0.02 m compresses",
+            vi.State(-0.02, deformation={"left": 0.001}),
+            "start.deformation.left: 0.001 m, but a displacement of -0.02 m compresses",
         ),
         (
             vi.State(0.0, contact=1),
@@ -55,10 +55,10 @@ def test_bad_starts(start: object, message: str) -> None:
 
 def test_starts_on_absent_bumpers() -> None:
     rig = CASE.oscillator.replace(right=None)
-    told = r"^start.right_bumper: 0.001 m, but .* has no right bumper"
+    told = r"^start.deformation.right: 0.001 m, but .* has no right bumper"
     with pytest.raises(vi.InputError, match=told):
-        vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(right_bumper=0.001))
+        vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(deformation={"right": 0.001}))
     told = r"^start.contact: 1 \(right stop\), but .* has no right stop"
     with pytest.raises(vi.InputError, match=told):
         vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(contact=1))
-    vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(right_bumper=0.0))
+    vi.simulate(vi.Rig(rig, SHAKEN), 1, vi.State(deformation={"right": 0.0}))

@@ -90,7 +90,7 @@ def test_contacts_are_those_of_many_samples(isolator: str, stops: str) -> None:
     assert log.sizes["contact_number"] > 3
     for i in range(log.sizes["contact_number"]):
         side, begin, end = (
-            int(log["contact_side"][i]),
+            int(np.where(log["contact_stop"] == "right", 1, -1)[i]),
             *tuple(float(log[f"contact_{name}"][i]) for name in ("start", "end")),
         )
         stop = oscillator.right if side == 1 else oscillator.left
@@ -99,8 +99,8 @@ def test_contacts_are_those_of_many_samples(isolator: str, stops: str) -> None:
             continue
         inside = (t >= begin) & (t <= end)
         if isinstance(stop, vi.Bumper):
-            name = "right_bumper" if side == 1 else "left_bumper"
-            depth = side * data[name].values[inside]
+            name = "right" if side == 1 else "left"
+            depth = data["deformation"].sel(stop=name).values[inside]
         else:
             depth = np.maximum(side * u[inside] - stop.gap, 0.0)
         force = pushes(stop, depth, side * v[inside], abs(float(log["contact_start_velocity"][i])))

@@ -50,7 +50,7 @@ def test_they_are_those_between_the_events(motion):
     assert len(rows) == events + 1
     np.testing.assert_array_equal(every.bounds[1:-1], motion["event_time"])
     np.testing.assert_array_equal(rows[:-1, layout.KIND], motion["event_contact"])
-    side = np.where(motion["event_side"] == 1, 0, 1)
+    side = np.where(motion["event_stop"] == "right", 0, 1)
     np.testing.assert_array_equal(rows[:-1, layout.AT_STOP], side)
     np.testing.assert_array_equal(every.of_mass(layout.ARRIVAL)[:-1], motion["event_velocity"])
     assert rows[-1, layout.KIND] == layout.NOTHING
@@ -102,7 +102,7 @@ def test_contacts_from_the_events_alone():
     np.testing.assert_allclose(parting, every.of_mass(layout.PARTING)[:-1], rtol=1e-15)
     assert (every.rows[:, layout.KIND] == IMPACT).any()
     assert (every.rows[:, layout.TOUCHED] == BOTH).any()
-    for number, side in enumerate((1, -1)):
+    for number, side in enumerate(("right", "left")):
         held = contact_intervals(data, side, data["event_time"].values, float(data["time"][-1]))
         touched = every.touched(number)
         assert touched.any()

@@ -19,8 +19,6 @@ VARIABLES = {
     "eta_d": "1",
     "eta_a": "1",
     "eccentricity": "m",
-    "impacts_right": "1",
-    "impacts_left": "1",
     "motion": "1",
     "period": "1",
     "cycles": "1",
@@ -81,10 +79,10 @@ class TestDataset:
         assert (data["status"] == 0).all()
         assert data["status"].attrs["flag_meanings"].split()[0] == "done"
         assert (data["period"] >= 1).all()
-        assert (data["cycles"].where(data["impacts_right"] > 0) != 0).all()
-        for side in ("impacts_right", "impacts_left"):
-            per_period = data[side] * data["period"]
-            np.testing.assert_array_equal(per_period, per_period.round())
+        assert (data["cycles"].where(data["impacts"].sel(stop="right") > 0) != 0).all()
+        assert data["impacts"].dims == ("direction", "frequency", "stop")
+        per_period = data["impacts"] * data["period"]
+        np.testing.assert_array_equal(per_period, per_period.round())
 
     @pytest.mark.parametrize("damping", [1100.0, 0.0, 30e3])
     def test_eta_does_not_depend_on_the_range(self, damping: float) -> None:
@@ -228,8 +226,8 @@ class TestExtremes:
         np.testing.assert_allclose(window["final_state"][:4], data["section"][:4], rtol=1e-6)
         seen = np.ptp(window["displacement"].values)
         assert seen == pytest.approx(float(data["displacement_excursion"]), rel=1e-4)
-        hits = (window["event_contact"] == 1) & (window["event_side"] == 1)
-        assert int(hits.sum()) == float(data["impacts_right"]) * 50
+        hits = (window["event_contact"] == 1) & (window["event_stop"] == "right")
+        assert int(hits.sum()) == float(data["impacts"].sel(stop="right")) * 50
 
 
 class TestPublishedLandmarks:
@@ -316,7 +314,7 @@ class TestWrongInput:
         self.refused(f"{field}: ", **{field: value})
 
     def test_starts(self) -> None:
-        self.refused("start.right_bumper: ", start=vi.State(0.02, right_bumper=0.0))
+        self.refused("start.deformation.right: ", start=vi.State(0.02, deformation={"right": 0.0}))
         self.refused("start: ", start=3.0)
 
     def test_rigs(self) -> None:

@@ -43,11 +43,11 @@ def held_and_contacts(rig: vi.Oscillator) -> tuple[xr.Dataset, xr.Dataset]:
 def test_forces_and_impulses_are_those_of_the_contacts(name: str) -> None:
     rig = (RIGS | WALLS)[name]
     held, found = held_and_contacts(rig)
-    assert len(found["contact_side"])
-    for side, sign in (("right", 1), ("left", -1)):
-        mine = found["contact_side"].values == sign
+    assert found.sizes["contact_number"]
+    for side in held["stop"].values:
+        mine = found["contact_stop"].values == side
         forces, impulses = (found[f"contact_{what}"].values for what in ("peak_force", "impulse"))
-        force, impulse = held[f"peak_force_{side}"], held[f"peak_impulse_{side}"]
+        force, impulse = held["peak_force"].sel(stop=side), held["peak_impulse"].sel(stop=side)
         if isinstance(getattr(rig, side), vi.RigidStop):
             assert float(force) == np.inf
             assert float(impulse) == pytest.approx(impulses[mine].max(), rel=1e-9)
@@ -68,8 +68,10 @@ def test_no_moment_of_the_motion_has_a_larger_force(name: str) -> None:
     stops = -rig.mass * motion["acceleration"].values
     stops -= np.array([rig.isolator.static_force(one) for one in u]) + rig.isolator.damping * v
     for side, sign in (("right", 1.0), ("left", -1.0)):
-        largest = float(held[f"peak_force_{side}"])
-        seen = max(0.0, (sign * stops)[motion["contact"].values == sign].max(initial=0.0))
+        if getattr(rig, side) is None:
+            continue
+        largest = float(held["peak_force"].sel(stop=side))
+        seen = max(0.0, (sign * stops)[motion["touching"].sel(stop=side).values].max(initial=0.0))
         assert seen <= largest * (1.0 + 1e-9)
         assert seen >= largest * (1.0 - 1e-3)
 
@@ -80,7 +82,7 @@ def test_right_and_left_change_places_in_the_mirror() -> None:
     there = vi.sweep(vi.Rig(rig.mirrored(), 0.5), [1.0, FREQUENCY], phase=np.pi)
     for one, other in (("right", "left"), ("left", "right")):
         np.testing.assert_allclose(
-            here[f"peak_force_{one}"], there[f"peak_force_{other}"], rtol=1e-8
+            here["peak_force"].sel(stop=one), there["peak_force"].sel(stop=other), rtol=1e-8
         )
 
 
@@ -89,7 +91,7 @@ def test_peaks_are_the_larger_ends() -> None:
     for what in ("displacement", "acceleration"):
         ends = [np.abs(data[f"{what}_{end}"].values) for end in ("max", "min")]
         np.testing.assert_array_equal(data[f"peak_{what}"], np.maximum(*ends))
-    assert (data["peak_force_right"].sel(frequency=4.0) == 0.0).all()
+    assert (data["peak_force"].sel(stop="right").sel(frequency=4.0) == 0.0).all()
 
 
 def test_a_branch_has_them_too() -> None:
@@ -99,5 +101,5 @@ def test_a_branch_has_them_too() -> None:
         vi.Rig(rig, vi.Harmonic(0.5, FREQUENCY)), held["section"], vary={"frequency": (1.49, 1.51)}
     )
     at = int(np.argmin(np.abs(orbit["frequency"].values - FREQUENCY)))
-    for name in ("peak_displacement", "peak_acceleration", "peak_force_right"):
-        assert float(orbit[name][at]) == pytest.approx(float(held[name]), rel=1e-2)
+    for name in ("peak_displacement", "peak_acceleration", "peak_force"):
+        np.testing.assert_allclose(orbit[name][at], held[name], rtol=1e-2)

@@ -16,7 +16,7 @@ def test_from_below_on_the_large_motion_from_above_on_the_small_one():
     starts = arrivals(vi.Rig(CASE.oscillator, SHAKEN))
     assert list(starts) == ["forward branch", "backward branch"]
     found = [vi.steady(vi.Rig(CASE.oscillator, SHAKEN), start, 8) for start in starts.values()]
-    assert [int(motion["impacts_right"]) for motion in found] == [1, 0]
+    assert [int(motion["impacts"].sel(stop="right")) for motion in found] == [1, 0]
     assert {start.phase for start in starts.values()} == {0.4}
 
 

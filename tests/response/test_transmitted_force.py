@@ -44,8 +44,8 @@ def in_words(rig: vi.Oscillator, motion: xr.Dataset) -> np.ndarray:
     """K u + C u̇ and the forces of Kelvin–Voigt bumpers at the samples, in N."""
     u, v = motion["displacement"].values, motion["velocity"].values
     total = rig.isolator.stiffness * u + rig.isolator.damping * v
-    for stop, side in ((rig.right, 1), (rig.left, -1)):
-        pressed = np.isin(motion["contact"].values, (side, 2))
+    for stop, name, side in ((rig.right, "right", 1), (rig.left, "left", -1)):
+        pressed = motion["touching"].sel(stop=name).values
         total += np.where(pressed, stop.stiffness * (u - side * stop.gap) + stop.damping * v, 0.0)
     return total
 
@@ -59,15 +59,18 @@ def test_it_is_what_the_isolator_and_the_bumpers_push_with(kind: str) -> None:
     np.testing.assert_allclose(force, in_words(rig, motion), atol=1e-12 * np.abs(force).max())
     # Where a contact begins it jumps by what the dashpot pushes with.
     begins = motion["event_contact"].values == 1
-    side, v = motion["event_side"].values[begins], motion["event_velocity"].values[begins]
+    side, v = (
+        np.where(motion["event_stop"].values == "right", 1, -1)[begins],
+        motion["event_velocity"].values[begins],
+    )
     after, before = (
         motion[f"event_transmitted_force_{when}"].values[begins] for when in ("after", "before")
     )
     right, left = rig.right, rig.left
     deformed = np.where(
         side == 1,
-        motion["event_right_bumper"].values[begins],
-        motion["event_left_bumper"].values[begins],
+        motion["event_deformation"].sel(stop="right").values[begins],
+        (-motion["event_deformation"].sel(stop="left")).values[begins],
     )
     pushed = np.where(
         side == 1,
@@ -185,9 +188,9 @@ def test_the_machine_of_the_page_stays_clear_of_its_stops() -> None:
     rig = vi.Rig(vi.Oscillator(800.0, mounts, stop, stop), "0.4 kg m")
     swept = vi.sweep(rig, np.arange(2.0, 8.0, 0.01))
     assert float(swept["peak_displacement"].max()) == pytest.approx(4.17e-3, abs=5e-6)
-    assert not swept["impacts_right"].any()
+    assert not swept["impacts"].sel(stop="right").any()
     sized = vi.required_gap(rig, frequency_span=(2.0, 8.0))
-    assert float(sized["required_gap"]) == pytest.approx(
+    assert float(sized["common_gap"]) == pytest.approx(
         0.4 / 800.0 / (2.0 * 0.06 * math.sqrt(1.0 - 0.06**2)), rel=1e-6
     )
 

@@ -52,15 +52,18 @@ def made(forward, backward=None, *, touching=None, period=1, uneven=False, depth
             "eta_d": (dims, 0.3 * eta),
             "motion": (dims, np.where(period > 0, "periodic", "undecided")),
             "period": (dims, period),
-            "impacts_right": (dims, touching.astype(float)),
-            "impacts_left": (dims, touching.astype(float)),
+            "impacts": ((*dims, "stop"), np.stack([touching.astype(float)] * 2, axis=-1)),
             "displacement_max": (dims, reach),
             "displacement_min": (dims, -reach),
             "displacement_excursion": (dims, 2.0 * reach),
             "eccentricity": (dims, np.where(uneven, 0.1 * GAP, 0.0) * np.ones(shape)),
             "free_displacement_excursion": ("frequency", 2.0 * GAP / 0.3 * free / free.max()),
         },
-        coords={"direction": ["forward", "backward"], "frequency": GRID},
+        coords={
+            "direction": ["forward", "backward"],
+            "frequency": GRID,
+            "stop": ["right", "left"],
+        },
     )
 
 

@@ -67,7 +67,7 @@ def test_holds_without_values():
     for name in ("eta_a", "eta_d"):
         data[name] = data[name].where(data["direction"] == "forward")
     assert named(data) == "unclassified"
-    for name in ("eta_a", "eta_d", "impacts_right", "impacts_left"):
+    for name in ("eta_a", "eta_d", "impacts"):
         data[name] = data[name] * np.nan
     assert named(data) == "unclassified"  # not free flight
     nothing = made(*primary(), period=0)

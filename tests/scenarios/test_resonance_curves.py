@@ -35,7 +35,7 @@ def test_a_bumper_that_stays_pressed_is_touched_in_both():
     rig = one_sine(vi.Rig(oscillator.replace(left=pressed), shaken), "rig")
     grid = np.array([0.5, 0.7]) * oscillator.natural_frequency
     data = vi.sweep(rig, grid, max_cycles=300, window=100)
-    assert not data["impacts_left"].any()
+    assert not data["impacts"].sel(stop="left").any()
     curves, _ = swept_alone(rig, grid, 300, 100, np.zeros(2, dtype=np.int64))
     (told,) = each_curves(as_rigs(data))
     assert curves.both.touching.all()

@@ -99,8 +99,10 @@ def test_impacts_are_those_of_steady():
     order = np.argsort(section["contact_start_phase"].values)
     known = data.isel(section_point=slice(section.sizes["contact_number"]))
     mine = np.argsort(known["contact_start_phase"].values)
-    assert np.isnan(data["contact_side"].values).sum() == data.sizes["section_point"] - len(order)
-    for name in ("contact_side", "contact_start_phase", "contact_start_velocity"):
+    assert np.isnan(np.where(data["contact_stop"].values == "right", 1, -1)).sum() == data.sizes[
+        "section_point"
+    ] - len(order)
+    for name in ("contact_stop", "contact_start_phase", "contact_start_velocity"):
         np.testing.assert_allclose(known[name].values[mine], section[name].values[order], rtol=1e-8)
 
 

@@ -32,7 +32,7 @@ def test_the_number_of_followed_impacts_of_a_chatter_is_no_grazing(bouncing):
     grazing = values(bouncing, "grazing")
     within = grazing[grazing < last - 1e-9]
     np.testing.assert_allclose(within, [9.81], rtol=1e-9)
-    counts = bouncing["impacts_right"].values[rests.values == 0.0]
+    counts = bouncing["impacts"].sel(stop="right").values[rests.values == 0.0]
     assert len(np.unique(counts)) > 5  # though it changes along the branch
 
 
@@ -69,7 +69,7 @@ def test_a_grazing_of_the_other_wall_between_two_chatters_is_one():
     )
     for value, hits in ((0.739, 0.0), (0.740, 1.0), (1.375, 1.0), (1.376, 2.0)):
         beside = vi.steady(vi.Rig(rig, vi.Harmonic(value, 0.3)))
-        assert float(beside["impacts_left"]) == hits
+        assert float(beside["impacts"].sel(stop="left")) == hits
 
 
 def test_a_mass_at_rest_at_the_section_begins_no_contact():
@@ -78,7 +78,7 @@ def test_a_mass_at_rest_at_the_section_begins_no_contact():
     whole, vary = vi.Rig(rig, shaken), {"frequency": (0.15, 0.3)}
     data = vi.branch(whole, vi.State(0.6, 0.0), vary=vary)
     assert data.sizes["bifurcation"] == 0
-    assert (data["impacts_right"] == 0.0).all()
+    assert (data["impacts"].sel(stop="right") == 0.0).all()
     _, first = _first_orbit(whole, vi.State(0.6, 0.0), read_ranges(vary, whole)[0], None)
     assert chatter.rests(first)
     assert first.contacts == (0, 0)

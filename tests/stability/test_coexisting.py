@@ -24,7 +24,7 @@ def test_with_and_without_impact():
     assert "forward branch" in large.attrs["starts"]
     assert "backward branch" in small.attrs["starts"]
     assert "rest" in small.attrs["starts"]
-    assert float(large["impacts_right"]) == 1.0
+    assert float(large["impacts"].sel(stop="right")) == 1.0
     assert small.sizes["contact_number"] == 0
     assert [bool(m["mirror_pair"]) for m in (large, small)] == [False, False]
 

@@ -66,7 +66,7 @@ def test_over_the_restitution_to_its_end():
     assert float(data["stops.restitution"].min()) == 0.0
     assert float(data["stops.restitution"].max()) == 1.0
     assert data.attrs["ended_high"] == "the range ends at 1"
-    assert (data["impacts_right"] == 1.0).all()
+    assert (data["impacts"].sel(stop="right") == 1.0).all()
 
 
 @pytest.mark.parametrize("side", ["right", "left"])
@@ -121,7 +121,7 @@ def test_a_branch_is_the_same_wherever_it_is_begun(phase, frequency, start):
     rig = vi.Oscillator("550 kg", FREE, WALL)
     begun = vi.Rig(rig, vi.Harmonic("0.05 g", frequency, phase))
     data = vi.branch(begun, vi.State(*start), vary={"frequency": (0.6, 3.0)}, period=4)
-    three = data["impacts_right"].values * data["period"].values == 3.0
+    three = data["impacts"].sel(stop="right").values * data["period"].values == 3.0
     four = data.isel(point=three & (data["period"].values == 4))
     for i in np.linspace(0, four.sizes["point"] - 2, 5).astype(int):
         here = four.isel(point=i)

@@ -98,7 +98,7 @@ def test_of_what_a_record_asks():
         8,
         method="latin",
     )
-    assert data["peak_force"].dims == ("record", "scale", "sample")
+    assert data["peak_force"].dims == ("record", "scale", "sample", "stop")
     k = 5
     stop = CASE.oscillator.right.replace(gap=float(data["gap"][k]))
     rig = CASE.oscillator.replace(right=stop, left=stop)

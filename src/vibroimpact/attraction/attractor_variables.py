@@ -10,14 +10,15 @@ from numpy.typing import NDArray
 
 from vibroimpact.attraction.attractors import Attractor
 from vibroimpact.attraction.basin_fractions import interval
+from vibroimpact.datasets.stops import stops_of
+from vibroimpact.model import Oscillator
+from vibroimpact.response.sections import section_variables
 from vibroimpact.stability.equivalence import mirrors
 
 _KEPT = (
     "displacement_excursion",
     "acceleration_excursion",
     "eccentricity",
-    "impacts_right",
-    "impacts_left",
 )
 POINTS = 1000
 """Points that are kept of a motion that does not repeat itself."""
@@ -35,7 +36,7 @@ def ranked(known: Sequence[Attractor]) -> list[int]:
     return sorted(range(len(known)), key=size)
 
 
-def variables(known: Sequence[Attractor]) -> dict[str, Any]:
+def variables(oscillator: Oscillator, known: Sequence[Attractor]) -> dict[str, Any]:
     """What a dataset says of motions, in this order."""
     along = ("attractor",)
     shown = [one.points[: one.found.period or POINTS] for one in known]
@@ -44,6 +45,11 @@ def variables(known: Sequence[Attractor]) -> dict[str, Any]:
         "motion": (along, np.array([str(one.motion["motion"].values) for one in known], dtype=str)),
         "period": (along, np.array([int(one.motion["period"]) for one in known], dtype=np.int64)),
         **{name: (along, np.array([float(a.motion[name]) for a in known])) for name in _KEPT},
+        "impacts": (
+            (*along, "stop"),
+            np.array([one.motion["impacts"].values for one in known]).reshape(len(known), -1),
+        ),
+        "stop": stops_of(oscillator),
         "exponents": (
             (*along, "exponent"),
             np.array([one.motion["exponents"].values for one in known]).reshape(-1, 2),
@@ -53,10 +59,7 @@ def variables(known: Sequence[Attractor]) -> dict[str, Any]:
             "point",
             np.repeat(np.arange(len(known)), [len(one) for one in shown]),
         ),
-        "section_displacement": ("point", points[:, 0]),
-        "section_velocity": ("point", points[:, 1]),
-        "section_right_bumper": ("point", points[:, 2]),
-        "section_left_bumper": ("point", -points[:, 3]),
+        **section_variables(oscillator, points[:, :4] * [1.0, 1.0, 1.0, -1.0], ("point",)),
     }
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,9 +19,10 @@ from vibroimpact.datasets.description import (
     describe,
     rig_parameters,
 )
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
-from vibroimpact.model import Oscillator, to_si
+from vibroimpact.model import Oscillator, State, to_si
 from vibroimpact.model.argument_types import MaxEvents, PositiveInt, Refinements, whole
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
@@ -47,8 +48,7 @@ def basins(
     frequency: float | str | None = None,
     nodes: int | tuple[int, int] = 200,
     refine: Refinements = 0,
-    right_bumper: float | str = 0.0,
-    left_bumper: float | str = 0.0,
+    deformation: Mapping[str, float | str] | None = None,
     isolator: float | str = 0.0,
     max_cycles: PositiveInt = 2000,
     max_events: MaxEvents = 10_000,
@@ -80,10 +80,10 @@ def basins(
         of the grid is halved there. No states are added between neighbouring states that lead to
         the same motion. Therefore parts of a basin that are narrower than the spacing of the first
         grid may be missed.
-    right_bumper, left_bumper
-        Initial deformation of the right and of the left bumper (m; negative on the left). If the
-        initial displacement compresses the bumper further, the larger deformation is used. Pass 0
-        for a relaxed bumper and for all other stops.
+    deformation
+        Initial deformations of bumpers (m), as a mapping such as ``{"right": "2 mm"}``. If the
+        initial displacement compresses the bumper further, the larger deformation is used. Default:
+        the bumpers are relaxed.
     isolator
         Initial internal variable (memory) of the isolator in m, if its law has one; see `State`.
     max_cycles
@@ -141,7 +141,7 @@ def basins(
             f"nodes: {plan.shape[1]} × {plan.shape[0]} after refinement; lower nodes or refine "
             f"until there are at most {MOST_NODES} in total"
         )
-    others = _others(rig.oscillator, right_bumper, left_bumper, isolator)
+    others = _others(rig.oscillator, deformation, isolator)
     stage = Stage(rig, max_events)
     search = Search(stage, max_cycles, workers)
     wide = span_of(displacement, LENGTH, "displacement")
@@ -158,8 +158,7 @@ def basins(
         "vibroimpact.basins",
         {
             **rig_parameters(rig),
-            "right_bumper": float(others[0]),
-            "left_bumper": -float(others[1]),
+            "deformation": dict(zip(SIDES, others[:2].tolist(), strict=True)),
             "isolator": float(others[2]),
             "refine": refine,
             "max_cycles": max_cycles,
@@ -185,24 +184,20 @@ def span_of(
 
 
 def _others(
-    oscillator: Oscillator, right: float | str, left: float | str, isolator: float | str
+    oscillator: Oscillator,
+    deformation: Mapping[str, float | str] | None,
+    isolator: float | str,
 ) -> NDArray[np.float64]:
     """Return the deformations of untouched bumpers and the memory of the isolator."""
-    values = [
-        to_si(right, LENGTH, "right_bumper", minimum=0.0),
-        -to_si(left, LENGTH, "left_bumper", maximum=0.0),
-        to_si(isolator, LENGTH, "isolator"),
-    ]
-    for side, value, stop in (
-        ("right", values[0], oscillator.right),
-        ("left", -values[1], oscillator.left),
-    ):
-        if value and not hasattr(stop, "damping"):
+    given = State(deformation=deformation).deformation
+    for side, value in given.items():
+        if value and not hasattr(getattr(oscillator, side), "damping"):
             raise InputError(
-                f"{side}_bumper: {value:g} m, but the {side} side has no bumper that keeps a "
-                f"deformation; pass 0, or leave {side}_bumper out"
+                f"deformation.{side}: {value:g} m, but the {side} side has no bumper that keeps a "
+                f"deformation; pass 0, or leave {side} out"
             )
-    return np.array(values)
+    memory = to_si(isolator, LENGTH, "isolator")
+    return np.array([*(given.get(side, 0.0) for side in SIDES), memory])
 
 
 def _labelled(
@@ -259,7 +254,7 @@ def _dataset(
         "basin": (("velocity", "displacement"), renamed),
         "capture_cycles": (("velocity", "displacement"), cycles),
         "level": (("velocity", "displacement"), levels),
-        **variables(known),
+        **variables(search.stage.oscillator, known),
         **shares(renamed, len(known), drawn),
         "border_distance": ("attractor", border_distances(renamed, u, v / omega, points)),
         "basin_entropy": mixed.basin,

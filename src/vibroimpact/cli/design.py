@@ -130,7 +130,7 @@ def design(
     with results(what, output) as written:
         with progress_bar("computing designs") as progress:
             gap = vi.required_gap(designed, **options)
-            values = ranges or usual_ranges(what.oscillator, float(gap["required_gap"]))
+            values = ranges or usual_ranges(what.oscillator, float(gap["common_gap"]))
             options |= {"limits": limits, "progress": progress}
             data = vi.design_chart(designed, values, **options)
             if best:

@@ -8,22 +8,11 @@ _COUPLED = "if damping couples the modes (see the notes), an approximation"
 
 ASSEMBLIES: dict[str, Variable] = {
     "mass": Variable("1", "name of the mass"),
-    "stop": Variable("1", "name of the stop"),
-    "clearance": Variable("m", "clearance between the two bodies of the stop"),
-    "deformation": Variable("m", "deformation of the stop", "0 for a rigid stop"),
-    "contact_force": Variable(
-        "N",
-        "contact force of the stop, positive when it pushes its bodies apart",
-        "without the infinite force of an impact; at a jump: the value just after the event",
-    ),
-    "event_stop": Variable("1", "name of the stop of the event"),
     "simultaneous_impacts": Variable(
         "1",
         "number of impacts whose order was decided by the order of the stops",
         "impacts at the same instant as another impact or rest of the same mass",
     ),
-    "impacts": Variable("1", "contacts at the stop per forcing cycle"),
-    "peak_impulse": Variable("N s", "largest impulse of an impact at the rigid stop"),
     "mode": Variable("1", "number of the mode", "from 1, in the order of the natural frequencies"),
     "natural_frequency": Variable(
         "Hz", "undamped natural frequency without stops", "0 for a free motion"

@@ -12,13 +12,24 @@ from vibroimpact._version import __version__
 from vibroimpact.datasets.variable import Described, Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig, State
+from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
 from vibroimpact.model.parameters import written_units
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
-COMPONENTS = [*State.model_fields]
-"""Components of a state in a dataset, in the order of `State`'s fields."""
+COMPONENTS = [
+    "displacement",
+    "velocity",
+    "deformation.right",
+    "deformation.left",
+    "phase",
+    "contact",
+    "isolator",
+]
+"""Components of the state of an oscillator in a dataset.
+
+Of both sides, with or without stops; ``deformation.left`` has the sign of the engine, negative when
+compressed, so that derivatives of states are those of the equations."""
 
 
 def describe(

@@ -4,26 +4,13 @@ from __future__ import annotations
 
 from vibroimpact.datasets.variable import Variable
 
-_RIGID = "infinite if the mass hit a rigid stop"
-
 DESIGN: dict[str, Variable] = {
     # sweeps, branches and earthquakes
     "peak_displacement": Variable("m", "largest relative displacement to either side"),
-    "peak_displacement_right": Variable("m", "largest relative displacement to the right"),
-    "peak_displacement_left": Variable("m", "largest relative displacement to the left"),
     "peak_acceleration": Variable(
         "m s-2", "largest absolute acceleration, without sign", "excluding impacts on rigid stops"
     ),
-    "peak_force": Variable("N", "largest contact force of either stop", _RIGID),
-    "peak_force_right": Variable("N", "largest contact force of the right stop", _RIGID),
-    "peak_force_left": Variable("N", "largest contact force of the left stop", _RIGID),
     # earthquakes
-    "impulse": Variable("N s", "impulse of both stops' contact forces, without sign"),
-    "impulse_right": Variable("N s", "impulse of the right stop's contact force"),
-    "impulse_left": Variable("N s", "impulse of the left stop's contact force"),
-    "impact_count": Variable("1", "number of contacts with either stop"),
-    "impact_count_right": Variable("1", "number of contacts with the right stop"),
-    "impact_count_left": Variable("1", "number of contacts with the left stop"),
     "residual_displacement": Variable("m", "displacement at which the mass comes to rest"),
     "residual_swing": Variable(
         "m", "half the width of the last swing around the residual displacement"
@@ -58,10 +45,7 @@ DESIGN: dict[str, Variable] = {
     "displacement_frequency": Variable("Hz", "frequency of the largest displacement"),
     "acceleration_frequency": Variable("Hz", "frequency of the largest acceleration"),
     "unsettled_count": Variable("1", "number of frequency steps without a periodic motion"),
-    **{
-        f"required_gap{side}": Variable("m", f"smallest gap of {which} side without contact")
-        for side, which in (("", "each"), ("_right", "the right"), ("_left", "the left"))
-    },
+    "common_gap": Variable("m", "smallest gap of both sides without contact"),
     "evaluations": Variable("1", "number of designs that were tried"),
     # ensembles
     "uncertain_parameter": Variable("1", "uncertain parameter"),

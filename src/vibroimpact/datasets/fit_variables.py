@@ -11,7 +11,6 @@ FITS: dict[str, Variable] = {
     "repeat": Variable("1", "number of the repetition, if a frequency was measured more than once"),
     "mass_displacement": Variable("m", "absolute displacement of the mass"),
     "base_displacement": Variable("m", "displacement of the base"),
-    "contact_force": Variable("N", "contact force, with the sign of the sensor"),
     # fits
     "parameter": Variable("1", "fitted parameter"),
     "other_parameter": Variable("1", "fitted parameter"),

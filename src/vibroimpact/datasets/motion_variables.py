@@ -19,11 +19,6 @@ MOTIONS: dict[str, Variable] = {
         "of the isolator and the stops together, positive to the right; at a jump: the value just "
         "after the event",
     ),
-    "right_bumper": Variable("m", "deformation of the right bumper"),
-    "left_bumper": Variable("m", "deformation of the left bumper, negative when compressed"),
-    "right_clearance": Variable("m", "clearance between mass and right bumper"),
-    "left_clearance": Variable("m", "clearance between mass and left bumper"),
-    "contact": Variable("1", "stop touched: -1 left, 0 none, 1 right, 2 both"),
     "initial_state": Variable("1", "state at the beginning", "components as in final_state"),
     "isolator_memory": Variable(
         "m", "memory of the isolator", "the internal state z of its law; see State.isolator"
@@ -38,15 +33,12 @@ MOTIONS: dict[str, Variable] = {
         "kind of event: 1 start of a contact, 0 end of a contact, 2 impact",
         "contact with a rigid stop means rest on it",
     ),
-    "event_side": Variable("1", "stop of the event: -1 left, 1 right"),
     "event_displacement": Variable("m", "relative displacement at the event"),
     "event_velocity": Variable(
         "m s-1",
         "relative velocity at the event",
         "for an impact on a rigid stop: the value before the impact",
     ),
-    "event_right_bumper": Variable("m", "deformation of the right bumper at the event"),
-    "event_left_bumper": Variable("m", "deformation of the left bumper at the event"),
     "event_acceleration_before": Variable("m s-2", "absolute acceleration just before the event"),
     "event_acceleration_after": Variable("m s-2", "absolute acceleration just after the event"),
     "event_transmitted_force_before": Variable(
@@ -56,7 +48,6 @@ MOTIONS: dict[str, Variable] = {
         "N", "force transmitted to the base just after the event"
     ),
     # contacts
-    "contact_side": Variable("1", "stop of the contact: -1 left, 1 right"),
     "contact_start": Variable("s", "time at which the contact begins"),
     "contact_end": Variable("s", "time at which the contact ends"),
     "contact_start_phase": Variable("rad", "phase of the excitation at the start of the contact"),
@@ -96,8 +87,6 @@ MOTIONS: dict[str, Variable] = {
     # sections
     "section_displacement": Variable("m", "relative displacement at the section"),
     "section_velocity": Variable("m s-1", "relative velocity at the section"),
-    "section_right_bumper": Variable("m", "deformation of the right bumper at the section"),
-    "section_left_bumper": Variable("m", "deformation of the left bumper at the section"),
     # spectrum
     "order": Variable("1", "frequency divided by the excitation frequency"),
     "line_frequency": Variable("Hz", "frequency of the spectral line"),
@@ -163,8 +152,6 @@ MOTIONS: dict[str, Variable] = {
         "N", "largest force transmitted to the base, without sign"
     ),
     "bifurcation_transmissibility": Variable("1", "transmissibility at the bifurcation"),
-    "bifurcation_peak_force_right": Variable("N", "largest contact force of the right stop"),
-    "bifurcation_peak_force_left": Variable("N", "largest contact force of the left stop"),
     "bifurcation_period": Variable("1", "period of the orbit in forcing cycles"),
     "bifurcation_contacts": Variable(
         "1", "contacts per period", "for a grazing bifurcation: on both of its sides"

@@ -11,8 +11,17 @@ from vibroimpact.errors import InputError, shown
 if TYPE_CHECKING:
     import pandas as pd
 
-_COLUMNS = {"component", "exponent", "multiplier", "component_after", "component_before", "bound"}
-"""Dims with few labelled values; each of these values becomes a column."""
+_COLUMNS = {
+    "stop",
+    "component",
+    "exponent",
+    "multiplier",
+    "component_after",
+    "component_before",
+    "bound",
+}
+"""Dims with few labelled values; each of these values becomes a column, such as
+``peak_force.right``."""
 
 
 def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
@@ -31,7 +40,8 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
     -------
     pandas.DataFrame
         There is one column for each coordinate and for each variable along the rows. A variable
-        with components, such as a state, has one column for each component. Variables with other
+        with stops, or with components such as a state, has one column for each of them:
+        ``peak_force.right``, ``section.velocity``. Variables with other
         additional dims are left out. ``attrs["units"]`` contains the units of the columns.
 
     Raises
@@ -66,7 +76,7 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
     order = [*dims, *first]
     frame = frame[[*order, *(name for name in frame if name not in order)]]
     frame.attrs["units"] = {
-        name: (parts.get(name, dataset.get(name, xr.DataArray()))).attrs.get("units", "1")
+        name: (parts[name] if name in parts else dataset[name]).attrs.get("units", "1")
         for name in frame
     }
     return frame
@@ -80,7 +90,7 @@ def _side_by_side(name: str, variable: xr.DataArray, dims: list[object]) -> dict
     found: dict[str, xr.DataArray] = {}
     for i in range(variable.sizes[dim]):
         label = variable[dim].values[i] if dim in variable.coords else i
-        found |= _side_by_side(f"{name}_{label}", variable.isel({dim: i}, drop=True), rest)
+        found |= _side_by_side(f"{name}.{label}", variable.isel({dim: i}, drop=True), rest)
     return found
 
 

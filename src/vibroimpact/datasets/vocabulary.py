@@ -2,8 +2,9 @@
 
 A new variable is an entry here (sweeps), or in `motion_variables` (one motion, contacts, orbits and
 branches), `fit_variables` (measurements and fits), `design_variables` (earthquakes, stops,
-ensembles), `batch_variables` (basins, manifolds, maps) or `assembly_variables`. `describe` of
-`datasets/description.py` raises an error if a dataset has an unknown one.
+ensembles), `batch_variables` (basins, manifolds, maps), `stop_variables` (dim ``stop``) or
+`assembly_variables`. `describe` of `datasets/description.py` raises an error if a dataset has an
+unknown one.
 
 Histories are computed in `response/simulate.py`, steady motions in `sizes` of
 `response/sweep_dataset.py` (sweeps, branches, diagrams, maps) and in `_measured` of
@@ -19,6 +20,7 @@ from vibroimpact.datasets.batch_variables import MANY_MOTIONS
 from vibroimpact.datasets.design_variables import DESIGN
 from vibroimpact.datasets.fit_variables import FITS
 from vibroimpact.datasets.motion_variables import MOTIONS
+from vibroimpact.datasets.stop_variables import OF_STOPS
 from vibroimpact.datasets.variable import Variable
 from vibroimpact.model.parameters import PARAMETERS
 
@@ -29,10 +31,6 @@ _OVER = (
 _CARRIED = (
     "of the isolator and the stops together, positive to the right; the infinite force of an "
     "impact on a rigid stop is excluded"
-)
-_CHATTER = (
-    "a chatter that ends at rest on a rigid stop has infinitely many impacts; only the impacts "
-    "before the chatter is regarded as complete are counted"
 )
 
 
@@ -47,7 +45,11 @@ VARIABLES: dict[str, Variable] = {
     "start": Variable(
         "1", "initial state of the motions", "up, down: the final state at the previous value"
     ),
-    "component": Variable("1", "component of the state"),
+    "component": Variable(
+        "1",
+        "component of the state",
+        "deformation.left of an oscillator is negative when compressed, unlike the variable",
+    ),
     # sweep
     "displacement_excursion": Variable(
         "m", "excursion of relative displacement", "exact maximum minus exact minimum"
@@ -89,11 +91,7 @@ VARIABLES: dict[str, Variable] = {
         "excursion of the force transmitted to the base divided by that of the exciting force: of "
         "the force on the mass, or of M A_t if the base moves",
     ),
-    "peak_impulse_right": Variable("N s", "largest impulse of an impact on the right rigid stop"),
-    "peak_impulse_left": Variable("N s", "largest impulse of an impact on the left rigid stop"),
     "eccentricity": Variable("m", "eccentricity", "half the sum of the displacement's extremes"),
-    "impacts_right": Variable("1", "contacts with the right stop per forcing cycle", _CHATTER),
-    "impacts_left": Variable("1", "contacts with the left stop per forcing cycle", _CHATTER),
     "motion": Variable(
         "1",
         "kind of motion",
@@ -127,6 +125,7 @@ VARIABLES: dict[str, Variable] = {
         "state at the stroboscopic section at the end of each frequency step",
         "components in m, m/s, m, m, rad and 1",
     ),
+    **OF_STOPS,
     **ASSEMBLIES,
     **MOTIONS,
     **FITS,

@@ -11,8 +11,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
-from vibroimpact.design.design_shaking import AnyRecords, design_rig
-from vibroimpact.design.limits import limits_of
+from vibroimpact.datasets.stops import each_by_stop, stops_of
+from vibroimpact.design.design_shaking import OF_STOPS, AnyRecords, design_rig
+from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.demands import warn_given_up
@@ -71,8 +72,9 @@ def design_chart(
         record starts from rest, and the records are not scaled. The result is a fractile over the
         records; see ``fractile``.
     limits
-        Largest accepted values, by name: ``"peak_force"`` (N), ``"penetration"`` (m), and
-        ``"peak_displacement"``, ``"peak_displacement_right"`` and ``"peak_displacement_left"`` (m).
+        Largest accepted values, by name: ``"peak_force"`` (N) of each stop, ``"penetration"``,
+        ``"peak_displacement"`` and ``"displacement_max"`` (m). ``"displacement_min"`` (m) is the
+        lowest accepted value, at most 0.
         A design that exceeds a limit is reported like the others, but it cannot be in the Pareto
         front ``pareto``.
     fractile
@@ -102,10 +104,10 @@ def design_chart(
     xarray.Dataset
         The dataset has one dim for each parameter that is varied. Its variables are:
 
-        - ``peak_displacement``, and ``peak_displacement_right`` and ``peak_displacement_left`` to
-          either side (m);
+        - ``peak_displacement`` to either side (m), and the ends of the motion,
+          ``displacement_max`` and ``displacement_min``;
         - ``peak_acceleration``, of the absolute acceleration (m/s²);
-        - ``peak_force``, the largest force of a stop (N);
+        - ``peak_force``, the largest force of each stop (N, dim ``stop``);
         - ``penetration``, the largest displacement beyond a gap (m);
         - ``hitting``: for records, the share of the records with which the mass hits a stop; for
           sines, whether the mass hits a stop at any frequency;
@@ -135,7 +137,8 @@ def design_chart(
     workers = placed(threads, where)
     places = list(itertools.product(*(range(n) for n in plan.shape)))
     rigs = [plan.oscillator(at) for at in places]
-    data = _dataset(plan, {**what.peaks(rigs, workers, progress), **_dampings(plan, rigs)}, most)
+    found = what.peaks(rigs, workers, progress)
+    data = _dataset(plan, rigs, {**found, **_dampings(plan, rigs)}, most)
     warn_given_up(data["status"].values, "design", "designs")
     parameters = {
         "oscillator": oscillator_parameters(oscillator),
@@ -158,17 +161,26 @@ def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
 
 
 def _dataset(
-    plan: Runs, found: Mapping[str, NDArray[Any]], limits: Mapping[str, float]
+    plan: Runs,
+    rigs: list[Oscillator],
+    found: Mapping[str, NDArray[Any]],
+    limits: Mapping[str, float],
 ) -> xr.Dataset:
     """Return the results of all designs, over the parameters that were varied."""
     within = np.ones(found["status"].shape, dtype=bool)
     for name, limit in limits.items():
-        within &= found[name] <= limit
+        within &= severity(name, found[name]) <= severity(name, limit)
     u, a = (
         np.where(within, found[name], np.nan) for name in ("peak_displacement", "peak_acceleration")
     )
     own = {"pareto": non_dominated(u, a), **({"within_limits": within} if limits else {})}
     shaped = {
-        name: (plan.dims, values.reshape(plan.shape)) for name, values in {**found, **own}.items()
+        name: (plan.dims, values.reshape(plan.shape))
+        for name, values in {**found, **own}.items()
+        if name not in OF_STOPS
     }
-    return xr.Dataset(shaped, {one.name: one.values for one in plan.varied})
+    for name in OF_STOPS:
+        values = each_by_stop(rigs, found[name])
+        shaped[name] = ((*plan.dims, "stop"), values.reshape(*plan.shape, -1))
+    varied = {one.name: one.values for one in plan.varied}
+    return xr.Dataset(shaped, {"stop": stops_of(*rigs), **varied})

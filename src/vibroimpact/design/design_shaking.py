@@ -11,7 +11,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import excitation_parameters
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.worst_sine import Sines
+from vibroimpact.earthquakes.peak_demands import PEAKS as PEAKS_OF_RUNS
 from vibroimpact.earthquakes.peak_demands import Shaken, peaks
 from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
@@ -32,15 +34,16 @@ _Array = NDArray[np.float64]
 AnyRecords: TypeAlias = Record | Sequence[Record] | Mapping[str, Record]
 """One record or several."""
 
+OF_STOPS = ("peak_force",)
 PEAKS = (
     "peak_displacement",
-    "peak_displacement_right",
-    "peak_displacement_left",
+    "displacement_max",
+    "displacement_min",
     "peak_acceleration",
     "peak_force",
     "penetration",
 )
-"""Results of each rig, in m, m/s² and N."""
+"""Results of each rig, in m, m/s² and N; those of stops have both sides as a further axis."""
 
 
 class Asked(Protocol):
@@ -65,11 +68,11 @@ class BySines(NamedTuple):
     ) -> dict[str, NDArray[Any]]:
         """Of each rig the largest over all frequencies."""
         worst = self.sines.worst(rigs, workers, progress)
-        right, left = (np.array([getattr(one, side) for one in worst]) for side in _SIDES)
+        right, left = (np.array([getattr(one, side) for one in worst]) for side in SIDES)
         return {
             "peak_displacement": np.maximum(right, left),
-            "peak_displacement_right": right,
-            "peak_displacement_left": left,
+            "displacement_max": right,
+            "displacement_min": 0.0 - left,
             "peak_acceleration": np.array([one.acceleration for one in worst]),
             "peak_force": np.array([one.force for one in worst]),
             "penetration": _penetration(rigs, right, left),
@@ -116,12 +119,12 @@ class ByRecords(NamedTuple):
             threads=workers,
             progress=progress,
         )
-        shaped = {n: v.reshape(len(self.records), len(rigs)) for n, v in found.items()}
-        beyond = np.isin(shaped["status"], UNSTABLE)
         values: dict[str, NDArray[Any]] = {
-            name: np.where(beyond, np.inf, value) for name, value in shaped.items()
+            name: v.reshape(len(self.records), len(rigs), *v.shape[2:]) for name, v in found.items()
         }
-        values["status"] = shaped["status"]
+        beyond = np.isin(values["status"], UNSTABLE)
+        for name in PEAKS_OF_RUNS:
+            values[name][beyond] = -np.inf if name == "displacement_min" else np.inf
         return values
 
     def peaks(
@@ -129,12 +132,12 @@ class ByRecords(NamedTuple):
     ) -> dict[str, NDArray[Any]]:
         """Of each rig the fractile over the records."""
         runs = self.runs(rigs, workers, progress)
-        right, left = (runs[f"peak_displacement_{side}"] for side in _SIDES)
-        force = np.maximum(runs["peak_force_right"], runs["peak_force_left"])
+        right, left = runs["displacement_max"], 0.0 - runs["displacement_min"]
+        force = runs["peak_force"]
         every = {
             "peak_displacement": np.maximum(right, left),
-            "peak_displacement_right": right,
-            "peak_displacement_left": left,
+            "displacement_max": right,
+            "displacement_min": left,
             "peak_acceleration": runs["peak_acceleration"],
             "peak_force": force,
             "penetration": _penetration(rigs, right, left),
@@ -145,8 +148,9 @@ class ByRecords(NamedTuple):
         found: dict[str, NDArray[Any]] = {}
         for name, values in every.items():
             (known,) = quantiles(np.nan_to_num(values, nan=0.0), [self.fractile], 0)
-            found[name] = np.where(given_up, np.nan, known)
-        found["hitting"] = np.where(given_up, np.nan, (force > 0.0).mean(axis=0))
+            found[name] = np.where(given_up[(..., *[None] * (known.ndim - 1))], np.nan, known)
+        found["displacement_min"] = 0.0 - found["displacement_min"]
+        found["hitting"] = np.where(given_up, np.nan, (force > 0.0).any(axis=-1).mean(axis=0))
         worst = np.where(given_up, np.where(bad, status, 0).max(axis=0), status.max(axis=0))
         found["status"] = worst.astype(np.int64)
         return found
@@ -158,9 +162,6 @@ class ByRecords(NamedTuple):
             "fractile": self.fractile,
             "tail": self.tail,
         }
-
-
-_SIDES = ("right", "left")
 
 
 def fractile_of(data: xr.Dataset) -> float | None:

@@ -11,9 +11,10 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
-from vibroimpact.design.limits import limits_of
+from vibroimpact.design.design_shaking import OF_STOPS, AnyRecords, Asked, design_rig
+from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import runs
 from vibroimpact.engine.status import Status
@@ -83,9 +84,9 @@ class _Known:
         self, what: Asked, space: _Space, workers: Workers, progress: Progress | None
     ) -> None:
         self.what, self.space, self.workers, self.progress = what, space, workers, progress
-        self.rows: dict[bytes, dict[str, float]] = {}
+        self.rows: dict[bytes, dict[str, Any]] = {}
 
-    def __call__(self, x: _Array) -> list[dict[str, float]]:
+    def __call__(self, x: _Array) -> list[dict[str, Any]]:
         """Return the results per column; an unbounded or abandoned motion counts as infinite."""
         columns = np.ascontiguousarray(x.reshape(len(self.space.names), -1).T)
         new = [one for one in columns if one.tobytes() not in self.rows]
@@ -93,14 +94,14 @@ class _Known:
         if new:
             found = self.what.peaks(self.space.rigs(np.array(new).T), self.workers, None)
             for i, one in enumerate(new):
-                self.rows[one.tobytes()] = {name: float(v[i]) for name, v in found.items()}
+                self.rows[one.tobytes()] = {name: v[i] for name, v in found.items()}
             if self.progress:
                 self.progress(len(self.rows), None)
         return [self.rows[one.tobytes()] for one in columns]
 
     def of(self, name: str, x: _Array) -> _Array:
-        """Return one quantity per column."""
-        found = np.array([one[name] for one in self(x)])
+        """Return the severity of one quantity per column."""
+        found = severity(name, np.array([one[name] for one in self(x)]))
         return np.where(np.isfinite(found), found, _VAST)
 
 
@@ -148,8 +149,9 @@ def least_acceleration(
     gap
         Gap on each side (m). Default: the gaps of the oscillator.
     limits
-        Largest accepted values, by name: ``"peak_force"`` (N), ``"penetration"`` (m), and
-        ``"peak_displacement"``, ``"peak_displacement_right"`` and ``"peak_displacement_left"`` (m).
+        Largest accepted values, by name: ``"peak_force"`` (N) of each stop, ``"penetration"``,
+        ``"peak_displacement"`` and ``"displacement_max"`` (m). ``"displacement_min"`` (m) is the
+        lowest accepted value, at most 0.
     seed
         Random seed of the search.
     progress
@@ -159,7 +161,7 @@ def least_acceleration(
     Returns
     -------
     xarray.Dataset
-        Dataset without dims. It contains the parameters of the best design by name, and the
+        It contains the parameters of the best design by name, and the
         variables of `design_chart` for this design. ``evaluations`` is the number of designs that
         were tried. The attribute ``notes`` reports whether the best design touches no stop, which
         limits are not active, and which parameters lie at an end of their range.
@@ -189,7 +191,9 @@ def least_acceleration(
     most = limits_of(limits)
     known = _Known(what, space, placed(threads, where), progress)
     constraints = tuple(
-        NonlinearConstraint(lambda x, name=name: known.of(name, x)[np.newaxis], -np.inf, limit)
+        NonlinearConstraint(
+            lambda x, name=name: known.of(name, x)[np.newaxis], -np.inf, severity(name, limit)
+        )
         for name, limit in most.items()
     )
     found = differential_evolution(
@@ -214,9 +218,11 @@ def least_acceleration(
         {
             **dict(zip(space.names, values.tolist(), strict=True)),
             **best,
+            **{name: ("stop", by_stop(oscillator, best[name])) for name in OF_STOPS},
             "status": int(best["status"]),
             "evaluations": len(known.rows),
-        }
+        },
+        {"stop": stops_of(oscillator)},
     )
     parameters = {
         "oscillator": oscillator_parameters(oscillator),
@@ -265,18 +271,19 @@ def _bumper_ranges(rig: Oscillator) -> dict[str, tuple[float, float]]:
     }
 
 
-def _untouched(rig: Oscillator, best: Mapping[str, float]) -> Iterator[str]:
+def _untouched(rig: Oscillator, best: Mapping[str, Any]) -> Iterator[str]:
     if rig.stops and not best["hitting"]:
         yield "the best design touches no stop, so the properties of the stops do not matter"
 
 
-def _slack(best: Mapping[str, float], limits: Mapping[str, float]) -> Iterator[str]:
+def _slack(best: Mapping[str, Any], limits: Mapping[str, float]) -> Iterator[str]:
     """Describe the limits that do not bind."""
     for name, limit in limits.items():
-        if best[name] < (1.0 - _NEAR) * limit:
+        worst, most = float(severity(name, best[name])), severity(name, limit)
+        if worst < (1.0 - _NEAR) * most:
             quantity = in_units(VARIABLES[name].units)
             reached, allowed = (
-                pretty(float(f"{value:.4g}"), quantity) for value in (best[name], limit)
+                pretty(float(f"{value:.4g}"), quantity) for value in (severity(name, worst), limit)
             )
             words = name.replace("_", " ")
             yield f"the design stays below the limit of {words}: {reached} of {allowed}"
@@ -297,15 +304,16 @@ def _at_ends(space: _Space, values: _Array) -> Iterator[str]:
             yield f"{name} lies at the {which} end of its range, {end}"
 
 
-def _refuse(best: Mapping[str, float], limits: Mapping[str, float]) -> None:
+def _refuse(best: Mapping[str, Any], limits: Mapping[str, float]) -> None:
     if not math.isfinite(best["peak_acceleration"]):
         raise InputError(f"vary: no design could be computed: {Status(int(best['status'])).advice}")
     for name, limit in limits.items():
-        if best[name] > limit:
+        worst = float(severity(name, best[name]))
+        if worst > severity(name, limit):
             quantity = in_units(VARIABLES[name].units)
             raise InputError(
                 f"limits[{name!r}]: no design that was tried meets this limit of "
                 f"{pretty(limit, quantity)} and all other limits (the best design has "
-                f"{pretty(best[name], quantity, 3)}); raise the limits or widen the ranges of the "
-                "parameters"
+                f"{pretty(severity(name, worst), quantity, 3)}); raise the limits or widen the "
+                "ranges of the parameters"
             )

@@ -5,15 +5,18 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_mapping
+from vibroimpact.datasets.stops import over_stops
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.design_shaking import PEAKS
+from vibroimpact.design.design_shaking import OF_STOPS, PEAKS
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import to_si
 from vibroimpact.model.parameters import in_units
 
+_LEFT = "displacement_min"
 _EXAMPLE = 'a dict of limits by name, such as {"peak_force": "2 MN"}'
 
 
@@ -32,9 +35,26 @@ def limits_of(limits: Any) -> dict[str, float]:
         key = name.replace("-", "_")
         if key not in accepted:
             raise InputError(f"limits: {unknown(name, accepted)}")
-        quantity = in_units(VARIABLES[key].units)
-        found[key] = to_si(value, quantity, f"limits[{name!r}]", minimum=0.0)
+        ends = {"maximum": 0.0} if key == _LEFT else {"minimum": 0.0}
+        found[key] = to_si(value, in_units(VARIABLES[key].units), f"limits[{name!r}]", **ends)
     return found
+
+
+def severity(name: str, values: Any) -> Any:
+    """Return what a limit bounds from above: minus the end on the left, the largest of both stops.
+
+    Parameters
+    ----------
+    name
+        Name of one of `PEAKS`.
+    values
+        Its value, or its limit; if it is of stops, with the stops along the last axis.
+    """
+    return values.max(axis=-1) if name in OF_STOPS and np.ndim(values) else _sense(name) * values
+
+
+def _sense(name: str) -> float:
+    return -1.0 if name == _LEFT else 1.0
 
 
 def excesses(data: xr.Dataset) -> list[xr.DataArray]:
@@ -44,4 +64,8 @@ def excesses(data: xr.Dataset) -> list[xr.DataArray]:
     limits are.
     """
     limits = json.loads(data.attrs.get("parameters", "{}")).get("limits", {})
-    return [(data[name] - most) / (most or 1.0) for name, most in limits.items() if name in data]
+    return [
+        (_sense(name) * (over_stops(data[name]) - most)) / (abs(most) or 1.0)
+        for name, most in limits.items()
+        if name in data
+    ]

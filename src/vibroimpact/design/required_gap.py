@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.design_shaking import AnyRecords, ByRecords, design_rig
 from vibroimpact.design.worst_sine import STEP, Sines
 from vibroimpact.earthquakes.suites import quantiles
@@ -54,11 +55,11 @@ def required_gap(
     Returns
     -------
     xarray.Dataset
-        ``required_gap`` (m) is the required gap if both sides have the same gap.
-        ``required_gap_right`` and ``required_gap_left`` (m) are the required gaps if the sides may
+        ``common_gap`` (m) is the required gap if both sides have the same gap. ``required_gap`` (m)
+        are the required gaps of the right and of the left side (dim ``stop``) if the sides may
         differ. For sines, ``displacement_frequency`` (Hz) is the frequency of the largest
-        displacement. For records, ``peak_displacement_right`` and ``peak_displacement_left`` are
-        the peaks of each record (dim ``record``).
+        displacement. For records, ``displacement_max`` and ``displacement_min`` are
+        the ends of the motion of each record (dim ``record``).
 
     Raises
     ------
@@ -77,7 +78,7 @@ def required_gap(
         found = _in_closed_form(free, what.sines)
     else:
         found = _swept(free, what.sines, workers, progress)
-    if not np.isfinite(found["required_gap"]):
+    if not np.isfinite(found["common_gap"]):
         raise InputError(
             "shaking: without stops the motion of the mass grows without bound, so no gap is wide "
             "enough; give the isolator more damping or stiffness, or reduce the shaking"
@@ -114,27 +115,27 @@ def _of_records(
     runs = what.runs([free], workers, progress)
     for status in runs["status"].ravel():
         _refuse(int(status))
-    right, left = (runs[f"peak_displacement_{side}"][:, 0] for side in ("right", "left"))
+    right, left = runs["displacement_max"][:, 0], 0.0 - runs["displacement_min"][:, 0]
     # A fractile of both is not the larger of the two fractiles.
     wide, *each = (
         float(quantiles(one, [what.fractile], 0)[0])
         for one in (np.maximum(right, left), right, left)
     )
     data = _sides(*each)
-    data["required_gap"] = wide
-    data["peak_displacement_right"] = ("record", right)
-    data["peak_displacement_left"] = ("record", left)
+    data["common_gap"] = wide
+    data["displacement_max"] = ("record", right)
+    data["displacement_min"] = ("record", 0.0 - left)
     return data.assign_coords(record=list(what.records))
 
 
 def _sides(right: float, left: float, **others: Any) -> xr.Dataset:
     return xr.Dataset(
         {
-            "required_gap": max(right, left),
-            "required_gap_right": right,
-            "required_gap_left": left,
+            "common_gap": max(right, left),
+            "required_gap": ("stop", [right, left]),
             **others,
-        }
+        },
+        {"stop": list(SIDES)},
     )
 
 

@@ -53,7 +53,8 @@ class Worst(NamedTuple):
     """Displacement, to the right."""
     left: float
     acceleration: float
-    force: float
+    force: _Array
+    """Of the right and the left stop."""
     hits: bool
     displacement_frequency: float
     """Where the displacement is largest, to either side (Hz)."""
@@ -180,13 +181,14 @@ class _Search:
         size = rows.peak_displacement
         codes = judged(self.rig, rows.status, size)
         if np.isin(codes, _UNBOUNDED).any():
-            beyond = (math.inf,) * 4
+            beyond = (math.inf, math.inf, math.inf, np.full(2, math.inf))
             status = int(codes[np.isin(codes, _UNBOUNDED)][0])
             return Worst(*beyond, bool(self.rig.stops), math.nan, math.nan, 0, status)
         sound = np.isin(codes, _SOUND)
         if not sound.all():
-            return Worst(*(math.nan,) * 4, False, math.nan, math.nan, 0, int(codes[~sound][0]))
-        touching = (rows.impacts_right > 0.0) | (rows.impacts_left > 0.0)
+            unknown = (math.nan, math.nan, math.nan, np.full(2, math.nan))
+            return Worst(*unknown, False, math.nan, math.nan, 0, int(codes[~sound][0]))
+        touching = (rows.impacts > 0.0).any(axis=-1)
         # What stays pressed all the time begins no contact.
         right, left = rows.displacement_max, -rows.displacement_min
         for stop, reached in ((self.rig.right, right), (self.rig.left, left)):
@@ -197,7 +199,7 @@ class _Search:
             float(right.max()),
             float(left.max()),
             float(acceleration.max()),
-            float(np.maximum(rows.peak_force_right, rows.peak_force_left).max()) * self.rig.mass,
+            rows.peak_force.max(axis=0) * self.rig.mass,
             bool(touching.any()),
             float(held.frequency[size.argmax()]),
             float(held.frequency[acceleration.argmax()]),

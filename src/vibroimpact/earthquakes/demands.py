@@ -15,8 +15,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.earthquakes.intensity import Measure, measure
-from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, PEAKS, RESIDUALS, Shaken, peaks
+from vibroimpact.earthquakes.peak_demands import (
+    MAX_EVENTS,
+    OF_STOPS,
+    PEAKS,
+    RESIDUALS,
+    Shaken,
+    peaks,
+)
 from vibroimpact.earthquakes.run_plan import (
     Block,
     Runs,
@@ -27,7 +35,6 @@ from vibroimpact.earthquakes.run_plan import (
     runs,
     suite,
 )
-from vibroimpact.earthquakes.seismic_response import with_both_sides
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Oscillator, Record, to_si
@@ -130,10 +137,11 @@ def demands(
     xarray.Dataset
         The dims are ``record``, ``scale``, ``rig`` if there are several rigs, and one dim for each
         parameter that is varied. The variables are peaks, forces, impulses, counts and residual
-        displacements, as in `seismic_response`. ``status`` is 0 for each run that was completed.
-        The values of other runs are NaN, and a warning reports the number of these runs. ``factor``
-        is the number by which a record was multiplied. ``intensity`` is the measure of the unscaled
-        record.
+        displacements, as in `seismic_response`. Forces, impulses and counts also have the dim
+        ``stop``; they are NaN where a rig lacks the stop. ``status`` is 0 for each run that was
+        completed. The values of other runs are NaN, and a warning reports the number of these runs.
+        ``factor`` is the number by which a record was multiplied. ``intensity`` is the measure of
+        the unscaled record.
 
     Raises
     ------
@@ -171,8 +179,9 @@ def demands(
         found = {name: read(group, _KIND.word, name) for name in (*_VALUES, "status")}
     dims = ("record", "scale", *rigs.dims)
     data = xr.Dataset(
-        {name: (dims, values) for name, values in found.items()},
+        {name: (_dims(name, dims), values) for name, values in found.items()},
         {
+            "stop": task.stops,
             "record": list(shaking),
             "scale": levels,
             **({"rig": list(rigs.rigs)} if rigs.several else {}),
@@ -181,7 +190,6 @@ def demands(
             "intensity": ("record", known),
         },
     )
-    data = with_both_sides(data)
     notes = [*record_notes(shaking), *_doubted(rigs.rigs, next(iter(shaking.values())), data)]
     data = describe(data, CREATED_BY, settings, notes, rigs.varied)
     for name in ("scale", "intensity"):
@@ -214,6 +222,11 @@ class _Task(NamedTuple):
     threads: Workers
 
     @property
+    def stops(self) -> NDArray[np.str_]:
+        """Names of the stops that at least one of the rigs has."""
+        return stops_of(*self.rigs.rigs.values())
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """Numbers of records and of rigs."""
         return (len(self.records), *self.rigs.shape)
@@ -232,8 +245,15 @@ class _Task(NamedTuple):
             threads=self.threads,
             progress=progress,
         )
+        for name in OF_STOPS:
+            own = zip(rigs * len(chosen), found[name], strict=True)
+            found[name] = np.array([by_stop(rig, both, self.stops) for rig, both in own])
         shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
-        return {name: np.moveaxis(v.reshape(shape), -1, 1) for name, v in found.items()}
+        scale = len(shape) - 1
+        return {
+            name: np.moveaxis(v.reshape(*shape, *v.shape[2:]), scale, 1)
+            for name, v in found.items()
+        }
 
 
 def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | None) -> None:
@@ -262,14 +282,21 @@ def _make(group: zarr.Group, task: _Task, most: int) -> None:
     levels = task.factors.shape[1]
     first, *others = task.shape
     shape = (first, levels, *others)
-    size, *sizes = chunks(task.shape, most)
-    chunk = (size, levels, *sizes)
+    size, *further = chunks(task.shape, most)
+    chunk = (size, levels, *further)
     dims = ("record", "scale", *task.rigs.dims)
     for name in _VALUES:
-        create(group, name, shape, chunk, "f8", np.nan, dims)
+        stops = (len(task.stops),) if name in OF_STOPS else ()
+        sizes = (*shape, *stops), (*chunk, *(max(one, 1) for one in stops))
+        create(group, name, *sizes, "f8", np.nan, _dims(name, dims))
     create(group, "status", shape, chunk, "i1", _PENDING, dims)
     count = sum(1 for _ in blocks(task.shape, most))
     create(group, "done", (count,), (1,), "i1", 0, ("block",))
+
+
+def _dims(name: str, dims: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the dims of a variable, from those of a run."""
+    return (*dims, "stop") if name in OF_STOPS else dims
 
 
 def _levels(scales: Any, scaled: Measure) -> _Array:

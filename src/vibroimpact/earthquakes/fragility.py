@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.earthquakes.credible_curves import begin_to_exceed, credible_curves
-from vibroimpact.earthquakes.suites import described, exceedance, known, limit_of
+from vibroimpact.earthquakes.suites import described, exceedance, exceeds, known, limit_of
 from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model.argument_types import Share
 from vibroimpact.model.parameters import in_units, usual
@@ -65,11 +65,11 @@ def fragility(
     demands
         Dataset of `demands`.
     quantity
-        Name of a peak in the dataset, such as ``"peak_acceleration"``. Use ``"impact_count"`` for
-        the probability that an impact occurs.
+        Name of a peak in the dataset, as in `fractiles`. Use ``"impact_count"`` for the probability
+        that an impact occurs, and ``"impact_count.right"`` for that on the right stop.
     limit
-        Limit of the quantity, in SI units or as text with units. A greater value exceeds the limit.
-        Default: 0 for counts; for other quantities the limit is required.
+        Limit of the quantity, as in `exceedance`. Default: 0 for counts; for other quantities the
+        limit is required.
     confidence
         Confidence level of the intervals, between 0 and 1.
 
@@ -100,7 +100,7 @@ def fragility(
             f"{values.sizes['record']}; compute demands for more records"
         )
     order = ("record", "scale", *_others(values))
-    above = (values > least).transpose(*order).values
+    above = exceeds(values, quantity, least).transpose(*order).values
     logarithms = np.log(values["scale"].values)
     shape = above.shape[2:]
     found = {

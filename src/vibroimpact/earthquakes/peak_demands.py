@@ -24,16 +24,15 @@ from vibroimpact.tasks.threads import Progress, Tally, Workers, breadth, each
 
 _Array = NDArray[np.float64]
 
+OF_STOPS = ("peak_force", "impulse", "impact_count")
+"""Results that have a value for each stop."""
+
 PEAKS = (
-    "peak_displacement_right",
-    "peak_displacement_left",
+    "peak_displacement",
+    "displacement_max",
+    "displacement_min",
     "peak_acceleration",
-    "peak_force_right",
-    "peak_force_left",
-    "impulse_right",
-    "impulse_left",
-    "impact_count_right",
-    "impact_count_left",
+    *OF_STOPS,
 )
 """Results of each run, in m, m/s², N and N s; infinite forces are those of rigid stops."""
 
@@ -94,7 +93,8 @@ def peaks(
     -------
     dict of ndarray, shape (shaken, factor)
         `PEAKS`, further requested quantities, and ``status``: a `Status` each, 0 where the run was
-        done. All values of another run are NaN but for its status.
+        done. All values of another run are NaN but for its status. `OF_STOPS` have the right and
+        the left side as a further axis, 0 where the rig has no stop.
     """
     count = len(shaken[0].factors) if shaken else 0
     rows = np.full((len(shaken), count, found.FOUND), np.nan)
@@ -157,20 +157,13 @@ def _named(
     ]
     acceleration = np.maximum(rows[..., extremes.A_MOST], -rows[..., extremes.A_LEAST])
     columns: list[_Array] = [
+        farthest,
         rows[..., extremes.U_MOST],
-        0.0 - rows[..., extremes.U_LEAST],
+        rows[..., extremes.U_LEAST],
         acceleration,
-        *(
-            mass * rows[..., at]
-            for at in (
-                extremes.FORCE_RIGHT,
-                extremes.FORCE_LEFT,
-                extremes.IMPULSE_RIGHT,
-                extremes.IMPULSE_LEFT,
-            )
-        ),
-        rows[..., extremes.HITS_RIGHT],
-        rows[..., extremes.HITS_LEFT],
+        mass[..., np.newaxis] * rows[..., [extremes.FORCE_RIGHT, extremes.FORCE_LEFT]],
+        mass[..., np.newaxis] * rows[..., [extremes.IMPULSE_RIGHT, extremes.IMPULSE_LEFT]],
+        rows[..., [extremes.HITS_RIGHT, extremes.HITS_LEFT]],
     ]
     values: dict[str, NDArray[np.generic]] = dict(zip(PEAKS, columns, strict=True))
     if energies:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.earthquakes.free_vibration import free_tail
-from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
+from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, OF_STOPS, Shaken, peaks
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
 from vibroimpact.model import to_si
@@ -19,17 +22,6 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.tasks.threads import Progress
-
-LARGEST = {
-    "peak_displacement": ("peak_displacement_right", "peak_displacement_left"),
-    "peak_force": ("peak_force_right", "peak_force_left"),
-}
-"""Variables that are the larger value of two sides."""
-SUMS = {
-    "impulse": ("impulse_right", "impulse_left"),
-    "impact_count": ("impact_count_right", "impact_count_left"),
-}
-"""Variables that are the sum of both sides."""
 
 
 @public
@@ -62,12 +54,13 @@ def seismic_response(
     Returns
     -------
     xarray.Dataset
-        Dataset without dims. Its variables are:
+        Its variables are:
 
-        - ``peak_displacement`` (m), and ``peak_displacement_right`` and ``peak_displacement_left``
-          to either side;
+        - ``peak_displacement`` (m), the largest displacement to either side, and
+          ``displacement_max`` and ``displacement_min``, the ends of the motion;
         - ``peak_acceleration``, of the absolute acceleration (m/s²);
-        - ``peak_force`` (N) and ``impulse`` (N s) of the stops, and ``impact_count``;
+        - ``peak_force`` (N), ``impulse`` (N s) and ``impact_count`` of each stop that the rig has
+          (dim ``stop``: ``right``, ``left``);
         - the energies of the whole motion, as in `totals`;
         - ``residual_displacement`` (m), the position at which the mass comes to rest, and
           ``residual_swing`` (m), explained below;
@@ -108,7 +101,10 @@ def seismic_response(
         progress=progress,
         by_line=True,
     )
-    data = with_both_sides(xr.Dataset({name: values[0, 0] for name, values in found.items()}))
+    values: dict[str, Any] = {name: one[0, 0] for name, one in found.items()}
+    for name in OF_STOPS:
+        values[name] = ("stop", by_stop(oscillator, values[name]))
+    data = xr.Dataset(values, {"stop": stops_of(oscillator)})
     status = Status(int(data["status"]))
     if status is not Status.DONE:
         warn_of_result(f"seismic_response: {status.advice}")
@@ -120,10 +116,3 @@ def seismic_response(
     }
     notes = [*record.about.notes, *doubt_stops(Rig(oscillator, record), data["peak_displacement"])]
     return describe(data, "vibroimpact.seismic_response", parameters, notes)
-
-
-def with_both_sides(data: xr.Dataset) -> xr.Dataset:
-    """Add the variables that are the larger value or the sum of two sides."""
-    both = {name: np.maximum(data[r], data[l]) for name, (r, l) in LARGEST.items()}  # noqa: E741
-    both |= {name: data[r] + data[l] for name, (r, l) in SUMS.items()}  # noqa: E741
-    return xr.Dataset({**both, **data.data_vars}, data.coords)

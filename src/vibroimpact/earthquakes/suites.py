@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list, check_name
 from vibroimpact.datasets.description import describe, motion_parameters, noted
+from vibroimpact.datasets.stops import quantities
+from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown, warn_of_result
@@ -51,9 +53,12 @@ def fractiles(
     demands
         Dataset of `demands`, or of `ensemble` for any response.
     quantity
-        Name of a variable of the dataset, such as ``"peak_acceleration"``.
+        Name of a variable of the dataset, such as ``"peak_acceleration"``; of one stop
+        ``"peak_force.right"``, and ``"peak_force"`` of all (the largest force, the sum of impulses
+        and counts).
     shares
-        Shares of the records or rigs whose value is below the fractile, from 0 to 1.
+        Shares of the records or rigs whose value is below the fractile, from 0 to 1. For
+        ``"displacement_min"``: above it, so that a larger share goes farther to the left.
 
     Returns
     -------
@@ -74,10 +79,17 @@ def fractiles(
     ]
     if not chosen:
         raise InputError("shares: the list is empty; pass at least one share from 0 to 1")
-    found = quantiles(values.values, chosen, values.dims.index(over))
+    sense = _sense(quantity)
+    found = sense * quantiles(sense * values.values, chosen, values.dims.index(over))
     dims = ("fractile", *(dim for dim in values.dims if dim != over))
-    data = xr.Dataset({quantity: (dims, found)}, {"fractile": chosen, **_coords(values)})
+    made = {str(values.name): (dims, found)}
+    data = xr.Dataset(made, {"fractile": chosen, **_coords(values)})
     return described(data, "vibroimpact.fractiles", demands, {"quantity": quantity})
+
+
+def _sense(quantity: str) -> float:
+    """Return -1 for the end of the motion on the left, which is worse the lower it is, else 1."""
+    return -1.0 if quantity == "displacement_min" else 1.0
 
 
 def quantiles(values: _Array, shares: Sequence[float], axis: int) -> _Array:
@@ -94,12 +106,13 @@ def quantiles(values: _Array, shares: Sequence[float], axis: int) -> _Array:
 
 def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
     """Return a variable of an ensemble, infinite where a motion exceeded all limits."""
-    names = [str(name) for name, one in data.data_vars.items() if "sample" in one.dims]
+    held = data[[name for name, one in data.data_vars.items() if "sample" in one.dims]]
+    names = quantities(held)
     if quantity not in names:
         raise InputError(f"quantity: {shown(quantity)}; pass one of {', '.join(names)}")
-    values: xr.DataArray = data[quantity]
+    values = of_quantity(held, quantity)
     if "status" in data and data["status"].dims == values.dims:
-        values = values.where(~np.isin(data["status"].values, UNSTABLE), math.inf)
+        values = _unbounded(values, data["status"].values, quantity)
     unknown = int(values.isnull().sum())
     if unknown:
         why = "; the variable status gives the reasons" if "status" in data else ""
@@ -120,9 +133,10 @@ def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = N
     demands
         Dataset of `demands`.
     quantity
-        Name of a peak in the dataset, such as ``"peak_acceleration"``.
+        Name of a peak in the dataset, as in `fractiles`.
     limit
-        Limit of the quantity, in SI units or as text with units. A greater value exceeds the limit.
+        Limit of the quantity, in SI units or as text with units. A greater value exceeds the limit;
+        for ``"displacement_min"`` a lower one.
         Default: 0 for counts; for other quantities the limit is required.
 
     Returns
@@ -138,12 +152,23 @@ def exceedance(demands: xr.Dataset, quantity: str, limit: float | str | None = N
     """
     values = known(demands, quantity)
     least = limit_of(demands, quantity, limit)
-    above = values > least
+    above = exceeds(values, quantity, least)
     data = xr.Dataset(
         {"exceeding": above.sum("record"), "probability": above.mean("record")}, _coords(values)
     )
     about = {"quantity": quantity, "limit": least}
     return described(data, "vibroimpact.exceedance", demands, about)
+
+
+def exceeds(values: xr.DataArray, quantity: str, limit: float) -> xr.DataArray:
+    """Return whether values of a quantity exceed a limit."""
+    sense = _sense(quantity)
+    return sense * values > sense * limit
+
+
+def _unbounded(values: xr.DataArray, status: NDArray[Any], quantity: str) -> xr.DataArray:
+    """Return values of a quantity, infinite where a run exceeded all limits."""
+    return values.where(~np.isin(status, UNSTABLE), _sense(quantity) * math.inf)
 
 
 def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> float:
@@ -154,7 +179,9 @@ def limit_of(demands: xr.Dataset, quantity: str, limit: float | str | None) -> f
     InputError
         If it is another quantity, or is missing for a quantity that is not a count.
     """
-    expected: Quantity = _QUANTITIES.get(demands[quantity].attrs["units"]) or DIMENSIONLESS
+    expected: Quantity = (
+        _QUANTITIES.get(of_quantity(demands, quantity).attrs["units"]) or DIMENSIONLESS
+    )
     if limit is None:
         if expected is DIMENSIONLESS:
             return 0.0
@@ -176,20 +203,21 @@ def known(demands: Any, quantity: str) -> xr.DataArray:
     held = isinstance(demands, xr.Dataset) and {"record", "scale"} <= set(demands.dims)
     if not held or "status" not in demands:
         raise InputError(f"demands: {shown(demands)}; pass the result of the function demands")
-    peaks = [
-        str(name)
-        for name, one in demands.data_vars.items()
-        if one.dims == demands["status"].dims and name != "status"
+    peaks = demands[
+        [
+            name
+            for name, one in demands.data_vars.items()
+            if {*one.dims} - {"stop"} == {*demands["status"].dims} and name != "status"
+        ]
     ]
-    check_name(quantity, peaks, "quantity")
+    check_name(quantity, quantities(peaks), "quantity")
     status = demands["status"].values
     for code in np.unique(status[(status != Status.DONE) & ~np.isin(status, UNSTABLE)]):
         raise InputError(
             f"demands: {int((status == code).sum())} of {status.size} runs could not be computed: "
             f"{Status(int(code)).advice}"
         )
-    found: xr.DataArray = demands[quantity].where(~np.isin(status, UNSTABLE), math.inf)
-    return found
+    return _unbounded(of_quantity(peaks, quantity), status, quantity)
 
 
 def _coords(values: xr.DataArray) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.datasets.description import noted
+from vibroimpact.datasets.stops import over_stops, plain_values
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.earthquakes.suites import quantiles
@@ -25,24 +26,24 @@ from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import unitless
 
 _HEADS = {"stiffness_at_restitution": "stops.stiffness"}
-_SIDES = ("right", "left")
 _ROWS = 8
 """Largest number of designs of the front that are printed."""
 
 
 def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[str, Any]:
     """Return every number, in SI units."""
-    names = ("required_gap", "required_gap_right", "required_gap_left")
     return {
-        **{name: float(gap[name]) for name in names},
+        **{name: plain_values(gap[name]) for name in ("common_gap", "required_gap")},
         **_records_facts(gap),
         "designs": int(data["pareto"].size),
         **_limits_facts(data),
-        "front": [{str(name): _item(value) for name, value in one.items()} for one in _front(data)],
+        "front": [
+            {str(name): plain_values(value) for name, value in one.items()} for one in _front(data)
+        ],
         "best": None
         if least is None
         else {
-            **{str(name): value.item() for name, value in least.data_vars.items()},
+            **{str(name): plain_values(value) for name, value in least.data_vars.items()},
             "notes": _notes(least),
         },
     }
@@ -120,30 +121,32 @@ def _records_facts(gap: xr.Dataset) -> dict[str, Any]:
     return {
         "fractile": json.loads(gap.attrs["parameters"])["fractile"],
         # None where no gap is enough: JSON knows no infinity.
-        "required_gap_of_all_records": every if math.isfinite(every) else None,
+        "common_gap_of_all_records": every if math.isfinite(every) else None,
     }
 
 
 def _every(gap: xr.Dataset) -> float:
     """The gap with no contact under any record; infinite if one moves the mass beyond limits."""
-    return max(float(gap[f"peak_displacement_{side}"].max()) for side in _SIDES)
+    return max(float(gap["displacement_max"].max()), -float(gap["displacement_min"].min()))
 
 
 def _needed(gap: xr.Dataset, records: list[str]) -> str:
     under = f"under {', '.join(records)}" if records else "under the sines"
-    need = _length(float(gap["required_gap"]))
-    sides = " and ".join(
-        f"{_length(float(gap[f'required_gap_{side}']))} to the {side}" for side in _SIDES
-    )
+    need = _length(float(gap["common_gap"]))
+    sides = " and ".join(_one_sided(gap))
     return f"Required gap: {need} for no contact {under} ({sides})."
+
+
+def _one_sided(gap: xr.Dataset) -> list[str]:
+    """Return the gap that each side requires, in words."""
+    required = plain_values(gap["required_gap"])
+    return [f"{_length(one)} to the {side}" for side, one in required.items()]
 
 
 def _needed_by_share(gap: xr.Dataset, records: list[str], share: float) -> str:
     """With what all records need: under the rest of them something is hit."""
-    need, every = _length(float(gap["required_gap"])), _every(gap)
-    sides = ", ".join(
-        f"{_length(float(gap[f'required_gap_{side}']))} to the {side}" for side in _SIDES
-    )
+    need, every = _length(float(gap["common_gap"])), _every(gap)
+    sides = ", ".join(_one_sided(gap))
     whole = (
         f"{_length(every)} for no contact under all of them"
         if math.isfinite(every)
@@ -185,9 +188,9 @@ def _be(count: int) -> str:
 def _enough(rig: Oscillator, gap: xr.Dataset) -> str:
     """Whether the gaps of the rig suffice."""
     short = {
-        side: float(gap[f"required_gap_{side}"]) - stop.gap
-        for side, stop in (("right", rig.right), ("left", rig.left))
-        if stop is not None
+        side: required - stop.gap
+        for side, required in plain_values(gap["required_gap"]).items()
+        if (stop := getattr(rig, side)) is not None
     }
     lacking = {side: by for side, by in short.items() if by > 0.0}
     if not lacking:
@@ -204,8 +207,11 @@ def _enough_for_share(rig: Oscillator, gap: xr.Dataset, share: float) -> str:
     """
     beyond = np.max(
         [
-            gap[f"peak_displacement_{side}"].values - stop.gap
-            for side, stop in (("right", rig.right), ("left", rig.left))
+            reached.values - stop.gap
+            for reached, stop in (
+                (gap["displacement_max"], rig.right),
+                (-gap["displacement_min"], rig.left),
+            )
             if stop is not None
         ],
         axis=0,
@@ -240,7 +246,7 @@ def _table(rows: list[xr.Dataset], names: list[str]) -> Table:
             *(_value(name, float(one[name])) for name in names),
             _length(float(one["peak_displacement"])),
             _acceleration(float(one["peak_acceleration"])),
-            _force(float(one["peak_force"])),
+            _force(float(over_stops(one["peak_force"]))),
         )
     return table
 
@@ -258,7 +264,7 @@ def _demands(one: xr.Dataset) -> str:
     return (
         f"{_acceleration(float(one['peak_acceleration']))}, with a displacement of "
         f"{_length(float(one['peak_displacement']))} and a contact force of "
-        f"{_force(float(one['peak_force']))}"
+        f"{_force(float(over_stops(one['peak_force'])))}"
     )
 
 
@@ -280,7 +286,3 @@ def _acceleration(value: float) -> str:
 
 def _force(value: float) -> str:
     return pretty(float(f"{value:.4g}"), FORCE)
-
-
-def _item(value: Any) -> Any:
-    return value.item()

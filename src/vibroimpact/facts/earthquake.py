@@ -9,6 +9,7 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
+from vibroimpact.datasets.stops import SIDES, of_stop, over_stops, plain_values
 from vibroimpact.earthquakes.free_vibration import settles
 from vibroimpact.facts.number_format import (
     ENERGIES,
@@ -25,8 +26,6 @@ from vibroimpact.model import GRAVITY, Oscillator, Record
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import unit, unitless
-
-_SIDES = ("right", "left")
 
 
 def together(names: list[str], responses: list[xr.Dataset]) -> xr.Dataset:
@@ -45,13 +44,13 @@ def facts(
     return {
         "name": name,
         "record": dict(record.rows()),
-        **{str(key): value.item() for key, value in response.data_vars.items()},
+        **{str(key): plain_values(value) for key, value in response.data_vars.items()},
         **status_facts(response),
         "without_stops": None
         if free is None
         else {
             key: free[key].item()
-            for key in ("peak_displacement_right", "peak_displacement_left", "peak_acceleration")
+            for key in ("displacement_max", "displacement_min", "peak_acceleration")
         },
         "verdict": sentence(response, rig, free),
     }
@@ -65,14 +64,15 @@ def text(
     shaken = _acceleration(record.peak)
     when = f"at {plain(record.peak_time, 6)}{unit(' s')} of {plain(record.duration, 6)}{unit(' s')}"
     table.add_row("peak of the base", shaken, when)
-    table.add_row("displacement", _both(response, "peak_displacement", LENGTHS), "")
+    table.add_row("displacement", _both([_reach(response, side) for side in SIDES], LENGTHS), "")
     size = float(response["peak_acceleration"])
     ratio = f"{plain(size / record.peak, 4)} times that of the base" if record.peak else ""
     table.add_row("acceleration", _acceleration(size), ratio)
-    if int(response["impact_count"]) or float(response["impulse"]):
-        force = _both(response, "peak_force", FORCES)
-        table.add_row("contact force", force, f"impulse {_both(response, 'impulse', IMPULSES)}")
-        counts = [int(response[f"impact_count_{side}"]) for side in _SIDES]
+    if response["impact_count"].any() or response["impulse"].any():
+        force = _both(_of_stops(response, "peak_force"), FORCES)
+        impulse = _both(_of_stops(response, "impulse"), IMPULSES)
+        table.add_row("contact force", force, f"impulse {impulse}")
+        counts = [int(one) for one in _of_stops(response, "impact_count")]
         table.add_row("contacts", f"{counts[0]} right, {counts[1]} left", "")
     names = ("total_supplied", "total_isolator", "total_bumpers")
     supplied, isolator, stops = (float(response[key]) for key in names)
@@ -109,21 +109,20 @@ def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> 
     """Return a sentence that states whether the mass hits its stops, and how hard."""
     if not rig.stops:
         return "The rig has no stops."
-    counts = {side: int(response[f"impact_count_{side}"]) for side in _SIDES}
-    hit = {side: n for side, n in counts.items() if n}
+    hit = {side: int(n) for side, n in plain_values(response["impact_count"]).items() if n}
     if not hit:
         return _pressed(response) or f"The mass hits no stop: {_left(response, rig)} remain."
     times = " and ".join(f"the {side} stop {_times(n)}" for side, n in hit.items())
-    force = float(response["peak_force"])
+    force = float(over_stops(response["peak_force"]))
     hard = (
         f"with at most {pretty(float(f'{force:.4g}'), FORCE)}"
         if math.isfinite(force)
-        else f"with a total impulse of {_value(float(response['impulse']), IMPULSES)}"
+        else f"with a total impulse of {_value(float(over_stops(response['impulse'])), IMPULSES)}"
     )
     said = f"The mass hits {times}, {hard}"
     if free is None:
         return f"{said}."
-    far = max((float(free[f"peak_displacement_{side}"]), side) for side in hit)
+    far = max((_reach(free, side), side) for side in hit)
     ratio = float(response["peak_acceleration"]) / float(free["peak_acceleration"])
     return (
         f"{said}. Its acceleration is {plain(ratio, 3)} times the acceleration without stops. "
@@ -133,7 +132,7 @@ def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> 
 
 def _pressed(response: xr.Dataset) -> str:
     """Return a sentence about stops that are pressed from the start, as under preload; or none."""
-    forces = {side: float(response[f"peak_force_{side}"]) for side in _SIDES}
+    forces = plain_values(response["peak_force"])
     pressed = {side: force for side, force in forces.items() if force > 0.0}
     if not pressed:
         return ""
@@ -147,10 +146,10 @@ def _pressed(response: xr.Dataset) -> str:
 def _left(response: xr.Dataset, rig: Oscillator) -> str:
     """Return what remains of the gaps."""
     parts = []
-    for side in _SIDES:
+    for side in SIDES:
         stop = getattr(rig, side)
         if stop is not None:
-            free = stop.gap - float(response[f"peak_displacement_{side}"])
+            free = stop.gap - _reach(response, side)
             parts.append(
                 f"{_value(free, LENGTHS)} of the {pretty(stop.gap, LENGTH)} gap on the {side}"
             )
@@ -172,9 +171,20 @@ def _value(value: float, scales: tuple[Scale, ...]) -> str:
     return f"{plain(value / scale.size, 4)} {scale.symbol}".rstrip()
 
 
-def _both(response: xr.Dataset, name: str, scales: tuple[Scale, ...]) -> str:
+def _reach(response: xr.Dataset, side: str) -> float:
+    """Return how far the mass goes to one side (m)."""
+    if side == "right":
+        return float(response["displacement_max"])
+    return 0.0 - float(response["displacement_min"])
+
+
+def _of_stops(response: xr.Dataset, name: str) -> list[float]:
+    """Return the values of both sides, 0 without a stop."""
+    return [float(of_stop(response, name, side)) for side in SIDES]
+
+
+def _both(values: list[float], scales: tuple[Scale, ...]) -> str:
     """Return the values of both sides in one unit."""
-    values = [float(response[f"{name}_{side}"]) for side in _SIDES]
     scale = fitting(values, scales)
     parts = [
         f"{plain(value / scale.size, 4)} {scale.symbol}".rstrip()
@@ -182,4 +192,4 @@ def _both(response: xr.Dataset, name: str, scales: tuple[Scale, ...]) -> str:
         else "infinite"
         for value in values
     ]
-    return ", ".join(f"{part} {side}" for part, side in zip(parts, _SIDES, strict=True))
+    return ", ".join(f"{part} {side}" for part, side in zip(parts, SIDES, strict=True))

@@ -10,6 +10,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
+from vibroimpact.datasets.stops import over_stops
 from vibroimpact.facts.number_format import ACCELERATIONS, FORCES, LENGTHS, fitting, plain
 from vibroimpact.response.curve_pair import in_contact
 
@@ -52,9 +53,8 @@ def facts(
 
 def _peaks(data: xr.Dataset) -> dict[str, Any]:
     """The largest of each curve, over both directions; what is not known is left out."""
-    both = np.fmax(data["peak_force_right"], data["peak_force_left"])
-    every = data.assign(peak_force=both)[list(_PEAKS)].max(("direction", "frequency"))
-    found = {name: every[name].dropna("sample").values for name in _PEAKS}
+    every = {name: over_stops(data[name]).max(("direction", "frequency")) for name in _PEAKS}
+    found = {name: one.dropna("sample").values for name, one in every.items()}
     return {name: values for name, values in found.items() if len(values)}
 
 

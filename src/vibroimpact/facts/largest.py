@@ -11,6 +11,7 @@ from rich.console import RenderableType
 from rich.table import Table
 
 from vibroimpact.datasets.description import base_at_rest, own_outputs
+from vibroimpact.datasets.stops import SIDES, quantities, quantity
 from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -25,19 +26,17 @@ from vibroimpact.model.units import plain, pretty
 _DIGITS = 4
 _SAME = 1e-9
 
-_ROWS: dict[str, tuple[str, str, float, Quantity]] = {
-    "displacement_right": ("displacement to the right", "displacement_max", 1.0, LENGTH),
-    "displacement_left": ("displacement to the left", "displacement_min", -1.0, LENGTH),
-    "acceleration": ("absolute acceleration", "peak_acceleration", 1.0, ACCELERATION),
-    "transmitted_force": ("transmitted force", "peak_transmitted_force", 1.0, FORCE),
-    "transmissibility": ("transmissibility", "transmissibility", 1.0, DIMENSIONLESS),
-    "force_right": ("force of the right stop", "peak_force_right", 1.0, FORCE),
-    "force_left": ("force of the left stop", "peak_force_left", 1.0, FORCE),
-    "impulse_right": ("impulse of the right stop", "peak_impulse_right", 1.0, IMPULSE),
-    "impulse_left": ("impulse of the left stop", "peak_impulse_left", 1.0, IMPULSE),
+_ROWS: dict[str, tuple[str, float, Quantity]] = {
+    "displacement_max": ("displacement to the right", 1.0, LENGTH),
+    "displacement_min": ("displacement to the left", -1.0, LENGTH),
+    "peak_acceleration": ("absolute acceleration", 1.0, ACCELERATION),
+    "peak_transmitted_force": ("transmitted force", 1.0, FORCE),
+    "transmissibility": ("transmissibility", 1.0, DIMENSIONLESS),
+    **{f"peak_force.{side}": (f"force of the {side} stop", 1.0, FORCE) for side in SIDES},
+    **{f"peak_impulse.{side}": (f"impulse of the {side} stop", 1.0, IMPULSE) for side in SIDES},
 }
-"""In words, and which variable, with which sign."""
-_UNDER_A_FORCE = ("transmitted_force", "transmissibility")
+"""In words, and with which sign in these words."""
+_UNDER_A_FORCE = ("peak_transmitted_force", "transmissibility")
 """If the base moves, they are in proportion to the absolute acceleration."""
 
 
@@ -50,20 +49,24 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     """
     found: dict[str, Any] = {}
     still = base_at_rest(data)
-    rows = {name: row[1:3] for name, row in _ROWS.items() if still or name not in _UNDER_A_FORCE}
+    known = quantities(data)
     own = own_outputs(data)
-    rows |= {name: (name, 1.0) for name in own}
-    for name, (variable, sign) in rows.items():
-        values = sign * data[variable].transpose("direction", "frequency").values
+    rows = {
+        name: row[1]
+        for name, row in _ROWS.items()
+        if name in known and (still or name not in _UNDER_A_FORCE)
+    } | dict.fromkeys(own, 1.0)
+    for name, sign in rows.items():
+        values = sign * quantity(data, name).transpose("direction", "frequency").values
         if np.isnan(values).all():
             continue
         most = float(np.nanmax(values))
-        if name not in own and name.startswith(("force", "impulse")) and not 0.0 < most < math.inf:
+        if name not in own and "." in name and not 0.0 < most < math.inf:
             continue
         # Of sweeps that agree to rounding the forward one is named.
         d, f = np.unravel_index(np.argmax(values >= most - _SAME * abs(most)), values.shape)
         found[name] = {
-            "value": float(values[d, f]) + 0.0,
+            "value": sign * float(values[d, f]) + 0.0,
             "frequency": float(data["frequency"][f]),
             "direction": str(data["direction"].values[d]),
         }
@@ -86,8 +89,8 @@ def text(data: xr.Dataset) -> RenderableType:
     table.add_column()
     for name, one in facts(data).items():
         if name in _ROWS:
-            words, _, _, quantity = _ROWS[name]
-            size = pretty(one["value"], quantity, _DIGITS)
+            words, sign, unit = _ROWS[name]
+            size = pretty(sign * one["value"] + 0.0, unit, _DIGITS)
         else:
             about = data[name].attrs
             words, units = about["long_name"], about["units"].removeprefix("1")

@@ -11,6 +11,7 @@ from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.datasets.description import base_at_rest, noted, stop_word
+from vibroimpact.datasets.stops import SIDES, of_stop, plain_values
 from vibroimpact.facts.number_format import with_unit
 from vibroimpact.facts.status import status_facts
 from vibroimpact.model.frequency_text import forcing
@@ -25,7 +26,6 @@ from vibroimpact.model.quantities import (
 )
 from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import unit
-from vibroimpact.response.motion_phases import touches
 from vibroimpact.response.plausibility import STIFF
 
 _MOST_CONTACTS = 12
@@ -47,8 +47,7 @@ _SCALARS = (
     "transmitted_force_excursion",
     "transmissibility",
     "eccentricity",
-    "impacts_right",
-    "impacts_left",
+    "impacts",
     "energy_supplied",
     "energy_isolator",
     "energy_bumpers",
@@ -105,7 +104,7 @@ def _only(motions: dict[str, xr.Dataset]) -> str:
 
 
 def _facts(data: xr.Dataset) -> dict[str, Any]:
-    values: dict[str, Any] = {name: data[name].item() for name in _SCALARS if name in data}
+    values: dict[str, Any] = {name: plain_values(data[name]) for name in _SCALARS if name in data}
     values["exponents"] = data["exponents"].values.tolist()
     values["exponents_uncertainty"] = data["exponents_uncertainty"].values.tolist()
     values |= {**status_facts(data), "evidence": data.attrs["evidence"]}
@@ -162,8 +161,8 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
         *_transmitted(data),
         (
             "impacts",
-            f"{plain(data['impacts_right'].item(), 4)} right, "
-            f"{plain(data['impacts_left'].item(), 4)} left per cycle" + _pressed(data),
+            ", ".join(f"{plain(of_stop(data, 'impacts', side).item(), 4)} {side}" for side in SIDES)
+            + f" per cycle{_pressed(data)}",
         ),
         (
             "energy",
@@ -196,12 +195,8 @@ def _transmitted(data: xr.Dataset) -> list[tuple[str, str]]:
 
 def _pressed(data: xr.Dataset) -> str:
     """Return a remark on stops that the mass never leaves."""
-    contact = data["contact"].values
-    sides = [
-        name
-        for name, side in (("right", 1), ("left", -1))
-        if not data[f"impacts_{name}"] and touches(contact, side).all()
-    ]
+    pressed = (data["impacts"] == 0) & data["touching"].all("time")
+    sides = data["stop"].values[pressed.values].tolist()
     if len(sides) == 2:
         return "; both stops stay pressed"
     return f"; the {sides[0]} stop stays pressed" if sides else ""
@@ -270,7 +265,7 @@ def contact_tables(data: xr.Dataset) -> list[RenderableType]:
     for heading, _ in columns:
         table.add_column(heading, justify="right")
     for i in range(shown.sizes["contact_number"]):
-        side = "right" if int(data["contact_side"][i]) == 1 else "left"
+        side = str(data["contact_stop"].values[i])
         if bool(data["contact_grazing"][i]):
             side += ", grazing"
         table.add_row(side, *(texts[i] for _, texts in columns))

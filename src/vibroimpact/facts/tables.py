@@ -10,6 +10,7 @@ import xarray as xr
 from rich.console import Console, RenderableType
 from rich.table import Table
 
+from vibroimpact.datasets.stops import plain_values
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import printable
 from vibroimpact.facts.number_format import Scale, heading, plain
@@ -80,7 +81,7 @@ def values_along(
 ) -> list[dict[str, Any]]:
     """Return values of a dataset at each place along a dimension, by their names."""
     return [
-        {name: data[prefix + name].values[i].item() for name in names}
+        {name: plain_values(data[prefix + name].isel({dim: i})) for name in names}
         for i in range(data.sizes[dim])
     ]
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact.datasets.description import motion_parameters
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.facts.number_format import plain
 from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import plain_table
@@ -38,8 +41,9 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
         "final_state": _final(data),
         "contacts": {
             "over_cycles": lately,
-            "right_per_cycle": int((begins & (data["event_side"] == 1)).sum()) / lately,
-            "left_per_cycle": int((begins & (data["event_side"] == -1)).sum()) / lately,
+            "per_cycle": {
+                stop: count / lately for stop, count in _counts(data, begins.values).items()
+            },
         },
         **status_facts(data),
     }
@@ -57,12 +61,15 @@ def _record_facts(data: xr.Dataset) -> dict[str, Any]:
     return {
         "time": float(data["time"].values[-1]),
         "final_state": _final(data),
-        "contacts": {
-            side: int((begins & (data["event_side"] == sign)).sum())
-            for side, sign in (("right", 1), ("left", -1))
-        },
+        "contacts": _counts(data, begins.values),
         **status_facts(data),
     }
+
+
+def _counts(data: xr.Dataset, begins: NDArray[np.bool_]) -> dict[str, int]:
+    """How many of the events are at each stop."""
+    of = data["event_stop"].values[begins]
+    return {stop: int((of == stop).sum()) for stop in data["stop"].values.tolist()}
 
 
 def _deformable(data: xr.Dataset) -> list[str]:
@@ -82,7 +89,7 @@ def text(data: xr.Dataset) -> RenderableType:
         ("displacement", pretty(state["displacement"], LENGTH)),
         ("velocity", pretty(state["velocity"], VELOCITY)),
         *(
-            (f"{side} bumper", f"deformed by {pretty(state[f'{side}_bumper'], LENGTH)}")
+            (f"{side} bumper", f"deformed by {pretty(abs(state[f'deformation.{side}']), LENGTH)}")
             for side in _deformable(data)
         ),
         ("contact", touching),
@@ -95,7 +102,7 @@ def text(data: xr.Dataset) -> RenderableType:
         return Group(
             Text(f"State after {plain(found['time'], 6)}{unit(' s')}"),
             table,
-            Text(f"Contacts: {contacts['right']} right, {contacts['left']} left"),
+            Text(f"Contacts: {_both(contacts)}"),
         )
     return Group(
         Text(
@@ -104,6 +111,11 @@ def text(data: xr.Dataset) -> RenderableType:
         table,
         Text(
             f"Contacts per cycle, over the last {plain(contacts['over_cycles'])}: "
-            f"{plain(contacts['right_per_cycle'])} right, {plain(contacts['left_per_cycle'])} left"
+            f"{_both(contacts['per_cycle'])}"
         ),
     )
+
+
+def _both(counts: dict[str, Any]) -> str:
+    """Return counts by stop in words."""
+    return ", ".join(f"{plain(counts.get(side, 0))} {side}" for side in SIDES)

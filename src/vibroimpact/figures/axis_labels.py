@@ -16,8 +16,8 @@ _LABELS = {
     "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration (g)"),
     "peak_transmitted_force": (0.0, "largest transmitted force ({})"),
     "transmissibility": (1.0, "transmissibility of the force (–)"),
-    "peak_force_right": (0.0, "largest force of the right stop ({})"),
-    "peak_force_left": (0.0, "largest force of the left stop ({})"),
+    "peak_force.right": (0.0, "largest force of the right stop ({})"),
+    "peak_force.left": (0.0, "largest force of the left stop ({})"),
     "peak_force": (0.0, "largest contact force ({})"),
 }
 """Factor and label. A force is drawn in a unit of fitting size."""

@@ -12,6 +12,8 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import motion_parameters, own_outputs
+from vibroimpact.datasets.stops import SIDES, of_stop, quantities
+from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.labels import Names
@@ -75,10 +77,10 @@ def branch_diagram(
     quantity
         Quantity on the vertical axis: ``"eta_d"``, ``"eta_a"``, ``"displacement_excursion"``,
         ``"eccentricity"``, ``"peak_displacement"``, ``"peak_acceleration"``,
-        ``"peak_transmitted_force"``, ``"transmissibility"``, ``"peak_force_right"`` or
-        ``"peak_force_left"``; or the name of an own output. Default: ``"eta_d"`` for a published
-        case, and ``"peak_displacement"`` for study files and other rigs; also if the motion without
-        stops is unbounded, so that η has no meaning.
+        ``"peak_transmitted_force"``, ``"transmissibility"``, ``"peak_force"`` (of all stops),
+        ``"peak_force.right"`` or ``"peak_force.left"``; or the name of an own output. Default:
+        ``"eta_d"`` for a published case, and ``"peak_displacement"`` for study files and other
+        rigs; also if the motion without stops is unbounded, so that η has no meaning.
     sweep
         Dataset of `sweep` over the same frequencies, which is drawn as marks. Default: no sweep.
     title
@@ -97,7 +99,8 @@ def branch_diagram(
         raise InputError(f"data: this is {wrong} pass the result of branch or resonance_diagram")
     if quantity is None:
         quantity = "eta_d" if draws_eta(data) else "peak_displacement"
-    known = (*QUANTITIES, *own_outputs(data))
+    held = quantities(data)
+    known = [one for one in (*QUANTITIES, *own_outputs(data)) if one in held]
     if quantity not in known:
         raise InputError(f"quantity: {quantity!r}; pass one of {', '.join(known)}")
     name = data.attrs["parameter"]
@@ -108,14 +111,15 @@ def branch_diagram(
         )
     if sweep is not None and "direction" not in sweep.coords:
         raise InputError("sweep: this is not a sweep; pass the result of the function sweep")
-    if sweep is not None and quantity not in sweep:
+    if sweep is not None and quantity not in quantities(sweep):
         raise InputError(
             f"sweep: it has no output {quantity!r}; pass the same outputs to the function sweep"
         )
-    factor, label = axis_label(data[quantity], quantity)
+    values = of_quantity(data, quantity)
+    factor, label = axis_label(values, quantity)
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])
-    x, y = scale * data[name].values, factor * data[quantity].values
+    x, y = scale * data[name].values, factor * values.values
     pieces = _pieces(data)
     for part, stable in pieces:
         ax.plot(
@@ -145,7 +149,7 @@ def branch_diagram(
             continue
         drawn = ax.plot(
             scale * data["bifurcation_value"].values[mine],
-            factor * data[f"bifurcation_{quantity}"].values[mine],
+            factor * of_quantity(data, f"bifurcation_{quantity}").values[mine],
             linestyle="",
             marker=mark.marker,
             markersize=mark.size,
@@ -172,9 +176,7 @@ def branch_diagram(
 def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
     """Return runs of points of a branch with the same impacts on each side, and labels."""
     branch, period = data["branch"].values, data["period"].values
-    hits = [
-        np.rint(data[f"impacts_{side}"].values * period).astype(int) for side in ("right", "left")
-    ]
+    hits = [np.rint(of_stop(data, "impacts", side).values * period).astype(int) for side in SIDES]
     oscillator = motion_parameters(data)["oscillator"]
     stops = oscillator["right"], oscillator["left"]
     found = []
@@ -230,7 +232,7 @@ def _marks_of(
             continue
         drawn = ax.plot(
             sweep["frequency"].values,
-            factor * sweep[source].sel(direction=direction).values,
+            factor * of_quantity(sweep, source).sel(direction=direction).values,
             linestyle="",
             marker=look.marker,
             # Of a dense sweep not every hold: the lines below must be seen.

@@ -74,7 +74,7 @@ def clearances(
             for side in curve.gaps:
                 ax.plot(
                     curve.at,
-                    in_unit(1e3) * curve.values[f"{side}_clearance"],
+                    in_unit(1e3) * curve.values[f"clearance.{side}"],
                     color=curve.look.colour
                     if len(curves) > 1
                     else ("#c8102e" if side == "right" else "#1f4fbf"),
@@ -111,12 +111,12 @@ def _shortest_flight(curves: list[Shown]) -> tuple[float, float, float]:
         for (_, _, begin), (_, end, _) in itertools.pairwise(contacts):
             if end > begin and (best is None or end - begin < best[1] - best[0]):
                 inside = (curve.at >= begin) & (curve.at <= end)
-                sides = [curve.values[f"{side}_clearance"][inside] for side in curve.gaps]
+                sides = [curve.values[f"clearance.{side}"][inside] for side in curve.gaps]
                 # That of the nearer bumper; the other may be far away all the time.
                 highest = min(float(side.max()) for side in sides)
                 best = (begin, end, in_unit(1e3) * 2.0 * highest)
     if best is None:  # no flight between two contacts: all there is
         at = np.concatenate([curve.at for curve in curves])
-        highest = max(float(c.values[f"{s}_clearance"].max()) for c in curves for s in c.gaps)
+        highest = max(float(c.values[f"clearance.{s}"].max()) for c in curves for s in c.gaps)
         best = (float(at.min()), float(at.max()), in_unit(1e3) * highest)
     return best

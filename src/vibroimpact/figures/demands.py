@@ -23,12 +23,12 @@ from vibroimpact.model.written_units import unitless
 
 _LABELS = {
     "peak_displacement": (1e3, "largest displacement $|u|$ (mm)"),
-    "peak_displacement_right": (1e3, "largest displacement $u$ to the right (mm)"),
-    "peak_displacement_left": (1e3, "largest displacement $-u$ to the left (mm)"),
+    "displacement_max": (1e3, "largest displacement $u$ to the right (mm)"),
+    "displacement_min": (-1e3, "largest displacement $-u$ to the left (mm)"),
     "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration $|\\ddot u + A_t|$ (g)"),
     "peak_force": (1e-3, "largest contact force (kN)"),
-    "peak_force_right": (1e-3, "largest force of the right stop (kN)"),
-    "peak_force_left": (1e-3, "largest force of the left stop (kN)"),
+    "peak_force.right": (1e-3, "largest force of the right stop (kN)"),
+    "peak_force.left": (1e-3, "largest force of the left stop (kN)"),
     "residual_displacement": (1e3, "residual displacement (mm)"),
 }
 _FRACTILES = (0.16, 0.5, 0.84)
@@ -87,7 +87,7 @@ def incremental_curves(
             label=None if number else "single records",
             zorder=2,
         )
-    found = fractiles(demands, quantity, _FRACTILES)[quantity]
+    found = fractiles(demands, quantity, _FRACTILES)[str(values.name)]
     for share, dashes in zip(_FRACTILES, _DASHES, strict=True):
         curve = found.sel(fractile=share).values
         ax.plot(

@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import add_legend, fit_labels
-from vibroimpact.figures.motion_style import SIDES, Shown, named, shown
+from vibroimpact.figures.motion_style import Shown, named, shown
 from vibroimpact.figures.notebook import Drawing, Panel, Panels
 from vibroimpact.figures.own_units import acceleration_text, in_own_units, in_unit
 from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
@@ -26,7 +26,7 @@ from vibroimpact.response.motion_phases import any_recorded
 
 _DASHES = ("-", "--", "-.", ":")
 _COLOURS = ("black", "#c8102e", "#1f4fbf", "#00795c")
-_MARKS = {1: ("^", "#c8102e"), -1: ("v", "#1f4fbf")}
+_MARKS = {"right": ("^", "#c8102e"), "left": ("v", "#1f4fbf")}
 """Marks of impacts on the right stop and on the left stop."""
 
 
@@ -136,7 +136,7 @@ def _histories(
     handles = stops_legend(stops, motion)
     begun = motion["event_contact"].values >= 1
     for side, (mark, colour) in _MARKS.items():
-        here = begun & (motion["event_side"].values == side)
+        here = begun & (motion["event_stop"].values == side)
         if here.any():
             shaken.plot(
                 motion["event_time"].values[here],
@@ -157,7 +157,7 @@ def _histories(
                     marker=mark,
                     markersize=4.5,
                     color=colour,
-                    label=f"hits the {SIDES[side]} stop",
+                    label=f"hits the {side} stop",
                 )
             )
     if handles:

@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
+from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.earthquakes.suites import fractiles
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
@@ -82,7 +83,7 @@ def resonance_bands(
     frequency = data["frequency"].values
     handles: list[Any] = []
     for ax, quantity in zip(drawn, quantities, strict=True):
-        found = fractiles(data, quantity, (low, 0.5, high))[quantity]
+        found = fractiles(data, quantity, (low, 0.5, high))[quantity.partition(".")[0]]
         factor, label = axis_label(found, quantity)
         handles = []
         for direction in data["direction"].values:
@@ -114,7 +115,7 @@ def resonance_bands(
             if nominal is not None:
                 line = ax.plot(
                     nominal["frequency"].values,
-                    factor * nominal[quantity].sel(direction=direction).values,
+                    factor * of_quantity(nominal, quantity).sel(direction=direction).values,
                     color="black",
                     linestyle=":",
                     linewidth=0.9,

@@ -12,10 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import (
-    SIDES,
     Shown,
     cycles_label,
     cycles_shown,
@@ -122,10 +122,10 @@ def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
     ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
     for i, curve in enumerate(curves):
         strip = 1.0 / len(curves)
-        for side, name in SIDES.items():
+        for name in SIDES:
             colour, hatch = _band(curve, name, len(curves))
             ax.broken_barh(
-                [(a, b - a) for s, a, b in curve.touching if s == side],
+                [(a, b - a) for s, a, b in curve.touching if s == name],
                 (1.0 - (i + 1) * strip, strip),
                 transform=ax.get_xaxis_transform(),
                 facecolor=colour,
@@ -187,10 +187,10 @@ def history_legend(curves: list[Shown]) -> list[Artist]:
         Line2D([], [], color=c.look.colour, linestyle=c.look.dashes, lw=1.1, label=c.look.label)
         for c in curves
     ]
-    present = [name for name in SIDES.values() if any(name in c.gaps for c in curves)]
+    present = [name for name in SIDES if any(name in c.gaps for c in curves)]
     if present:
         entries.append(gap_entry(len(present)))
-    touched = {SIDES[side] for c in curves for side, _, _ in c.touching}
+    touched = {name for c in curves for name, _, _ in c.touching}
     for name in (name for name in present if name in touched):
         colour, hatch = _band(curves[0], name, len(curves))
         entries.append(

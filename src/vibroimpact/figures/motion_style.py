@@ -34,8 +34,6 @@ from vibroimpact.response.sine_fit import forcing_sine, slope
 
 _Array = NDArray[np.float64]
 
-SIDES = {1: "right", -1: "left"}
-
 MOST_CYCLES = 12
 """Largest number of forcing cycles in which neighbouring contacts can still be distinguished."""
 
@@ -47,10 +45,10 @@ class Shown(NamedTuple):
     at: _Array
     """Time in forcing cycles, or in seconds for a motion through a `Record`."""
     values: dict[str, _Array]
-    """Values by variable: displacement, velocity, acceleration, clearances; under a force on the
-    mass also the transmitted and the applied force."""
-    touching: list[tuple[int, float, float]]
-    """Side of each contact, and its start and end in forcing cycles."""
+    """Values by variable: displacement, velocity, acceleration, ``clearance.right``; under a force
+    on the mass also the transmitted and the applied force."""
+    touching: list[tuple[str, float, float]]
+    """Stop of each contact, and its start and end in forcing cycles."""
     peaks: tuple[_Array, _Array]
     """Times (forcing cycles) and values of the peaks of the acceleration during contact."""
     gaps: dict[str, float]
@@ -250,20 +248,19 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         )
         values["applied_force"] = shaken.at(2.0 * math.pi * times[order] + shaken.phase)
     gaps = {}
-    for side, name in SIDES.items():
-        bumper = getattr(origin.oscillator, name)
-        if bumper is None:
-            continue
-        gaps[name] = bumper.gap
-        distance = motion[f"event_{name}_bumper"].values - motion["event_displacement"].values
-        mine = motion["event_side"].values == side
-        clearance = np.where(mine, 0.0, bumper.gap + side * distance)
-        parts = [motion[f"{name}_clearance"].values, clearance, clearance]
-        values[f"{name}_clearance"] = np.concatenate(parts)[order]
+    stops = motion["stop"].values.tolist()
+    for name in stops:
+        gaps[name] = getattr(origin.oscillator, name).gap
+        facing = 1.0 if name == "right" else -1.0
+        deformation = motion["event_deformation"].sel(stop=name).values
+        distance = deformation - facing * motion["event_displacement"].values
+        clearance = np.where(motion["event_stop"].values == name, 0.0, gaps[name] + distance)
+        parts = [motion["clearance"].sel(stop=name).values, clearance, clearance]
+        values[f"clearance.{name}"] = np.concatenate(parts)[order]
     touching = [
-        (side, float(begin), float(end))
-        for side in (1, -1)
-        for begin, end in contact_intervals(motion, side, events, float(at[-1]))
+        (name, float(begin), float(end))
+        for name in stops
+        for begin, end in contact_intervals(motion, name, events, float(at[-1]))
     ]
     log = motion if "contact_peak_time" in motion else contacts(motion)
     peak_at = log["contact_peak_time"].values * frequency
@@ -306,9 +303,9 @@ def _repeated(curve: Shown, period: float, cycles: float) -> Shown:
     )
 
 
-def _joined(touching: list[tuple[int, float, float]]) -> list[tuple[int, float, float]]:
+def _joined(touching: list[tuple[str, float, float]]) -> list[tuple[str, float, float]]:
     """Join the two parts of a contact that continues across the end of the period."""
-    joined: list[tuple[int, float, float]] = []
+    joined: list[tuple[str, float, float]] = []
     for side, begin, end in sorted(touching, key=lambda contact: contact[1]):
         if joined and joined[-1][0] == side and begin - joined[-1][2] < 1e-9:
             joined[-1] = (side, joined[-1][1], end)

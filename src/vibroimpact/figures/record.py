@@ -122,7 +122,7 @@ def stops_legend(stops: dict[str, dict[str, Any]], motion: xr.Dataset) -> list[A
     if stops:
         handles.append(gap_entry(len(stops)))
     for side in stops:
-        if not len(_spans(motion, _SIDES[side])):
+        if not len(_spans(motion, side)):
             continue
         colour, hatch = BANDS[side]
         handles.append(
@@ -133,8 +133,8 @@ def stops_legend(stops: dict[str, dict[str, Any]], motion: xr.Dataset) -> list[A
 
 def contact_bands(ax: Axes, motion: xr.Dataset) -> None:
     """Draw bands where the mass touches a stop."""
-    for side, sign in _SIDES.items():
-        spans = _spans(motion, sign)
+    for side in _SIDES:
+        spans = _spans(motion, side)
         colour, hatch = BANDS[side]
         ax.broken_barh(
             [(float(a), float(b - a)) for a, b in spans],
@@ -148,9 +148,9 @@ def contact_bands(ax: Axes, motion: xr.Dataset) -> None:
         )
 
 
-def _spans(motion: xr.Dataset, sign: int) -> NDArray[np.float64]:
-    """Return starts and ends of the contacts on one side, even if one lasts the whole motion."""
-    at = motion["event_side"].values == sign
+def _spans(motion: xr.Dataset, stop: str) -> NDArray[np.float64]:
+    """Return starts and ends of the contacts with one stop, even if one lasts the whole motion."""
+    at = motion["event_stop"].values == stop
     kind, time = motion["event_contact"].values[at], motion["event_time"].values[at]
     begins, ends = time[kind == 1], time[kind == 0]
     if len(ends) and (not len(begins) or ends[0] < begins[0]):

@@ -16,6 +16,7 @@ from vibroimpact.datasets.description import (
     own_outputs,
     parameters_of_rigs,
 )
+from vibroimpact.datasets.stops import over_stops
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.base_motion import base_label
@@ -199,8 +200,7 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
         label = f"largest transmitted\nforce ({unit.symbol})"
         found.append(Drawn("transmitted force", label, curves, free, spike=spike))
     for words, quantity in (("force", FORCE), ("impulse", IMPULSE)):
-        right, left = (_curves(data, f"peak_{words}_{side}", 1.0) for side in ("right", "left"))
-        sizes = {direction: np.fmax(right[direction], left[direction]) for direction in right}
+        sizes = _curves(data, f"peak_{words}", 1.0)
         # No impact on a rigid stop has a finite force.
         known = {key: np.where(np.isfinite(size), size, np.nan) for key, size in sizes.items()}
         largest = max(float(np.nanmax(size, initial=0.0)) for size in known.values())
@@ -218,7 +218,7 @@ def peak_force_unit(data: xr.Dataset) -> Scale:
 
 def _curves(data: xr.Dataset, name: str, factor: float) -> dict[str, _Array]:
     return {
-        str(direction): factor * data[name].sel(direction=direction).values
+        str(direction): factor * over_stops(data[name].sel(direction=direction)).values
         for direction in data["direction"].values
     }
 

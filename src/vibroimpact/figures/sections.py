@@ -87,7 +87,7 @@ def section_diagram(
         )
         raise InputError(f"data: this is {another} pass the result of bifurcation_diagram")
     if quantity is None:
-        quantity = "contact_start_velocity" if "contact_side" in data else held[0]
+        quantity = "contact_start_velocity" if "contact_stop" in data else held[0]
     if quantity not in held:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(held)} is accepted")
     name = data.attrs["parameter"]

@@ -6,22 +6,20 @@ from collections.abc import Iterable, Mapping
 from numbers import Integral
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BeforeValidator
+from pydantic import BeforeValidator, model_validator
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.state import AssemblyState
+from vibroimpact.model.frozen_mapping import FrozenMapping
 from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
 from vibroimpact.model.validation import Accepts, Model, constructor
 
 _BOTH = ("displacement", "velocity")
-_BY_NAME = ("deformation", "memory", "touching")
+_BY_NAME = ("memory", "touching")
 """Values that only the state of an assembly has."""
-_INSTEAD = {
-    "right_bumper": "deformation",
-    "left_bumper": "deformation",
-    "contact": "touching",
-    "isolator": "memory",
-}
+_INSTEAD = {"contact": "touching", "isolator": "memory"}
+_SIDES = ("right", "left")
+_DEFORMATION = Accepts(LENGTH, minimum=0.0)
 
 
 def _contact(value: Any) -> int | None:
@@ -58,14 +56,13 @@ class State(Model):
         Displacement u in m, relative to the base; or a mapping from masses to displacements.
     velocity
         Velocity u̇ in m/s, relative to the base; or a mapping from masses to velocities.
-    right_bumper
-        Deformation u_R of the right bumper in m, at least 0. Default: the bumper is undeformed, or
-        compressed by the mass if the displacement exceeds the gap. For a stop without memory (any
-        other stop than a `Bumper`) the value has another meaning while the stop is compressed: the
+    deformation
+        Mapping from stops ("right" and "left", or the names of an assembly's stops) to their
+        deformations in m, at least 0. A stop that is not named is undeformed, or compressed as far
+        as the displacement exceeds the gap. For a stop without memory (any other stop than a
+        `Bumper`) of an oscillator the value has another meaning while the stop is compressed: the
         speed in m/s at the start of the contact. If the stop has a coefficient of restitution, this
         speed determines its dissipation.
-    left_bumper
-        Deformation u_L of the left bumper in m, at most 0. Default: as for the right bumper.
     phase
         Phase of the excitation at this instant, in rad. Default: the initial phase of the
         excitation.
@@ -76,9 +73,6 @@ class State(Model):
         Internal variable (memory) of a hysteretic isolator, in m. For the bilinear isolator it is
         the deformation z of the elastic part. For the Bouc-Wen model it is z. For the exponential
         model it is the hysteretic force divided by k_a - k_b.
-    deformation
-        For an assembly: mapping from stops to their deformations in m, at least 0. A stop that is
-        not named is undeformed, or compressed as far as its two bodies overlap.
     memory
         For an assembly: mapping from hysteretic links to their internal variables in m. Default: 0.
     touching
@@ -92,25 +86,55 @@ class State(Model):
         oscillator and of an assembly are passed together.
     """
 
-    _quiet: ClassVar[Mapping[str, Any]] = {"isolator": 0.0}
+    _quiet: ClassVar[Mapping[str, Any]] = {"deformation": {}, "isolator": 0.0}
 
     displacement: Annotated[float, Accepts(LENGTH)] = 0.0
     velocity: Annotated[float, Accepts(VELOCITY)] = 0.0
-    right_bumper: Annotated[float | None, Accepts(LENGTH, minimum=0.0, optional=True)] = None
-    left_bumper: Annotated[float | None, Accepts(LENGTH, maximum=0.0, optional=True)] = None
+    deformation: FrozenMapping[float] = FrozenMapping()
     phase: Annotated[float | None, Accepts(ANGLE, optional=True)] = None
     contact: Annotated[Literal[-1, 0, 1, 2] | None, BeforeValidator(_contact)] = None
     isolator: Annotated[float, Accepts(LENGTH)] = 0.0
+
+    @model_validator(mode="before")
+    @classmethod
+    def _by_side(cls, data: Any) -> Any:
+        """Read deformations by side; a side that is None is deduced, as if it were left out."""
+        if not isinstance(data, Mapping):
+            return data
+        given = data.get("deformation")
+        given = {} if given is None else given
+        if not isinstance(given, Mapping):
+            raise InputError(
+                f"deformation: {shown(given)} is not a mapping from stops; pass deformations such "
+                'as {"right": "2 mm"}'
+            )
+        found = {}
+        for side, value in given.items():
+            if side not in _SIDES:
+                raise InputError(
+                    f"deformation.{side}: this is not a stop of an Oscillator; use right or left"
+                )
+            try:
+                number = None if value is None else _DEFORMATION(value)
+            except InputError as error:
+                raise InputError(f"deformation.{side}: {error}") from None
+            if number is not None:
+                found[str(side)] = number
+        known = FrozenMapping({side: found[side] for side in _SIDES if side in found})
+        return {**data, "deformation": known}
 
     def __new__(cls, *args: Any, **values: Any) -> Any:
         """Return the state of an assembly if values are mappings from names."""
         given = dict(zip(cls.model_fields, args, strict=False)) | values
         by_name = [key for key in _BY_NAME if given.get(key) is not None]
         by_name += [key for key in _BOTH if isinstance(given.get(key), Mapping)]
+        stops = given.get("deformation")
+        if isinstance(stops, Mapping) and not {*stops} <= {*_SIDES} and not {*given} & {*_BOTH}:
+            by_name.append("deformation")
         if cls is not State or not by_name:
             return super().__new__(cls)
         for key in given:
-            if key not in (*_BOTH, *_BY_NAME, "phase"):
+            if key not in (*_BOTH, "deformation", *_BY_NAME, "phase"):
                 other = _INSTEAD.get(key)
                 use = f"use {other}" if other else f"remove {key}"
                 raise InputError(
@@ -124,21 +148,18 @@ class State(Model):
         self,
         displacement: float | str | Mapping[str, float | str] = 0.0,
         velocity: float | str | Mapping[str, float | str] = 0.0,
-        right_bumper: float | str | None = None,
-        left_bumper: float | str | None = None,
+        deformation: Mapping[str, float | str | None] | None = None,
         phase: float | str | None = None,
         contact: int | None = None,
         isolator: float | str = 0.0,
         *,
-        deformation: Mapping[str, float | str] | None = None,
         memory: Mapping[str, float | str] | None = None,
         touching: Iterable[str] | None = None,
     ) -> None:
         super().__init__(
             displacement=displacement,
             velocity=velocity,
-            right_bumper=right_bumper,
-            left_bumper=left_bumper,
+            deformation=deformation,
             phase=phase,
             contact=contact,
             isolator=isolator,

@@ -9,6 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
+from vibroimpact.datasets.stops import stop_names
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers.record import IMPACT
 from vibroimpact.model import Record, Repeated, to_si
@@ -87,7 +88,7 @@ def contact_log(
         np.concatenate([motion["velocity"].values, motion["event_velocity"].values])
     ).max()
     values = {
-        "side": chosen.side,
+        "stop": stop_names(chosen.side),
         "start": begin,
         "end": begin + chosen.length,
         **_in_the_cycle(chosen, origin.excitation),

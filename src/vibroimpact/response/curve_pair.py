@@ -16,7 +16,7 @@ Flags: TypeAlias = NDArray[np.bool_]
 Direction: TypeAlias = Literal["forward", "backward"]
 
 _FIELDS = ("eta_a", "eta_d", "motion", "period")
-_CONTACT = ("impacts_right", "impacts_left", "peak_force_right", "peak_force_left")
+_CONTACT = ("impacts", "peak_force")
 
 
 class Swept(NamedTuple):
@@ -157,7 +157,7 @@ def in_contact(data: xr.Dataset) -> xr.DataArray:
 
     A stop that stays pressed, as under preload, has a force, though no contact with it begins.
     """
-    found, *others = (data[name] > 0.0 for name in _CONTACT if name in data)
+    found, *others = ((data[name] > 0.0).any("stop") for name in _CONTACT if name in data)
     for one in others:
         found = found | one
     return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -46,6 +47,7 @@ _COLUMNS = np.array(
 contact."""
 _TOUCHING = np.array(record.TOUCHING)
 _SIDES = {-1: "left", 1: "right"}
+_SIGNS = {"right": 1, "left": -1}
 _CONTACTS = {-1: "left stop", 0: "no contact", 1: "right stop", 2: "both stops"}
 """A contact in words."""
 
@@ -119,12 +121,7 @@ def as_state(start: State | AssemblyState | xr.DataArray | xr.Dataset) -> State:
         and start.dims == ("component",)
         and "displacement" in start["component"]
     ):
-        values: dict[str, Any] = {
-            str(k): float(start.sel(component=k)) for k in start["component"].values
-        }
-        if "contact" in values:
-            values["contact"] = int(values["contact"])
-        return State(**values)
+        return _state_of([str(k) for k in start["component"].values], start.values.tolist())
     raise InputError(
         f"start: {shown(start)} is not a state; pass a State, such as State(0.01, 0.0), the result "
         "of simulate, or its final_state"
@@ -143,23 +140,18 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
     deformations = [0.0, 0.0]
     mode = parted = FLIGHT
     # Seen from each side in turn: s = +1 towards the right stop, −1 towards the left one.
-    for i, (name, stop, given, sign) in enumerate(
-        (
-            ("right_bumper", oscillator.right, state.right_bumper, 1),
-            ("left_bumper", oscillator.left, state.left_bumper, -1),
-        )
-    ):
+    for i, (side, sign) in enumerate(_SIGNS.items()):
+        stop, given = getattr(oscillator, side), state.deformation.get(side)
         said = None if state.contact is None else state.contact in (sign, 2)
         if stop is None:
             if given:
                 raise InputError(
-                    f"start.{name}: {given:g} m, but the oscillator has no {_SIDES[sign]} bumper; "
-                    "pass 0 or None"
+                    f"start.deformation.{side}: {given:g} m, but the oscillator has no {side} "
+                    "bumper; pass 0 or None"
                 )
             if said:
                 raise InputError(
-                    f"{_claim(state)}, but the oscillator has no {_SIDES[sign]} stop; pass 0 or "
-                    "None"
+                    f"{_claim(state)}, but the oscillator has no {side} stop; pass 0 or None"
                 )
             continue
         slack = TOUCHING * max(
@@ -167,14 +159,14 @@ def engine_state(oscillator: Oscillator, state: State) -> NDArray[np.float64]:
         )
         reach = sign * u - stop.gap
         if stop.rigid:
-            touches, deformation = _on_wall(stop, sign, state, name, reach, slack, said)
+            touches, deformation = _on_wall(stop, sign, state, reach, slack, said)
             if touches:
                 u = sign * stop.gap
         elif (law := stop.spring_and_dashpot) is None:
             slack = TOUCHING * max(abs(stop.gap), abs(u))
             touches, deformation = _on_power_law(sign, state, reach, slack, said, sign * v)
         else:
-            touches, deformation = _on_bumper(law, sign, state, name, reach, slack, said, sign * v)
+            touches, deformation = _on_bumper(law, sign, state, reach, slack, said, sign * v)
         bit = RIGHT if sign == 1 else LEFT
         if touches:
             mode |= bit
@@ -233,7 +225,7 @@ def _on_power_law(
 
     At its face a mass that moves into it is about to meet it, unless the state says that it has.
     """
-    given = state.right_bumper if sign == 1 else state.left_bumper
+    given = state.deformation.get(_SIDES[sign])
     touches = reach > slack or (bool(said) and reach >= -slack)
     if said is not None and said != touches and abs(reach) > slack:
         where = "inside" if touches else "away from"
@@ -241,7 +233,7 @@ def _on_power_law(
             f"{_claim(state)}, but the mass is {abs(reach):g} m {where} the {_SIDES[sign]} stop; "
             f"pass {sign if touches else 0} or None"
         )
-    met = sign * given if given is not None else closing if abs(reach) <= slack else 0.0
+    met = given if given is not None else closing if abs(reach) <= slack else 0.0
     return touches, max(met, 0.0) if touches else 0.0
 
 
@@ -249,7 +241,6 @@ def _on_wall(
     stop: Stop,
     sign: int,
     state: State,
-    name: str,
     reach: float,
     slack: float,
     said: bool | None,
@@ -258,10 +249,11 @@ def _on_wall(
 
     A mass at rest there that nothing presses is let go by the engine at once.
     """
-    given = state.right_bumper if sign == 1 else state.left_bumper
+    given = state.deformation.get(_SIDES[sign])
     if given:
         raise InputError(
-            f"start.{name}: {given:g} m, but a rigid stop does not deform; pass 0 or None"
+            f"start.deformation.{_SIDES[sign]}: {given:g} m, but a rigid stop does not deform; "
+            "pass 0 or None"
         )
     if reach > slack:
         most = "at most" if sign == 1 else "at least"
@@ -282,7 +274,6 @@ def _on_bumper(
     law: tuple[float, float],
     sign: int,
     state: State,
-    name: str,
     reach: float,
     slack: float,
     said: bool | None,
@@ -294,13 +285,13 @@ def _on_bumper(
     by a mass at its face, unless the state says so.
     """
     stiffness, damping = law
-    given = state.right_bumper if sign == 1 else state.left_bumper
-    deformation = max(reach, 0.0) if given is None else sign * given
+    given = state.deformation.get(_SIDES[sign])
+    deformation = max(reach, 0.0) if given is None else given
     if reach > deformation + slack:
-        most = "at least" if sign == 1 else "at most"
         raise InputError(
-            f"start.{name}: {sign * deformation:g} m, but a displacement of {state.displacement:g} "
-            f"m compresses this bumper by {reach:g} m; pass {most} {sign * reach:g} m, or None"
+            f"start.deformation.{_SIDES[sign]}: {deformation:g} m, but a displacement of "
+            f"{state.displacement:g} m compresses this bumper by {reach:g} m; pass at least "
+            f"{reach:g} m, or None"
         )
     touches = deformation - reach <= slack
     if said and not touches:
@@ -343,5 +334,21 @@ def components(vector: NDArray[np.float64], phase: float) -> NDArray[np.float64]
 
 def state_from(vector: NDArray[np.float64], phase: float) -> State:
     """An engine's state at a forcing phase as a `State`."""
-    values: dict[str, Any] = dict(zip(COMPONENTS, components(vector, phase), strict=True))
-    return State(**{**values, "contact": int(values["contact"])})
+    return state_of(components(vector, phase).tolist())
+
+
+def state_of(values: Sequence[float]) -> State:
+    """Return values of `COMPONENTS` as a `State`."""
+    return _state_of(COMPONENTS, values)
+
+
+def _state_of(names: Sequence[str], values: Sequence[float]) -> State:
+    parts: dict[str, Any] = dict(zip(names, values, strict=True))
+    deformation = {
+        side: sign * parts.pop(name) + 0.0
+        for side, sign in _SIGNS.items()
+        if (name := f"deformation.{side}") in parts
+    }
+    if "contact" in parts:
+        parts["contact"] = int(parts["contact"])
+    return State(**parts, deformation=deformation)

@@ -7,28 +7,43 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.stops import by_stop, stop_names
+from vibroimpact.engine.motion import LEFT, RIGHT
 from vibroimpact.engine.observers import record
-from vibroimpact.model.isolators import AnyIsolator
 from vibroimpact.model.oscillator import Oscillator
 
 EVENTS_AT_ONCE = 20_000
 """Room for events between two calls of the engine."""
 
 
-def sampled(out: NDArray[np.float64], isolator: AnyIsolator) -> dict[str, Any]:
-    """The samples; what the isolator remembers, if it does."""
+def sampled(out: NDArray[np.float64], oscillator: Oscillator) -> dict[str, Any]:
+    """The samples; what the isolator remembers, if it does.
+
+    Deformations are positive when compressed. The engine has the opposite sign on the left, which
+    is changed in place, because long motions are not kept twice.
+    """
     rows = {
         "displacement": record.DISPLACEMENT,
         "velocity": record.VELOCITY,
         "acceleration": record.ACCELERATION,
-        "right_bumper": record.RIGHT_FACE,
-        "left_bumper": record.LEFT_FACE,
-        "right_clearance": record.RIGHT_CLEARANCE,
-        "left_clearance": record.LEFT_CLEARANCE,
-        **({"isolator_memory": record.MEMORY} if isolator.remembers else {}),
+        **({"isolator_memory": record.MEMORY} if oscillator.isolator.remembers else {}),
     }
     samples: dict[str, Any] = {name: ("time", out[row]) for name, row in rows.items()}
-    return {**samples, "contact": ("time", out[record.CONTACT].astype(np.int64))}
+    np.negative(out[record.LEFT_FACE], out=out[record.LEFT_FACE])
+    out[record.LEFT_FACE] += 0.0  # no -0.0
+    faces = slice(record.RIGHT_FACE, record.LEFT_FACE + 1)
+    apart = slice(record.RIGHT_CLEARANCE, record.LEFT_CLEARANCE + 1)
+    touched = out[record.CONTACT]
+    both = touched == record.TOUCHING[RIGHT | LEFT]
+    touching = [both | (touched == record.TOUCHING[side]) for side in (RIGHT, LEFT)]
+    by_side = {
+        "deformation": out[faces].T,
+        "clearance": out[apart].T,
+        "touching": np.column_stack(touching),
+    }
+    return samples | {
+        name: (("time", "stop"), by_stop(oscillator, values)) for name, values in by_side.items()
+    }
 
 
 def transmitted(
@@ -62,7 +77,7 @@ def transmitted(
 
 
 def listed(
-    parts: list[NDArray[np.float64]], period: float, isolator: AnyIsolator
+    parts: list[NDArray[np.float64]], period: float, oscillator: Oscillator
 ) -> dict[str, Any]:
     """The contacts and detachments, in cycles or steps of this length (s).
 
@@ -71,25 +86,25 @@ def listed(
     integers = {
         "event_cycle": record.E_CYCLE,
         "event_contact": record.E_KIND,
-        "event_side": record.E_SIDE,
     }
     columns = {
         "event_cycle_time": record.E_TIME,
         "event_displacement": record.E_U,
         "event_velocity": record.E_V,
-        "event_right_bumper": record.E_RIGHT,
-        "event_left_bumper": record.E_LEFT,
         "event_acceleration_before": record.E_BEFORE,
         "event_acceleration_after": record.E_BEHIND,
-        **({"event_isolator_memory": record.E_MEMORY} if isolator.remembers else {}),
+        **({"event_isolator_memory": record.E_MEMORY} if oscillator.isolator.remembers else {}),
     }
 
     def column(at: int) -> NDArray[np.float64]:
         return np.concatenate([part[:, at] for part in parts])
 
     time = column(record.E_CYCLE) * period + column(record.E_TIME)
+    deformation = np.column_stack([column(record.E_RIGHT), 0.0 - column(record.E_LEFT)])
     return {
         "event_time": ("event", time),
+        "event_stop": ("event", stop_names(column(record.E_SIDE))),
+        "event_deformation": (("event", "stop"), by_stop(oscillator, deformation)),
         **{name: ("event", column(at).astype(np.int64)) for name, at in integers.items()},
         **{name: ("event", column(at) + 0.0) for name, at in columns.items()},  # no -0.0
     }

@@ -105,34 +105,22 @@ class HoldRows:
         return found
 
     @property
-    def impacts_right(self) -> _Array:
-        """Contacts with the right stop per forcing cycle."""
-        return self.array[..., hold.HITS_RIGHT]
+    def impacts(self) -> _Array:
+        """Contacts per forcing cycle with the right and the left stop, shape (..., 2)."""
+        found: _Array = self.array[..., [hold.HITS_RIGHT, hold.HITS_LEFT]]
+        return found
 
     @property
-    def impacts_left(self) -> _Array:
-        """Contacts with the left stop per forcing cycle."""
-        return self.array[..., hold.HITS_LEFT]
+    def peak_force(self) -> _Array:
+        """Largest forces of the right and the left stop per unit mass (m/s²), shape (..., 2)."""
+        found: _Array = self.array[..., [hold.FORCE_RIGHT, hold.FORCE_LEFT]]
+        return found
 
     @property
-    def peak_force_right(self) -> _Array:
-        """Largest force of the right stop per unit mass (m/s²)."""
-        return self.array[..., hold.FORCE_RIGHT]
-
-    @property
-    def peak_force_left(self) -> _Array:
-        """Largest force of the left stop per unit mass (m/s²)."""
-        return self.array[..., hold.FORCE_LEFT]
-
-    @property
-    def peak_impulse_right(self) -> _Array:
-        """Largest impulse on the right rigid stop per unit mass (m/s)."""
-        return self.array[..., hold.IMPULSE_RIGHT]
-
-    @property
-    def peak_impulse_left(self) -> _Array:
-        """Largest impulse on the left rigid stop per unit mass (m/s)."""
-        return self.array[..., hold.IMPULSE_LEFT]
+    def peak_impulse(self) -> _Array:
+        """Largest impulses on the right and the left rigid stop per unit mass (m/s), (..., 2)."""
+        found: _Array = self.array[..., [hold.IMPULSE_RIGHT, hold.IMPULSE_LEFT]]
+        return found
 
     @property
     def transmitted_min(self) -> _Array:

@@ -59,12 +59,6 @@ class Recorded(NamedTuple, Generic[_Shaking]):
     """Whether the motion is one period of a periodic one: its end is its beginning."""
 
 
-def touches(contact: NDArray[np.int64], side: int) -> NDArray[np.bool_]:
-    """Whether the stop of a side is touched."""
-    touched: NDArray[np.bool_] = (contact == side) | (contact == 2)
-    return touched
-
-
 class Phases(NamedTuple):
     """Phases of a motion, in the order of time."""
 
@@ -301,17 +295,18 @@ def _doubts(motion: xr.Dataset, outcome: Status, end: float) -> list[str]:
 
 def parting_velocity(motion: xr.Dataset, oscillator: Oscillator) -> _Array:
     """Return the velocity just after each event of a motion, which an impact changes."""
-    kinds, sides = motion["event_contact"].values, motion["event_side"].values
+    kinds, stops = motion["event_contact"].values, motion["event_stop"].values
     velocity: _Array = motion["event_velocity"].values.copy()
-    for side, stop in zip(SIDES, (oscillator.right, oscillator.left), strict=True):
+    for name in motion["stop"].values:
+        stop = getattr(oscillator, name)
         if isinstance(stop, RigidStop):
-            velocity[(kinds == IMPACT) & (sides == side)] *= -stop.restitution
-            velocity[(kinds == CONTACT_BEGINS) & (sides == side)] = 0.0
+            velocity[(kinds == IMPACT) & (stops == name)] *= -stop.restitution
+            velocity[(kinds == CONTACT_BEGINS) & (stops == name)] = 0.0
     return velocity
 
 
-def contact_intervals(motion: xr.Dataset, side: int, at: _Array, end: float) -> _Array:
-    """Return when the stop of a side is touched, shape (contact, 2).
+def contact_intervals(motion: xr.Dataset, stop: str, at: _Array, end: float) -> _Array:
+    """Return when a stop is touched, shape (contact, 2).
 
     Parameters
     ----------
@@ -321,13 +316,13 @@ def contact_intervals(motion: xr.Dataset, side: int, at: _Array, end: float) -> 
         When the motion ends; the first contact may last since 0, and the last one until then.
     """
     kinds = motion["event_contact"].values
-    mine = (motion["event_side"].values == side) & (kinds != IMPACT) & (at <= end)
+    mine = (motion["event_stop"].values == stop) & (kinds != IMPACT) & (at <= end)
     begins, ends = at[mine & (kinds == CONTACT_BEGINS)], at[mine & (kinds == DETACHMENT)]
     # The first event shows the earlier state; the first sample may lie after it.
     if mine.any():
         touched = kinds[mine][0] == DETACHMENT
     else:
-        touched = bool(touches(motion["contact"].values[:1], side)[0])
+        touched = bool(motion["touching"].sel(stop=stop).values[0])
     begins = np.append(np.zeros(int(touched)), begins)
     ends = np.append(ends, np.full(len(begins) - len(ends), end))
     return np.column_stack([begins, ends])

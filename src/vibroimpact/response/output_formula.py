@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, meant, shown
 from vibroimpact.model.parameters import canonical, suggestion
 
@@ -24,6 +25,8 @@ _Value = NDArray[np.float64]
 _LONGEST = 300
 """Largest number of characters of a formula."""
 
+OF_STOPS = ("deformation", "clearance", "touching")
+"""Time histories of stops, such as ``clearance.right``."""
 HISTORIES = (
     "displacement",
     "velocity",
@@ -31,12 +34,8 @@ HISTORIES = (
     "base_acceleration",
     "applied_force",
     "transmitted_force",
-    "right_bumper",
-    "left_bumper",
-    "right_clearance",
-    "left_clearance",
+    *(f"{name}.{stop}" for name in OF_STOPS for stop in SIDES),
     "isolator_memory",
-    "contact",
     "time",
 )
 """Time histories in a dataset of `simulate`."""

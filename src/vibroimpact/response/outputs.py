@@ -10,11 +10,17 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import xarray as xr
 
+from vibroimpact.datasets.stops import SIDES, quantity, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Rig, State
 from vibroimpact.model.parameters import parameter, parameters
-from vibroimpact.response.output_formula import HISTORIES, OutputFormula, read_output_formula
+from vibroimpact.response.output_formula import (
+    HISTORIES,
+    OF_STOPS,
+    OutputFormula,
+    read_output_formula,
+)
 from vibroimpact.response.simulate import compute_history
 
 SAMPLES = 256
@@ -33,7 +39,7 @@ class Output:
         A formula, as text, or a function.
 
         - A formula contains the time histories of `simulate` (``displacement``, ``velocity``,
-          ``acceleration``, ``base_acceleration``, ``right_clearance``, …), parameters of the rig
+          ``acceleration``, ``base_acceleration``, ``clearance.right``, …), parameters of the rig
           such as ``damping`` or ``frequency``, and ``mass``, all in SI units. ``max``, ``min``,
           ``mean``, ``rms`` and ``integral`` (over the time) make a number of a time history.
           Further functions are ``abs``, ``sqrt``, ``exp``, ``log``, ``sin``, ``cos``, ``tanh`` and
@@ -206,6 +212,8 @@ def _known(rig: Rig) -> tuple[str, ...]:
     absent = {"applied_force" if moves else "base_acceleration"}
     if not remembers:
         absent.add("isolator_memory")
+    held = stops_of(rig.oscillator)
+    absent |= {f"{name}.{side}" for name in OF_STOPS for side in SIDES if side not in held}
     return (
         *(name for name in HISTORIES if name not in absent),
         *(name for name in parameters(rig) if name == "frequency" or _has(rig.hardest, name)),
@@ -225,7 +233,7 @@ def _values(output: NamedOutput, rig: Rig, motion: xr.Dataset) -> dict[str, Any]
     found: dict[str, Any] = {}
     for name in output.function.names:
         if name in HISTORIES:
-            found[name] = motion[name].values
+            found[name] = quantity(motion, name).values * 1.0
         else:
             found[name] = parameter(name, rig).read(rig)
     return found

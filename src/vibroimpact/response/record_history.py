@@ -9,6 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS, describe, oscillator_parameters
+from vibroimpact.datasets.stops import stops_of
 from vibroimpact.engine import record_forcing
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record as observed
@@ -83,11 +84,12 @@ def through(
     variables: dict[str, Any] = {"final_state": ("component", components(vector, 0.0))}
     coordinates: dict[str, Any] = {"component": COMPONENTS}
     if samples:
+        coordinates["stop"] = stops_of(oscillator)
         coordinates["time"] = time
         variables["initial_state"] = ("component", first)
-        variables |= sampled(out, oscillator.isolator)
+        variables |= sampled(out, oscillator)
         variables["base_acceleration"] = ("time", base_acceleration(record, time, samples))
-        events = listed(found, record.step, oscillator.isolator)
+        events = listed(found, record.step, oscillator)
         # A record has steps, not cycles.
         variables |= {name: one for name, one in events.items() if "cycle" not in name}
         variables |= transmitted(variables, oscillator)

@@ -1,7 +1,7 @@
 """How the states of a system stand in the engine's vectors, and in points of a section.
 
 A vector is the mode, what has just happened, the parts of the state, and the age of the mode; a
-point has the parts alone, with the signs of datasets.
+point has the parts alone, with the signs of the components in datasets.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import COMPONENTS
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.state import BEHIND, FIRST, FRESH, MODE
@@ -81,8 +82,8 @@ class SectionStates(NamedTuple):
         if isinstance(state, AssemblyState):
             vector = self.vector_of(state)
             return self.point(vector), float(vector[MODE])
-        bumpers = (state.right_bumper or 0.0, state.left_bumper or 0.0)
-        parts = np.array([state.displacement, state.velocity, *bumpers, state.isolator])
+        right, left = (state.deformation.get(side, 0.0) for side in SIDES)
+        parts = np.array([state.displacement, state.velocity, right, -left, state.isolator])
         return parts, float(record.TOUCHING.index(state.contact or 0))
 
     def point(self, vector: _Array) -> _Array:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
+from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import to_si
+from vibroimpact.model import Oscillator, to_si
 from vibroimpact.model.argument_types import PositiveInt, check_samples
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
@@ -21,7 +24,8 @@ from vibroimpact.response.motion_phases import beginning, recorded
 from vibroimpact.response.prepared_rig import prepare
 
 _MAX_EVENTS = 10_000
-_NAMES = ("displacement", "velocity", "right_bumper", "left_bumper")
+_COLUMNS = 4
+"""Displacement, velocity, and the deformations of both sides, the left one < 0 if compressed."""
 
 
 @public
@@ -44,9 +48,9 @@ def stroboscopic_section(
     -------
     xarray.Dataset
         The dim ``section_point`` counts the points. The variables are ``section_displacement``,
-        ``section_velocity``, and the deformations of the bumpers, ``section_right_bumper`` and
-        ``section_left_bumper``. If one forcing cycle has too many contacts, the simulation stops.
-        In that case there are fewer points than requested, and a warning is issued.
+        ``section_velocity``, and the deformations of the stops, ``section_deformation``. If one
+        forcing cycle has too many contacts, the simulation stops. In that case there are fewer
+        points than requested, and a warning is issued.
 
     Raises
     ------
@@ -62,31 +66,51 @@ def stroboscopic_section(
     state = engine.state(start)
     shaken = origin.excitation
     ahead = ((angle - shaken.phase) / (2.0 * math.pi)) % 1.0
-    first = np.array(
-        [start.displacement, start.velocity, start.right_bumper, start.left_bumper], dtype=float
-    )
+    first = np.array([*state[2:5], -state[5]])
     status = Status.DONE
     if ahead > 0.0:
         status, state = engine.propagate(state, ahead, _MAX_EVENTS)
         first = np.array([*state[2:5], -state[5]])
-    points = np.empty((0, len(_NAMES)))
+    points = np.empty((0, _COLUMNS))
     if status is Status.DONE:
         status, rows = engine.at_phase(angle).sections(state, count, _MAX_EVENTS)
-        known = rows[:, lyapunov.SECTION :][:, : len(_NAMES)]
+        known = rows[:, lyapunov.SECTION :][:, :_COLUMNS]
         points = np.vstack([first, known])[:count]
     if len(points) < count:
         warn_of_result(
             f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}"
         )
-    data = xr.Dataset(
-        {f"section_{name}": ("section_point", points[:, i]) for i, name in enumerate(_NAMES)}
-    )
+    data = xr.Dataset(section_variables(origin.oscillator, points, ("section_point",)))
+    data = data.assign_coords(stop=stops_of(origin.oscillator))
     return describe(
         data,
         "vibroimpact.stroboscopic_section",
         {**motion_parameters(motion), "section": angle},
         noted(motion),
     )
+
+
+def section_variables(
+    oscillator: Oscillator, points: NDArray[np.float64], dims: tuple[str, ...]
+) -> dict[str, Any]:
+    """Return points of a section of an oscillator as variables.
+
+    Parameters
+    ----------
+    oscillator
+        The oscillator.
+    points : ndarray, shape (..., 4)
+        As the engine writes them: displacement, velocity and the deformations of both sides, the
+        left one negative when compressed.
+    dims
+        Names of the dims of the points.
+    """
+    deformation = by_stop(oscillator, points[..., 2:4] * [1.0, -1.0] + 0.0)
+    return {
+        "section_displacement": (dims, points[..., 0]),
+        "section_velocity": (dims, points[..., 1]),
+        "section_deformation": ((*dims, "stop"), deformation),
+    }
 
 
 def impact_section(motion: xr.Dataset) -> xr.Dataset:
@@ -100,7 +124,7 @@ def impact_section(motion: xr.Dataset) -> xr.Dataset:
     Returns
     -------
     xarray.Dataset
-        The dim ``contact_number`` counts the contacts. The variables are the side of the contact,
+        The dim ``contact_number`` counts the contacts. The variables are the stop of the contact,
         and the time, the phase and the relative velocity at its start.
 
     Raises
@@ -110,6 +134,6 @@ def impact_section(motion: xr.Dataset) -> xr.Dataset:
     """
     recorded(motion)  # its phases are asked for
     log = contacts(motion)
-    chosen = log[["contact_side", "contact_start", "contact_start_phase", "contact_start_velocity"]]
+    chosen = log[["contact_stop", "contact_start", "contact_start_phase", "contact_start_velocity"]]
     chosen.attrs["created_by"] = "vibroimpact.impact_section"
     return chosen

@@ -16,6 +16,7 @@ from vibroimpact.datasets.description import (
     noted,
     oscillator_parameters,
 )
+from vibroimpact.datasets.stops import stops_of
 from vibroimpact.engine import batch
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record
@@ -100,12 +101,15 @@ def simulate(
     -------
     xarray.Dataset
         The dim ``time`` (s) counts the samples, including one at the end of the motion. The dim
-        ``event`` counts the contacts and detachments. The deformation ``left_bumper`` and the
-        clearance on the left have the signs of the paper's equation 4. ``transmitted_force`` is the
-        force that the isolator and the stops together exert on the base, positive to the right,
-        without the infinite force of an impact on a rigid stop. To resume the motion, pass
-        ``final_state`` as ``start``. If the computation was given up, the dataset ends at that
-        time. The variable ``status`` and the attribute ``message`` then give the reason.
+        ``event`` counts the contacts and detachments, and the dim ``stop`` names the stops that the
+        rig has: ``right`` and ``left``, or those of an assembly. ``deformation`` (m) of a stop is
+        positive when it is compressed, ``clearance`` (m) is the distance from the mass to its face,
+        and ``touching`` states whether they touch. ``event_stop`` is the stop of each event.
+        ``transmitted_force`` is the force that the isolator and the stops together exert on the
+        base, positive to the right, without the infinite force of an impact on a rigid stop. To
+        resume the motion, pass ``final_state`` as ``start``. If the computation was given up, the
+        dataset ends at that time. The variable ``status`` and the attribute ``message`` then give
+        the reason.
 
         The motion of an assembly has the dims ``mass`` and ``stop``: ``displacement``, ``velocity``
         and ``acceleration`` belong to the masses, ``clearance``, ``deformation`` and
@@ -218,13 +222,14 @@ def compute_history(
     if samples:
         complete = status is Status.DONE
         cycle = _cycles(out.shape[1], samples, length if complete else None)
+        coordinates["stop"] = stops_of(oscillator)
         coordinates["time"] = cycle / excitation.frequency
         coordinates["cycle"] = ("time", cycle)
         variables["initial_state"] = ("component", first)
-        variables |= sampled(out, oscillator.isolator)
+        variables |= sampled(out, oscillator)
         name, values = _shaking(excitation, phase, cycle, samples)
         variables[name] = ("time", values)
-        variables |= listed(found, 1.0 / excitation.frequency, oscillator.isolator)
+        variables |= listed(found, 1.0 / excitation.frequency, oscillator)
         forces: tuple[Any, ...] = ()
         if not excitation.moves_base:
             _, since = variables["event_cycle_time"]

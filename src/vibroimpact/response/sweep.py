@@ -109,10 +109,11 @@ def sweep(
           the base, without the infinite force of an impact on a rigid stop;
         - ``transmissibility``: the excursion of this force, divided by that of the exciting force
           (the force F on the mass, or M A_t if the base moves);
-        - ``peak_force_right`` and ``peak_force_left``: the largest contact forces of the stops,
-          infinite for an impact on a rigid stop;
-        - ``peak_impulse_right`` and ``peak_impulse_left``: the largest impulses of impacts on rigid
-          stops;
+        - ``impacts``: the contacts with each stop per forcing cycle (dim ``stop``: the stops of the
+          rig, ``right`` and ``left``, or those of an assembly);
+        - ``peak_force``: the largest contact force of each stop, infinite for an impact on a rigid
+          stop;
+        - ``peak_impulse``: the largest impulse of an impact on each rigid stop;
         - ``section``: the state at the end of the hold;
         - the ``outputs``, by their names;
         - ``status`` and ``motion``: how the hold ended, and the type of the motion. A motion that
@@ -121,8 +122,7 @@ def sweep(
 
         Values are NaN only where ``status`` reports that there is no value.
 
-        Of an assembly, displacements and accelerations have the additional dim ``mass``, and
-        ``impacts``, ``peak_force`` and ``peak_impulse`` the dim ``stop``;
+        Of an assembly, displacements and accelerations have the additional dim ``mass``;
         ``simultaneous_impacts`` counts the impacts whose order the order of the stops decided.
         ``eta_d``, ``eta_a`` and ``transmissibility`` are those of an oscillator alone.
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.model import Oscillator
 from vibroimpact.response.engine_input import components
 from vibroimpact.response.hold_rows import HoldRows
+
+_OF_STOPS = ("impacts", "peak_force", "peak_impulse")
 
 
 def sweep_dataset(
@@ -43,7 +47,10 @@ def sweep_dataset(
         That of the section, rad.
     """
     dims = ("rig", "direction", "frequency")
-    found = [sizes(one, HoldRows(part)) for one, part in zip(oscillators, results, strict=True)]
+    stops = stops_of(*oscillators)
+    found = [
+        sizes(one, HoldRows(part), stops) for one, part in zip(oscillators, results, strict=True)
+    ]
     # What is stacked is not kept a second time.
     told = {name: np.stack([one.pop(name) for one in found]) for name in list(found[0])}
     reference = largest[..., np.newaxis, np.newaxis]
@@ -58,7 +65,8 @@ def sweep_dataset(
         "cycles": rows.cycles,
         "status": rows.status.astype(np.int64),
     }
-    data = xr.Dataset({name: (dims, value) for name, value in values.items()})
+    data = xr.Dataset({name: sized(name, dims, value) for name, value in values.items()})
+    data = data.assign_coords(stop=stops)
     data["section"] = ((*dims, "component"), components(states, phase))
     data["free_displacement_excursion"] = (("rig", "frequency"), free[0])
     data["free_acceleration_excursion"] = (("rig", "frequency"), free[1])
@@ -69,8 +77,17 @@ def sweep_dataset(
     return data
 
 
-def sizes(oscillator: Oscillator, rows: HoldRows) -> dict[str, NDArray[np.float64]]:
+def sized(name: str, dims: tuple[str, ...], values: Any) -> tuple[tuple[str, ...], Any]:
+    """Return what `sizes` found as a variable, with the dim ``stop`` where it has it."""
+    return ((*dims, "stop") if name in _OF_STOPS else dims, values)
+
+
+def sizes(
+    oscillator: Oscillator, rows: HoldRows, stops: NDArray[np.str_] | None = None
+) -> dict[str, NDArray[np.float64]]:
     """Extremes, contacts per cycle and contact forces of one rig, by the names of variables.
+
+    Contacts, forces and impulses have the stops along their last axis.
 
     Parameters
     ----------
@@ -78,6 +95,8 @@ def sizes(oscillator: Oscillator, rows: HoldRows) -> dict[str, NDArray[np.float6
         The rig.
     rows
         What was measured of it.
+    stops
+        Names of the stops, as in `by_stop`. Default: those that the rig has.
     """
     mass = oscillator.mass
     return {
@@ -94,10 +113,7 @@ def sizes(oscillator: Oscillator, rows: HoldRows) -> dict[str, NDArray[np.float6
         "transmitted_force_excursion": mass * rows.transmitted_excursion,
         "peak_transmitted_force": mass * rows.peak_transmitted,
         "eccentricity": 0.5 * (rows.displacement_max + rows.displacement_min),
-        "impacts_right": rows.impacts_right,
-        "impacts_left": rows.impacts_left,
-        "peak_force_right": mass * rows.peak_force_right,
-        "peak_impulse_right": mass * rows.peak_impulse_right,
-        "peak_force_left": mass * rows.peak_force_left,
-        "peak_impulse_left": mass * rows.peak_impulse_left,
+        "impacts": by_stop(oscillator, rows.impacts, stops),
+        "peak_force": by_stop(oscillator, mass * rows.peak_force, stops),
+        "peak_impulse": by_stop(oscillator, mass * rows.peak_impulse, stops),
     }

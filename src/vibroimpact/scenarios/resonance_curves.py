@@ -20,7 +20,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Array, Direction, Flags, Swept, each_swept
-from vibroimpact.response.engine_input import components
+from vibroimpact.response.engine_input import components, state_of
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.tasks.threads import Tally
@@ -29,7 +29,6 @@ UNEVEN = 1e-6
 """Eccentricity, as a share of the excursion, that rounding does not explain."""
 _TOLERANCE, _MAX_EVENTS = 1e-12, 10_000
 """As of `sweeps`."""
-_CONTACTS = ("impacts_right", "impacts_left")
 DIRECTIONS: tuple[Direction, ...] = ("forward", "backward")
 
 
@@ -59,14 +58,11 @@ class Holds(NamedTuple):
     plain: Flags
     """Whether the motion was seen to be chaotic while it was held."""
     contacts: Array
-    """With the right and the left stop per forcing cycle."""
+    """With each stop per forcing cycle."""
 
     def state(self, direction: Direction, i: int) -> State:
         """The state at the end of a hold."""
-        found = dict(
-            zip(COMPONENTS, self.section[DIRECTIONS.index(direction), i].tolist(), strict=True)
-        )
-        return State(**{**found, "contact": int(found["contact"])})
+        return state_of(self.section[DIRECTIONS.index(direction), i].tolist())
 
 
 def each_curves(data: xr.Dataset) -> Iterator[Curves]:
@@ -102,9 +98,7 @@ def holds(data: xr.Dataset) -> Holds:
         one["period"].transpose("direction", "frequency").values,
         section.transpose("direction", "frequency", "component").values,
         np.zeros((2, one.sizes["frequency"]), dtype=bool),
-        np.stack(
-            [one[name].transpose("direction", "frequency").values for name in _CONTACTS], axis=-1
-        ),
+        one["impacts"].transpose("direction", "frequency", "stop").values,
     )
 
 
@@ -132,7 +126,7 @@ def swept_alone(
     low, high = each.displacement_min, each.displacement_max
     excursion = high - low
     period = each.period
-    touched = (each.impacts_right, each.impacts_left, each.peak_force_right, each.peak_force_left)
+    touched = (each.impacts, each.peak_force)
     both = Swept(
         frequencies,
         DIRECTIONS,
@@ -140,7 +134,9 @@ def swept_alone(
         excursion / ready.largest[0],
         period > 0,
         period,
-        np.logical_or.reduce([one > 0.0 for one in touched]),  # as `in_contact` of a dataset
+        np.logical_or.reduce(
+            [(one > 0.0).any(axis=-1) for one in touched]
+        ),  # as `in_contact` of a dataset
     )
     curves = Curves(
         both,
@@ -151,8 +147,7 @@ def swept_alone(
     )
     section = components(np.array(states), 0.0)
     plain = (each.status == NOT_SETTLED) & (each.cycles < max_cycles)
-    contacts = np.stack([each.impacts_right, each.impacts_left], axis=-1)
-    return curves, Holds(frequencies, period, section, plain, contacts)
+    return curves, Holds(frequencies, period, section, plain, each.impacts)
 
 
 def _uneven(eccentricity: Array, excursion: Array) -> Flags:

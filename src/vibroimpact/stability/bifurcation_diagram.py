@@ -24,6 +24,7 @@ from vibroimpact.datasets.description import (
     excitation_parameters,
     oscillator_parameters,
 )
+from vibroimpact.datasets.stops import stop_names, stops_of
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -43,7 +44,8 @@ from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
-from vibroimpact.response.sweep_dataset import sizes
+from vibroimpact.response.sections import section_variables
+from vibroimpact.response.sweep_dataset import sized, sizes
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
 from vibroimpact.tasks.executors import THREADS, placed
@@ -141,7 +143,7 @@ def bifurcation_diagram(
         The dims are ``start`` (the direction or the initial state), the parameter, and
         ``section_point``. A stroboscopic section has the variables ``section_displacement``,
         ``section_velocity`` and the deformations of the bumpers. A section at impacts has the
-        variables ``contact_side``, ``contact_start_phase`` and ``contact_start_velocity``. If a
+        variables ``contact_stop``, ``contact_start_phase`` and ``contact_start_velocity``. If a
         motion is periodic, the section has the points of one period, and the other entries are NaN.
 
         ``motion`` and ``period`` describe the type of each motion. ``exponents`` (1/s) are its two
@@ -299,12 +301,30 @@ def _dataset(
     }
     states = components(np.array([one.held.found.state for one in seen]), phase)
     variables: dict[str, Any] = {
-        **{key: (dims, value.reshape(shape)) for key, value in scalars.items()},
-        **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
         **{
-            key: ((*dims, "section_point"), padded[..., i].reshape(*shape, most))
-            for i, key in enumerate(POINT[section])
+            key: sized(key, dims, value.reshape(*shape, *value.shape[1:]))
+            for key, value in scalars.items()
         },
+        **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
+        **_points(oscillator, padded.reshape(*shape, most, -1), (*dims, "section_point")),
         "section": ((*dims, "component"), states.reshape(*shape, -1)),
     }
-    return xr.Dataset(variables, {"start": list(found), name: values, "component": COMPONENTS})
+    coordinates = {
+        "start": list(found),
+        name: values,
+        "component": COMPONENTS,
+        "stop": stops_of(oscillator),
+    }
+    return xr.Dataset(variables, coordinates)
+
+
+def _points(oscillator: Oscillator, points: _Array, dims: tuple[str, ...]) -> dict[str, Any]:
+    """Return the points of a section as variables; of those that are padded nothing is known."""
+    if points.shape[-1] == len(POINT["stroboscopic"]):
+        return section_variables(oscillator, points, dims)
+    side, phase, velocity = np.moveaxis(points, -1, 0)
+    return {
+        "contact_stop": (dims, np.where(np.isnan(side), "", stop_names(side))),
+        "contact_start_phase": (dims, phase),
+        "contact_start_velocity": (dims, velocity),
+    }

@@ -9,6 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, rig_parameters
+from vibroimpact.datasets.stops import stops_of
 from vibroimpact.engine import hold, orbit
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
@@ -22,7 +23,7 @@ from vibroimpact.response.outputs import NamedOutput, about, add_outputs, comput
 from vibroimpact.response.plausibility import note_unbounded
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.bifurcations import Bifurcation
-from vibroimpact.stability.branch_styles import QUANTITIES, contact_counts
+from vibroimpact.stability.branch_styles import VARIABLES, contact_counts
 from vibroimpact.stability.fixed_points import MAX_EVENTS, Orbit, vector_of
 from vibroimpact.stability.orbit_curve import Station
 from vibroimpact.stability.parameter_family import Family
@@ -79,7 +80,10 @@ def as_dataset(
         "piece": np.array([s.piece for _, s in stations], dtype=np.int64),
     }
     variables: dict[str, Any] = {
-        **{key: ("point", np.asarray(value)) for key, value in values.items()},
+        **{
+            key: sweep_dataset.sized(key, ("point",), np.asarray(value))
+            for key, value in values.items()
+        },
         "multiplier_real": (("point", "multiplier"), multipliers.real),
         "multiplier_imag": (("point", "multiplier"), multipliers.imag),
         "section": (("point", "component"), np.array([state_of(one) for one in orbits])),
@@ -92,6 +96,8 @@ def as_dataset(
     doubts = note_unbounded(fam.rig) if not several else []
     if several:
         doubts = _by_mass(fam, orbits, variables, coordinates)
+    else:
+        coordinates["stop"] = stops_of(fam.oscillator)
     data = xr.Dataset(variables, coordinates)
     data.attrs["parameter"] = name
     add_outputs(data, own, _own(own, orbits))
@@ -169,7 +175,10 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
         sizes = {f"bifurcation_{name}": measured[f"bifurcation_{name}"] for name in _OF_MASSES}
     else:
         known = _sizes(assembly, orbits)
-        sizes = {f"bifurcation_{name}": ("bifurcation", known[name]) for name in QUANTITIES}
+        sizes = {
+            f"bifurcation_{name}": sweep_dataset.sized(name, ("bifurcation",), known[name])
+            for name in VARIABLES
+        }
     values: dict[str, Any] = {
         "kind": np.array([b.kind for _, b in found], dtype=str),
         "value": [b.orbit.value for _, b in found],

@@ -13,12 +13,16 @@ Quantity = Literal[
     "peak_acceleration",
     "peak_transmitted_force",
     "transmissibility",
-    "peak_force_right",
-    "peak_force_left",
+    "peak_force",
+    "peak_force.right",
+    "peak_force.left",
 ]
-"""A variable of each orbit that each bifurcation has as well, as ``bifurcation_`` and its name."""
+"""A variable of each orbit that each bifurcation has as well, as ``bifurcation_`` and its name.
+
+Of one stop, or of all (`datasets.stops.quantity`)."""
 
 QUANTITIES: tuple[Quantity, ...] = get_args(Quantity)
+VARIABLES = tuple(one for one in QUANTITIES if "." not in one)
 
 
 def contact_counts(right: int, left: int, stops: tuple[object, object]) -> str:

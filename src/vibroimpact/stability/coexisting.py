@@ -141,7 +141,7 @@ def _without_history(motion: xr.Dataset) -> xr.Dataset:
     kept = [
         name
         for name, one in motion.items()
-        if set(one.dims) <= {"component", "exponent"} and name != "initial_state"
+        if set(one.dims) <= {"component", "exponent", "stop"} and name != "initial_state"
     ]
     words = {name: motion.attrs[name] for name in ("evidence", "starts", "mirrored_starts")}
     bare = motion[kept].assign(words)

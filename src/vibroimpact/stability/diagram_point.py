@@ -26,15 +26,10 @@ Kind = Literal["stroboscopic", "impacts"]
 """Once a forcing cycle, or at the beginning of every contact."""
 
 POINT: dict[Kind, tuple[str, ...]] = {
-    "stroboscopic": (
-        "section_displacement",
-        "section_velocity",
-        "section_right_bumper",
-        "section_left_bumper",
-    ),
-    "impacts": ("contact_side", "contact_start_phase", "contact_start_velocity"),
+    "stroboscopic": ("displacement", "velocity", "right", "left"),
+    "impacts": ("stop", "phase", "velocity"),
 }
-"""What the columns of points hold."""
+"""What the columns of points hold, as the engine writes it."""
 
 _ROOM = 4096  # contacts that are written between two looks at the clock
 

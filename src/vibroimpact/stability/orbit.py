@@ -90,7 +90,7 @@ def orbit(
 
 def _sequence(data: xr.Dataset) -> str:
     """Return the sequence of contacts: R and L, or the names of the stops of an assembly."""
-    if "contact_side" in data:
-        return "".join("R" if side == 1 else "L" for side in data["contact_side"].values)
+    if "contact_stop" in data:
+        return "".join(str(name)[0].upper() for name in data["contact_stop"].values)
     begins = data["event_contact"].values > 0
     return " ".join(data["event_stop"].values[begins].tolist())

@@ -120,18 +120,17 @@ def placed(rig: Rig, state: _Array) -> _Array:
         u = min(u, oscillator.right.gap)
     if oscillator.left is not None and oscillator.left.rigid:
         u = max(u, -oscillator.left.gap)
-    right, left = (
-        sign * max(float(state[at]), sign * u - stop.gap, 0.0)
-        if stop is not None and stop.spring_and_dashpot is not None
-        else None
-        for stop, sign, at in (
-            (oscillator.right, 1.0, layout.RIGHT_BUMPER),
-            (oscillator.left, -1.0, layout.LEFT_BUMPER),
+    deformation = {
+        side: max(float(state[at]), sign * u - stop.gap, 0.0)
+        for side, sign, at in (
+            ("right", 1.0, layout.RIGHT_BUMPER),
+            ("left", -1.0, layout.LEFT_BUMPER),
         )
-    )
+        if (stop := getattr(oscillator, side)) is not None and stop.spring_and_dashpot is not None
+    }
     most = engine_rig(rig)[par.YIELD]
     memory = min(max(float(state[layout.ISOLATOR]), -most), most)
-    return engine_state(oscillator, State(u, v, right, left, isolator=memory))
+    return engine_state(oscillator, State(u, v, deformation, isolator=memory))
 
 
 def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: int) -> list[_Array]:

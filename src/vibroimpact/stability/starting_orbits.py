@@ -30,9 +30,6 @@ _Phasors = NDArray[np.complex128]
 _SAME = 1e-6
 """Two orbits of one period whose extremes agree to this share are one, or mirror images."""
 
-_PARTS = ("displacement", "velocity", "right_bumper", "left_bumper")
-"""Of a state, that datasets of `basins` have at the section."""
-
 
 class Values(NamedTuple):
     """The values of the parameter at which branches are begun."""
@@ -187,7 +184,13 @@ def in_basins(
             if not 0 < period <= longest or 0 <= image < number:
                 continue
             point = one.isel(point=int(np.argmax(one["section_attractor"].values == number)))
-            state = State.model_validate({p: float(point[f"section_{p}"]) for p in _PARTS})
+            held = point["section_deformation"]
+            deformation = {str(stop): float(held.sel(stop=stop)) for stop in held["stop"].values}
+            state = State(
+                float(point["section_displacement"]),
+                float(point["section_velocity"]),
+                deformation,
+            )
             try:
                 yield first_orbit(here, span, state, period)
             except InputError:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections import Counter
 from functools import partial
 from typing import Annotated, Any, TypeAlias
 
@@ -257,6 +258,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     every = phases(data, origin)
     log = contact_log(data, origin, every)
     cycles = max(origin.cycles, 1.0)
+    counts = Counter(log["contact_stop"].values.tolist())
     supplied, isolator, bumpers = energies(origin, every)
     sizes = extremes(origin, every)
     exciting = found.oscillator.mass * float(
@@ -265,8 +267,7 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     values: dict[str, Any] = {
         **sizes,
         "transmissibility": sizes["transmitted_force_excursion"] / (exciting or math.nan),
-        "impacts_right": int((log["contact_side"] == 1).sum()) / cycles,
-        "impacts_left": int((log["contact_side"] == -1).sum()) / cycles,
+        "impacts": ("stop", [counts.get(one, 0) / cycles for one in data["stop"].values.tolist()]),
         "energy_supplied": supplied / cycles,
         "energy_isolator": isolator / cycles,
         "energy_bumpers": bumpers / cycles,

@@ -134,8 +134,10 @@ def _checksum(array: Any, place: tuple[slice, ...], values: Any) -> int:
 
 def _chunk_number(array: Any, place: tuple[slice, ...]) -> tuple[int, ...]:
     """Return the number of the chunk at a place along each dim."""
-    sizes = zip(place, array.chunks, strict=True)
-    return tuple((part.start or 0) // size for part, size in sizes)
+    sizes = zip(place, array.chunks, strict=False)
+    number = [(part.start or 0) // size for part, size in sizes]
+    # Dims beyond those of the place, such as the stops, are in one chunk.
+    return (*number, *[0] * (len(array.chunks) - len(number)))
 
 
 @contextmanager

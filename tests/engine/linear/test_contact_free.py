@@ -109,7 +109,7 @@ def test_what_does_not_die_out_is_not_left_out() -> None:
     assert held(rig(0.0, 1.0, 1.0), 3.0, vi.State(0.01, 0.0))["cycles"] > 0
     slow = vi.Bumper(1.0, 1e9, 0.05)
     one = vi.Oscillator(MASS, vi.Isolator.from_period(MASS, PERIOD, 0.3), slow)
-    dented = held(one, 3.0, vi.State(0.0, 0.0, right_bumper=0.02))
+    dented = held(one, 3.0, vi.State(0.0, 0.0, deformation={"right": 0.02}))
     assert dented["cycles"] > 0
     assert held(one, 3.0, vi.State(0.0, 0.0))["cycles"] == 0
 

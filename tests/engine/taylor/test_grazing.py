@@ -42,7 +42,7 @@ class Side(NamedTuple):
         return float(found["displacement_max"] if self.sign > 0 else -found["displacement_min"])
 
     def events(self, data: xr.Dataset) -> np.ndarray:
-        return np.flatnonzero(data["event_side"].values == self.sign)
+        return np.flatnonzero(np.where(data["event_stop"].values == "right", 1, -1) == self.sign)
 
 
 def moved(rig: vi.Oscillator, side: Side, cycles: float = CYCLES, samples: int = 1) -> xr.Dataset:

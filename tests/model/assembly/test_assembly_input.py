@@ -333,8 +333,8 @@ def test_states_are_by_name():
     ("make", "message"),
     [
         (
-            lambda: vi.State({"base": 0.1}, right_bumper=0.1),
-            r"^right_bumper: passed together with displacement by name.*use deformation",
+            lambda: vi.State({"base": 0.1}, isolator=0.1),
+            r"^isolator: passed together with displacement by name.*use memory",
         ),
         (lambda: vi.State({"base": "1 kg"}), r"^displacement\.base: '1 kg' is a mass"),
         (lambda: vi.State({"a": 0.1}, 2.0), r"^velocity: 2\.0 is not a mapping from names"),
@@ -361,7 +361,7 @@ def test_a_state_that_does_not_fit_is_one_line(make, message):
 
 
 def test_the_state_of_one_mass_is_as_it_was():
-    assert type(vi.State(0.1, 0.2, 0.001)) is vi.State
+    assert type(vi.State(0.1, 0.2, {"right": 0.001})) is vi.State
     assert vi.State(displacement="1 mm").displacement == 0.001
 
 

@@ -46,14 +46,15 @@ export class Motion {
   draw() {
     const { picture } = this;
     if (!picture || picture.none) return;
-    const { time, displacement: u, velocity, right, left, contact, gaps, force, axes } = picture;
+    const { time, displacement: u, velocity, right, left, touching, gaps, force, axes } = picture;
+    const touched = (i) => Object.values(touching).some((one) => one[i]);
     const faces = [right, left].filter(Boolean);
     this.time.axes([time[0], time.at(-1)], range([u, ...faces]), axes.displacement, axes.time);
     for (const [name, face] of [["right", right], ["left", left]])
       if (face) this.time.line(name, "wall", time, face);
       else this.time.drop(name);
     this.time.line("u", "plain", time, u);
-    this.time.line("touch", "touch", time, u.map((value, i) => (contact[i] ? value : null)));
+    this.time.line("touch", "touch", time, u.map((value, i) => (touched(i) ? value : null)));
     const across = range([u, Object.values(gaps).filter((gap) => gap !== null)]);
     this.across = across;
     this.phase.axes(across, range([velocity], { even: true }), axes.velocity, axes.displacement);
@@ -61,7 +62,7 @@ export class Motion {
       if (gaps[side] === null) this.phase.drop(side);
       else this.phase.upright(side, "wall", gaps[side]);
     this.phase.line("orbit", "plain", u, velocity);
-    this.phase.line("touch", "touch", u, velocity.map((value, i) => (contact[i] ? value : null)));
+    this.phase.line("touch", "touch", u, velocity.map((value, i) => (touched(i) ? value : null)));
     this.force.axes(across, range([force]), axes.force, axes.displacement);
     this.force.line("loop", "plain", u, force);
     if (picture.spectrum) this.spectrum(picture.spectrum, axes);
@@ -86,7 +87,7 @@ export class Motion {
     this.before = now;
     const { picture } = this;
     if (!picture || !this.across || document.hidden) return;
-    const { time, displacement, right, left, contact } = picture;
+    const { time, displacement, right, left, touching } = picture;
     const length = time.at(-1) - time[0];
     if (!(length > 0)) return;
     const pace = picture.seconds ? Math.min(SLOW, picture.cycle / CYCLE) : picture.cycle / EACH;
@@ -102,8 +103,8 @@ export class Motion {
     this.parts.mass.setAttribute("d", `M${at - half} 28h${2 * half}v42h${-2 * half}z`);
     this.parts.right.setAttribute("d", right ? `M${x(right[i]) + half} 34h400v30h-400z` : "");
     this.parts.left.setAttribute("d", left ? `M${x(left[i]) - half} 34h-400v30h400z` : "");
-    const side = contact[i];
-    this.parts.spark.setAttribute("d", side ? `M${at + (side === -1 ? -half - 5 : half - 1)} 28h6v42h-6z` : "");
+    const edge = touching.right?.[i] ? half - 1 : touching.left?.[i] ? -half - 5 : null;
+    this.parts.spark.setAttribute("d", edge === null ? "" : `M${at + edge} 28h6v42h-6z`);
     if (this.sound.checked && this.audio?.state === "running") this.beat(begun, this.passed, pace);
   }
 
@@ -123,17 +124,17 @@ export class Motion {
       const when = hit.time - time[0];
       // In how many periods from the first it comes within the stretch for the first time.
       for (let n = Math.ceil((begun - when) / length); when + n * length < ended; n++)
-        this.knock(hit.side, hit.speed / fastest, (when + n * length - begun) / pace);
+        this.knock(hit.stop, hit.speed / fastest, (when + n * length - begun) / pace);
     }
   }
 
   // A share of the mass's largest speed is how loud it is, so that a grazing contact is hardly heard.
-  knock(side, share, delay) {
+  knock(stop, share, delay) {
     const loudness = LOUD * Math.min(share, 1);
     if (!(loudness > FAINT)) return;
     const start = this.audio.currentTime + delay;
     const [tone, gain] = [this.audio.createOscillator(), this.audio.createGain()];
-    tone.frequency.value = side > 0 ? 330 : 220;
+    tone.frequency.value = stop === "right" ? 330 : 220;
     gain.gain.setValueAtTime(loudness, start);
     gain.gain.exponentialRampToValueAtTime(1e-4, start + 0.12);
     tone.connect(gain).connect(this.audio.destination);

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from vibroimpact.datasets.stops import of_stop
 from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings, one, short
 from vibroimpact.explorer.state import State
 from vibroimpact.facts import motions as told
@@ -67,10 +68,10 @@ def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
         "table": as_text(told.text(found), WIDTH),
         "spectrum": _spectrum(motion),
         "hits": [
-            {"time": one(start), "side": int(side), "speed": one(in_unit(1e3) * speed)}
-            for start, side, speed in zip(
+            {"time": one(start), "stop": str(stop), "speed": one(in_unit(1e3) * speed)}
+            for start, stop, speed in zip(
                 motion["contact_start"].values,
-                motion["contact_side"].values,
+                motion["contact_stop"].values,
                 motion["contact_closing_speed"].values,
                 strict=True,
             )
@@ -96,8 +97,9 @@ def _drawn(state: State, motion: xr.Dataset, shaken: Harmonic) -> dict[str, Any]
     faces, gaps = {}, {}
     for side, stop, sign in (("right", rig.right, 1.0), ("left", rig.left, -1.0)):
         gaps[side] = None if stop is None else one(in_unit(1e3) * sign * stop.gap)
-        deformed = motion[f"{side}_bumper"].values
-        faces[side] = None if stop is None else short(in_unit(1e3) * (sign * stop.gap + deformed))
+        deformed = of_stop(motion, "deformation", side).values
+        face = None if stop is None else short(in_unit(1e3) * sign * (stop.gap + deformed))
+        faces[side] = face
     unit = FORCE.unit(float(np.nanmax(np.abs(force), initial=0.0)))
     return {
         "picture": "motion",
@@ -117,6 +119,9 @@ def _drawn(state: State, motion: xr.Dataset, shaken: Harmonic) -> dict[str, Any]
         "velocity": short(in_unit(1e3) * motion["velocity"].values),
         "force": short(force / unit.size),
         **faces,
-        "contact": [int(side) for side in motion["contact"].values],
+        "touching": {
+            str(stop): motion["touching"].sel(stop=stop).values.astype(int).tolist()
+            for stop in motion["stop"].values
+        },
         "gaps": gaps,
     }
