@@ -23,7 +23,7 @@ DIVISIONS = sample((4, 16, 64), (2, 8, 32))
 def test_its_peaks_converge_to_ours(name: str, seed: int) -> None:
     rig, record = POUNDING[name], pounding_record(seed)
     ours = vi.seismic_response(vi.Rig(rig, record), tail=0.0)
-    assert int(ours["impact_count"]) >= 2
+    assert int(ours["impact_count"].sum()) >= 2
     exact = float(ours["peak_displacement"])
     try:
         errors = [abs(opensees_peak(rig, record, n) / exact - 1.0) for n in DIVISIONS]
