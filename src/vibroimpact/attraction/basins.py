@@ -189,7 +189,8 @@ def _others(
     isolator: float | str,
 ) -> NDArray[np.float64]:
     """Return the deformations of untouched bumpers and the memory of the isolator."""
-    given = State(deformation=deformation).deformation
+    stated = {} if deformation is None else {"deformation": deformation}
+    given = State.model_validate(stated).deformation
     for side, value in given.items():
         if value and not hasattr(getattr(oscillator, side), "damping"):
             raise InputError(
