@@ -23,8 +23,8 @@ from vibroimpact.engine.assembly.plan import plan_of
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import outside
 from vibroimpact.model import Assembly, Periodic, Record, Repeated, equilibrium
+from vibroimpact.model.argument_types import check_samples
 from vibroimpact.model.assembly import numbers
-from vibroimpact.model.count_checks import check_samples
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_pieces import forcing_size
 from vibroimpact.response.assembly_rig import (
