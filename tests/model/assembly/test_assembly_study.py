@@ -163,5 +163,5 @@ def test_a_command_of_one_mass_refuses_it(tmp_path, capsys):
     path.write_text(BUILDING, encoding="utf-8")
     assert main(["classify", str(path)]) != 0
     told = capsys.readouterr().err
-    assert "an Assembly of several masses is not accepted" in told
+    assert "one mass, not an assembly of several masses" in told
     assert told.count("\n") == 1
