@@ -19,7 +19,7 @@ from paper.item import Item
 from paper.study import PublishedStudy
 from vibroimpact.cli.output import output_folder, progress_bar, tell, warnings_in_lines
 from vibroimpact.errors import InputError
-from vibroimpact.model.count_checks import whole
+from vibroimpact.model.argument_types import whole
 from vibroimpact.stderr import print_line
 
 _CLAIMS = "claims"

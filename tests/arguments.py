@@ -541,6 +541,7 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "progress": None,
         },
         "save": {"dataset": motion(), "path": folder / "kept.nc"},
+        "show_versions": {},
         "scenario_map": {
             "rig": None,
             "vary": {"gap_ratio": [0.5, 0.6], "stiffness_ratio": [10.0, 12.0]},

@@ -175,7 +175,7 @@ RECORD = vi.Record([0.1, 0.2], 0.01)
         (lambda: vi.sweep("somewhere/rig", GRID), "path of a study file, such as "),
         (lambda: vi.sweep("none.toml", GRID), r"none\.toml' cannot be read .*study file"),
         (lambda: vi.sweep(CASE, 2.0), r"^frequencies: 2.0 is not a list"),
-        (lambda: vi.sweep(CASE, "2 Hz"), r"^frequencies: '2 Hz' is a single text"),
+        (lambda: vi.sweep(CASE, "2 Hz"), r"^frequencies: '2 Hz' is not a list; pass a list"),
         (lambda: vi.simulate(CASE, 5), r"^frequency: missing, and the rig does not state it"),
         (lambda: vi.simulate(CASE, 5, frequency="2 kg"), r"'2 kg' is a mass; a frequency"),
         (lambda: vi.seismic_response(CASE), r"^shaking: Harmonic\(.*is not a Record"),
@@ -199,7 +199,7 @@ RECORD = vi.Record([0.1, 0.2], 0.01)
         ),
         (
             lambda: vi.branch(CASE, vary={"frequency": (2.0, 1.0)}),
-            r"^vary\['frequency'\]\[1\]: 1 Hz is not greater than vary\['frequency'\]\[0\]",
+            r"^vary\['frequency'\]: the first value, 2 Hz, is not below the second, 1 Hz",
         ),
         (
             lambda: vi.branch(CASE, frequency=2.0, vary={"frequency": 2.0}),

@@ -109,19 +109,20 @@ def check_name(value: object, names: Collection[str], field: str) -> str:
     return value
 
 
-def check_progress(value: Any) -> None:
-    """Check the argument `progress`.
+def check_progress(value: Any, field: str) -> Any:
+    """Return a function that reports progress.
 
     Raises
     ------
     InputError
-        If it is neither None nor a function.
+        If it is not a function.
     """
-    if value is not None and (isinstance(value, type) or not callable(value)):
+    if isinstance(value, type) or not callable(value):
         raise InputError(
-            f"progress: {shown(value)}; pass progress_bar(), a function of two numbers (the "
+            f"{field}: {shown(value)}; pass progress_bar(), a function of two numbers (the "
             "completed and the total work), or None"
         )
+    return value
 
 
 def check_list(

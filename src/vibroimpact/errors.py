@@ -13,6 +13,8 @@ LONGEST = 320
 """Largest number of characters of a message, excluding full paths of files."""
 _END = LONGEST // 3
 """Number of characters kept of its end, which states what is accepted."""
+_LONGEST_NAME = 60
+"""Largest number of characters of a wrong name that are compared with accepted names."""
 _LONG_WORD = re.compile(r"(\S{60})\S{140,}")
 """A word with more than 200 characters, which is shortened. Paths may have 200 characters."""
 _PATH = re.compile(r"'(?:/|[A-Za-z]:\\)[^']*'")
@@ -55,6 +57,11 @@ def warn_of_input(what: str, notes: Iterable[str]) -> None:
     """
     if told := "; ".join(notes):
         warnings.warn(f"{what}: {told}", InputWarning, stacklevel=outside())
+
+
+def warn_of_result(message: str) -> None:
+    """Issue a `RuntimeWarning` that a result is incomplete, or is less than it may seem."""
+    warnings.warn(message, RuntimeWarning, stacklevel=outside())
 
 
 _INSIDE = ("vibroimpact", "pydantic", "contextlib")
@@ -101,11 +108,18 @@ def shown(value: object) -> str:
 
 def meant(name: object, accepted: Iterable[str]) -> str:
     """Return a suggestion for a wrong name, such as ``did you mean gap?``, or ""."""
-    if not isinstance(name, str):
-        return ""
-    written = name.strip().lower().replace("-", "_")
-    close = difflib.get_close_matches(written, list(accepted), n=1, cutoff=0.8)
-    return f"did you mean {close[0]}? " if close else ""
+    close = similar(name, accepted)
+    return f"did you mean {close}? " if close else ""
+
+
+def similar(name: object, accepted: Iterable[str], cutoff: float = 0.8) -> str:
+    """Return the accepted name that a wrong name probably means, or ""."""
+    written = name.strip()[:_LONGEST_NAME] if isinstance(name, str) else ""
+    names = list(accepted)
+    for one in (written, written.lower().replace("-", "_")):
+        if close := difflib.get_close_matches(one, names, n=1, cutoff=cutoff):
+            return close[0]
+    return ""
 
 
 def unknown(name: object, accepted: Iterable[str]) -> str:

@@ -69,7 +69,10 @@ def test_wrong_planes() -> None:
             {"plane": {"displacement.x": (0, 1), "velocity.roof": (0, 1)}},
             "^plane: 'displacement.x'; ",
         ),
-        ({"plane": {**good, "velocity.roof": (1, 0)}}, r"^plane\['velocity.roof'\]\[1\]: 0 m/s is"),
+        (
+            {"plane": {**good, "velocity.roof": (1, 0)}},
+            r"^plane\['velocity.roof'\]: the first value, 1 m",
+        ),
         ({"plane": good, "displacement": (0, 1)}, "^displacement: an Assembly has several"),
         ({"plane": good, "isolator": 0.1}, "^isolator: 0.1, but the rig is an Assembly"),
     ):

@@ -167,7 +167,7 @@ def test_where_nothing_dies_out_it_is_said():
         ),
         (
             {"displacement": 0.01},
-            "displacement: 0.01; pass the lowest and the highest value as a pair",
+            "displacement: 0.01; pass the lowest and the highest value as",
         ),
         ({"velocity": ("1 m", "2 m")}, "velocity[0]"),
         ({"nodes": 1}, "nodes: 1"),

@@ -203,7 +203,7 @@ def test_a_unit_that_is_stated_nowhere_is_asked_for(run, tmp_path):
         (["--scale", "0"], "scale: 0"),
         (["--scale", "2", "--peak", "1"], "peak: '1' is given together"),
         (["--tail", "-1s"], "--tail: '-1s' is less than 0"),
-        (["--samples", "0"], "--samples: 0; a whole number of at least 1"),
+        (["--samples", "0"], "--samples: 0; pass a whole number of at least 1"),
         (["--amplitude", "0.1g"], "--amplitude: '0.1g', but a record shakes this rig"),
         (["--component", "Up"], "component: 'Up' is not a component of 'quake.csv'"),
         (["nothing.AT2"], "record: 'nothing.AT2' cannot be read"),

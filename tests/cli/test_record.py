@@ -98,7 +98,7 @@ def test_a_study_takes_a_component(tmp_path, run):
     [
         (["--damping", "0.05,1.2"], "damping: 1.2; pass damping ratios from 0 to less than 1"),
         (["--damping", "x"], "--damping: 'x' does not start with a number"),
-        (["--periods", "1"], "--periods: 1; a whole number of at least 2"),
+        (["--periods", "1"], "--periods: 1; pass a whole number of at least 2"),
         (["--shortest", "0"], "--shortest: '0' is not greater than 0"),
         (
             ["--shortest", "2s", "--longest", "1s"],

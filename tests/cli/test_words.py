@@ -58,10 +58,10 @@ def test_no_hint_where_none_is_needed(refused):
 @pytest.mark.parametrize(
     ("words", "begins"),
     [
-        (("sweep", CASE, "--max-cycles", "0"), "--max-cycles: 0; a whole number"),
+        (("sweep", CASE, "--max-cycles", "0"), "--max-cycles: 0; pass a whole number"),
         (("sweep", CASE, "--gap", "nan"), "--gap: "),
         (("sweep", CASE, "--gap", "9mm", "--set", "left.gap=nan"), "--set: left.gap: "),
-        (("sweep", CASE, "--max-cycles=0"), "--max-cycles: 0; a whole number"),
+        (("sweep", CASE, "--max-cycles=0"), "--max-cycles: 0; pass a whole number"),
         (("sweep", CASE, "--tolerance", "2"), "--tolerance: 2"),
         (("sweep", CASE, "--threads", "-1"), "--threads: -1"),
         (("sweep", CASE, "--frequencies", "1Hz,0Hz"), "--frequencies[1]: '0Hz'"),

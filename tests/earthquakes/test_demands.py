@@ -195,7 +195,7 @@ def test_it_is_saved_and_read(tmp_path) -> None:
         ({"rig": []}, "rig: the list is empty"),
         ({"rig": 3}, "rig: 3 is not a rig"),
         ({"scales": []}, "scales: the list is empty"),
-        ({"scales": [1.0, 0.5]}, r"scales\[1\]: 0.5 is not above the scale before it, 1"),
+        ({"scales": [1.0, 0.5]}, r"scales\[1\]: 0.5 follows 1; sort"),
         ({"scales": [0.0]}, r"scales\[0\]: 0"),
         ({"scales": ["3 m"]}, r"scales\[0\]: '3 m'"),
         ({"intensity": "PGV"}, 'intensity: \'PGV\'; pass "factor", "PGA"'),

@@ -269,7 +269,7 @@ class TestWrongInput:
         ("frequencies", "message"),
         [
             ([], "frequencies: the list is empty"),
-            ("1 Hz", "frequencies: '1 Hz' is a single text"),
+            ("1 Hz", "frequencies: '1 Hz' is not a list; pass a list of values"),
             (2.0, "frequencies: 2.0 is not a list"),
             ([1.0, 3.0, 2.0], "frequencies[2]: 2 Hz follows 3 Hz"),
             ([1.0, 1.0], "frequencies[1]: 1 Hz follows 1 Hz"),

@@ -102,7 +102,7 @@ def test_logarithmic_axes_are_refined_geometrically():
     [
         ("gip", [1, 2], "^vary: 'gip'; one of gap, amplitude"),
         ("gap_rtio", [1, 2], r"^vary: 'gap_rtio'; did you mean gap_ratio\?"),
-        ("gap", "1:2", r"^vary\['gap'\]: '1:2' is not a list; pass at least two values"),
+        ("gap", "1:2", r"^vary\['gap'\]: '1:2' is not a list; pass a list of values"),
         ("gap", [0.01], r"^vary\['gap'\]: the list has one value; pass at least two values"),
         ("gap", [0.01, 0.01], r"^vary\['gap'\]\[1\]: 10 mm follows 10 mm; sort the values in "),
         ("gap", [-0.01, 0.01], r"^vary\['gap'\]\[0\]"),

@@ -77,7 +77,7 @@ def test_rigs_of_different_sizes_stand_beside_each_other() -> None:
 
 def test_wrong_arguments() -> None:
     rig = vi.Rig(frame(), vi.Harmonic("1 m/s2", 0.9))
-    with pytest.raises(vi.InputError, match=r"^count: 5; a whole number up to 4 is accepted"):
+    with pytest.raises(vi.InputError, match=r"^count: 5; pass a whole number from 1 to 4"):
         vi.lyapunov_exponents(rig, [0.9], 10, count=5)
     with pytest.raises(vi.InputError, match=r"^start: .* is the state of one mass"):
         vi.lyapunov_exponents(rig, [0.9], 10, start=vi.State(0.1, 0.0))

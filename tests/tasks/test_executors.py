@@ -20,7 +20,7 @@ def test_words():
 
 @pytest.mark.parametrize("where", ["threads", "processes"])
 def test_their_number_is_whole(where):
-    with pytest.raises(vi.InputError, match="threads: 0; a whole number"):
+    with pytest.raises(vi.InputError, match="threads: 0; pass a whole number"):
         placed(0, where)
 
 

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_mapping, is_pair
+from vibroimpact.arguments import check_mapping
 from vibroimpact.attraction.attractor_variables import shares
 from vibroimpact.attraction.basin_metrics import entropies, uncertainty_exponent
 from vibroimpact.engine import lyapunov
@@ -23,8 +23,8 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
 from vibroimpact.model import Assembly, RigidStop
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
+from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.units import pretty, to_si
 from vibroimpact.response.assembly_contacts import coordinates
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
@@ -119,14 +119,7 @@ def read_plane(plane: object, assembly: Assembly) -> tuple[Coordinate, Coordinat
         if name not in of:
             raise InputError(f"plane: {shown(name)}; one of {', '.join(of)} is accepted")
         field = f"plane[{name!r}]"
-        if not is_pair(span):
-            raise InputError(f"{field}: {shown(span)}; pass the lowest and the highest value")
-        low, high = (to_si(one, of[name], f"{field}[{i}]") for i, one in enumerate(span))
-        if not low < high:
-            raise InputError(
-                f"{field}[1]: {pretty(high, of[name])} is not above {pretty(low, of[name])}; pass "
-                "the lower value first"
-            )
+        low, high = read_span(span, of[name], field)
         found.append(Coordinate(name, low, high, of[name]))
     return found[0], found[1]
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.attraction.attractor_variables import POINTS, ranked
 from vibroimpact.attraction.attractors import Attractor
 from vibroimpact.attraction.basin_fractions import interval
@@ -20,10 +20,16 @@ from vibroimpact.attraction.match_attractors import matched
 from vibroimpact.attraction.state_window import Window, walls, window
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.errors import InputError
-from vibroimpact.model.count_checks import check_max_events, whole
+from vibroimpact.model.argument_types import (
+    MaxEvents,
+    NonNegativeInt,
+    PositiveInt,
+    whole,
+)
 from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH, VELOCITY
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.varied import Values, read_values
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, placed
@@ -47,7 +53,7 @@ class _Found(NamedTuple):
     given_up: int
 
 
-@in_units_of_rig
+@public
 def basin_stability(
     rig: AnyRig,
     displacement: Sequence[float | str] | None = None,
@@ -55,10 +61,10 @@ def basin_stability(
     *,
     frequency: float | str | None = None,
     vary: Values | None = None,
-    states: int = 1000,
-    seed: int = 0,
-    max_cycles: int = 2000,
-    max_events: int = 10_000,
+    states: Annotated[int, partial(whole, most=MOST_STATES)] = 1000,
+    seed: NonNegativeInt = 0,
+    max_cycles: PositiveInt = 2000,
+    max_events: MaxEvents = 10_000,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -121,9 +127,6 @@ def basin_stability(
     if rig.frequency is None and varied and varied.name == "frequency":
         rig = rig.at(values[0])
     rig.check_frequency()
-    check_progress(progress)
-    drawn, seed = whole(states, "states", most=MOST_STATES), whole(seed, "seed", 0)
-    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads, where)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
@@ -139,7 +142,7 @@ def basin_stability(
     every_found: list[_Found] = []
     numbers: list[list[int]] = []
     for i, search in enumerate(searches):
-        points = _drawn(search.stage, ranges, drawn, seed)
+        points = _drawn(search.stage, ranges, states, seed)
         before = every_found[-1].known if every_found else []
         leads = search.label(_seeds(before)).owner
         found = search.label(points)
@@ -160,7 +163,7 @@ def basin_stability(
         every_found.append(_Found(known, counts, int((found.owner < 0).sum())))
         if progress is not None:
             progress(i + 1, len(searches))
-    data = _dataset(every_found, numbers, drawn, varied, values)
+    data = _dataset(every_found, numbers, states, varied, values)
     return describe(
         data,
         "vibroimpact.basin_stability",
@@ -169,7 +172,7 @@ def basin_stability(
             "displacement": list(wide),
             "velocity": list(fast),
             "parameter": varied.name if varied else None,
-            "states": drawn,
+            "states": states,
             "seed": seed,
             "max_cycles": max_cycles,
         },

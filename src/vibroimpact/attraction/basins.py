@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress, is_list
 from vibroimpact.attraction.assembly_basins import assembly_basins, read_plane
 from vibroimpact.attraction.attractor_variables import ranked, shares, variables
 from vibroimpact.attraction.basin_metrics import border_distances, entropies, uncertainty_exponent
@@ -25,10 +24,11 @@ from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
 from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, to_si
-from vibroimpact.model.count_checks import check_max_events, whole
+from vibroimpact.model.argument_types import MaxEvents, PositiveInt, Refinements, whole
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
-from vibroimpact.model.units import pretty
+from vibroimpact.model.quantity_lists import read_span
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.tasks.executors import THREADS, placed
@@ -39,10 +39,9 @@ _Labels = NDArray[np.int16]
 UNDECIDED, NOWHERE = -1, -2
 """Number of a state that was given up, and of a state beyond a rigid stop."""
 MOST_NODES = 100_000_000
-MOST_REFINED = 8
 
 
-@in_units_of_rig
+@public
 def basins(
     rig: AnyRig,
     displacement: Sequence[float | str] | None = None,
@@ -52,11 +51,11 @@ def basins(
     start: State | AssemblyState | xr.DataArray | xr.Dataset | None = None,
     frequency: float | str | None = None,
     nodes: int | tuple[int, int] = 200,
-    refine: int = 0,
+    refine: Refinements = 0,
     deformation: Mapping[str, float | str] | None = None,
     isolator: float | str = 0.0,
-    max_cycles: int = 2000,
-    max_events: int = 10_000,
+    max_cycles: PositiveInt = 2000,
+    max_events: MaxEvents = 10_000,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -149,13 +148,8 @@ def basins(
     rig.check_frequency()
     if isinstance(rig.system, Oscillator):
         check_bounded(rig)
-    check_progress(progress)
-    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads, where)
-    refine = whole(refine, "refine", 0)
     first = _nodes(nodes)
-    if refine > MOST_REFINED:
-        raise InputError(f"refine: {refine}; pass a whole number from 0 to {MOST_REFINED}")
     plan = Nodes((((first[1] - 1) << refine) + 1, ((first[0] - 1) << refine) + 1), refine)
     if plan.shape[0] * plan.shape[1] > MOST_NODES:
         raise InputError(
@@ -218,20 +212,7 @@ def span_of(
     given: Sequence[float | str] | None, quantity: Quantity, field: str
 ) -> tuple[float, float] | None:
     """Read the lowest and the highest value of a window; return None without a window."""
-    if given is None:
-        return None
-    is_ordered = is_list(given) and hasattr(given, "__len__") and not isinstance(given, Set)
-    if not is_ordered or getattr(given, "ndim", 1) != 1 or len(given) != 2:
-        raise InputError(
-            f"{field}: {shown(given)}; pass the lowest and the highest value as a pair (low, high)"
-        )
-    low, high = (to_si(one, quantity, f"{field}[{i}]") for i, one in enumerate(given))
-    if not low < high:
-        raise InputError(
-            f"{field}: the first value, {pretty(low, quantity)}, is not below the second, "
-            f"{pretty(high, quantity)}; pass the lower value first"
-        )
-    return low, high
+    return None if given is None else read_span(given, quantity, field)
 
 
 def _others(
@@ -240,7 +221,8 @@ def _others(
     isolator: float | str,
 ) -> NDArray[np.float64]:
     """Return the deformations of untouched bumpers and the memory of the isolator."""
-    given = State(0.0, 0.0, deformation=deformation).deformation
+    stated = {} if deformation is None else {"deformation": deformation}
+    given = State.model_validate(stated).deformation
     for side, value in given.items():
         if value and not hasattr(getattr(oscillator, side), "damping"):
             raise InputError(

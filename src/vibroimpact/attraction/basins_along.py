@@ -5,7 +5,7 @@ from __future__ import annotations
 import xarray as xr
 
 from vibroimpact.attraction.basins import basins
-from vibroimpact.model.count_checks import whole
+from vibroimpact.model.argument_types import whole
 from vibroimpact.model.parameters import parameter as registered
 from vibroimpact.model.rig import Rig
 from vibroimpact.tasks.threads import Progress

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_list, check_progress
+from vibroimpact.arguments import check_list
 from vibroimpact.attraction.adaptive_curve import (
     CONTINUES,
     CYCLES,
@@ -34,9 +34,15 @@ from vibroimpact.datasets.description import (
 )
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
-from vibroimpact.model.count_checks import MOST_CYCLES, check_max_events, share, whole
+from vibroimpact.model.argument_types import (
+    MaxEvents,
+    Period,
+    PositiveInt,
+    Share,
+)
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.units import to_si
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import placed
@@ -51,7 +57,7 @@ _PARTS = 100
 """Steps of progress of a curve."""
 
 
-@in_units_of_rig
+@public
 def manifolds(
     rig: AnyRig,
     saddles: xr.Dataset | State | Sequence[xr.Dataset | State] | None = None,
@@ -59,12 +65,12 @@ def manifolds(
     velocity: Sequence[float | str] | None = None,
     *,
     frequency: float | str | None = None,
-    period: int = 1,
-    spacing: float = 0.01,
+    period: Period = 1,
+    spacing: Share = 0.01,
     longest: float = 30.0,
-    curve_cycles: int = 400_000,
-    max_cycles: int = 2000,
-    max_events: int = 1000,
+    curve_cycles: PositiveInt = 400_000,
+    max_cycles: PositiveInt = 2000,
+    max_events: MaxEvents = 1000,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -137,14 +143,9 @@ def manifolds(
     rig = as_rig(rig, frequency)
     rig.check_frequency()
     check_bounded(rig)
-    check_progress(progress)
     progress = progress or shown_by_default("manifolds")
-    period = whole(period, "period", most=MOST_CYCLES)
-    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
     workers = placed(threads)
-    spacing = share(spacing, "spacing")
     longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)
-    curve_cycles = whole(curve_cycles, "curve_cycles")
     stage = Stage(rig, max_events)
     *bumpers, isolator = remembered(stage)[2:]
     if isolator or any(bumpers):

@@ -82,7 +82,7 @@ def earthquake(
         response_without_stops,
     )
     from vibroimpact.facts import earthquake as facts
-    from vibroimpact.model.count_checks import whole
+    from vibroimpact.model.argument_types import whole
     from vibroimpact.model.names import file_stem, literal
 
     found = reading.read(records or records_of_design(rig, with_own_record=False))

@@ -85,7 +85,7 @@ def record(
     from vibroimpact.cli.output import output_folder, tell
     from vibroimpact.cli.results import width_of_figures
     from vibroimpact.facts import record as facts
-    from vibroimpact.model.count_checks import whole
+    from vibroimpact.model.argument_types import whole
     from vibroimpact.model.names import check_name, file_stem, literal
     from vibroimpact.model.quantities import DIMENSIONLESS, TIME
     from vibroimpact.model.units import to_si

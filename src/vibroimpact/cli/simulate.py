@@ -92,7 +92,7 @@ def simulate(
     from vibroimpact.facts import assembly as masses
     from vibroimpact.facts import trajectory as facts
     from vibroimpact.model import Record
-    from vibroimpact.model.count_checks import whole
+    from vibroimpact.model.argument_types import whole
     from vibroimpact.model.frequency_text import forcing, forcing_slug
     from vibroimpact.model.quantities import DIMENSIONLESS
     from vibroimpact.model.units import to_si

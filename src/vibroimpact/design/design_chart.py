@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,17 +10,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.stops import each_by_stop, stops_of
 from vibroimpact.design.design_shaking import OF_STOPS, AnyRecords, design_rig
 from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
+from vibroimpact.earthquakes.demands import warn_given_up
 from vibroimpact.earthquakes.run_plan import Runs, runs
-from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
 from vibroimpact.model import Oscillator
+from vibroimpact.model.argument_types import Share
+from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.varied import Values
 from vibroimpact.tasks.executors import THREADS, placed
@@ -35,6 +34,7 @@ _STIFFNESSES = {
 }
 
 
+@public
 def design_chart(
     rig: AnyRig | Oscillator,
     vary: Values,
@@ -43,7 +43,7 @@ def design_chart(
     limits: Mapping[str, float | str] | None = None,
     fractile: float = 1.0,
     frequency_span: tuple[float | str, float | str] | None = None,
-    step: float = STEP,
+    step: Share = STEP,
     tail: float | str | None = None,
     threads: int | None = None,
     where: Any = THREADS,
@@ -129,7 +129,6 @@ def design_chart(
     InputError
         If a value is invalid.
     """
-    check_progress(progress)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
@@ -140,7 +139,7 @@ def design_chart(
     rigs = [plan.oscillator(at) for at in places]
     found = what.peaks(rigs, workers, progress)
     data = _dataset(plan, rigs, {**found, **_dampings(plan, rigs)}, most)
-    warn(data["status"].values, "design")
+    warn_given_up(data["status"].values, "design", "designs")
     parameters = {
         "oscillator": oscillator_parameters(oscillator),
         "varied": {one.name: one.values.tolist() for one in plan.varied},
@@ -185,15 +184,3 @@ def _dataset(
         shaped[name] = ((*plan.dims, "stop"), values.reshape(*plan.shape, -1))
     varied = {one.name: one.values for one in plan.varied}
     return xr.Dataset(shaped, {"stop": stops_of(*rigs), **varied})
-
-
-def warn(status: NDArray[Any], who: str) -> None:
-    """Warn of designs that were given up."""
-    for code in np.unique(status[status != Status.DONE]):
-        count = int((status == code).sum())
-        warnings.warn(
-            f"{who}: {count} of {status.size} designs could not be computed: "
-            f"{Status(int(code)).advice}",
-            RuntimeWarning,
-            stacklevel=outside(),
-        )

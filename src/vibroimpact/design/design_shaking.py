@@ -10,7 +10,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import is_pair
 from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.worst_sine import Sines
@@ -19,10 +18,11 @@ from vibroimpact.earthquakes.peak_demands import Shaken, peaks
 from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError
 from vibroimpact.model import Oscillator, Record, to_si
-from vibroimpact.model.count_checks import MOST_TAIL, share
+from vibroimpact.model.argument_types import MOST_TAIL
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
+from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.read_rig import as_rig
 from vibroimpact.model.rig import with_stated_units
 from vibroimpact.response.record_dataset import record_notes
@@ -207,9 +207,8 @@ def design_rig(
         by_records = read_records(records, fractile, frequency_span, tail)
         return with_stated_units(found.oscillator, in_words(by_records.records)), by_records
     shaken = one_sine(found)
-    return found.oscillator, BySines(
-        Sines(shaken.sine, *read_span(frequency_span), share(step, "step"))
-    )
+    low, high = read_frequencies(frequency_span)
+    return found.oscillator, BySines(Sines(shaken.sine, low, high, step))
 
 
 def read_records(
@@ -237,7 +236,9 @@ def read_records(
     )
 
 
-def read_span(frequencies: Any) -> tuple[float | None, float | None]:
+def read_frequencies(
+    frequency_span: tuple[float | str, float | str] | None,
+) -> tuple[float, float] | tuple[None, None]:
     """Read the lowest and the highest frequency (Hz); None for 0 and infinity.
 
     Raises
@@ -245,20 +246,6 @@ def read_span(frequencies: Any) -> tuple[float | None, float | None]:
     InputError
         If they are no such pair.
     """
-    if frequencies is None:
+    if frequency_span is None:
         return None, None
-    if not is_pair(frequencies):
-        raise InputError(
-            f"frequency_span: {shown(frequencies)}; pass the lowest and the highest frequency, "
-            'such as ("0.2 Hz", "3 Hz")'
-        )
-    low, high = (
-        to_si(one, FREQUENCY, f"frequency_span[{i}]", above=0.0)
-        for i, one in enumerate(frequencies)
-    )
-    if not low < high:
-        raise InputError(
-            f"frequency_span[1]: {high:g} Hz is not above the first frequency, {low:g} Hz; pass "
-            "the lower frequency first"
-        )
-    return low, high
+    return read_span(frequency_span, FREQUENCY, "frequency_span", "frequency", above=0.0)

@@ -10,19 +10,19 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import OF_STOPS, AnyRecords, Asked, design_rig
-from vibroimpact.design.limits import QUANTITIES, limits_of, severity
+from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import runs
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Oscillator
-from vibroimpact.model.count_checks import whole
-from vibroimpact.model.parameters import parameter
+from vibroimpact.model.argument_types import NonNegativeInt, Share
+from vibroimpact.model.parameters import in_units, parameter
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig, with_stated_units
@@ -111,6 +111,7 @@ _VAST = 1e30
 """Finite stand-in for infinity, for the search."""
 
 
+@public
 def least_acceleration(
     rig: AnyRig | Oscillator,
     vary: Ranges | None = None,
@@ -120,9 +121,9 @@ def least_acceleration(
     limits: Mapping[str, float | str] | None = None,
     fractile: float = 1.0,
     frequency_span: tuple[float | str, float | str] | None = None,
-    step: float = STEP,
+    step: Share = STEP,
     tail: float | str | None = None,
-    seed: int = 0,
+    seed: NonNegativeInt = 0,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -178,8 +179,6 @@ def least_acceleration(
     """
     from scipy.optimize import NonlinearConstraint, differential_evolution
 
-    check_progress(progress)
-    seed = whole(seed, "seed", 0)
     oscillator, what = design_rig(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
@@ -282,7 +281,7 @@ def _slack(best: Mapping[str, Any], limits: Mapping[str, float]) -> Iterator[str
     for name, limit in limits.items():
         worst, most = float(severity(name, best[name])), severity(name, limit)
         if worst < (1.0 - _NEAR) * most:
-            quantity = QUANTITIES[VARIABLES[name].units]
+            quantity = in_units(VARIABLES[name].units)
             reached, allowed = (
                 pretty(float(f"{value:.4g}"), quantity) for value in (severity(name, worst), limit)
             )
@@ -311,7 +310,7 @@ def _refuse(best: Mapping[str, Any], limits: Mapping[str, float]) -> None:
     for name, limit in limits.items():
         worst = float(severity(name, best[name]))
         if worst > severity(name, limit):
-            quantity = QUANTITIES[VARIABLES[name].units]
+            quantity = in_units(VARIABLES[name].units)
             raise InputError(
                 f"limits[{name!r}]: no design that was tried meets this limit of "
                 f"{pretty(limit, quantity)} and all other limits (the best design has "

@@ -14,10 +14,8 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import OF_STOPS, PEAKS
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import to_si
-from vibroimpact.model.quantities import ACCELERATION, FORCE, LENGTH
+from vibroimpact.model.parameters import in_units
 
-QUANTITIES = {"m": LENGTH, "m s-2": ACCELERATION, "N": FORCE}
-"""Of a peak, by its unit."""
 _LEFT = "displacement_min"
 _EXAMPLE = 'a dict of limits by name, such as {"peak_force": "2 MN"}'
 
@@ -37,9 +35,8 @@ def limits_of(limits: Any) -> dict[str, float]:
         key = name.replace("-", "_")
         if key not in accepted:
             raise InputError(f"limits: {unknown(name, accepted)}")
-        quantity = QUANTITIES[VARIABLES[key].units]
         ends = {"maximum": 0.0} if key == _LEFT else {"minimum": 0.0}
-        found[key] = to_si(value, quantity, f"limits[{name!r}]", **ends)
+        found[key] = to_si(value, in_units(VARIABLES[key].units), f"limits[{name!r}]", **ends)
     return found
 
 

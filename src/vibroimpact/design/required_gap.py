@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.assembly_gap import gaps_for_records, gaps_for_sines
@@ -16,14 +15,16 @@ from vibroimpact.design.design_shaking import (
     ByRecords,
     BySines,
     design_rig,
+    read_frequencies,
     read_records,
-    read_span,
 )
 from vibroimpact.design.worst_sine import STEP, Sines
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Harmonic, Oscillator, Record, equilibrium
+from vibroimpact.model.argument_types import Share
+from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
@@ -32,13 +33,14 @@ from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
 
 
+@public
 def required_gap(
     rig: AnyRig | Oscillator,
     *,
     records: AnyRecords | None = None,
     fractile: float = 1.0,
     frequency_span: tuple[float | str, float | str] | None = None,
-    step: float = STEP,
+    step: Share = STEP,
     tail: float | str | None = None,
     threads: int | None = None,
     where: Any = THREADS,
@@ -80,7 +82,6 @@ def required_gap(
         If a value is invalid. Also if the motion without stops is unbounded, or if its computation
         was given up.
     """
-    check_progress(progress)
     workers = placed(threads, where)
     system = one_system(rig)
     if isinstance(system.system, Assembly):
@@ -135,8 +136,9 @@ def _of_assembly(
             raise InputError(
                 "links: the gaps for sines require linear links; pass records, or use sweep"
             )
-        what = BySines(Sines(rig.periodic, *read_span(frequency_span), STEP))
-        found = gaps_for_sines(assembly, rig.periodic, (what.sines.low, what.sines.high))
+        low, high = read_frequencies(frequency_span)
+        what = BySines(Sines(rig.periodic, low, high, STEP))
+        found = gaps_for_sines(assembly, rig.periodic, (low, high))
     parameters = {"assembly": assembly.model_dump(), **what.parameters()}
     return describe(found, "vibroimpact.required_gap", parameters, what.notes())
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 import math
-import warnings
 from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
@@ -14,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.arguments import check_list, check_progress, is_list
+from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe
 from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.earthquakes.assembly_demands import demands_of_assemblies
@@ -38,13 +37,18 @@ from vibroimpact.earthquakes.run_plan import (
     suite,
 )
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, Oscillator, Record, to_si
-from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, whole
+from vibroimpact.model.argument_types import (
+    MOST_TAIL,
+    MaxEvents,
+    PositiveInt,
+)
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
+from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig, System
-from vibroimpact.model.units import with_si_unit
 from vibroimpact.model.varied import Values
 from vibroimpact.model.written_units import has_no_units
 from vibroimpact.response.plausibility import doubt_stops
@@ -65,6 +69,7 @@ _KIND = Kind("set of demands", CREATED_BY, frozenset({*_VALUES, "status"}))
 _PENDING = -1
 
 
+@public
 def demands(
     rig: Oscillator | AnyRig | Mapping[str, Oscillator | AnyRig] | list[Oscillator | AnyRig],
     records: Record | Sequence[Record] | Mapping[str, Record],
@@ -73,9 +78,9 @@ def demands(
     intensity: Literal["factor", "PGA"] | tuple[float | str, float] = "factor",
     vary: Values | None = None,
     tail: float | str | None = None,
-    max_events: int = MAX_EVENTS,
+    max_events: MaxEvents = MAX_EVENTS,
     store: Path | str | None = None,
-    block: int = 512,
+    block: PositiveInt = 512,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -147,7 +152,6 @@ def demands(
     InputError
         If a value is invalid, or if the folder ``store`` holds another computation.
     """
-    check_progress(progress)
     shaking = suite(records)
     rigs = runs(rig, vary, {**in_words(shaking), "scales": scales}, any_masses=True)
     scaled = measure(intensity)
@@ -163,7 +167,7 @@ def demands(
         list(shaking.values()),
         factors,
         None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
-        check_max_events(max_events),
+        max_events,
         placed(threads, where),
     )
     settings = {
@@ -176,7 +180,7 @@ def demands(
         "intensity": [scaled.name, scaled.period, scaled.damping],
         "tail": task.tail,
         "max_events": task.max_events,
-        "block": (most := whole(block, "block")),
+        "block": block,
     }
     coordinates = {
         "record": list(shaking),
@@ -193,10 +197,10 @@ def demands(
         )
         data = xr.Dataset(variables, {**coordinates, **names})
         return _described(data, settings, notes, rigs, scaled)
-    parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, most))
-    with folder(store, _KIND, settings, partial(_make, task=task, most=most), parts) as group:
+    parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, block))
+    with folder(store, _KIND, settings, partial(_make, task=task, most=block), parts) as group:
         if not finished(group):
-            _complete(group, task, most, progress)
+            _complete(group, task, block, progress)
             group.attrs["finished"] = True
         found = {name: read(group, _KIND.word, name) for name in (*_VALUES, "status")}
     dims = ("record", "scale", *rigs.dims)
@@ -217,7 +221,7 @@ def _described(
         data[name].attrs["long_name"] = scaled.name
         if not has_no_units(data):
             data[name].attrs["units"] = scaled.units
-    _warn(data["status"].values)
+    warn_given_up(data["status"].values, "demands", "runs")
     return data
 
 
@@ -323,30 +327,14 @@ def _dims(name: str, dims: tuple[str, ...]) -> tuple[str, ...]:
 def _levels(scales: Any, scaled: Measure) -> _Array:
     """Read the levels of shaking, in SI units."""
     scales = check_list(scales, "scales") if is_list(scales) else [scales]
-    levels = np.array(
-        [to_si(value, scaled.quantity, f"scales[{i}]", above=0.0) for i, value in enumerate(scales)]
-    )
-    if not len(levels):
-        raise InputError("scales: the list is empty; pass at least one scale")
-    for i in np.flatnonzero(np.diff(levels) <= 0.0):
-        last, this = (
-            text if isinstance(text, str) else with_si_unit(level, scaled.quantity)
-            for text, level in zip(scales[i : i + 2], levels[i : i + 2], strict=True)
-        )
-        raise InputError(
-            f"scales[{i + 1}]: {this} is not above the scale before it, {last}; pass the scales in "
-            "rising order"
-        )
-    return levels
+    return read_rising(scales, scaled.quantity, "scales", above=0.0)
 
 
-def _warn(status: NDArray[Any]) -> None:
-    """Warn of runs that were given up."""
+def warn_given_up(status: NDArray[Any], who: str, what: str) -> None:
+    """Warn of runs that were given up. ``what`` they are, in words."""
     for code in np.unique(status[status != Status.DONE]):
         count = int((status == code).sum())
-        warnings.warn(
-            f"demands: {count} of {status.size} runs could not be computed: "
-            f"{Status(int(code)).advice}",
-            RuntimeWarning,
-            stacklevel=outside(),
+        warn_of_result(
+            f"{who}: {count} of {status.size} {what} could not be computed: "
+            f"{Status(int(code)).advice}"
         )

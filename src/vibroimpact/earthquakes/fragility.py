@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import NamedTuple
 
 import numpy as np
@@ -12,9 +11,10 @@ from numpy.typing import NDArray
 
 from vibroimpact.earthquakes.credible_curves import begin_to_exceed, credible_curves
 from vibroimpact.earthquakes.suites import described, exceedance, exceeds, known, limit_of
-from vibroimpact.errors import InputError, outside
-from vibroimpact.model.count_checks import share
+from vibroimpact.errors import InputError, warn_of_result
+from vibroimpact.model.argument_types import Share
 from vibroimpact.model.parameters import in_units, usual
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS
 from vibroimpact.model.units import pretty
 
@@ -39,12 +39,13 @@ class Fit(NamedTuple):
         return (logarithms - self.log_median) / math.exp(self.log_dispersion)
 
 
+@public
 def fragility(
     demands: xr.Dataset,
     quantity: str,
     limit: float | str | None = None,
     *,
-    confidence: float = 0.9,
+    confidence: Share = 0.9,
 ) -> xr.Dataset:
     """Fit a lognormal fragility curve to the numbers of records that exceed a limit at each scale.
 
@@ -93,7 +94,6 @@ def fragility(
     """
     values = known(demands, quantity)
     least = limit_of(demands, quantity, limit)
-    level = share(confidence, "confidence")
     if values.sizes["record"] < 3:
         raise InputError(
             f"demands: a fragility curve requires at least 3 records, not "
@@ -115,7 +115,7 @@ def fragility(
         )
     }
     for at in np.ndindex(*shape):
-        one = _curve(above[(slice(None), slice(None), *at)], logarithms, level)
+        one = _curve(above[(slice(None), slice(None), *at)], logarithms, confidence)
         if one is not None:
             for name, value in one.items():
                 found[name][(..., *at)] = value
@@ -126,11 +126,11 @@ def fragility(
         beginning = "demands:" if limit is None else f"limit: {limit!r};"
         raise InputError(f"{beginning} {undetermined}")
     if undetermined:
-        warnings.warn(f"fragility: {undetermined}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"fragility: {undetermined}")
     others = order[2:]
     unbounded = _unbounded(found["median_capacity_bound"], values, above)
     if unbounded:
-        warnings.warn(f"fragility: {unbounded}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"fragility: {unbounded}")
     dims = {
         "fitted_probability": ("scale", *others),
         "fitted_probability_bound": ("bound", "scale", *others),
@@ -143,7 +143,7 @@ def fragility(
     )
     data = data.assign_coords(bound=["lower", "upper"])
     data.attrs.clear()
-    about = {"quantity": quantity, "limit": least, "confidence": level}
+    about = {"quantity": quantity, "limit": least, "confidence": confidence}
     data = described(data, "vibroimpact.fragility", demands, about)
     data.attrs.update(
         {

@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.earthquakes.free_vibration import BLOCKS, SMALL, block, free_tail, settles
 from vibroimpact.engine import earthquakes as found
 from vibroimpact.engine import sections
@@ -143,7 +142,6 @@ def peaks(
 
 def _by_run(progress: Progress | None, runs: int) -> Progress | None:
     """Progress that counts runs, from that which counts the steps of all their records."""
-    check_progress(progress)
     return progress and (lambda done, total: progress(done * runs // (total or 1), runs))
 
 

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, oscillator_parameters
 from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.earthquakes.assembly_demands import seismic_response_of_assembly
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, OF_STOPS, Shaken, peaks
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Assembly, to_si
-from vibroimpact.model.count_checks import MOST_TAIL, check_max_events
+from vibroimpact.model.argument_types import MOST_TAIL, MaxEvents
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_contacts import energy_notes
 from vibroimpact.response.plausibility import doubt_stops
@@ -27,12 +26,12 @@ from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.tasks.threads import Progress
 
 
-@in_units_of_rig
+@public
 def seismic_response(
     rig: AnyRig,
     *,
     tail: float | str | None = None,
-    max_events: int = MAX_EVENTS,
+    max_events: MaxEvents = MAX_EVENTS,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Compute the peak response of a rig to a record from rest, and the energies of the motion.
@@ -95,15 +94,13 @@ def seismic_response(
     """
     rig = as_rig_of_any_masses(rig)
     system, record = rig.system, rig.record
-    check_progress(progress)
     behind = (
         free_tail(Rig(system, record))
         if tail is None
         else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
     )
-    limit = check_max_events(max_events)
     if isinstance(system, Assembly):
-        status, data = seismic_response_of_assembly(rig, behind, limit, progress)
+        status, data = seismic_response_of_assembly(rig, behind, max_events, progress)
         notes = [*record.about.notes, *energy_notes(system)]
         return _described(data, status, rig, {"assembly": system.model_dump()}, behind, notes)
     oscillator = rig.oscillator
@@ -112,7 +109,7 @@ def seismic_response(
         tail=behind,
         energies=True,
         residuals=True,
-        max_events=limit,
+        max_events=max_events,
         threads=1,
         progress=progress,
         by_line=True,
@@ -135,7 +132,7 @@ def _described(
     notes: list[str],
 ) -> xr.Dataset:
     if status is not Status.DONE:
-        warnings.warn(f"seismic_response: {status.advice}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"seismic_response: {status.advice}")
     data.attrs["message"] = status.advice
     parameters = {**system, "record": record_parameters(rig.record), "tail": tail}
     return describe(data, "vibroimpact.seismic_response", parameters, notes)

@@ -17,7 +17,7 @@ from vibroimpact.datasets.stops import PARTS, quantities
 from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside, shown
+from vibroimpact.errors import InputError, shown, warn_of_result
 from vibroimpact.model import to_si
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -116,11 +116,9 @@ def _drawn(data: xr.Dataset, quantity: str) -> xr.DataArray:
     unknown = int(values.isnull().sum())
     if unknown:
         why = "; the variable status gives the reasons" if "status" in data else ""
-        warnings.warn(
+        warn_of_result(
             f"fractiles: {unknown} of {values.size} values of {quantity} are missing (NaN) and "
-            f"were left out{why}",
-            RuntimeWarning,
-            stacklevel=outside(),
+            f"were left out{why}"
         )
     return values
 

@@ -6,10 +6,13 @@ from typing import Any
 
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import heading, plain
+from vibroimpact.facts.tables import Column, table_of
+
+_INTERVAL = ("share_low", "share_high")
+_MOST = 12
+"""Motions that are printed."""
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
@@ -30,10 +33,7 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
                     {"motion": str(kind), "period": int(period)}
                     for kind, period in dict.fromkeys(kinds)
                 ],
-                **{
-                    name: here[name].values.tolist()
-                    for name in ("share", "share_low", "share_high")
-                },
+                **{name: here[name].values.tolist() for name in ("share", *_INTERVAL)},
             }
         )
     return {
@@ -44,34 +44,33 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     }
 
 
-_MOST = 12
-"""Motions that are printed."""
-
-
 def text(data: xr.Dataset) -> RenderableType:
     """Return the same as a table, of the motions with the largest shares."""
     found = facts(data)
     along = found["parameter"]
-    unit, words = heading(along, data[along].attrs["units"], data[along].values)
-    table = Table(box=None, pad_edge=False, padding=(0, 2))
-    table.add_column("motion")
-    table.add_column("kind and period")
-    for name in (words, "smallest share", "largest share", "95% interval of the largest"):
-        table.add_column(name, justify="right")
-    motions = list(enumerate(found["motions"], 1))
-    chosen = sorted(motions, key=lambda one: -max(one[1]["share"]))[:_MOST]
-    for number, one in sorted(chosen):
-        kinds = [f"{kind['motion']} {kind['period'] or ''}".strip() for kind in one["kinds"]]
-        ends = [plain(one[end] / unit.size, 4) for end in ("from", "to")]
-        most = max(range(len(one["share"])), key=one["share"].__getitem__)
-        table.add_row(
-            str(number),
-            ", ".join(kinds[:3]) + (" ..." if len(kinds) > 3 else ""),
-            ends[0] if ends[0] == ends[1] else " to ".join(ends),
-            f"{min(one['share']):.1%}",
-            f"{one['share'][most]:.1%}",
-            f"{one['share_low'][most]:.1%} to {one['share_high'][most]:.1%}",
-        )
+    motions = [
+        {
+            "number": number,
+            "kinds": ", ".join(kinds[:3]) + (" ..." if len(kinds) > 3 else ""),
+            "from": one["from"],
+            "to": one["to"],
+            "smallest": min(one["share"]),
+            "largest": max(one["share"]),
+            **{end: one[end][one["share"].index(max(one["share"]))] for end in _INTERVAL},
+        }
+        for number, one in enumerate(found["motions"], 1)
+        if (kinds := [f"{kind['motion']} {kind['period'] or ''}".strip() for kind in one["kinds"]])
+    ]
+    chosen = sorted(motions, key=lambda one: -one["largest"])[:_MOST]
+    columns = (
+        Column("motion", "number", left=True),
+        Column("kind and period", "kinds", left=True),
+        Column(along.replace("_", " "), ("from", "to"), units=data[along].attrs["units"]),
+        Column("smallest share", "smallest", "{:.1%}"),
+        Column("largest share", "largest", "{:.1%}"),
+        Column("95% interval of the largest", _INTERVAL, "{:.1%}"),
+    )
+    table = table_of(sorted(chosen, key=lambda one: one["number"]), columns)
     lines = [f"states without a result: {found['given_up']}"]
     if len(motions) > _MOST:
         more = len(motions) - _MOST

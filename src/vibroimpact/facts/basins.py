@@ -7,11 +7,9 @@ from typing import Any
 
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.datasets.stops import plain_values
-from vibroimpact.facts.number_format import LENGTHS, fitting, plain, with_unit
+from vibroimpact.facts.tables import Column, table_of, values_along
 
 _MEASURES = (
     "basin_entropy",
@@ -33,16 +31,28 @@ _OF_A_MOTION = (
     "mirror_image",
 )
 
+_COLUMNS = (
+    Column("motion", "number", left=True),
+    Column("kind", "motion", left=True),
+    Column("period", lambda one: one["period"] or None),
+    Column("excursion", "displacement_excursion"),
+    Column("share", "share", "{:.1%}"),
+    Column("95% interval", ("share_low", "share_high"), "{:.1%}"),
+    Column(
+        "distance to border",
+        lambda one: one["border_distance"] if math.isfinite(one["border_distance"]) else None,
+        3,
+        "m",
+        like="displacement_excursion",
+    ),
+)
+
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
     """Return the motions with the shares of their states, and how the basins are mixed."""
-    motions = [
-        {name: plain_values(data[name].isel(attractor=number)) for name in _OF_A_MOTION}
-        for number in range(data.sizes["attractor"])
-    ]
     labels = data["basin"].values
     return {
-        "motions": motions,
+        "motions": values_along(data, "attractor", _OF_A_MOTION),
         "states": int(labels.size),
         "given_up": int((labels == -1).sum()),
         "lattice": data.attrs["lattice"],
@@ -53,30 +63,8 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
 def text(data: xr.Dataset) -> RenderableType:
     """Return the same as a table and a line about the borders."""
     found = facts(data)
-    motions = found["motions"]
-    unit = fitting((one["displacement_excursion"] for one in motions), LENGTHS)
-    table = Table(box=None, pad_edge=False, padding=(0, 2))
-    for heading in (
-        "motion",
-        "kind",
-        "period",
-        with_unit("excursion", unit.symbol),
-        "share",
-        "95% interval",
-        with_unit("distance to border", unit.symbol),
-    ):
-        table.add_column(heading, justify="left" if heading in ("motion", "kind") else "right")
-    for number, one in enumerate(motions):
-        far = one["border_distance"]
-        table.add_row(
-            str(number + 1),
-            one["motion"],
-            str(one["period"]) if one["period"] else "",
-            plain(one["displacement_excursion"] / unit.size, 4),
-            f"{one['share']:.1%}",
-            f"{one['share_low']:.1%} to {one['share_high']:.1%}",
-            plain(far / unit.size, 3) if math.isfinite(far) else "",
-        )
+    motions = [{"number": i, **one} for i, one in enumerate(found["motions"], 1)]
+    table = table_of(motions, _COLUMNS)
     lines = [f"{found['lattice']}; states without a result: {found['given_up']}"]
     if math.isfinite(found["uncertainty_exponent"]):
         lines += [

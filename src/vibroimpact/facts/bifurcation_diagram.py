@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import heading, plain, with_unit
+from vibroimpact.facts.tables import Column, table_of
+
+_MOST = 12
+"""Ranges of a start that are printed."""
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
@@ -42,39 +44,26 @@ def _ranges(one: xr.Dataset) -> list[dict[str, Any]]:
     ]
 
 
-_MOST = 12
-"""Ranges of a start that are printed."""
-
-
 def text(data: xr.Dataset) -> RenderableType:
     """Return the ranges as tables, the widest of many."""
     told = facts(data)
-    units = data[told["parameter"]].attrs["units"]
-    unit, words = heading(told["parameter"], units, data[told["parameter"]].values)
+    name = told["parameter"]
+    columns = (
+        Column("motion", lambda one: _kind(one["motion"], one["period"]), left=True),
+        Column(name.replace("_", " "), ("from", "to"), 6, data[name].attrs["units"]),
+        Column("values", "values"),
+        Column("largest exponent", "largest_exponent", units="1/s"),
+    )
     parts: list[RenderableType] = []
     for start, ranges in told["starts"].items():
         parts += [Text(), Text(start[:1].upper() + start[1:], style="bold")]
         chosen = sorted(ranges, key=lambda one: -one["values"])[:_MOST]
-        parts.append(_table([one for one in ranges if one in chosen], words, unit))
+        parts.append(table_of([one for one in ranges if one in chosen], columns))
         if len(ranges) > _MOST:
             more = len(ranges) - _MOST
             parts.append(Text(f"and {more} narrower range{'s' if more > 1 else ''}"))
     return Group(*parts)
 
 
-def _table(ranges: list[dict[str, Any]], words: str, unit: Any) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    table.add_column("motion")
-    table.add_column(words, justify="right")
-    for name in ("values", with_unit("largest exponent", "1/s")):
-        table.add_column(name, justify="right")
-    for one in ranges:
-        period = f", period {one['period']}" if one["period"] else ""
-        ends = [plain(one[end] / unit.size, 6) for end in ("from", "to")]
-        table.add_row(
-            one["motion"] + period,
-            ends[0] if ends[0] == ends[1] else " to ".join(ends),
-            str(one["values"]),
-            plain(one["largest_exponent"], 4),
-        )
-    return table
+def _kind(motion: str, period: int) -> str:
+    return f"{motion}, period {period}" if period else motion

@@ -2,45 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import heading, plain
+from vibroimpact.facts.tables import Column, table_of, values_along
+from vibroimpact.model.units import plain
 
 _DIGITS = 10
 """Significant digits of the value of a bifurcation."""
+_OF_A_BIFURCATION = ("branch", "kind", "value", "period", "turns", "contacts")
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
     """Return the bifurcations and how each branch ended, in SI units."""
-    found = []
-    for i in range(data.sizes["bifurcation"]):
-        row = data.isel(bifurcation=i)
-        found.append(
-            {
-                "branch": int(row["bifurcation_branch"]),
-                "kind": row["bifurcation_kind"].item(),
-                "value": float(row["bifurcation_value"]),
-                "period": int(row["bifurcation_period"]),
-                "turns": bool(row["bifurcation_turns"]),
-                "contacts": row["bifurcation_contacts"].item(),
-                # Of several masses, no displacement without stops is the reference.
-                "eta_d": float(row["bifurcation_eta_d"]) if "bifurcation_eta_d" in row else None,
-                "multipliers": [
-                    [float(real), float(imaginary)]
-                    for real, imaginary in zip(
-                        row["bifurcation_multiplier_real"].values,
-                        row["bifurcation_multiplier_imag"].values,
-                        strict=True,
-                    )
-                ],
-            }
+    rows = values_along(data, "bifurcation", _OF_A_BIFURCATION, "bifurcation_")
+    # Of several masses, no displacement without stops is the reference.
+    eta_d = data["bifurcation_eta_d"].values if "bifurcation_eta_d" in data else [None] * len(rows)
+    multipliers = np.stack(
+        [data[f"bifurcation_multiplier_{part}"].values for part in ("real", "imag")], axis=-1
+    )
+    found = [
+        {**row, "turns": bool(row["turns"]), "eta_d": eta, "multipliers": pairs}
+        for row, eta, pairs in zip(
+            rows, np.asarray(eta_d).tolist(), multipliers.tolist(), strict=True
         )
+    ]
     branches = []
     for number in np.unique(data["branch"].values):
         prefix = _prefix(data, int(number))
@@ -61,7 +52,7 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
 def text(data: xr.Dataset) -> RenderableType:
     """Return the branches and their bifurcations as tables."""
     told = facts(data)
-    units = data[told["parameter"]].attrs["units"]
+    columns = _columns(data, told["parameter"])
     parts: list[RenderableType] = []
     for one in told["branches"]:
         number = one["branch"]
@@ -73,7 +64,7 @@ def text(data: xr.Dataset) -> RenderableType:
         else:
             parts.append(Text(f"beginning: {one['ended_low']}; end: {one['ended_high']}"))
         mine = [b for b in told["bifurcations"] if b["branch"] == number]
-        parts.append(_table(mine, told["parameter"], units) if mine else Text("no bifurcation"))
+        parts.append(table_of(mine, columns) if mine else Text("no bifurcation"))
     return Group(*parts)
 
 
@@ -86,42 +77,38 @@ def bifurcations(data: xr.Dataset) -> RenderableType:
     name, found = told["parameter"], told["bifurcations"]
     if not found:
         return Text("\nNo bifurcation on the branches")
-    unit, words = heading(name, data[name].attrs["units"], [one["value"] for one in found])
-    table = Table("bifurcation", box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    for column in (words, "η_d"):
-        table.add_column(column, justify="right")
-    rows = [
-        (one["kind"], plain(one["value"] / unit.size, _DIGITS), plain(one["eta_d"], 4))
-        for one in sorted(found, key=lambda one: float(one["value"]))
-    ]
-    for row in dict.fromkeys(rows):
-        table.add_row(*row)
+    kind, *others, _, _ = _columns(data, name)
+    rows = sorted(found, key=lambda one: float(one["value"]))
+    at_once = {
+        (
+            one["kind"],
+            plain(one["value"], _DIGITS),
+            None if one["eta_d"] is None else plain(one["eta_d"]),
+        ): one
+        for one in rows
+    }
+    table = table_of(list(at_once.values()), (kind, *others))
     return Group(Text("\nBifurcations on the branches", style="bold"), table)
 
 
-def _table(found: list[dict[str, Any]], parameter: str, units: str) -> Table:
-    table = Table("bifurcation", box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    unit, words = heading(parameter, units, [one["value"] for one in found])
-    has_eta = any(one["eta_d"] is not None for one in found)
-    for name in (words, *(["η_d"] if has_eta else []), "largest multipliers", ""):
-        table.add_column(name, justify="right")
-    for one in found:
-        first, second = one["multipliers"][:2]
-        if abs(first[1]) > 1e-9 * abs(first[0]):
-            largest = f"{first[0]:.4f} ± {abs(first[1]):.4f}i"
-        else:
-            largest = f"{first[0]:.4f}, {second[0]:.4f}"
-        table.add_row(
-            one["kind"],
-            f"{plain(one['value'] / unit.size, _DIGITS)}",
-            *([f"{plain(one['eta_d'], 4)}"] if has_eta else []),
-            largest,
-            _note(one),
-        )
-    return table
+def _columns(data: xr.Dataset, parameter: str) -> tuple[Column, ...]:
+    units = data[parameter].attrs["units"]
+    return (
+        Column("bifurcation", "kind", left=True),
+        Column(parameter.replace("_", " "), "value", _DIGITS, units),
+        *([Column("η_d", "eta_d")] if "bifurcation_eta_d" in data else []),
+        Column("largest multipliers", lambda one: _multipliers(*one["multipliers"][:2])),
+        Column("", _note),
+    )
 
 
-def _note(one: dict[str, Any]) -> str:
+def _multipliers(first: list[float], second: list[float]) -> str:
+    if abs(first[1]) > 1e-9 * abs(first[0]):
+        return f"{first[0]:.4f} ± {abs(first[1]):.4f}i"
+    return f"{first[0]:.4f}, {second[0]:.4f}"
+
+
+def _note(one: Mapping[str, Any]) -> str:
     if one["turns"]:
         return "turns back"
     return str(one["contacts"]) if one["kind"] == "grazing" else ""

@@ -17,11 +17,10 @@ from vibroimpact.datasets.description import noted
 from vibroimpact.datasets.stops import over_stops, plain_values
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import fractile_of
-from vibroimpact.design.limits import QUANTITIES
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.facts.number_format import plain
 from vibroimpact.model import GRAVITY, Oscillator
-from vibroimpact.model.parameters import PARAMETERS, usual
+from vibroimpact.model.parameters import PARAMETERS, in_units, usual
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import unitless
@@ -174,7 +173,7 @@ def _which(data: xr.Dataset, front: int) -> str:
     if not told:
         return best
     limits = " and ".join(
-        f"{_words(name)} {pretty(value, QUANTITIES[VARIABLES[name].units])}"
+        f"{_words(name)} {pretty(value, in_units(VARIABLES[name].units))}"
         for name, value in told["limits"].items()
     )
     count = told["designs_within_limits"]

@@ -7,34 +7,35 @@ from typing import Any
 
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.datasets.description import noted
-from vibroimpact.facts.number_format import LENGTHS, SPEEDS, fitting, plain, with_unit
+from vibroimpact.facts.tables import Column, table_of, values_along
+
+_COLUMNS = (
+    Column("saddle", "number", left=True),
+    Column("displacement", "displacement"),
+    Column("velocity", "velocity"),
+    Column("period", "period"),
+    Column(
+        "multipliers",
+        lambda one: f"{one['multiplier_growing']:.4g}, {one['multiplier_dying']:.4g}",
+    ),
+)
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
     """Return the saddles, the curves and the number of their crossings."""
     return {
         "saddles": [
-            {
-                name: data[f"saddle_{name}"].values[number].item()
-                for name in ("displacement", "velocity", "period")
-            }
-            | {
-                f"multiplier_{name}": data[f"multiplier_{name}"].values[number].item()
-                for name in ("growing", "dying")
-            }
-            for number in range(data.sizes["saddle"])
+            one | other
+            for one, other in zip(
+                values_along(data, "saddle", ("displacement", "velocity", "period"), "saddle_"),
+                values_along(data, "saddle", ("multiplier_growing", "multiplier_dying")),
+                strict=True,
+            )
         ],
-        "curves": [
-            {
-                name: data[f"curve_{name}"].values[number].item()
-                for name in ("kind", "saddle", "length", "ended")
-            }
-            for number in range(data.sizes["curve"])
-        ],
+        "curves": values_along(data, "curve", ("kind", "saddle", "length", "ended"), "curve_"),
         "crossings": data.sizes["crossing"],
         "notes": noted(data),
     }
@@ -47,25 +48,7 @@ def text(data: xr.Dataset) -> RenderableType:
     if not saddles:
         none = "\nno saddle was found on the borders between basins"
         return Text("\n".join([none, *found["notes"]]))
-    far = fitting((one["displacement"] for one in saddles), LENGTHS)
-    fast = fitting((one["velocity"] for one in saddles), SPEEDS)
-    table = Table(box=None, pad_edge=False, padding=(0, 2))
-    table.add_column("saddle")
-    for heading in (
-        with_unit("displacement", far.symbol),
-        with_unit("velocity", fast.symbol),
-        "period",
-        "multipliers",
-    ):
-        table.add_column(heading, justify="right")
-    for number, one in enumerate(saddles):
-        table.add_row(
-            str(number + 1),
-            plain(one["displacement"] / far.size, 4),
-            plain(one["velocity"] / fast.size, 4),
-            str(one["period"]),
-            f"{one['multiplier_growing']:.4g}, {one['multiplier_dying']:.4g}",
-        )
+    table = table_of([{"number": i, **one} for i, one in enumerate(saddles, 1)], _COLUMNS)
     lines = []
     for kind in ("stable", "unstable"):
         mine = [one for one in curves if one["kind"] == kind]

@@ -31,12 +31,12 @@ def shown_in(units: str, values: Iterable[float]) -> Scale:
         return Scale(0.0, 1.0, units)
 
 
-def heading(parameter: str, units: str, values: Iterable[float]) -> tuple[Scale, str]:
-    """The unit of a column with the values of a parameter, and its heading with this unit."""
-    if parameter == "frequency" and unitless():
+def heading(words: str, units: str, values: Iterable[float]) -> tuple[Scale, str]:
+    """The unit of a column, and its heading with this unit: ω if it is a frequency without one."""
+    if words == "frequency" and unitless():
         return fitting(values, FREQUENCY.scales), "ω"
     scale = shown_in(units, values)
-    return scale, with_unit(parameter.replace("_", " "), scale.symbol)
+    return scale, with_unit(words, scale.symbol)
 
 
 def with_unit(words: str, symbol: str) -> str:

@@ -10,13 +10,22 @@ from rich.text import Text
 
 from vibroimpact.datasets.description import noted, stop_word
 from vibroimpact.facts import largest
-from vibroimpact.facts.tables import titled_table
+from vibroimpact.facts.tables import Column, table_of
 from vibroimpact.model.frequency_text import forcing, forcing_heading, forcings
 from vibroimpact.model.units import plain
+from vibroimpact.response.peaks import Peak
 from vibroimpact.response.plausibility import STIFF, UNBOUNDED
 from vibroimpact.response.resonance import Features, Range
 
 _CURVES = {"eta_a": "η_a", "eta_d": "η_d"}
+_PEAKS = (
+    Column("curve", "symbol", left=True),
+    Column("sweep", "direction", left=True),
+    Column("kind", "kind", left=True),
+    Column("frequency", "frequency", 6),
+    Column("value", "value"),
+    Column("prominence", "prominence", 3),
+)
 
 
 def facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[str, Any]:
@@ -71,23 +80,18 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
 
 
 def _peaks(found: Features) -> RenderableType:
-    table = titled_table("Resonances", "curve", "sweep", "kind")
-    turn, heading = forcing_heading()
-    for name in (heading, "value", "prominence"):
-        table.add_column(name, justify="right")
-    for curve, symbol in _CURVES.items():
-        for peak in found.peaks:
-            if peak.curve == curve:
-                kind = "primary" if peak.primary else "secondary"
-                table.add_row(
-                    symbol,
-                    peak.direction,
-                    f"{kind}, at the end of the range" if peak.at_end else kind,
-                    f"{plain(turn * peak.frequency)}",
-                    f"{plain(peak.value, 4)}",
-                    f"{plain(peak.prominence, 3)}",
-                )
-    return table
+    rows = [
+        {**peak._asdict(), "symbol": symbol, "kind": _kind(peak)}
+        for curve, symbol in _CURVES.items()
+        for peak in found.peaks
+        if peak.curve == curve
+    ]
+    return table_of(rows, _PEAKS, "Resonances")
+
+
+def _kind(peak: Peak) -> str:
+    kind = "primary" if peak.primary else "secondary"
+    return f"{kind}, at the end of the range" if peak.at_end else kind
 
 
 def _jumps(found: Features) -> RenderableType:
@@ -95,17 +99,19 @@ def _jumps(found: Features) -> RenderableType:
         return Text("Jumps: none")
     turn, heading = forcing_heading("between")
     heading = heading if turn == 1.0 else f"between {heading}"
-    table = titled_table("Jumps", "sweep", "jump", heading, "η_a", "η_d", "")
-    for jump in found.jumps:
-        table.add_row(
-            jump.direction,
-            "upward" if jump.upward else "downward",
-            f"{plain(turn * jump.before)} and {plain(turn * jump.after)}",
-            f"{plain(jump.eta_a[0], 4)} → {plain(jump.eta_a[1], 4)}",
-            f"{plain(jump.eta_d[0], 4)} → {plain(jump.eta_d[1], 4)}",
-            "" if jump.settled else "not settled",
-        )
-    return table
+    columns = (
+        Column("sweep", lambda one: one.direction, left=True),
+        Column("jump", lambda one: "upward" if one.upward else "downward", left=True),
+        Column(
+            heading,
+            lambda one: f"{plain(turn * one.before)} and {plain(turn * one.after)}",
+            left=True,
+        ),
+        Column("η_a", lambda one: " → ".join(plain(end, 4) for end in one.eta_a), left=True),
+        Column("η_d", lambda one: " → ".join(plain(end, 4) for end in one.eta_d), left=True),
+        Column("", lambda one: "" if one.settled else "not settled", left=True),
+    )
+    return table_of(found.jumps, columns, "Jumps")
 
 
 def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:

@@ -1,13 +1,89 @@
-"""Tables in one style, and printed summaries as plain text."""
+"""Tables in one style, whose columns are declared, and printed summaries as plain text."""
 
 from __future__ import annotations
 
 import io
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, NamedTuple
 
+import xarray as xr
 from rich.console import Console, RenderableType
 from rich.table import Table
 
+from vibroimpact.datasets.stops import plain_values
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import printable
+from vibroimpact.facts.number_format import Scale, heading, plain
+
+
+class Column(NamedTuple):
+    """A column of a table: its heading, its values, and how they are written."""
+
+    name: str
+    """Heading, without the unit."""
+    value: str | tuple[str, str] | Callable[[Any], Any]
+    """Name of a value of each row, names of both ends of a range, or a function of a row. None is
+    written as nothing."""
+    form: int | str = 4
+    """Significant digits of a number, or a format such as ``"{:.1%}"``."""
+    units: str | None = None
+    """Unit of the values. Default: that of the variable with their name, if there is one."""
+    like: str = ""
+    """Name of the values that choose the size of the unit. Default: those of the column."""
+    left: bool = False
+    """Whether the column is aligned to the left."""
+
+    def texts(self, rows: Sequence[Any]) -> list[str]:
+        """Return the heading, and the text of each row."""
+        value, units = self.value, self.units
+        if isinstance(value, str) and units is None and value in VARIABLES:
+            units = VARIABLES[value].units
+        values = [self._of(row, value) for row in rows]
+        sizes = [(row[self.like],) for row in rows] if self.like else values
+        numbers = [one for ends in sizes for one in ends if isinstance(one, float)]
+        scale, words = heading(self.name, units or "1", numbers)
+        return [
+            words,
+            *(
+                " to ".join(dict.fromkeys(self._text(end, scale) for end in ends))
+                for ends in values
+            ),
+        ]
+
+    @staticmethod
+    def _of(row: Any, value: Any) -> tuple[Any, ...]:
+        if callable(value):
+            return (value(row),)
+        return tuple(row[name] for name in ((value,) if isinstance(value, str) else value))
+
+    def _text(self, value: Any, scale: Scale) -> str:
+        if not isinstance(value, float):
+            return "" if value is None else str(value)
+        number = value / scale.size
+        return plain(number, self.form) if isinstance(self.form, int) else self.form.format(number)
+
+
+def table_of(rows: Sequence[Any], columns: Iterable[Column], title: str | None = None) -> Table:
+    """Return a table of these columns with a row for each mapping from names to values."""
+    table = titled_table(title)
+    texts = []
+    for one in columns:
+        words, *mine = one.texts(rows)
+        table.add_column(words, justify="left" if one.left else "right")
+        texts.append(mine)
+    for row in zip(*texts, strict=True):
+        table.add_row(*row)
+    return table
+
+
+def values_along(
+    data: xr.Dataset, dim: str, names: Iterable[str], prefix: str = ""
+) -> list[dict[str, Any]]:
+    """Return values of a dataset at each place along a dimension, by their names."""
+    return [
+        {name: plain_values(data[prefix + name].isel({dim: i})) for name in names}
+        for i in range(data.sizes[dim])
+    ]
 
 
 def as_text(summary: RenderableType, width: int = 100) -> str:
@@ -26,7 +102,7 @@ def plain_table() -> Table:
     return table
 
 
-def titled_table(title: str, *columns: str) -> Table:
+def titled_table(title: str | None, *columns: str) -> Table:
     """Return an empty table with a title and columns."""
     table = Table(
         *columns,

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_flag, check_name, check_progress, check_variables
+from vibroimpact.arguments import check_name, check_variables
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.identification import results
 from vibroimpact.identification.equivalent_rigs import rivals
@@ -24,7 +24,8 @@ from vibroimpact.identification.robust_loss import noises, weighed
 from vibroimpact.identification.uncertainty import bootstrap, spread
 from vibroimpact.identification.untouched_stops import untouched
 from vibroimpact.model import Rig
-from vibroimpact.model.count_checks import share, whole
+from vibroimpact.model.argument_types import NonNegativeInt, PositiveInt, Share
+from vibroimpact.model.public import public
 from vibroimpact.model.written_units import written_for
 from vibroimpact.tasks.threads import Progress
 
@@ -36,6 +37,7 @@ _ROUNDS = 2
 """How often noise and fit are found one after the other."""
 
 
+@public
 def identify(
     rig: Any,
     data: Any,
@@ -46,16 +48,16 @@ def identify(
     priors: Mapping[str, tuple[Any, Any]] | None = None,
     noise: Any = None,
     robust: bool = True,
-    confidence: float = 0.95,
-    starts: int = 6,
-    tried: int = 64,
+    confidence: Share = 0.95,
+    starts: PositiveInt = 6,
+    tried: NonNegativeInt = 64,
     profiles: bool = True,
-    draws: int = 0,
-    posterior: int = 0,
-    window: int | None = None,
+    draws: NonNegativeInt = 0,
+    posterior: NonNegativeInt = 0,
+    window: PositiveInt | None = None,
     steady: bool = False,
-    seed: int = 0,
-    threads: int | None = None,
+    seed: NonNegativeInt = 0,
+    threads: PositiveInt | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Identify parameters of rigs from measurements, with their uncertainty.
@@ -150,15 +152,7 @@ def identify(
     InputWarning
         If the shaking of the data is used, and the shaking of the rig differs from it.
     """
-    check_progress(progress)
-    starts, tried = whole(starts, "starts"), whole(tried, "tried", least=0)
-    posterior = whole(posterior, "posterior", least=0)
-    draws, seed = whole(draws, "draws", least=0), whole(seed, "seed", least=0)
-    confidence = share(confidence, "confidence")
-    robust, steady = check_flag(robust, "robust"), check_flag(steady, "steady")
-    profiles = check_flag(profiles, "profiles")
-    window = None if window is None else whole(window, "window")
-    threads = (os.cpu_count() or 1) if threads is None else whole(threads, "threads")
+    threads = threads or os.cpu_count() or 1
     tests = tests_of(rig, data, noise, window, steady)
     swings = {t.name: t.swing for t in tests}
     given = frees(free, {t.name: t.rig for t in tests}, each, priors, swings)

@@ -21,14 +21,14 @@ from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.identification.branch_response import SteppedRig, sizes
 from vibroimpact.identification.free_parameters import NEAR_ZERO, SENSORS, size_of
 from vibroimpact.identification.results import rig_of
-from vibroimpact.model.count_checks import share as fraction
+from vibroimpact.model.argument_types import share as fraction
 from vibroimpact.model.excitation import Repeated, sized
 from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.parameters import parameter
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty, to_si
-from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.response.hold_rows import HoldRows
 from vibroimpact.response.sweep import check_frequencies
 
@@ -49,7 +49,7 @@ _NOISE = 0.02
 """Noise of a future hold, if the tests of the fit were not curves."""
 
 
-@as_first_argument
+@public
 def next_test(
     result: xr.Dataset,
     frequencies: Iterable[float | str] | None = None,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, in_one_line
-from vibroimpact.model.count_checks import MOST_SAMPLES
+from vibroimpact.model.argument_types import MOST_SAMPLES
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME, Quantity
 from vibroimpact.model.units import one_of, pretty, to_si
 from vibroimpact.model.written_units import NONE

@@ -31,7 +31,7 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.stops import Bumper, RigidStop, Stop
 from vibroimpact.model.units import plain, to_si
-from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import SI
 
 PerSide: TypeAlias = "float | str | tuple[float | str | None, float | str | None] | None"
@@ -63,11 +63,10 @@ class DimensionlessBumper(Named):
     gap: Annotated[float, Accepts(DIMENSIONLESS)]
     relaxation_time: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0)]
 
-    @constructor
+    @takes_fields
     def __init__(
         self, stiffness_ratio: float | str, gap: float | str, relaxation_time: float | str
-    ) -> None:
-        super().__init__(stiffness_ratio=stiffness_ratio, gap=gap, relaxation_time=relaxation_time)
+    ) -> None: ...
 
     def summary(self) -> str:
         """Return λ, δ0 and τ in one line."""
@@ -96,9 +95,8 @@ class DimensionlessRigidStop(Named):
     restitution: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0, maximum=1.0)]
     gap: Annotated[float, Accepts(DIMENSIONLESS)]
 
-    @constructor
-    def __init__(self, restitution: float | str, gap: float | str) -> None:
-        super().__init__(restitution=restitution, gap=gap)
+    @takes_fields
+    def __init__(self, restitution: float | str, gap: float | str) -> None: ...
 
     @property
     def stiffness_ratio(self) -> float:
@@ -135,14 +133,13 @@ class Dimensionless(Model):
     right: Annotated[DimensionlessBumper | DimensionlessRigidStop | None, _STOPS] = None
     left: Annotated[DimensionlessBumper | DimensionlessRigidStop | None, _STOPS] = None
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         damping_ratio: float | str,
         right: DimensionlessStop | None = None,
         left: DimensionlessStop | None = None,
-    ) -> None:
-        super().__init__(damping_ratio=damping_ratio, right=right, left=left)
+    ) -> None: ...
 
     def to_physical(
         self,

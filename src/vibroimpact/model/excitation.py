@@ -28,7 +28,7 @@ from vibroimpact.model.quantities import (
 )
 from vibroimpact.model.sizes import check_size
 from vibroimpact.model.units import one_of, plain, pretty, to_si
-from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import unitless
 
 Of = Literal["acceleration", "displacement", "force", "unbalance"]
@@ -186,7 +186,7 @@ class Harmonic(_Repeated):
     of: Of = "acceleration"
     on: str | None = None
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         amplitude: float | str,
@@ -194,9 +194,7 @@ class Harmonic(_Repeated):
         phase: float | str = 0.0,
         of: Of | None = None,
         on: str | None = None,
-    ) -> None:
-        given = {} if of is None else {"of": of}
-        super().__init__(amplitude=amplitude, frequency=frequency, phase=phase, on=on, **given)
+    ) -> None: ...
 
     @model_validator(mode="before")
     @classmethod
@@ -254,7 +252,7 @@ class Periodic(_Repeated):
     of: Of = "acceleration"
     on: str | None = None
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         frequency: float | str,
@@ -263,11 +261,7 @@ class Periodic(_Repeated):
         phase: float | str = 0.0,
         of: Of | None = None,
         on: str | None = None,
-    ) -> None:
-        given: dict[str, Any] = {} if of is None else {"of": of}
-        if phases is not None:
-            given["phases"] = phases
-        super().__init__(frequency=frequency, amplitudes=amplitudes, phase=phase, on=on, **given)
+    ) -> None: ...
 
     @model_validator(mode="before")
     @classmethod

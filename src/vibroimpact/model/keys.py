@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import difflib
+from vibroimpact.errors import similar
 
 MOST = 5
 """Largest number of unknown keys in a message. A search for suggestions takes long for many."""
@@ -31,10 +31,8 @@ def listed(keys: list[str]) -> str:
     return " and ".join(filter(None, (", ".join(keys[:-1]), keys[-1])))
 
 
-def similar_key(keys: list[str], name: str) -> str:
-    """Return the key that a misspelt key probably means, or an empty string."""
-    close = difflib.get_close_matches(name[:SHOWN], keys, n=1, cutoff=0.7)
-    return close[0] if close else ""
+LIKENESS = 0.7
+"""Least similarity of a misspelt key to the key that is suggested."""
 
 
 def unknown_key(keys: list[str], name: str) -> str:
@@ -42,6 +40,6 @@ def unknown_key(keys: list[str], name: str) -> str:
     for names, beside, advice in _ELSEWHERE:
         if name in names and beside in keys:
             return f"unknown key; {listed(keys)} are accepted; {advice}"
-    close = similar_key(keys, name)
+    close = similar(name, keys, LIKENESS)
     hint = f"; did you mean {close}?" if close else ""
     return f"unknown key; {listed(keys)} are accepted{hint}"

@@ -20,16 +20,16 @@ from pydantic import (
     model_validator,
 )
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError
 from vibroimpact.model.built_in import as_isolator, as_stop
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, Isolator, IsolatorLaw
 from vibroimpact.model.isolators.design import designed
 from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS
-from vibroimpact.model.stated_units import has_unit
+from vibroimpact.model.stated_units import check_no_units, has_unit, values_of
 from vibroimpact.model.stops import STOPS, Bumper, JankowskiBumper, RigidStop, Stop
 from vibroimpact.model.stops.bumper import returning
 from vibroimpact.model.units import pretty, to_si
-from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import NONE, SI, written_for
 
 Units: TypeAlias = Literal["SI", "none"]
@@ -87,7 +87,7 @@ class Oscillator(Model):
     force: Annotated[float, Accepts(FORCE, meaning="constant force on the mass")] = 0.0
     units: Units = Field(default=cast("Units", None), validate_default=True)
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         mass: float | str,
@@ -96,10 +96,7 @@ class Oscillator(Model):
         left: Stop | Mapping[str, Any] | None = None,
         force: float | str = 0.0,
         units: Units | None = None,
-    ) -> None:
-        super().__init__(
-            mass=mass, isolator=isolator, right=right, left=left, force=force, units=units
-        )
+    ) -> None: ...
 
     @classmethod
     def table_keys(cls) -> list[str]:
@@ -126,14 +123,9 @@ class Oscillator(Model):
         if units is None:  # recognised below, so that it does not count as stated
             data = {name: value for name, value in data.items() if name != "units"}
         if units == NONE:
-            for path, value in _values(data):
-                if has_unit(value):
-                    raise InputError(
-                        f'{path}: {shown(value)} has a unit, but units is "none"; pass a number '
-                        "without a unit, or remove units"
-                    )
+            check_no_units(data)
         elif units is None and _is_one(data.get("mass")):
-            stated = any(has_unit(value) for _, value in _values(data))
+            stated = any(has_unit(value) for _, value in values_of(data))
             return {**data, "units": SI} if stated else data
         return data
 
@@ -394,15 +386,6 @@ class Oscillator(Model):
     def without_bumpers(self) -> Oscillator:
         """Return a copy with the same mass and isolator, but without stops."""
         return self.replace(right=None, left=None)
-
-
-def _values(table: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the values of nested tables, with their paths."""
-    for name, value in table.items():
-        if isinstance(value, Mapping):
-            yield from _values(value, f"{path}{name}.")
-        else:
-            yield f"{path}{name}", value
 
 
 def _is_one(mass: object) -> bool:

@@ -41,7 +41,7 @@ from vibroimpact.model.formula_units import check_numbers, units_of_numbers
 from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, STIFFNESS, TIME, Quantity
 from vibroimpact.model.units import plain, pretty, to_si_of_any
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 _RESERVED = {*ARGUMENTS, *FUNCTIONS, "max", "u", "v", "d"}
 
@@ -120,11 +120,10 @@ class Law(Named):
         gap: Annotated[float | None, Accepts(LENGTH, optional=True)] = None
     numbers: tuple[tuple[str, float], ...] = ()
 
-    @constructor
+    @takes_fields
     def __init__(
         self, /, formula: str, gap: float | str | None = None, **numbers: float | str
-    ) -> None:
-        super().__init__(formula=formula, gap=gap, **numbers)
+    ) -> None: ...
 
     @model_validator(mode="before")
     @classmethod

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
-from functools import wraps
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, ParamSpec, TypeAlias, TypeVar
+from typing import Annotated, Any, TypeAlias
 
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.errors import InputError, shown
@@ -19,13 +18,6 @@ from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig, several_masses
 from vibroimpact.model.study import read_rig_study
 from vibroimpact.model.varied import Range
-from vibroimpact.model.written_units import written_for
-
-_P = ParamSpec("_P")
-_R = TypeVar("_R")
-
-AnyRig: TypeAlias = Rig | Case | str | Path
-"""A `Rig`, a laboratory case, its code such as ``"B2-G1-A3"``, or the path of a study file."""
 
 _ACCEPTED = (
     'a Rig, a laboratory case or its code, such as "B2-G1-A3", or the path of a study file, such '
@@ -79,6 +71,10 @@ def as_rig_of_any_masses(
     return rig if frequency is None else rig.at(frequency)
 
 
+AnyRig: TypeAlias = Annotated[Rig | Case | str | Path, as_rig_of_any_masses]
+"""A `Rig`, a laboratory case, its code such as ``"B2-G1-A3"``, or the path of a study file."""
+
+
 def as_assembly(value: Any, where: str = "rig") -> Assembly:
     """Return the assembly that an argument describes: an `Assembly`, or a rig with one.
 
@@ -102,21 +98,6 @@ def one_system(value: Any, where: str = "rig") -> Rig:
         If the value is not a rig, or if the study file is invalid.
     """
     return _read(value, where, oscillator_alone=True)
-
-
-def in_units_of_rig(function: Callable[_P, _R]) -> Callable[_P, _R]:
-    """Read and write all values of a function in the units of its first argument, ``rig``.
-
-    If the rig has no units, the function refuses values with a unit.
-    """
-
-    @wraps(function)
-    def wrapped(*args: _P.args, **kwargs: _P.kwargs) -> _R:
-        rig = args[0] if args else kwargs.get("rig")
-        with written_for(as_rig_of_any_masses(rig) if isinstance(rig, str | Path) else rig):
-            return function(*args, **kwargs)
-
-    return wrapped
 
 
 def as_rigs(rigs: Any, where: str = "rigs", oscillator_alone: bool = False) -> dict[str, Rig]:

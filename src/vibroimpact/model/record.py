@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.errors import InputError, shown, warn_of_input
 from vibroimpact.model.about import About, read_values
-from vibroimpact.model.count_checks import MOST_SAMPLES
+from vibroimpact.model.argument_types import MOST_SAMPLES
 from vibroimpact.model.html_table import table
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, TIME, Quantity
 from vibroimpact.model.units import pretty, to_si

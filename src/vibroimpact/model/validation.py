@@ -11,6 +11,7 @@ import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import wraps
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
 
 from pydantic import (
@@ -22,9 +23,9 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
-from vibroimpact.errors import DependentError, InputError, shown
+from vibroimpact.errors import DependentError, InputError, shown, similar
 from vibroimpact.model.html_table import table
-from vibroimpact.model.keys import MOST, SHOWN, listed, similar_key, unknown_key
+from vibroimpact.model.keys import LIKENESS, MOST, SHOWN, listed, unknown_key
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.sizes import SMALLEST, check_size
 from vibroimpact.model.units import accepted, pretty, read
@@ -112,6 +113,28 @@ def constructor(init: _Init) -> _Init:
     """
     init.__pydantic_base_init__ = True  # type: ignore[attr-defined]
     return init
+
+
+def takes_fields(init: _Init) -> _Init:
+    """Let an ``__init__``, which has no body, pass its arguments on as the fields of these names.
+
+    An argument that is None by default is left out if it is None. The signature is written out for
+    calls by position, for ``help``, and because texts with units are accepted, too.
+    """
+    _, *parameters = inspect.signature(init).parameters.values()
+    names = [one.name for one in parameters]
+    optional = {one.name for one in parameters if one.default is None}
+
+    @wraps(init)
+    def passed(self: Model, /, *args: Any, **values: Any) -> None:
+        init(self, *args, **values)  # refuses arguments that do not fit the signature
+        given = dict(zip(names, args, strict=False)) | values
+        for name in optional & given.keys():
+            if given[name] is None:
+                del given[name]
+        Model.__init__(self, **given)
+
+    return constructor(cast("_Init", passed))
 
 
 if TYPE_CHECKING:
@@ -351,7 +374,7 @@ def _meant(mistake: ErrorDetails, model: type[BaseModel]) -> tuple[int | str, ..
     """Return the location of the key that an unknown key probably means."""
     *table, name = mistake["loc"]
     keys = cast("type[Model]", _along(model, tuple(table))[1]).table_keys()
-    return (*table, similar_key(keys, str(name)))
+    return (*table, similar(str(name), keys, LIKENESS))
 
 
 def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple, TypeAlias, cast
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.arguments import MOST_LISTED, check_list, check_mapping, is_pair
+from vibroimpact.arguments import MOST_LISTED, check_list, check_mapping
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.sizes import doubt_damping_ratio
-from vibroimpact.model.units import pretty, to_si, with_si_unit
+from vibroimpact.model.units import pretty, to_si
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
 """Parameters that also set a damping. They are set first, so that a varied damping replaces it."""
@@ -204,21 +205,8 @@ def _parameters(given: Mapping[str, Any], rig: Rig | Oscillator | Assembly) -> l
 
 
 def _range(varied: Parameter, span: object, field: str) -> Range:
-    if not is_pair(span):
-        raise InputError(
-            f"{field}: {shown(span)}; pass the lowest and the highest value of {varied.name} as "
-            "(low, high)"
-        )
-    low, high = (
-        to_si(end, varied.quantity, f"{field}[{i}]", minimum=varied.least, maximum=varied.most)
-        for i, end in enumerate(cast("Iterable[float | str]", span))
-    )
-    if not low < high:
-        first, last = (with_si_unit(end, varied.quantity) for end in (low, high))
-        raise InputError(
-            f"{field}[1]: {last} is not greater than {field}[0], {first}; pass the lowest value "
-            "first, and then the highest"
-        )
+    bounds = {"minimum": varied.least, "maximum": varied.most}
+    low, high = read_span(span, varied.quantity, field, f"value of {varied.name}", **bounds)
     return Range(varied, low, high, field)
 
 

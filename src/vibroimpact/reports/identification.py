@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any, Literal, NamedTuple
 from urllib.parse import quote
 
 import numpy as np
@@ -14,7 +14,6 @@ import xarray as xr
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from vibroimpact._version import __version__
-from vibroimpact.arguments import check_name as check_one_of
 from vibroimpact.arguments import check_path, check_variables
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError, in_one_line, shown
@@ -28,10 +27,10 @@ from vibroimpact.identification.results import rig_of
 from vibroimpact.measurements.read import as_measured
 from vibroimpact.model.names import check_name, file_stems
 from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import DIMENSIONLESS, Quantity
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
-from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.reports.study import study_text
 from vibroimpact.response.sweep import sweep
 
@@ -52,7 +51,7 @@ class Figure(NamedTuple):
     caption: str
 
 
-@as_first_argument
+@public
 def fit_report(
     result: xr.Dataset,
     folder: Path | str,
@@ -94,7 +93,6 @@ def fit_report(
     if not where.is_dir():
         raise InputError(f"folder: {shown(folder)} is not a folder; create it, or pass another one")
     check_name(name, "name")
-    check_one_of(figure, get_args(Format), "figure")
     if comparison is not None:
         check_variables(comparison, ["akaike"], "comparison", "the result of compare_fits")
     files: dict[str, Path] = {}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import describe, excitation_from, motion_parameters, noted
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, Record, Repeated, validate
 from vibroimpact.response.assembly_motion import Sections, sections_of
 from vibroimpact.response.assembly_phases import AssemblyParts, Measured, Measurer
@@ -111,7 +110,7 @@ def _doubts(motion: xr.Dataset, found: Measured) -> list[str]:
         "recorded one, because it is sensitive to rounding and was computed by another version or "
         "on another processor: the result is that of the motion followed now"
     )
-    warnings.warn(told, RuntimeWarning, stacklevel=outside())
+    warn_of_result(told)
     return [told]
 
 

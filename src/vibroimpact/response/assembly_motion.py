@@ -8,7 +8,6 @@ change the motion. Neither run uses tables, so that both are the same wherever t
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
@@ -21,10 +20,10 @@ from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.assembly.entries import follow_sections
 from vibroimpact.engine.assembly.plan import plan_of
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Assembly, Periodic, Record, Repeated, equilibrium
+from vibroimpact.model.argument_types import check_samples
 from vibroimpact.model.assembly import numbers
-from vibroimpact.model.count_checks import check_samples
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_pieces import forcing_size
 from vibroimpact.response.assembly_rig import assembly_numbers, check_laws, link_parts
@@ -365,9 +364,7 @@ def compute_assembly_history(
         where = (
             f"{finished * record.step:g} s into the record" if record else f"in cycle {finished}"
         )
-        warnings.warn(
-            f"simulate stopped {where}: {told.advice}", RuntimeWarning, stacklevel=outside()
-        )
+        warn_of_result(f"simulate stopped {where}: {told.advice}")
         ends = finished * (record.step if record else 1.0)
     last_phase = 0.0 if record else phase + 2.0 * math.pi * (ends % 1.0)
     variables: dict[str, Any] = {
@@ -386,7 +383,7 @@ def compute_assembly_history(
     data.attrs["message"] = told.advice
     notes = _doubts(run, "step" if record else "cycle")
     for one in notes:
-        warnings.warn(f"simulate: {one}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"simulate: {one}")
     parameters: dict[str, Any] = {"assembly": assembly.model_dump()}
     if record:
         parameters |= {"record": record_parameters(record), "tail": length}

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import math
-import warnings
 from collections.abc import Callable
 from typing import Any, Generic, NamedTuple, TypeVar
 
@@ -25,9 +24,9 @@ from vibroimpact.engine.observers.phases import ONE_MASS
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
 from vibroimpact.engine.phases import measure_motion
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Oscillator, Record, Repeated, RigidStop, State, validate
-from vibroimpact.model.count_checks import MOST_EVENTS
+from vibroimpact.model.argument_types import MOST_EVENTS
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
 from vibroimpact.response.record_history import straight
@@ -292,7 +291,7 @@ def _doubts(motion: xr.Dataset, outcome: Status, end: float) -> list[str]:
         "recorded one, because it is sensitive to rounding and was computed by another version or "
         "on another processor: the result is that of the motion followed now"
     )
-    warnings.warn(told, RuntimeWarning, stacklevel=outside())
+    warn_of_result(told)
     return [told]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any
 
 import numpy as np
@@ -15,9 +14,9 @@ from vibroimpact.engine import record_forcing
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import AssemblyState, Record, State, equilibrium
-from vibroimpact.model.count_checks import MOST_SAMPLES, check_samples
+from vibroimpact.model.argument_types import MOST_SAMPLES, check_samples
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
 from vibroimpact.response.history_variables import (
@@ -80,7 +79,7 @@ def through(
         # The step that was given up is left out; its events until then are kept.
         finished = max(at - 1, 0)
         stopped = f"simulate stopped {finished * record.step:g} s into the record: {told.advice}"
-        warnings.warn(stopped, RuntimeWarning, stacklevel=outside())
+        warn_of_result(stopped)
         out, time = out[:, : finished * samples], time[: finished * samples]
     variables: dict[str, Any] = {"final_state": ("component", components(vector, 0.0))}
     coordinates: dict[str, Any] = {"component": COMPONENTS}
@@ -97,7 +96,7 @@ def through(
     variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
-        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"simulate: {told.advice}")
     data.attrs["message"] = told.advice
     parameters = {
         "oscillator": oscillator_parameters(oscillator),

@@ -10,11 +10,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.arguments import check_list, check_progress, is_list
+from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine import spectra
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Record
+from vibroimpact.model.public import public
 from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.tasks.threads import Progress, Tally, available, each
 
@@ -27,6 +28,7 @@ _LEAST, _MOST = 1e-9, 1e9
 _Array = NDArray[np.float64]
 
 
+@public
 def response_spectrum(
     record: Record | Sequence[Record],
     periods: ArrayLike,
@@ -75,7 +77,6 @@ def response_spectrum(
         If ``record`` is not a record, if the components differ in step or length, or if a period or
         a damping ratio is invalid.
     """
-    check_progress(progress)
     components = _components(record)
     period = _numbers(periods, "periods", _LEAST, _MOST, "periods of 0 s, or from 1e-9 to 1e9 s")
     ratio = _numbers(damping, "damping", 0.0, 1.0, "damping ratios from 0 to less than 1")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Any
 
 import numpy as np
@@ -14,9 +13,10 @@ from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Oscillator, to_si
-from vibroimpact.model.count_checks import check_samples, whole
+from vibroimpact.model.argument_types import PositiveInt, check_samples
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.contacts import contacts
@@ -28,8 +28,9 @@ _COLUMNS = 4
 """Displacement, velocity, and the deformations of both sides, the left one < 0 if compressed."""
 
 
+@public
 def stroboscopic_section(
-    motion: xr.Dataset, phase: float | str = 0.0, cycles: int | None = None
+    motion: xr.Dataset, phase: float | str = 0.0, cycles: PositiveInt | None = None
 ) -> xr.Dataset:
     """Compute the stroboscopic section of a motion: its state once per forcing cycle.
 
@@ -58,7 +59,7 @@ def stroboscopic_section(
     """
     origin = recorded(motion)
     angle = to_si(phase, ANGLE, "phase")
-    count = max(1, math.floor(origin.cycles)) if cycles is None else whole(cycles, "cycles")
+    count = max(1, math.floor(origin.cycles)) if cycles is None else cycles
     check_samples(count, 1, "cycles")
     start = beginning(motion)
     engine = prepare(Rig(origin.oscillator, origin.excitation))
@@ -76,10 +77,8 @@ def stroboscopic_section(
         known = rows[:, lyapunov.SECTION :][:, :_COLUMNS]
         points = np.vstack([first, known])[:count]
     if len(points) < count:
-        warnings.warn(
-            f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}",
-            RuntimeWarning,
-            stacklevel=outside(),
+        warn_of_result(
+            f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}"
         )
     data = xr.Dataset(section_variables(origin.oscillator, points, ("section_point",)))
     data = data.assign_coords(stop=stops_of(origin.oscillator))

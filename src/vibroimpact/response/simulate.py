@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
@@ -23,11 +21,17 @@ from vibroimpact.engine import batch
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, AssemblyState, Record, Repeated, State, equilibrium, to_si
-from vibroimpact.model.count_checks import MOST_TAIL, check_max_events, check_samples, whole
+from vibroimpact.model.argument_types import (
+    MOST_TAIL,
+    MaxEvents,
+    NonNegativeInt,
+    check_samples,
+)
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.assembly_motion import compute_assembly_history
@@ -45,16 +49,16 @@ from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
 
 
-@in_units_of_rig
+@public
 def simulate(
     rig: AnyRig,
     cycles: float | None = None,
     start: State | AssemblyState | xr.DataArray | xr.Dataset | None = None,
-    samples: int | None = None,
+    samples: NonNegativeInt | None = None,
     *,
     frequency: float | str | None = None,
     tail: float | str | None = None,
-    max_events: int = 10_000,
+    max_events: MaxEvents = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Simulate the motion of a rig for a number of forcing cycles, or through a record.
@@ -143,10 +147,8 @@ def compute_history(
     if not rig.is_shaken:
         rig = rig.vibrating_freely()
     excitation = rig.shaking if isinstance(rig.shaking, Record) else rig.harmonic
-    max_events = check_max_events(max_events)
-    check_progress(progress)
     per = 1 if isinstance(excitation, Record) else 256
-    samples = per if samples is None else whole(samples, "samples", 0)
+    samples = per if samples is None else samples
     if isinstance(excitation, Record):
         if cycles is not None:
             raise InputError(
@@ -210,11 +212,7 @@ def compute_history(
     if status is not Status.DONE:
         # The cycle that was given up is left out; its events until then are kept.
         finished = max(at - 1, 0)
-        warnings.warn(
-            f"simulate stopped in cycle {finished}: {told.advice}",
-            RuntimeWarning,
-            stacklevel=outside(),
-        )
+        warn_of_result(f"simulate stopped in cycle {finished}: {told.advice}")
         out = out[:, : finished * samples]
         length = float(finished)
     variables: dict[str, Any] = {
@@ -240,7 +238,7 @@ def compute_history(
     variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
     if status is Status.DONE and told is not status:
-        warnings.warn(f"simulate: {told.advice}", RuntimeWarning, stacklevel=outside())
+        warn_of_result(f"simulate: {told.advice}")
     data.attrs["message"] = told.advice
     return describe(
         data,

@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list, check_progress
+from vibroimpact.arguments import check_list
 from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
@@ -25,9 +25,15 @@ from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, AssemblyState, State, to_si
-from vibroimpact.model.count_checks import check_max_events, share, whole
+from vibroimpact.model.argument_types import (
+    MaxEvents,
+    PositiveInt,
+    Share,
+)
 from vibroimpact.model.periodic_shaking import as_periodic
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
+from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_sweep import sweep_assemblies, sweep_assembly
@@ -55,6 +61,7 @@ _NO_OUTPUTS = (
 )
 
 
+@public
 def sweep(
     rig: AnyRig,
     frequencies: Iterable[float | str],
@@ -62,10 +69,10 @@ def sweep(
     *,
     start: State | xr.DataArray | xr.Dataset | None = None,
     phase: float | str = 0.0,
-    tolerance: float = 1e-12,
-    max_cycles: int = 2000,
-    window: int = 500,
-    max_events: int = 10_000,
+    tolerance: Share = 1e-12,
+    max_cycles: PositiveInt = 2000,
+    window: PositiveInt = 500,
+    max_events: MaxEvents = 10_000,
     outputs: Outputs | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -171,7 +178,6 @@ def _of_several_masses(
     progress: Progress | None,
 ) -> xr.Dataset:
     """Return the sweep of an assembly, the arguments read."""
-    check_progress(progress)
     as_periodic(rig.shaking, "shaking")
     if outputs is not None:
         raise InputError(_NO_OUTPUTS)
@@ -183,22 +189,13 @@ def _of_several_masses(
         _directions(directions),
         state,
         to_si(phase, ANGLE, "phase") if state.phase is None else state.phase,
-        _checked(settling),
+        settling,
         placed(threads),
         progress,
     )
 
 
-def _checked(settling: Settling) -> Settling:
-    tolerance, max_cycles, window, max_events = settling
-    return Settling(
-        share(tolerance, "tolerance"),
-        whole(max_cycles, "max_cycles"),
-        whole(window, "window"),
-        check_max_events(max_events),
-    )
-
-
+@public
 def sweeps(
     rigs: Iterable[AnyRig] | Mapping[str, AnyRig] | AnyRig,
     frequencies: Iterable[float | str],
@@ -206,10 +203,10 @@ def sweeps(
     *,
     start: State | xr.DataArray | xr.Dataset | None = None,
     phase: float | str = 0.0,
-    tolerance: float = 1e-12,
-    max_cycles: int = 2000,
-    window: int = 500,
-    max_events: int = 10_000,
+    tolerance: Share = 1e-12,
+    max_cycles: PositiveInt = 2000,
+    window: PositiveInt = 500,
+    max_events: MaxEvents = 10_000,
     outputs: Outputs | None = None,
     threads: int | None = None,
     where: Any = THREADS,
@@ -267,7 +264,6 @@ def sweeps(
     InputError
         If a value is invalid.
     """
-    check_progress(progress)
     named = periodic_rigs(rigs, any_masses=True)
     if any(isinstance(rig.system, Assembly) for rig in named.values()):
         if outputs is not None:
@@ -280,7 +276,7 @@ def sweeps(
             _directions(directions),
             starts,  # type: ignore[arg-type]
             to_si(phase, ANGLE, "phase") if begin is None else begin,
-            _checked(Settling(tolerance, max_cycles, window, max_events)),
+            Settling(tolerance, max_cycles, window, max_events),
             placed(threads, where),
             progress,
         )
@@ -291,8 +287,7 @@ def sweeps(
     state = None if start is None else as_state(start)
     if state is not None and state.phase is not None:
         angle = state.phase
-    settling = _checked(Settling(tolerance, max_cycles, window, max_events))
-    tolerance, max_cycles, window, max_events = settling
+    settling = Settling(tolerance, max_cycles, window, max_events)
     workers = placed(threads, where)
 
     own = [read_outputs(outputs, rig) for rig in pairs]
@@ -356,10 +351,7 @@ def sweeps(
         {
             "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
             "phase": angle,
-            "tolerance": tolerance,
-            "max_cycles": max_cycles,
-            "window": window,
-            "max_events": max_events,
+            **settling._asdict(),
             **about(own[0]),
         },
         dict.fromkeys(doubts),
@@ -397,25 +389,7 @@ def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]
     InputError
         If they are not; the message has the position and the value of the first wrong one.
     """
-    if isinstance(frequencies, str):
-        raise InputError(
-            f"frequencies: {shown(frequencies)} is a single text; pass a list, such as "
-            '["2 Hz", "2.1 Hz"]'
-        )
-    items = list(check_list(frequencies, "frequencies"))
-    if isinstance(frequencies, np.ndarray) and frequencies.dtype == float and frequencies.ndim == 1:
-        items = frequencies.tolist()  # of plain floats, which are read at once
-    grid = np.array(
-        [to_si(f, FREQUENCY, f"frequencies[{i}]", above=0.0) for i, f in enumerate(items)]
-    )
-    if not len(grid):
-        raise InputError("frequencies: the list is empty; pass at least one frequency")
-    for i in np.flatnonzero(np.diff(grid) <= 0.0):
-        raise InputError(
-            f"frequencies[{i + 1}]: {grid[i + 1]:g} Hz follows {grid[i]:g} Hz; sort the "
-            "frequencies in increasing order, and pass each one only once"
-        )
-    return grid
+    return read_rising(frequencies, FREQUENCY, "frequencies", above=0.0)
 
 
 def periodic_rigs(rigs: Any, *, any_masses: bool = False) -> dict[str, Rig]:

@@ -9,19 +9,18 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list, check_mapping, check_name
+from vibroimpact.arguments import check_mapping, check_name
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import (
     Harmonic,
-    to_si,
 )
 from vibroimpact.model.derived_parameters import scale_of
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.parameters import PARAMETERS, canonical, usual
 from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
+from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.units import pretty
 from vibroimpact.model.varied import entries, field_of
 
 _Array = NDArray[np.float64]
@@ -127,21 +126,8 @@ def _name(name: str, field: str) -> str:
 
 def _axis(name: str, values: object, field: str, spacing: str | None, of: Of) -> Axis:
     varied = usual(name, of)
-    items = check_list(values, field, what="at least two values")
     limits: dict[str, Any] = {"minimum": 0.0} if varied.zero else {"above": 0.0}
-    limits["maximum"] = varied.most
-    numbers = np.array(
-        [to_si(value, varied.quantity, f"{field}[{i}]", **limits) for i, value in enumerate(items)]
-    )
-    if len(numbers) < 2:
-        count = "one value" if len(numbers) else "no values"
-        raise InputError(f"{field}: the list has {count}; pass at least two values")
-    for i in np.flatnonzero(np.diff(numbers) <= 0.0):
-        first, second = (pretty(float(one), varied.quantity) for one in numbers[i : i + 2])
-        raise InputError(
-            f"{field}[{i + 1}]: {second} follows {first}; sort the values in increasing order, and "
-            "pass each one only once"
-        )
+    numbers = read_rising(values, varied.quantity, field, 2, **limits, maximum=varied.most)
     if name == "damping_ratio" and numbers[-1] >= math.sqrt(0.5):
         raise InputError(
             f"{field}[{len(numbers) - 1}]: at a damping ratio of {numbers[-1]:g}, there is no "

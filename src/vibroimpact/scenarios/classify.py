@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError
+from vibroimpact.model.argument_types import PositiveInt
+from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.written_units import written_for
 from vibroimpact.response.sweep import sweep
@@ -70,12 +71,13 @@ class Classification:
         return self.named.label
 
 
+@public
 def classify_scenario(
     rig: AnyRig,
     frequencies: Iterable[float | str] | None = None,
     *,
     thresholds: Thresholds | None = None,
-    max_cycles: int | None = None,
+    max_cycles: PositiveInt | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -156,17 +158,17 @@ def classify_scenario(
     return describe(data, data.attrs["created_by"])
 
 
+@public
 def classify(
     rig: AnyRig,
     frequencies: Iterable[float | str] | None = None,
     *,
     thresholds: Thresholds | None = None,
-    max_cycles: int | None = None,
+    max_cycles: PositiveInt | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Classification:
     """Classify a rig as `classify_scenario` does, and return the evidence as objects."""
-    check_progress(progress)
     used = checked(thresholds)
     rig = one_sine(as_rig(rig))
     held = default_frequencies(rig) if frequencies is None else frequencies

@@ -11,13 +11,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.grids.refinement import UNKNOWN, Nodes, Scenarios
 from vibroimpact.model import from_dimensionless
-from vibroimpact.model.count_checks import share, whole
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.argument_types import PositiveInt, Refinements, Share
+from vibroimpact.model.public import public
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.varied import Values
 from vibroimpact.scenarios.axes import Axis, Base, one_sine, read_axes
 from vibroimpact.scenarios.map_node import RIG, classified
@@ -30,8 +30,6 @@ from vibroimpact.tasks.threads import Progress, Tally, Workers, breadth, each
 
 DAMPING_RATIO, RELAXATION_TIME = 0.15, 0.01
 """ξ and τ of the published rig (the paper's Section 7)."""
-MOST_REFINED = 8
-"""Levels of refinement: nodes 256 times as dense as those of the first grid."""
 _FEW = 10
 """Largest number of rigs that a thread sweeps at a time."""
 _LAST = 3
@@ -45,18 +43,18 @@ MOST_NODES = 4_000_000
 """Nodes of the finest grid."""
 
 
-@in_units_of_rig
+@public
 def scenario_map(
     rig: AnyRig | None,
     vary: Values,
     *,
     spacing: Mapping[str, Literal["log", "linear"]] | None = None,
-    step: float = STEP,
-    refine: int = 0,
+    step: Share = STEP,
+    refine: Refinements = 0,
     thresholds: Thresholds | None = None,
-    max_cycles: int | None = None,
+    max_cycles: PositiveInt | None = None,
     store: Path | str | None = None,
-    block: int = 20,
+    block: PositiveInt = 20,
     threads: int | None = None,
     where: Any = None,
     progress: Progress | None = None,
@@ -133,7 +131,6 @@ def scenario_map(
     InputError
         If a value is invalid, or if the folder ``store`` holds another computation.
     """
-    check_progress(progress)
     start = _base(rig)
     first, second = read_axes(vary, spacing, start.base.sine.of)
     used = checked(thresholds)
@@ -143,11 +140,11 @@ def scenario_map(
         "base": {
             **rig_parameters(start.base, "frequency", "phase"),
         },
-        "step": (fine_step := share(step, "step")),
-        "refine": (refine := _refinement(refine)),
+        "step": step,
+        "refine": refine,
         "thresholds": {name: getattr(used, name) for name in Thresholds.names()},
-        "max_cycles": None if max_cycles is None else whole(max_cycles, "max_cycles"),
-        "block": (block := whole(block, "block")),
+        "max_cycles": max_cycles,
+        "block": block,
     }
     workers = map_workers(len(first.values) * len(second.values), threads, where)
     nodes = (len(first.values) << refine) * (len(second.values) << refine)
@@ -166,7 +163,7 @@ def scenario_map(
     )
 
     def compute(nodes: list[Node], tally: Tally) -> dict[str, NDArray[Any]]:
-        return classified([start.rig(one) for one in nodes], used, fine_step, max_cycles, tally)
+        return classified([start.rig(one) for one in nodes], used, step, max_cycles, tally)
 
     with map_store(store, fine, plan.chunk, refine + 1, settings) as held:
         if not held.finished():
@@ -269,13 +266,6 @@ def _parallel(
     told = progress and (lambda done, _: progress(before + done // RIG, total))
     results = each(compute, parts, steps=len(nodes) * RIG, threads=workers, progress=told)
     return {name: np.concatenate([r[name] for r in results]) for name in results[0]}
-
-
-def _refinement(given: object) -> int:
-    refine = whole(given, "refine", 0)
-    if refine > MOST_REFINED:
-        raise InputError(f"refine: {refine} is too large; pass at most {MOST_REFINED}")
-    return refine
 
 
 def _base(given: AnyRig | None) -> Base:

@@ -23,7 +23,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.datasets.description import (
@@ -35,8 +34,9 @@ from vibroimpact.datasets.description import (
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.errors import InputError
-from vibroimpact.model.count_checks import whole
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.argument_types import PositiveInt
+from vibroimpact.model.public import public
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.model.varied import Ranges, read_ranges
@@ -54,14 +54,14 @@ _Array = NDArray[np.float64]
 _NOTHING = xr.DataArray([np.nan])
 
 
-@in_units_of_rig
+@public
 def bifurcation_curve(
     rig: AnyRig,
     start: xr.Dataset,
     *,
     frequency: float | str | None = None,
     vary: Ranges,
-    most_points: int = 2000,
+    most_points: PositiveInt = 2000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Continue a bifurcation as a curve in the plane of two parameters.
@@ -98,7 +98,6 @@ def bifurcation_curve(
     InputError
         If a value is invalid, or if the start is not a bifurcation of this rig.
     """
-    check_progress(progress)
     rig = as_rig(rig, frequency)
     ranges = read_ranges(vary, rig, 2)
     oscillator, excitation = rig.oscillator, rig.harmonic
@@ -114,7 +113,6 @@ def bifurcation_curve(
             f"vary: neither {first!r} nor {second!r} is the parameter along which the start was "
             f"computed; pass {start.attrs.get('parameter')!r} and another one"
         )
-    most_points = whole(most_points, "most_points")
     kind = start["bifurcation_kind"].item()
     phase = float(start["bifurcation_section"].sel(component="phase"))
     over = plane(Rig(oscillator, excitation.replace(phase=phase)), (first, second))

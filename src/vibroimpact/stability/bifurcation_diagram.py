@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -13,11 +14,9 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import (
     MOST_LISTED,
     STARTS,
-    check_flag,
     check_list,
     check_mapping,
     check_name,
-    check_progress,
 )
 from vibroimpact.datasets.description import (
     COMPONENTS,
@@ -29,9 +28,17 @@ from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, Oscillator, Rig, State
-from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, share, whole
+from vibroimpact.model.argument_types import (
+    MaxEvents,
+    NonNegativeInt,
+    PositiveInt,
+    RandomStarts,
+    Share,
+    whole,
+)
 from vibroimpact.model.periodic_shaking import as_periodic
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest, in_units_of_rig
+from vibroimpact.model.public import public
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest
 from vibroimpact.model.rig import System
 from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.response.assembly_rig import check_size
@@ -55,24 +62,24 @@ _BLOCK = 32
 """Number of values per task, if motions are not continued to the next value."""
 
 
-@in_units_of_rig
+@public
 def bifurcation_diagram(
     rig: AnyRig,
     vary: Ranges,
-    steps: int = 200,
+    steps: Annotated[int, partial(whole, least=2, most=MOST_LISTED)] = 200,
     *,
     frequency: float | str | None = None,
     directions: Sequence[str] = DIRECTIONS,
     starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
-    random: int = 0,
-    seed: int = 0,
+    random: RandomStarts = 0,
+    seed: NonNegativeInt = 0,
     section: Kind = "stroboscopic",
     log: bool = False,
-    points: int = 200,
-    exponent_cycles: int = 1000,
-    tolerance: float = 1e-12,
-    max_cycles: int = 2000,
-    max_events: int = 10_000,
+    points: PositiveInt = 200,
+    exponent_cycles: PositiveInt = 1000,
+    tolerance: Share = 1e-12,
+    max_cycles: PositiveInt = 2000,
+    max_events: MaxEvents = 10_000,
     outputs: Outputs | None = None,
     threads: int | None = None,
     where: Any = THREADS,
@@ -156,7 +163,6 @@ def bifurcation_diagram(
     InputError
         If a value is invalid.
     """
-    check_progress(progress)
     rig = as_rig_of_any_masses(rig, frequency=frequency)
     system = rig.system
     if isinstance(system, Assembly):
@@ -173,26 +179,15 @@ def bifurcation_diagram(
     (along,) = read_ranges(vary, rig)
     rig, varied, ends = from_lowest(rig, along), along.parameter, along.ends
     excitation = as_periodic(rig.harmonic, "shaking")[0]
-    log = check_flag(log, "log")
     if log and ends[0] <= 0.0:
         raise InputError(
             f"{along.field}[0]: {ends[0]:g} is not possible on a logarithmic axis; pass a value "
             "above 0, or use a linear axis"
         )
-    count = whole(steps, "steps", 2, MOST_LISTED)
-    values: _Array = np.geomspace(*ends, count) if log else np.linspace(*ends, count)
+    values: _Array = np.geomspace(*ends, steps) if log else np.linspace(*ends, steps)
     values[0], values[-1] = ends
-    check_name(section, POINT, "section")
-    settling = Settling(
-        share(tolerance, "tolerance"),
-        whole(max_cycles, "max_cycles"),
-        whole(points, "points"),
-        check_max_events(max_events),
-    )
-    look = Look(
-        section, settling.window, whole(exponent_cycles, "exponent_cycles"), settling.max_events
-    )
-    random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
+    settling = Settling(tolerance, max_cycles, points, max_events)
+    look = Look(section, points, exponent_cycles, max_events)
     workers = placed(threads, where)
     own = () if outputs is None else read_outputs(outputs, rig)
     ways = _ways(directions, starts, random, system)
@@ -225,13 +220,13 @@ def bifurcation_diagram(
             found[part.name] += one
         return found
 
-    total = count * (len(ways) + random)
-    found = done(_parts(ways, count), 0)
+    total = steps * (len(ways) + random)
+    found = done(_parts(ways, steps), 0)
     if random:
         met = [one.held for seen in found.values() for one in seen]
         states = random_states(met, every, random, seed)
         drawn = {f"random {i}": state for i, state in enumerate(states, start=1)}
-        found |= done(_parts(drawn, count), count * len(ways))
+        found |= done(_parts(drawn, steps), steps * len(ways))
     about_motions = {
         "assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump(),
         **excitation_parameters(excitation),

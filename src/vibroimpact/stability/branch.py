@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Rig, State
-from vibroimpact.model.count_checks import MOST_CYCLES, whole
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest, in_units_of_rig
+from vibroimpact.model.argument_types import Period, PositiveInt
+from vibroimpact.model.public import public
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest
 from vibroimpact.model.varied import Range, Ranges, read_ranges
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability import bifurcations
@@ -26,15 +26,15 @@ _GROWN = 3.0
 """Growth relative to the first orbit from which a motion is reported as still growing."""
 
 
-@in_units_of_rig
+@public
 def branch(
     rig: AnyRig,
     start: State | xr.DataArray | xr.Dataset | None = None,
     *,
     frequency: float | str | None = None,
     vary: Ranges,
-    period: int | None = None,
-    most_points: int = 5000,
+    period: Period | None = None,
+    most_points: PositiveInt = 5000,
     outputs: Outputs | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -110,7 +110,6 @@ def branch(
     InputError
         If a value is invalid, or if Newton's method finds no orbit near the start.
     """
-    check_progress(progress)
     rig = as_rig_of_any_masses(rig, frequency=frequency)
     if outputs is not None and isinstance(rig.system, Assembly):
         raise InputError(
@@ -119,7 +118,6 @@ def branch(
         )
     (along,) = read_ranges(vary, rig)
     fam, first = _first_orbit(from_lowest(rig, along), start, along, period)
-    most_points = whole(most_points, "most_points")
     own = () if outputs is None else read_outputs(outputs, rig)
     followed = follow_both_ways(first, along.ends, most_points, progress)
     data = as_dataset([followed], fam, along.ends, own=own)
@@ -158,7 +156,6 @@ def _first_orbit(
     """Return the rig along the varied parameter, and the first orbit."""
     fam = family(rig.with_parts(rig.system, rig.harmonic), along.parameter.name)
     along.check_contains(fam.value, ", at which the first orbit lies")
-    period = None if period is None else whole(period, "period", most=MOST_CYCLES)
     return fam, first_orbit(fam, along.ends, start, period)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +12,7 @@ from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.datasets.stops import stops_of
 from vibroimpact.engine import hold, orbit
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.response import sweep_dataset
 from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
@@ -114,12 +113,10 @@ def as_dataset(
             data.attrs[f"{prefix}unexplained_changes"] = [v for pair in unexplained for v in pair]
             low, high = (fam.written(end, 9) for end in unexplained[0])
             often = "once" if len(unexplained) == 1 else f"{len(unexplained)} times"
-            warnings.warn(
+            warn_of_result(
                 f"stability changes {often} along this branch without a detected bifurcation, "
                 f"first between {name} = {low} and {high}; the list of bifurcations is incomplete "
-                "there; to search with smaller steps, narrow the range around these values",
-                RuntimeWarning,
-                stacklevel=outside(),
+                "there; to search with smaller steps, narrow the range around these values"
             )
     return describe(
         data,
@@ -263,10 +260,8 @@ def _measured(one: Orbit) -> _Array:
     if outcome != Status.DONE:
         result[:] = np.nan
         where = one.section.family.equation(one.value, 9)
-        warnings.warn(
-            f"the largest values of the orbit at {where} are unknown: {Status(outcome).advice}",
-            RuntimeWarning,
-            stacklevel=outside(),
+        warn_of_result(
+            f"the largest values of the orbit at {where} are unknown: {Status(outcome).advice}"
         )
     return result
 

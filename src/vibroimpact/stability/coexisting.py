@@ -10,12 +10,19 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import STARTS, check_mapping, check_progress
+from vibroimpact.arguments import STARTS, check_mapping
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, AssemblyState, Repeated, State, Stop
-from vibroimpact.model.count_checks import MOST_STARTS, check_max_events, whole
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, in_units_of_rig
+from vibroimpact.model.argument_types import (
+    MaxEvents,
+    NonNegativeInt,
+    PositiveInt,
+    RandomStarts,
+    check_samples,
+)
+from vibroimpact.model.public import public
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.section_states import SectionStates
@@ -29,7 +36,7 @@ from vibroimpact.stability.settle import (
     reach,
     reach_at_rest,
 )
-from vibroimpact.stability.steady import describe_motion, read_lengths, steady
+from vibroimpact.stability.steady import ExponentCycles, describe_motion, steady
 from vibroimpact.tasks.threads import Progress, counted
 
 _RANDOM_SIZE = 1.5
@@ -45,19 +52,19 @@ class _Kept(NamedTuple):
     mirrored_starts: list[str]
 
 
-@in_units_of_rig
+@public
 def coexisting_motions(
     rig: AnyRig,
     *,
     frequency: float | str | None = None,
     frequencies: Iterable[float | str] | None = None,
     starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
-    random: int = 12,
-    seed: int = 0,
-    window: int = 200,
-    max_cycles: int = 2000,
-    exponent_cycles: int = 20_000,
-    max_events: int = 10_000,
+    random: RandomStarts = 12,
+    seed: NonNegativeInt = 0,
+    window: PositiveInt = 200,
+    max_cycles: PositiveInt = 2000,
+    exponent_cycles: ExponentCycles = 20_000,
+    max_events: MaxEvents = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Find the coexisting steady motions at one frequency from several initial states.
@@ -152,18 +159,19 @@ def _without_history(motion: xr.Dataset) -> xr.Dataset:
     return bare
 
 
+@public
 def find_motions(
     rig: Rig,
     *,
     frequencies: Iterable[float | str] | None = None,
     starts: Mapping[str, State | xr.DataArray | xr.Dataset] | None = None,
-    random: int = 12,
-    seed: int = 0,
-    samples: int = 256,
-    window: int = 200,
-    max_cycles: int = 2000,
-    exponent_cycles: int = 20_000,
-    max_events: int = 10_000,
+    random: RandomStarts = 12,
+    seed: NonNegativeInt = 0,
+    samples: PositiveInt = 256,
+    window: PositiveInt = 200,
+    max_cycles: PositiveInt = 2000,
+    exponent_cycles: ExponentCycles = 20_000,
+    max_events: MaxEvents = 10_000,
     progress: Progress | None = None,
 ) -> list[xr.Dataset]:
     """Find the coexisting motions as datasets of `steady`, with their histories.
@@ -173,14 +181,11 @@ def find_motions(
     """
     system, excitation = rig.system, rig.harmonic
     states = SectionStates(system)
-    random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
-    samples, window, exponent_cycles = read_lengths(samples, window, exponent_cycles)
-    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
+    check_samples(window, samples, "window")
     named = check_mapping({} if starts is None else starts, "starts", STARTS)
     kept: list[_Kept] = []
     given_up: dict[Status, tuple[_Start, list[str]]] = {}
     options = (samples, window, exponent_cycles, max_events)
-    check_progress(progress)
     followed = counted(progress) or (lambda _: None)
 
     def go(name: str, start: _Start) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
@@ -11,14 +10,19 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, rig_parameters
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import outside
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Assembly, AssemblyState, Oscillator, Rig, State, to_si
-from vibroimpact.model.count_checks import check_max_events, whole
+from vibroimpact.model.argument_types import (
+    MaxEvents,
+    NonNegativeInt,
+    PositiveInt,
+    whole,
+)
 from vibroimpact.model.parameters import parameter
+from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.varied import Values, Varied, read_values, vary_all
@@ -46,17 +50,18 @@ class _Grown(NamedTuple):
     settling: bool
 
 
+@public
 def lyapunov_exponents(
     rigs: Iterable[AnyRig] | Mapping[str, AnyRig] | AnyRig,
     frequencies: Iterable[float | str],
-    cycles: int = 1000,
+    cycles: PositiveInt = 1000,
     *,
-    transient: int = 500,
+    transient: NonNegativeInt = 500,
     start: State | xr.DataArray | xr.Dataset | None = None,
     vary: Values | None = None,
-    count: int | None = None,
+    count: PositiveInt | None = None,
     phase: float | str = 0.0,
-    max_events: int = 10_000,
+    max_events: MaxEvents = 10_000,
     threads: int | None = None,
     where: Any = THREADS,
     progress: Progress | None = None,
@@ -125,7 +130,6 @@ def lyapunov_exponents(
     InputError
         If a value is invalid.
     """
-    check_progress(progress)
     named = periodic_rigs(rigs, any_masses=True)
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
@@ -134,8 +138,6 @@ def lyapunov_exponents(
     for one in starts:
         if one is not None and one.phase is not None:
             angle = one.phase
-    cycles, transient = whole(cycles, "cycles"), whole(transient, "transient", 0)
-    max_events = check_max_events(max_events)
     workers = placed(threads, where)
     counts = [2 * SectionStates(rig.system).masses for rig in pairs]
     if count is not None:
@@ -230,12 +232,10 @@ def lyapunov_exponents(
     }
     data = describe(data, "vibroimpact.lyapunov_exponents", parameters, varied=every)
     if count := sum(f.settling for f in found):
-        warnings.warn(
+        warn_of_result(
             f"{count} of {len(found)} motions were still converging to a periodic motion after "
             f"{transient + DISCARD} cycles, so their exponents are not those of the periodic "
-            f"motion; pass a transient larger than {transient}; `settling` marks these motions",
-            RuntimeWarning,
-            stacklevel=outside(),
+            f"motion; pass a transient larger than {transient}; `settling` marks these motions"
         )
     return data
 

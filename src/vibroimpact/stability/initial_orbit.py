@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
@@ -11,7 +9,7 @@ from numpy.typing import NDArray
 from vibroimpact.engine import section_map
 from vibroimpact.engine.state import MODE
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import AssemblyState, State
 from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.written_units import written_for
@@ -180,11 +178,9 @@ def _tell_another(rest: Settled, found: Orbit) -> None:
     ):
         return
     it = f"has period {rest.period}" if rest.period else "does not settle"
-    warnings.warn(
+    warn_of_result(
         f"the computed orbit has period {found.section.period} and is not the motion from rest, "
-        f"which {it}; to compute another orbit, pass a start near that orbit",
-        RuntimeWarning,
-        stacklevel=outside(),
+        f"which {it}; to compute another orbit, pass a start near that orbit"
     )
 
 

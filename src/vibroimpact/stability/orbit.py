@@ -7,7 +7,8 @@ import xarray as xr
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine import section_map
 from vibroimpact.model import Assembly, State
-from vibroimpact.model.count_checks import MOST_CYCLES, whole
+from vibroimpact.model.argument_types import Period, PositiveInt
+from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.stability.fixed_points import MAX_EVENTS
 from vibroimpact.stability.initial_orbit import first_orbit
@@ -16,13 +17,14 @@ from vibroimpact.stability.settle import settled_on
 from vibroimpact.stability.steady import describe_motion
 
 
+@public
 def orbit(
     rig: AnyRig,
     start: State | xr.DataArray | xr.Dataset | None = None,
-    period: int | None = None,
+    period: Period | None = None,
     *,
     frequency: float | str | None = None,
-    samples: int = 256,
+    samples: PositiveInt = 256,
 ) -> xr.Dataset:
     """Compute the periodic orbit near a state, whether it is stable or unstable.
 
@@ -66,8 +68,6 @@ def orbit(
     """
     rig = as_rig_of_any_masses(rig, frequency=frequency)
     rig.check_frequency()
-    period = None if period is None else whole(period, "period", most=MOST_CYCLES)
-    samples = whole(samples, "samples")
     fam = family(rig, "frequency")
     found = first_orbit(fam, (0.0, 1.0), start, period, symmetric=False)
     data = describe_motion(settled_on(found), samples, 1, 1, MAX_EVENTS)

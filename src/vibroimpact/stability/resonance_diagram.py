@@ -4,17 +4,27 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from functools import partial
+from typing import Annotated
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_list, check_progress
+from vibroimpact.arguments import check_list
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.count_checks import MOST_CYCLES, MOST_STARTS, whole
-from vibroimpact.model.read_rig import AnyRig, as_rig, in_units_of_rig
+from vibroimpact.model.argument_types import (
+    MOST_STARTS,
+    NonNegativeInt,
+    Period,
+    PositiveInt,
+    RandomStarts,
+    whole,
+)
+from vibroimpact.model.public import public
+from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
@@ -31,19 +41,19 @@ _SAME = 1e-6
 _CLOSE = 0.1
 
 
-@in_units_of_rig
+@public
 def resonance_diagram(
     rig: AnyRig,
     vary: Ranges,
     *,
     frequency: float | str | None = None,
     phase: float = 0.0,
-    longest: int = 4,
-    most_branches: int = 30,
-    most_points: int = 5000,
-    starts: int = 40,
-    random: int = 8,
-    seed: int = 0,
+    longest: Period = 4,
+    most_branches: PositiveInt = 30,
+    most_points: PositiveInt = 5000,
+    starts: Annotated[int, partial(whole, most=MOST_STARTS)] = 40,
+    random: RandomStarts = 8,
+    seed: NonNegativeInt = 0,
     basins: xr.Dataset | Sequence[xr.Dataset] = (),
     outputs: Outputs | None = None,
     progress: Progress | None = None,
@@ -100,7 +110,6 @@ def resonance_diagram(
     InputError
         If a value is invalid.
     """
-    check_progress(progress)
     rig = as_rig(rig, frequency)
     (along,) = read_ranges(vary, rig)
     if along.parameter.name == "frequency":
@@ -112,12 +121,7 @@ def resonance_diagram(
         rig = rig.at(along.high)
     shaken = rig.with_parts(rig.oscillator, rig.harmonic.replace(phase=phase))
     fam, ends = family(shaken, along.parameter.name), along.ends
-    longest = whole(longest, "longest", most=MOST_CYCLES)
-    starts = whole(starts, "starts", most=MOST_STARTS)
-    most_branches = whole(most_branches, "most_branches")
-    most_points = whole(most_points, "most_points")
     own = read_outputs(outputs, rig)
-    random, seed = whole(random, "random", 0, MOST_STARTS), whole(seed, "seed", 0)
     given = [basins] if isinstance(basins, xr.Dataset) else check_list(basins, "basins")
     begin = values(fam, ends, starts)
     followed: list[Followed] = []

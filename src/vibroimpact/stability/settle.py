@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, AssemblyState, Oscillator, Repeated, State
-from vibroimpact.model.count_checks import share
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.hold_rows import Settling
@@ -84,7 +83,6 @@ def approach(
     InputError
         If the start cannot be, or an undamped mass that no bumper stops is at resonance.
     """
-    tolerance = share(tolerance, "tolerance")
     if isinstance(rig.system, Oscillator):
         check_bounded(rig)
     if not isinstance(start, np.ndarray):

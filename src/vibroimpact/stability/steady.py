@@ -5,18 +5,25 @@ from __future__ import annotations
 import math
 import warnings
 from collections import Counter
-from typing import Any
+from functools import partial
+from typing import Annotated, Any, TypeAlias
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import describe, noted
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, outside
+from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, AssemblyState, State
-from vibroimpact.model.count_checks import check_max_events, check_samples, whole
+from vibroimpact.model.argument_types import (
+    MaxEvents,
+    PositiveInt,
+    Share,
+    check_samples,
+    whole,
+)
+from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.response.analytic_free_response import exciting_excursion
 from vibroimpact.response.assembly_rig import check_size
@@ -59,19 +66,21 @@ _UNDECIDED = (
 )
 MOST_CYCLES = 5_000_000
 """Largest number of cycles over which exponents are averaged: about 0.3 GB."""
+ExponentCycles: TypeAlias = Annotated[int, partial(whole, most=MOST_CYCLES)]
 
 
+@public
 def steady(
     rig: AnyRig,
     start: State | AssemblyState | xr.DataArray | xr.Dataset | None = None,
-    samples: int = 256,
+    samples: PositiveInt = 256,
     *,
     frequency: float | str | None = None,
-    window: int = 200,
-    tolerance: float = 1e-12,
-    max_cycles: int = 2000,
-    exponent_cycles: int = 20_000,
-    max_events: int = 10_000,
+    window: PositiveInt = 200,
+    tolerance: Share = 1e-12,
+    max_cycles: PositiveInt = 2000,
+    exponent_cycles: ExponentCycles = 20_000,
+    max_events: MaxEvents = 10_000,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Simulate a rig until its motion is steady; then record, measure and classify this motion.
@@ -129,9 +138,7 @@ def steady(
     rig = as_rig_of_any_masses(rig, frequency=frequency)
     if isinstance(rig.system, Assembly):
         check_size(rig.system)
-    samples, window, exponent_cycles = read_lengths(samples, window, exponent_cycles)
-    max_cycles, max_events = whole(max_cycles, "max_cycles"), check_max_events(max_events)
-    check_progress(progress)
+    check_samples(window, samples, "window")
     state = SectionStates(rig.system).read(start)
     found = approach(rig, state, tolerance, max_cycles, max_events, progress)
     if found.status not in (Status.DONE, Status.NOT_SETTLED):
@@ -140,24 +147,6 @@ def steady(
     if progress:
         progress(max_cycles, max_cycles)  # it may have settled long before
     return data
-
-
-def read_lengths(samples: object, window: object, exponent_cycles: object) -> tuple[int, int, int]:
-    """Read how many samples and cycles are recorded, and over how many growth is averaged.
-
-    Raises
-    ------
-    InputError
-        If one is not a whole number of at least 1, or they are too many.
-    """
-    samples, window = whole(samples, "samples"), whole(window, "window")
-    exponent_cycles = whole(exponent_cycles, "exponent_cycles")
-    check_samples(window, samples, "window")
-    if exponent_cycles > MOST_CYCLES:
-        raise InputError(
-            f"exponent_cycles: {exponent_cycles} is too large; pass at most {MOST_CYCLES} cycles"
-        )
-    return samples, window, exponent_cycles
 
 
 def describe_motion(
@@ -192,7 +181,7 @@ def describe_motion(
         kind = kind._replace(evidence=f"{kind.evidence}; {_UNDECIDED}")
         if used:
             told = f"{_UNDECIDED}; to find out which, compare it with the motion from another start"
-            warnings.warn(f"steady: {told}", RuntimeWarning, stacklevel=outside())
+            warn_of_result(f"steady: {told}")
     data = _record(found, found.state, samples, kind.period or window, max_events)
     if int(data["status"]) not in (Status.DONE, Status.REVERSED):
         return _given_up(found._replace(status=Status.TOO_MANY_EVENTS), samples, max_events)
@@ -313,11 +302,7 @@ def _given_up(found: Settled, samples: int, max_events: int) -> xr.Dataset:
     if not data.sizes["time"]:
         told = found.status.advice
         raise InputError(f"excitation: the motion could not be simulated: {told}")
-    warnings.warn(
-        f"steady stopped in cycle {found.cycles}: {found.status.advice}",
-        RuntimeWarning,
-        stacklevel=outside(),
-    )
+    warn_of_result(f"steady stopped in cycle {found.cycles}: {found.status.advice}")
     nothing = ("exponent", np.full(exponents(found.states), np.nan))
     scalars: dict[str, Any] = {
         "motion": "undecided",

@@ -7,7 +7,7 @@ import importlib.util
 from typing import Any
 
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.count_checks import whole
+from vibroimpact.model.argument_types import whole
 from vibroimpact.tasks.cluster import Cluster
 from vibroimpact.tasks.processes import Processes, may_start
 from vibroimpact.tasks.threads import Workers

@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from queue import Empty, SimpleQueue
-from typing import Any, Protocol, TypeAlias, TypeVar
+from typing import Annotated, Any, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +34,7 @@ DONE, CYCLES = 0, 2
 _current = threading.local()
 """Its `tally` belongs to the task that the thread runs."""
 
-Progress = Callable[[int, int | None], None]
+Progress: TypeAlias = Annotated[Callable[[int, int | None], None], check_progress]
 """Function that is called with the amount done and the total, None if it is unknown."""
 
 
@@ -115,7 +115,6 @@ def each(
     list
         Results, in the order of the items.
     """
-    check_progress(progress)
     if not items:
         return []
     total = len(items) if steps is None else steps

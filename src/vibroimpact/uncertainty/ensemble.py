@@ -10,11 +10,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.arguments import check_progress
 from vibroimpact.datasets.description import origin
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, Oscillator, Rig
-from vibroimpact.model.count_checks import whole
+from vibroimpact.model.argument_types import Draws, NonNegativeInt, PositiveInt
+from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.threads import Progress, each
 from vibroimpact.uncertainty.distributions import Distribution
@@ -36,15 +36,16 @@ _GROWS = 8
 """Largest factor between the numbers of rigs of consecutive calls: the first call may compile."""
 
 
+@public
 def ensemble(
     rig: AnyRig | Oscillator | Assembly,
     distributions: Mapping[str, Distribution | str],
     response: Response,
-    draws: int = 128,
+    draws: Draws = 128,
     *,
     method: Method = "sobol",
-    seed: int = 0,
-    block: int | None = None,
+    seed: NonNegativeInt = 0,
+    block: PositiveInt | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Draw random rigs from distributions of their parameters, and compute their responses.
@@ -97,9 +98,8 @@ def ensemble(
         If a value is invalid, or if a drawn value is outside the accepted range of its parameter.
         Also if the response does not return a dataset with the dim ``rig``.
     """
-    check_progress(progress)
     drawn = uncertain(rig, distributions)
-    values = drawn.values(shares(draws, len(drawn.names), method, whole(seed, "seed", 0)))
+    values = drawn.values(shares(draws, len(drawn.names), method, seed))
     data = responded(drawn, values, response, block, progress)
     about = {**drawn.about(), "draws": len(values), "method": method, "seed": seed}
     # It says of itself something else than the response of its first rigs.
@@ -122,7 +122,7 @@ def responded(
         )
     rigs = drawn.rigs(values)
     parts: list[xr.Dataset] = []
-    size, first = _FIRST if block is None else whole(block, "block"), 0
+    size, first = _FIRST if block is None else block, 0
     while first < len(rigs):
         some = rigs[first : first + size]
         begin = time.monotonic()

@@ -9,15 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from vibroimpact.arguments import check_name
 from vibroimpact.datasets.description import rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Oscillator, Repeated
-from vibroimpact.model.count_checks import MOST_DRAWS, whole
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.read_rig import AnyRig, in_units_of_rig, one_system
+from vibroimpact.model.read_rig import AnyRig, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.varied import vary_all
+from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.uncertainty.distributions import (
     Distribution,
     check_names,
@@ -29,7 +28,6 @@ from vibroimpact.uncertainty.distributions import (
 _Array = NDArray[np.float64]
 
 Method = Literal["sobol", "latin", "random"]
-METHODS: tuple[Method, ...] = ("sobol", "latin", "random")
 
 _ROUNDING = 1e-9
 
@@ -109,7 +107,6 @@ class Uncertain(NamedTuple):
         return {**rig, "distributions": self.texts}
 
 
-@in_units_of_rig
 def uncertain(rig: AnyRig | Oscillator | Assembly, distributions: Any) -> Uncertain:
     """Read a rig and the distributions of its parameters.
 
@@ -120,7 +117,11 @@ def uncertain(rig: AnyRig | Oscillator | Assembly, distributions: Any) -> Uncert
     """
     alone = isinstance(rig, Oscillator | Assembly)
     base = one_system(rig)
-    shaken = None if alone else base.periodic
+    return _read(base, None if alone else base.periodic, distributions)
+
+
+@as_first_argument
+def _read(base: Rig, shaken: Repeated | None, distributions: Any) -> Uncertain:
     given = check_names(distributions)
     parameters, made = [], []
     for name, one in given.items():
@@ -146,23 +147,21 @@ def uncertain(rig: AnyRig | Oscillator | Assembly, distributions: Any) -> Uncert
     return Uncertain(base, tuple(parameters), tuple(made), texts)
 
 
-def shares(count: object, columns: int, method: str, seed: int) -> _Array:
+def shares(count: int, columns: int, method: Method, seed: int) -> _Array:
     """Return points that fill the unit cube: one row per sample, one column per parameter.
 
     Raises
     ------
     InputError
-        If the method is unknown, or the count is not a power of 2 for Sobol's points.
+        If the count is not a power of 2 for Sobol's points.
     """
-    n = whole(count, "draws", most=MOST_DRAWS)
-    check_name(method, METHODS, "method")
     if method == "sobol":
-        check_power(n, "draws", "Sobol's points")
-        found: _Array = qmc.Sobol(columns, rng=seed).random(n)
+        check_power(count, "draws", "Sobol's points")
+        found: _Array = qmc.Sobol(columns, rng=seed).random(count)
     elif method == "latin":
-        found = qmc.LatinHypercube(columns, rng=seed).random(n)
+        found = qmc.LatinHypercube(columns, rng=seed).random(count)
     else:
-        found = np.random.default_rng(seed).random((n, columns))
+        found = np.random.default_rng(seed).random((count, columns))
     return found
 
 

@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from functools import partial
+from typing import Annotated, Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from vibroimpact.arguments import check_name, check_progress
+from vibroimpact.arguments import check_name
 from vibroimpact.datasets.description import describe
 from vibroimpact.model import Assembly, Oscillator
-from vibroimpact.model.count_checks import MOST_DRAWS, MOST_RESAMPLES, whole
+from vibroimpact.model.argument_types import (
+    MOST_RESAMPLES,
+    Draws,
+    NonNegativeInt,
+    PositiveInt,
+    whole,
+)
+from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.tasks.threads import Progress
 from vibroimpact.uncertainty.distributions import Distribution
@@ -28,16 +36,17 @@ _RESAMPLES = 100
 """Number of bootstrap samples for the intervals of `peak_sensitivity`."""
 
 
+@public
 def sensitivity(
     rig: AnyRig | Oscillator | Assembly,
     distributions: Mapping[str, Distribution | str],
     response: Response,
     quantity: str,
-    draws: int = 256,
+    draws: Draws = 256,
     *,
-    seed: int = 0,
-    resamples: int = 0,
-    block: int | None = None,
+    seed: NonNegativeInt = 0,
+    resamples: Annotated[int, partial(whole, least=0, most=MOST_RESAMPLES)] = 0,
+    block: PositiveInt | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """Compute Sobol indices: the share of a response's variance that is due to each parameter.
@@ -81,14 +90,10 @@ def sensitivity(
     InputError
         As in `ensemble`. Also if the response does not contain the quantity.
     """
-    check_progress(progress)
     drawn = uncertain(rig, distributions)
-    count = whole(draws, "draws", most=MOST_DRAWS)
-    resampled_sets = whole(resamples, "resamples", 0, MOST_RESAMPLES)
-    check_power(count, "draws", "Sobol's points")
-    seed = whole(seed, "seed", 0)
+    check_power(draws, "draws", "Sobol's points")
     columns = len(drawn.names)
-    points = qmc.Sobol(2 * columns, rng=seed).random(count)
+    points = qmc.Sobol(2 * columns, rng=seed).random(draws)
     a, b = points[:, :columns], points[:, columns:]
     # Of each parameter the first set with that column of the second one.
     sets = [a, b, *(np.where(np.arange(columns) == i, b, a) for i in range(columns))]
@@ -100,7 +105,7 @@ def sensitivity(
     )
     values = data[quantity].transpose(..., "sample").astype(float)
     one = values.isel(sample=0, drop=True)
-    found = values.values.reshape(*one.shape, columns + 2, count)
+    found = values.values.reshape(*one.shape, columns + 2, draws)
 
     dims = (*(str(dim) for dim in one.dims), "uncertain_parameter")
     first, total = _orders(found)
@@ -110,8 +115,8 @@ def sensitivity(
         "mean": (dims[:-1], found[..., :2, :].mean(axis=(-2, -1))),
         "variance": (dims[:-1], found[..., :2, :].var(axis=(-2, -1))),
     }
-    if resampled_sets:
-        again = np.random.default_rng(seed).integers(count, size=(resampled_sets, count))
+    if resamples:
+        again = np.random.default_rng(seed).integers(draws, size=(resamples, draws))
         resampled = np.array([_orders(found[..., chosen]) for chosen in again])
         tails = 0.5 * np.array([1.0 - CONFIDENCE, 1.0 + CONFIDENCE])
         intervals = np.moveaxis(np.quantile(resampled, tails, axis=0), 0, -1)
@@ -120,7 +125,7 @@ def sensitivity(
     coords = {name: coord for name, coord in one.coords.items() if name not in drawn.names}
     made = xr.Dataset(variables, {**coords, "uncertain_parameter": drawn.names})
     made.attrs["quantity"] = quantity
-    about = {**drawn.about(), "quantity": quantity, "draws": count, "seed": seed}
+    about = {**drawn.about(), "quantity": quantity, "draws": draws, "seed": seed}
     made = describe(made, CREATED_BY, about)
     units = str(one.attrs.get("units", "1"))
     made["mean"].attrs["units"] = units

@@ -161,7 +161,7 @@ def test_a_command_of_one_mass_refuses_it(tmp_path, capsys):
 
     path = tmp_path / "building.toml"
     path.write_text(BUILDING, encoding="utf-8")
-    assert main(["sweep", str(path)]) != 0
+    assert main(["classify", str(path)]) != 0
     told = capsys.readouterr().err
-    assert "an Assembly of several masses is not accepted" in told
+    assert "one mass, not an assembly of several masses" in told
     assert told.count("\n") == 1

@@ -7,7 +7,7 @@ displacements relative to the base, and ``ι`` is 1 for each mass.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Self
@@ -26,9 +26,9 @@ from vibroimpact.model.frozen_mapping import FrozenMapping
 from vibroimpact.model.keys import listed
 from vibroimpact.model.oscillator import Units
 from vibroimpact.model.quantities import FORCE, MASS
-from vibroimpact.model.stated_units import has_unit
+from vibroimpact.model.stated_units import check_no_units
 from vibroimpact.model.units import pretty
-from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import NONE, SI, written_for
 
 _MASS = Accepts(MASS, above=0.0, meaning="mass")
@@ -110,7 +110,7 @@ class Assembly(Model):
     units: Units = "SI"
     matrices: Matrices | None = None
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         masses: Mapping[str, float | str] | None = None,
@@ -120,16 +120,7 @@ class Assembly(Model):
         damping: AnyDamping | Mapping[str, Any] | None = None,
         units: Units = "SI",
         matrices: Matrices | None = None,
-    ) -> None:
-        super().__init__(
-            masses=masses,
-            links=links,
-            stops=stops,
-            forces=forces,
-            damping=damping,
-            units=units,
-            matrices=matrices,
-        )
+    ) -> None: ...
 
     @classmethod
     def from_matrices(
@@ -205,12 +196,7 @@ class Assembly(Model):
         if not isinstance(data, Mapping):
             return data
         if data.get("units") == NONE:
-            for path, value in _values(data):
-                if has_unit(value):
-                    raise InputError(
-                        f'{path}: {shown(value)} has a unit, but units is "none"; pass a number '
-                        "without a unit, or remove units"
-                    )
+            check_no_units(data)
         read = dict(data)
         given = {
             part: _table(data.get(part), part) for part in ("masses", "links", "stops", "forces")
@@ -537,12 +523,3 @@ def _matrices_of(table: Mapping[str, Any]) -> Matrices:
         )
     except InputError as error:
         raise InputError(f"matrices.{error}") from None
-
-
-def _values(table: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the values of nested tables, with their paths."""
-    for name, value in table.items():
-        if isinstance(value, Mapping):
-            yield from _values(value, f"{path}{name}.")
-        else:
-            yield f"{path}{name}", value

@@ -16,7 +16,7 @@ from vibroimpact.arguments import check_list, is_list
 from vibroimpact.errors import InputError
 from vibroimpact.model.law_registry import Kinds, Named
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME, Quantity, Scale
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 Matrix: TypeAlias = NDArray[np.float64]
 
@@ -77,9 +77,8 @@ class ModalDamping(Damping):
 
     ratio: float | tuple[float, ...]
 
-    @constructor
-    def __init__(self, ratio: Any) -> None:
-        super().__init__(ratio=ratio)
+    @takes_fields
+    def __init__(self, ratio: Any) -> None: ...
 
     @field_validator("ratio", mode="before")
     @classmethod
@@ -133,9 +132,10 @@ class RayleighDamping(Damping):
     mass_factor: Annotated[float, Accepts(_RATE, minimum=0.0)] = 0.0
     stiffness_factor: Annotated[float, Accepts(TIME, minimum=0.0)] = 0.0
 
-    @constructor
-    def __init__(self, mass_factor: float | str = 0.0, stiffness_factor: float | str = 0.0) -> None:
-        super().__init__(mass_factor=mass_factor, stiffness_factor=stiffness_factor)
+    @takes_fields
+    def __init__(
+        self, mass_factor: float | str = 0.0, stiffness_factor: float | str = 0.0
+    ) -> None: ...
 
     @classmethod
     def from_ratio(cls, ratio: float, first: float, second: float) -> Self:

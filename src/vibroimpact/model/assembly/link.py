@@ -16,7 +16,7 @@ from vibroimpact.model.law_registry import Kinds
 from vibroimpact.model.own_law import Law
 from vibroimpact.model.stops import STOPS, Bumper, Stop
 from vibroimpact.model.stops.bumper import returning
-from vibroimpact.model.validation import Model, constructor
+from vibroimpact.model.validation import Model, takes_fields
 
 AnyLaw: TypeAlias = AnyIsolator | Stop
 """A law of a link or of a stop."""
@@ -57,9 +57,8 @@ class Link(Model):
     right: str
     law: AnyLaw
 
-    @constructor
-    def __init__(self, left: str, right: str, law: AnyLaw) -> None:
-        super().__init__(left=left, right=right, law=law)
+    @takes_fields
+    def __init__(self, left: str, right: str, law: AnyLaw) -> None: ...
 
     @field_validator("law", mode="wrap")
     @classmethod

@@ -6,8 +6,8 @@ import re
 from collections.abc import Collection
 from typing import Final
 
-from vibroimpact.errors import InputError, shown
-from vibroimpact.model.keys import similar_key
+from vibroimpact.errors import InputError, shown, similar
+from vibroimpact.model.keys import LIKENESS
 
 GROUND: Final = "ground"
 """Name of the base in links and stops."""
@@ -70,7 +70,7 @@ def check_known(name: object, names: Collection[str], what: str, where: str) -> 
         return name
     if not names:
         raise InputError(f"{where}: {shown(name)} is not a {what}; the assembly has no {what}s")
-    close = similar_key(list(names), name) if isinstance(name, str) else ""
+    close = similar(name, names, LIKENESS)
     hint = f"did you mean {close!r}? " if close else ""
     known = " or ".join(filter(None, (", ".join(map(repr, [*names][:-1])), repr([*names][-1]))))
     raise InputError(

@@ -6,7 +6,7 @@ from typing import ClassVar, Self
 
 from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import YieldingLaw
-from vibroimpact.model.validation import constructor
+from vibroimpact.model.validation import takes_fields
 
 
 class BilinearIsolator(YieldingLaw):
@@ -42,7 +42,7 @@ class BilinearIsolator(YieldingLaw):
 
     kind: ClassVar[str] = "bilinear"
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         elastic_stiffness: float | str,
@@ -50,14 +50,7 @@ class BilinearIsolator(YieldingLaw):
         yield_force: float | str,
         damping: float | str,
         damping_exponent: float | str = 1.0,
-    ) -> None:
-        super().__init__(
-            elastic_stiffness=elastic_stiffness,
-            post_yield_stiffness=post_yield_stiffness,
-            yield_force=yield_force,
-            damping=damping,
-            damping_exponent=damping_exponent,
-        )
+    ) -> None: ...
 
     @classmethod
     def like(cls, stiffness: float, damping: float, displacement: float) -> Self:

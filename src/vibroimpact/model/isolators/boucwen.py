@@ -12,7 +12,7 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import YieldingLaw
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 _SETTLED = 40.0
 """Value of n (x - 1) above which y is 1 to the last digit, because 1 - yⁿ < exp(-n (x - 1))."""
@@ -76,7 +76,7 @@ class BoucWenIsolator(YieldingLaw):
     beta: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0, meaning="hysteresis number β")] = 0.5
     gamma: Annotated[float, Accepts(DIMENSIONLESS, meaning="hysteresis number γ")] = 0.5
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         elastic_stiffness: float | str,
@@ -87,17 +87,7 @@ class BoucWenIsolator(YieldingLaw):
         beta: float | str = 0.5,
         gamma: float | str = 0.5,
         damping_exponent: float | str = 1.0,
-    ) -> None:
-        super().__init__(
-            elastic_stiffness=elastic_stiffness,
-            post_yield_stiffness=post_yield_stiffness,
-            yield_force=yield_force,
-            damping=damping,
-            exponent=exponent,
-            beta=beta,
-            gamma=gamma,
-            damping_exponent=damping_exponent,
-        )
+    ) -> None: ...
 
     @model_validator(mode="after")
     def _is_bounded(self) -> Self:

@@ -13,7 +13,7 @@ from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import IsolatorLaw
 from vibroimpact.model.quantities import DECAY, FORCE, STIFFNESS
 from vibroimpact.model.units import pretty
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 _LARGEST = 300.0
 """Largest |β| u for which the hyperbolic sine does not overflow."""
@@ -68,7 +68,7 @@ class ExponentialIsolator(IsolatorLaw):
     hardening: Annotated[float, Accepts(DECAY)] = 0.0
     hardening_force: Annotated[float, Accepts(FORCE, minimum=0.0)] = 1.0
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         reversal_stiffness: float | str,
@@ -78,16 +78,7 @@ class ExponentialIsolator(IsolatorLaw):
         hardening: float | str = 0.0,
         hardening_force: float | str = 1.0,
         damping_exponent: float | str = 1.0,
-    ) -> None:
-        super().__init__(
-            reversal_stiffness=reversal_stiffness,
-            final_stiffness=final_stiffness,
-            decay=decay,
-            damping=damping,
-            hardening=hardening,
-            hardening_force=hardening_force,
-            damping_exponent=damping_exponent,
-        )
+    ) -> None: ...
 
     @model_validator(mode="after")
     def _fades(self) -> Self:

@@ -11,7 +11,7 @@ from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.design import design
 from vibroimpact.model.isolators.law import SpringLaw
 from vibroimpact.model.quantities import FORCE, GRAVITY
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 
 class FrictionIsolator(SpringLaw):
@@ -46,20 +46,14 @@ class FrictionIsolator(SpringLaw):
 
     friction: Annotated[float, Accepts(FORCE, minimum=0.0)]
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         stiffness: float | str,
         damping: float | str,
         friction: float | str,
         damping_exponent: float | str = 1.0,
-    ) -> None:
-        super().__init__(
-            stiffness=stiffness,
-            damping=damping,
-            friction=friction,
-            damping_exponent=damping_exponent,
-        )
+    ) -> None: ...
 
     @classmethod
     def from_period(

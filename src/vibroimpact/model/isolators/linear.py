@@ -8,7 +8,7 @@ from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import SpringLaw
 from vibroimpact.model.quantities import DAMPING, STIFFNESS
 from vibroimpact.model.units import pretty
-from vibroimpact.model.validation import constructor
+from vibroimpact.model.validation import takes_fields
 
 
 class Isolator(SpringLaw):
@@ -35,18 +35,13 @@ class Isolator(SpringLaw):
     kind: ClassVar[str] = "linear"
     usual: ClassVar[bool] = True
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         stiffness: float | str,
         damping: float | str,
         damping_exponent: float | str = 1.0,
-    ) -> None:
-        super().__init__(
-            stiffness=stiffness,
-            damping=damping,
-            damping_exponent=damping_exponent,
-        )
+    ) -> None: ...
 
     @classmethod
     def like(cls, stiffness: float, damping: float, displacement: float) -> Self:

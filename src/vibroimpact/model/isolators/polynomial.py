@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Self
 from vibroimpact.law_numbers import IsolatorNumbers
 from vibroimpact.model.isolators.law import SpringLaw
 from vibroimpact.model.quantities import power_stiffness
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 
 class PolynomialIsolator(SpringLaw):
@@ -42,7 +42,7 @@ class PolynomialIsolator(SpringLaw):
     cubic: Annotated[float, Accepts(power_stiffness(3.0), meaning="cubic stiffness")] = 0.0
     quintic: Annotated[float, Accepts(power_stiffness(5.0), meaning="quintic stiffness")] = 0.0
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         stiffness: float | str,
@@ -50,14 +50,7 @@ class PolynomialIsolator(SpringLaw):
         cubic: float | str = 0.0,
         quintic: float | str = 0.0,
         damping_exponent: float | str = 1.0,
-    ) -> None:
-        super().__init__(
-            stiffness=stiffness,
-            damping=damping,
-            cubic=cubic,
-            quintic=quintic,
-            damping_exponent=damping_exponent,
-        )
+    ) -> None: ...
 
     @classmethod
     def like(cls, stiffness: float, damping: float, displacement: float) -> Self:

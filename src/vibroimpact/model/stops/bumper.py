@@ -14,7 +14,7 @@ from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, LENGTH, MASS, S
 from vibroimpact.model.restitution import damping_ratio
 from vibroimpact.model.stops.law import StopLaw
 from vibroimpact.model.units import pretty, to_si
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 
 class Bumper(StopLaw):
@@ -49,9 +49,8 @@ class Bumper(StopLaw):
     damping: Annotated[float, Accepts(DAMPING, minimum=0.0)]
     gap: Annotated[float, Accepts(LENGTH)]
 
-    @constructor
-    def __init__(self, stiffness: float | str, damping: float | str, gap: float | str) -> None:
-        super().__init__(stiffness=stiffness, damping=damping, gap=gap)
+    @takes_fields
+    def __init__(self, stiffness: float | str, damping: float | str, gap: float | str) -> None: ...
 
     @classmethod
     def from_restitution(

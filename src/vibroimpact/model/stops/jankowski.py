@@ -13,7 +13,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.law_numbers import PowerLaw
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, MASS, power_stiffness
 from vibroimpact.model.stops.law import StopLaw
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 
 class JankowskiBumper(StopLaw):
@@ -55,15 +55,14 @@ class JankowskiBumper(StopLaw):
     restitution: Annotated[float, Accepts(DIMENSIONLESS, above=0.0, maximum=1.0)]
     mass: Annotated[float | None, Accepts(MASS, above=0.0, optional=True)] = None
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         stiffness: float | str,
         gap: float | str,
         restitution: float | str,
         mass: float | str | None = None,
-    ) -> None:
-        super().__init__(stiffness=stiffness, gap=gap, restitution=restitution, mass=mass)
+    ) -> None: ...
 
     @model_validator(mode="after")
     def _damped_finitely(self) -> Self:

@@ -20,7 +20,7 @@ from vibroimpact.model.quantities import (
 )
 from vibroimpact.model.stops.dissipation import Relation, dissipation_number
 from vibroimpact.model.stops.law import StopLaw
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 _EXPONENT = replace(DIMENSIONLESS, example="1.5", number=1.5)
 
@@ -84,7 +84,7 @@ class PowerBumper(StopLaw):
     ] = None
     relation: str = "exact"
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         stiffness: float | str,
@@ -93,15 +93,7 @@ class PowerBumper(StopLaw):
         dissipation: float | str | None = None,
         restitution: float | str | None = None,
         relation: Relation = "exact",
-    ) -> None:
-        super().__init__(
-            stiffness=stiffness,
-            gap=gap,
-            exponent=exponent,
-            dissipation=dissipation,
-            restitution=restitution,
-            relation=relation,
-        )
+    ) -> None: ...
 
     @model_validator(mode="after")
     def _takes_energy_one_way(self) -> Self:

@@ -7,7 +7,7 @@ from typing import Annotated, ClassVar, Self
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH
 from vibroimpact.model.stops.law import StopLaw
 from vibroimpact.model.units import plain, pretty
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts, takes_fields
 
 
 class RigidStop(StopLaw):
@@ -36,9 +36,8 @@ class RigidStop(StopLaw):
     restitution: Annotated[float, Accepts(DIMENSIONLESS, minimum=0.0, maximum=1.0)]
     gap: Annotated[float, Accepts(LENGTH)]
 
-    @constructor
-    def __init__(self, restitution: float | str, gap: float | str) -> None:
-        super().__init__(restitution=restitution, gap=gap)
+    @takes_fields
+    def __init__(self, restitution: float | str, gap: float | str) -> None: ...
 
     @classmethod
     def like(

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.model.count_checks import share, whole
+from vibroimpact.model.argument_types import share, whole
 
 
 @pytest.mark.parametrize("value", [3, np.int64(3), np.uint8(3)])
@@ -17,7 +17,7 @@ def test_whole_numbers(value):
 
 @pytest.mark.parametrize("value", [True, np.True_, 1.0, "3", None, 0, -1, np.float64(3)])
 def test_what_is_no_whole_number(value):
-    with pytest.raises(vi.InputError, match=r"n: .*; a whole number of at least 1 is accepted"):
+    with pytest.raises(vi.InputError, match=r"n: .*; pass a whole number of at least 1"):
         whole(value, "n")
 
 

@@ -1,10 +1,18 @@
-"""Checks of whole numbers, such as numbers of samples, cycles and rigs."""
+"""Types of arguments whose values `public` checks, and checks of whole numbers and shares.
+
+Such a type is ``Annotated[type, check]``: ``check(value, name of the argument)`` returns the value
+that the function gets, or raises `InputError`.
+"""
 
 from __future__ import annotations
 
+from functools import partial
 from numbers import Integral
+from typing import Annotated, TypeAlias
 
 from vibroimpact.errors import InputError, shown
+from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model.units import to_si
 
 LARGEST = 2**62
 """Largest number that the engine can count to."""
@@ -41,6 +49,9 @@ MOST_TAIL = 1e8
 MOST_DRAWS, MOST_RESAMPLES = 2**20, 100_000
 """Largest number of random rigs, and of bootstrap samples of them."""
 
+MOST_REFINED = 8
+"""Largest number of refinements of a grid: nodes 256 times as dense as at first."""
+
 MOST_STARTS = 1_000_000
 """Largest number of random initial states."""
 
@@ -53,22 +64,11 @@ def whole(value: object, field: str, least: int = 1, most: int = LARGEST) -> int
     InputError
         If the value is not a whole number, or if it is less than `least` or greater than `most`.
     """
-    if isinstance(value, bool) or not isinstance(value, Integral) or int(value) < least:
-        raise InputError(f"{field}: {shown(value)}; a whole number of at least {least} is accepted")
-    if int(value) > most:
-        raise InputError(f"{field}: {shown(value)}; a whole number up to {most} is accepted")
-    return int(value)
-
-
-def check_max_events(value: object) -> int:
-    """Return the largest number of contacts and detachments in one forcing cycle.
-
-    Raises
-    ------
-    InputError
-        If it is not a whole number from 1 to `MOST_EVENTS`.
-    """
-    return whole(value, "max_events", most=MOST_EVENTS)
+    is_whole = isinstance(value, Integral) and not isinstance(value, bool)
+    if not is_whole or not least <= int(value) <= most:  # type: ignore[call-overload]
+        range_ = f"of at least {least}" if most == LARGEST else f"from {least} to {most}"
+        raise InputError(f"{field}: {shown(value)}; pass a whole number {range_}")
+    return int(value)  # type: ignore[call-overload, no-any-return]
 
 
 def share(value: object, field: str) -> float:
@@ -79,10 +79,23 @@ def share(value: object, field: str) -> float:
     InputError
         If the value is not such a number.
     """
-    from vibroimpact.model.quantities import DIMENSIONLESS
-    from vibroimpact.model.units import to_si
-
     number = to_si(value, DIMENSIONLESS, field, above=0.0)
     if not number < 1.0:
-        raise InputError(f"{field}: {shown(value)}; a number between 0 and 1 is accepted")
+        raise InputError(f"{field}: {shown(value)}; pass a number between 0 and 1")
     return number
+
+
+PositiveInt: TypeAlias = Annotated[int, whole]
+NonNegativeInt: TypeAlias = Annotated[int, partial(whole, least=0)]
+MaxEvents: TypeAlias = Annotated[int, partial(whole, most=MOST_EVENTS)]
+"""Largest number of contacts and detachments in one forcing cycle."""
+Period: TypeAlias = Annotated[int, partial(whole, most=MOST_CYCLES)]
+"""Period of an orbit, in forcing cycles."""
+RandomStarts: TypeAlias = Annotated[int, partial(whole, least=0, most=MOST_STARTS)]
+"""Number of random initial states."""
+Draws: TypeAlias = Annotated[int, partial(whole, most=MOST_DRAWS)]
+"""Number of random rigs."""
+Refinements: TypeAlias = Annotated[int, partial(whole, least=0, most=MOST_REFINED)]
+"""Number of times that a grid is refined."""
+Share: TypeAlias = Annotated[float, share]
+"""A number between 0 and 1."""

@@ -1,0 +1,86 @@
+"""Read ranges and rising lists of one quantity."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from vibroimpact.arguments import check_list, is_pair
+from vibroimpact.errors import InputError, shown
+from vibroimpact.model.quantities import Quantity
+from vibroimpact.model.units import pretty, to_si
+
+_COUNTS = ("is empty", "has one value", "has two values")
+
+
+def read_span(
+    span: Any, quantity: Quantity, field: str, what: str = "value", **bounds: float | None
+) -> tuple[float, float]:
+    """Return the lowest and the highest value of a range in SI units.
+
+    Parameters
+    ----------
+    span
+        The argument, a pair.
+    quantity, field, bounds
+        As in `to_si`.
+    what
+        What the values are, for error messages.
+
+    Raises
+    ------
+    InputError
+        If it is not a pair in rising order, or if a value is invalid.
+    """
+    if not is_pair(span):
+        raise InputError(
+            f"{field}: {shown(span)}; pass the lowest and the highest {what} as (low, high)"
+        )
+    low, high = (to_si(end, quantity, f"{field}[{i}]", **bounds) for i, end in enumerate(span))
+    if not low < high:
+        first, second = (pretty(end, quantity) for end in (low, high))
+        raise InputError(
+            f"{field}: the first value, {first}, is not below the second, {second}; pass the lower "
+            "value first"
+        )
+    return low, high
+
+
+def read_rising(
+    values: Any, quantity: Quantity, field: str, least: int = 1, **bounds: float | None
+) -> NDArray[np.float64]:
+    """Return a list of rising values in SI units.
+
+    Parameters
+    ----------
+    values
+        The argument.
+    quantity, field, bounds
+        As in `to_si`.
+    least
+        Smallest number of values.
+
+    Raises
+    ------
+    InputError
+        If it is not a list of so many rising values. The message has the position and the value of
+        the first wrong one.
+    """
+    items = check_list(values, field, what=f"a list of values, such as [{quantity.example!r}]")
+    if isinstance(values, np.ndarray) and values.dtype == float and values.ndim == 1:
+        items = tuple(values.tolist())  # of plain floats, which are read at once
+    found = np.array(
+        [to_si(one, quantity, f"{field}[{i}]", **bounds) for i, one in enumerate(items)]
+    )
+    if len(found) < least:
+        needed = _COUNTS[least].removeprefix("has ")
+        raise InputError(f"{field}: the list {_COUNTS[len(found)]}; pass at least {needed}")
+    for i in np.flatnonzero(np.diff(found) <= 0.0):
+        last, this = (pretty(float(one), quantity, 9) for one in found[i : i + 2])
+        raise InputError(
+            f"{field}[{i + 1}]: {this} follows {last}; sort the values in increasing order, and "
+            "pass each one only once"
+        )
+    return found
