@@ -123,7 +123,7 @@ class Seen(NamedTuple):
     masses: int
     stops: int
     parts: int
-    """Stops, and behind them the curved parts of links."""
+    """Stops, then the curved parts of links."""
 
     def _of(self, first: int, count: int) -> _Array:
         return self.values[:, first : first + count]
