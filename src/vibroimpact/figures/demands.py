@@ -9,11 +9,11 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes.fragility import lacking
 from vibroimpact.earthquakes.suites import fractiles, known
 from vibroimpact.errors import InputError
+from vibroimpact.figures.axis_labels import of_part
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units, in_unit
@@ -256,23 +256,14 @@ def _exceedance(fragility: xr.Dataset) -> str:
         source = quantity.partition(".")[0]
         variable = VARIABLES.get(source)
         factor, unit = 1.0, variable.units if variable else ""
-        name = _of_part(variable.long_name if variable else source.replace("_", " "), quantity)
+        name = of_part(variable.long_name if variable else source.replace("_", " "), quantity)
     return f"{name} > {factor * limit:.4g} {'' if unit == '1' else unit}".rstrip()
 
 
 def _plain_label(data: xr.Dataset, quantity: str) -> str:
     about = data[quantity if quantity in data else quantity.partition(".")[0]].attrs
     unit = "–" if about["units"] == "1" else about["units"]
-    return f"{_of_part(about['long_name'], quantity)} ({unit})"
-
-
-def _of_part(name: str, quantity: str) -> str:
-    """Name the stop, mass or link of a quantity, such as ``"impact_count.right"``."""
-    part = quantity.partition(".")[2]
-    if "the stop" not in name:
-        return f"{name} of {part}" if part else name
-    which = f"the {part} stop" if part in SIDES else f"stop {part}" if part else "any stop"
-    return name.replace("the stop", which)
+    return f"{of_part(about['long_name'], quantity)} ({unit})"
 
 
 def _level_unit(data: xr.Dataset) -> tuple[float, str]:
