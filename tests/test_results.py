@@ -27,10 +27,11 @@ NO_DATASET = {
     "laboratory.case",
     "progress_bar",
     "save",
+    "show_versions",
     "to_dimensionless",
     "to_table",
 }
-"""Functions that make a rig, a record, a file or a table; their docstrings say which."""
+"""Functions that make a rig, a record, a file or a table, or print; their docstrings say which."""
 
 
 KINDS = {row[0].strip("`"): row[2] for row in rows("Words of results")}

@@ -8,6 +8,7 @@ import xarray as xr
 
 import vibroimpact as vi
 from earthquakes.made import lognormal, suite
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.figures import fragility_curves, incremental_curves
 
 SCALES = np.linspace(0.2, 3.0, 10)
@@ -50,6 +51,26 @@ def test_fragility_curves() -> None:
     assert (band, share) == ("its 90 % band", "share of the records")
     with pytest.raises(vi.InputError, match=r"^fragility: this dataset has no fragility curve"):
         fragility_curves(data)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "words"),
+    [
+        ("impact_count", "number of contacts with any stop"),
+        ("impact_count.right", "number of contacts with the right stop"),
+        ("peak_force.right", "largest force of the right stop"),
+    ],
+)
+def test_labels_name_the_stop(quantity: str, words: str) -> None:
+    data = lognormal(np.random.default_rng(1), 12, SCALES, 0.4)
+    contacts = (data["peak_displacement"] > 1.0).expand_dims(stop=["right", "left"], axis=-1)
+    for name, unit in (("impact_count", "1"), ("peak_force", "N")):
+        data[name] = contacts.astype(float).assign_attrs(
+            units=unit, long_name=VARIABLES[name].long_name
+        )
+    assert incremental_curves(data, quantity=quantity).get_ylabel().startswith(words)
+    ax = fragility_curves(vi.fragility(data, quantity, 0.5))
+    assert f"probability of {words} > 0" in ax.get_ylabel().replace("\n", " ")
 
 
 def test_accelerations_are_drawn_in_g() -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+
 import xarray as xr
 
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.figures.own_units import in_unit
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
 
@@ -29,10 +32,23 @@ def axis_label(values: xr.DataArray, quantity: str) -> tuple[float, str]:
     if quantity not in _LABELS:
         units = {"m": "mm", "m s-2": "m/s²", "1": "–"}
         unit = str(values.attrs.get("units", "1"))
-        name = values.attrs.get("long_name", quantity.replace("_", " "))
+        name = str(values.attrs.get("long_name", quantity.partition(".")[0].replace("_", " ")))
+        if "stop" not in values.dims:
+            name = of_part(name, quantity)
         return in_unit(1e3) if unit == "m" else 1.0, f"{name} ({units.get(unit, unit)})"
     factor, label = _LABELS[quantity]
     if factor == 0.0:
         fits = (IMPULSE if quantity == "peak_impulse" else FORCE).unit(*values.values.ravel())
         return 1.0 / fits.size, label.format(fits.symbol)
     return in_unit(factor), label
+
+
+def of_part(name: str, quantity: str) -> str:
+    """Name the stop, mass or link of a quantity, such as ``"impact_count.right"``."""
+    part = quantity.partition(".")[2]
+    kind = re.search(r"the ((?:rigid )?stop)\b", name)
+    if kind is None:
+        return f"{part}: {name}" if part else name
+    stop = kind[1]
+    which = f"the {part} {stop}" if part in SIDES else f"{stop} {part}" if part else f"any {stop}"
+    return name.replace(kind[0], which)

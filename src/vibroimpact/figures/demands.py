@@ -13,6 +13,7 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes.fragility import lacking
 from vibroimpact.earthquakes.suites import fractiles, known
 from vibroimpact.errors import InputError
+from vibroimpact.figures.axis_labels import of_part
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units, in_unit
@@ -73,7 +74,7 @@ def incremental_curves(
     values = known(demands, quantity)
     _one_rig(values, "demands")
     ax = axes_or_new(ax, (5.6, 4.0), title)
-    factor, label = _LABELS.get(quantity, (1.0, _plain_label(demands, quantity)))
+    factor, label = _LABELS.get(quantity) or (1.0, _plain_label(demands, quantity))
     factor = in_unit(factor)
     unit, symbol = _level_unit(demands)
     level = unit * demands["scale"].values
@@ -246,22 +247,23 @@ def _exceedance(fragility: xr.Dataset) -> str:
     """Return which limit of which quantity is exceeded."""
     about = json.loads(fragility.attrs["parameters"])
     quantity, limit = str(about["quantity"]), float(about["limit"])
-    variable = VARIABLES.get(quantity)
     if quantity in _LABELS:
         factor, label = _LABELS[quantity]
         name, unit = label[:-1].rsplit(" (", 1)
         if unitless():
             factor, unit = 1.0, ""
     else:
+        source = quantity.partition(".")[0]
+        variable = VARIABLES.get(source)
         factor, unit = 1.0, variable.units if variable else ""
-        name = variable.long_name if variable else quantity.replace("_", " ")
+        name = of_part(variable.long_name if variable else source.replace("_", " "), quantity)
     return f"{name} > {factor * limit:.4g} {'' if unit == '1' else unit}".rstrip()
 
 
 def _plain_label(data: xr.Dataset, quantity: str) -> str:
-    about = data[quantity].attrs
+    about = data[quantity if quantity in data else quantity.partition(".")[0]].attrs
     unit = "–" if about["units"] == "1" else about["units"]
-    return f"{about['long_name']} ({unit})"
+    return f"{of_part(about['long_name'], quantity)} ({unit})"
 
 
 def _level_unit(data: xr.Dataset) -> tuple[float, str]:
