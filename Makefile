@@ -49,6 +49,8 @@ test test-full: $(VENV)/.installed-test
 	$(BIN)/python -m pytest -n auto --maxprocesses 8 --dist loadfile $(FULL) $(ARGS)
 
 test-full: FULL := --full
+# What numba compiles, also beside a library of machine code.
+test-full: export VIBROIMPACT_ENGINE := numba
 
 # Tests start many processes, and each would compile the sources again.
 test test-full: export PYTHONDONTWRITEBYTECODE :=

@@ -54,11 +54,10 @@ def test_a_csv_of_a_noisy_history_with_uneven_gaps(tmp_path):
     bumper = vi.Bumper("500 kN/m", "1 kN s/m", "7 mm")
     guess = vi.Oscillator(MASS, vi.Isolator("27 kN/m", "1.1 kN s/m"), bumper, bumper)
     stops = [f"stops.{side}.{name}" for side in ("right", "left") for name in ("stiffness", "gap")]
-    free = ["isolator.stiffness", "isolator.damping", *stops]
+    dampings = ["stops.right.damping", "stops.left.damping"]
+    free = ["isolator.stiffness", "isolator.damping", *stops, *dampings]
     with pytest.warns(vi.InputWarning, match="the displacement of the mass"):
-        found = vi.identify(
-            guess, path, f"{free},right_damping,left_damping", profiles=False, tried=0, starts=1
-        )
+        found = vi.identify(guess, path, free, profiles=False, tried=0, starts=1)
     values, errors = found.fitted_value.values, found.standard_error.values
     assert values[:6] == pytest.approx(TRUE, rel=0.03)
     assert values[6:] == pytest.approx([RIGHT[1], LEFT[1]], rel=0.15)

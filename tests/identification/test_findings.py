@@ -174,10 +174,10 @@ def test_the_table_of_a_fit_has_its_intervals(tmp_path):
     data = curves(CASE.oscillator, "0.04 g", 0.01, frequencies=GRID)
     found = vi.identify(CASE.oscillator, data, "isolator.stiffness,gap", tried=0, starts=1)
     table = vi.to_table(found)
-    assert list(table["interval_low"]) == found.interval.sel(bound="low").values.tolist()
-    assert list(table["interval_high"]) == found.interval.sel(bound="high").values.tolist()
+    assert list(table["interval.low"]) == found.interval.sel(bound="low").values.tolist()
+    assert list(table["interval.high"]) == found.interval.sel(bound="high").values.tolist()
     vi.save(found, tmp_path / "fit.csv")
-    assert "interval_low" in (tmp_path / "fit.csv").read_text().splitlines()[0]
+    assert "interval.low" in (tmp_path / "fit.csv").read_text().splitlines()[0]
 
 
 @pytest.mark.parametrize("nonsense", [3, None, 1.5, object(), b"gap", [3], [["gap"]], {3: 1}, True])

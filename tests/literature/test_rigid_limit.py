@@ -139,7 +139,7 @@ def error(
     isolator = vi.Isolator(1.0, 2.0 * ISOLATOR_DAMPING)
     rig = vi.Oscillator(1.0, isolator, stop, stop if two_stops else None)
     shaken = vi.Harmonic(1.0, ratio / math.tau, orbit.phase)
-    behind = vi.State(orbit.gap, -restitution(z) * orbit.velocity, 0.0, contact=0)
+    behind = vi.State(orbit.gap, -restitution(z) * orbit.velocity, {"right": 0.0}, contact=0)
     start = vi.State() if from_rest else behind
     data = vi.simulate(vi.Rig(rig, shaken), cycles + 0.5, start, samples=1)
     struck = (data["event_contact"] == 1) & (data["event_stop"] == "right")

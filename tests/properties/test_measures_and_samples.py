@@ -106,11 +106,12 @@ def check_contacts(log: xr.Dataset, motion: xr.Dataset, rig: vi.Oscillator, shar
     time, u = motion["time"].values, motion["displacement"].values
     event_time, event_u = motion["event_time"].values, motion["event_displacement"].values
     step, size = time[1], float(np.abs(u).max())
-    columns = ("side", "start", "end", "penetration")
+    columns = ("stop", "start", "end", "penetration")
     rows = zip(*(log[f"contact_{name}"].values for name in columns), strict=True)
     count = 0
-    for side, start, end, penetration in rows:
-        stop = rig.right if side == 1 else rig.left
+    stops = {"right": (1.0, rig.right), "left": (-1.0, rig.left)}
+    for name, start, end, penetration in rows:
+        side, stop = stops[name]
         if isinstance(stop, vi.RigidStop):
             continue
         inside = slice(*np.searchsorted(time, [start, end]))
@@ -120,14 +121,10 @@ def check_contacts(log: xr.Dataset, motion: xr.Dataset, rig: vi.Oscillator, shar
         within(penetration, max(seen.max(), 0.0), between, size)
         count += 1
     begun = motion["event_contact"].values == 1
-    for side, stop in ((1, rig.right), (-1, rig.left)):
+    for name, (_, stop) in stops.items():
         if stop is not None and not isinstance(stop, vi.RigidStop):
-            begins = motion["event_time"].values[
-                begun & (np.where(motion["event_stop"].values == "right", 1, -1) == side)
-            ]
-            listed = log["contact_start"].values[
-                np.where(log["contact_stop"].values == "right", 1, -1) == side
-            ]
+            begins = motion["event_time"].values[begun & (motion["event_stop"].values == name)]
+            listed = log["contact_start"].values[log["contact_stop"].values == name]
             assert len(begins) - 1 <= len(listed) <= len(begins)  # the end may cut the last one
             np.testing.assert_allclose(listed, begins[: len(listed)], rtol=1e-13, atol=1e-15)
     return count

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import warnings
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -358,6 +359,27 @@ def test_a_motion_that_is_given_up_ends_there() -> None:
         motion = vi.simulate(vi.Rig(stiff, vi.Harmonic(3.0, 1.9)), 2)
     assert motion["status"] == 3
     assert motion.sizes["time"] == 0
+
+
+@pytest.mark.parametrize(
+    ("drag", "size", "force", "allowed", "status", "why"),
+    [
+        (1, 1.0, 0.0, 1, 0, None),
+        (2, 1.0, 0.0, 10_000, 0, None),
+        # The turns of a link count, and no stop is there to log.
+        (2, 1.0, 0.0, 3, 2, "one forcing cycle or record step has"),
+        (1, 1e-100, 1e100, 1, 4, "exceeded the range of floating-point numbers"),
+    ],
+)
+def test_why_a_motion_is_given_up(
+    drag: int, size: float, force: float, allowed: int, status: int, why: str | None
+) -> None:
+    isolator = vi.Isolator(size, 0.1 * size, damping_exponent=drag)
+    rig = vi.Assembly({"m": size}, {"k": vi.Link("ground", "m", isolator)}, forces={"m": force})
+    shaken, start = vi.Rig(rig, vi.Harmonic(0.1, 0.01)), vi.State({"m": 1.0})
+    with pytest.warns(RuntimeWarning, match=why) if why else nullcontext():
+        motion = vi.simulate(shaken, 2, start, max_events=allowed)
+    assert motion["status"] == status
 
 
 RIG = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9))

@@ -31,7 +31,7 @@ def test_the_primary_resonance_lies_within(ratio, gap, time, damping, sides):
     held = frequencies(rig, step=0.02)
     data = vi.sweep(rig, held, "forward", max_cycles=500)
     one = data.isel(direction=0)
-    touching = (one["impacts"].sel(stop="right") + one["impacts"].sel(stop="left")).values > 0.0
+    touching = one["impacts"].sum("stop").values > 0.0
     # Soft bumpers with small gaps are still hit beyond it.
     assert not touching.any() or int(np.argmax(one["eta_d"].values)) < 0.97 * (len(held) - 1)
 

@@ -67,7 +67,7 @@ class Compiled:
             if PLAIN:
                 self._compiled[flow] = self.function
                 return
-            if native.find_library() is not None:
+            if native.has(self.symbol(flow)):
                 self._compiled[flow] = native.function(
                     self.symbol(flow), self.signature, self.FIRST
                 )

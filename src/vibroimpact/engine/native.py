@@ -27,6 +27,9 @@ FOLDER = Path(__file__).with_name("libraries")
 
 DIGEST = "digest"
 
+_LOADING = ("cache.py", "compilation.py", "compiled_code.py", "compiler.py", "native.py")
+"""Sources that find compiled code, and have no influence on it."""
+
 LEVELS: dict[str, dict[str, tuple[str, ...]]] = {
     "x86_64": {"v4": ("AVX512_SKX",), "v3": ("AVX2", "FMA3"), "v2": ("SSE42",)},
     "aarch64": {"v8": ()},
@@ -52,10 +55,10 @@ def machine() -> str:
 
 
 def digest() -> str:
-    """Digest of the sources of the engine."""
+    """Digest of the sources of the engine's code."""
     here = Path(__file__).parent
     made = hashlib.sha256()
-    for path in sorted(here.rglob("*.py")):
+    for path in sorted(path for path in here.rglob("*.py") if path.name not in _LOADING):
         made.update(path.relative_to(here).as_posix().encode())
         made.update(path.read_bytes().replace(b"\r\n", b"\n"))
     return made.hexdigest()
@@ -73,7 +76,8 @@ def levels() -> list[str]:
 @functools.cache
 def find_library() -> Path | None:
     """The library that is used; None if there is none for this machine and these sources."""
-    if os.environ.get("VIBROIMPACT_ENGINE") == "numba" or sys.platform not in _SUFFIX:
+    asked = os.environ.get("VIBROIMPACT_ENGINE") == "numba" or os.environ.get("NUMBA_DISABLE_JIT")
+    if asked or sys.platform not in _SUFFIX:
         return None
     names = [name_of(sys.platform, machine(), level) for level in levels()]
     path = next((FOLDER / name for name in names if (FOLDER / name).exists()), None)
@@ -86,6 +90,11 @@ def find_library() -> Path | None:
 @functools.cache
 def _loaded() -> ctypes.CDLL:
     return ctypes.CDLL(str(find_library()))
+
+
+def has(symbol: str) -> bool:
+    """Whether there is a library that has this function."""
+    return find_library() is not None and hasattr(_loaded(), symbol)
 
 
 def function(symbol: str, signature: str, first: str) -> Callable[..., Any]:

@@ -25,7 +25,7 @@ from vibroimpact.model import Assembly, Periodic, Record, Repeated, equilibrium
 from vibroimpact.model.argument_types import check_samples
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_pieces import forcing_size
+from vibroimpact.response.assembly_pieces import forcing_size, why_given_up
 from vibroimpact.response.assembly_rig import assembly_numbers, check_laws, link_parts
 from vibroimpact.response.assembly_state import (
     as_assembly_state,
@@ -199,14 +199,11 @@ class _Run:
         count, rows = self._logged(lines)
         if count < 0:
             first += -1 - count
-            self.status = Status.NOT_FINITE
             # Of the section that was given up, alone.
             before, lines = self.state.copy(), self.sections.lines[first : first + 1]
             count, rows = self._logged(lines)
-            found = int((self.log[:, 0] >= 0.0).sum())
-            if found > self.max_events:
-                self.status = Status.TOO_MANY_EVENTS
-            count, last = found, first
+            self.status = why_given_up(self.plan)
+            count, last = int((self.log[:, 0] >= 0.0).sum()), first
         if self.ordered_in is None and self.plan[layout.ORDERED] > ordered:
             self.ordered_in = first
         if self.samples:

@@ -32,6 +32,8 @@ _GRID = 4
 """Places for each node, between which a derivative changes its sign once at most."""
 _HALVINGS = 30
 """Of such an interval: its extreme is then right to the square of 1e-10."""
+_MOST = 1e200
+"""Displacements and velocities together at which the engine gives a motion up."""
 
 
 class _Rule(NamedTuple):
@@ -195,9 +197,7 @@ class Follower:
             count, here, found = self._at(state, lines, float(tau), log)
             rows.append(found)
         if count < 0:
-            logged = log[:, 0] >= 0.0
-            many = logged.all() or (log[logged, 0] == -1 - count).sum() > self.max_events
-            status, count = Status.TOO_MANY_EVENTS if many else Status.NOT_FINITE, 0
+            status, count = why_given_up(self.plan), 0
         state[:] = here
         first, last = rows[0], rows[-1]
         values = np.stack([found[:, 2:] for found in rows], axis=-1)
@@ -228,6 +228,17 @@ class Follower:
             if self._rows[-1, 0] < 0.0:
                 return count, here, self._rows[self._rows[:, 0] >= 0.0].copy()
             self._rows = np.empty((2 * len(self._rows), self._rows.shape[1]))
+
+
+def why_given_up(plan: _Array) -> Status:
+    """Return why `follow_sections` gave a motion up, by its last state, which the plan keeps.
+
+    The log does not tell: it has neither the event that is one too many nor the turns of curved
+    links, which count as well.
+    """
+    state = plan[int(plan[layout.Y]) :][: 2 * int(plan[layout.MASSES])]
+    within = bool(np.abs(state).sum() < _MOST)
+    return Status.TOO_MANY_EVENTS if within else Status.NOT_FINITE
 
 
 def forcing_size(shaking: Repeated | Record) -> tuple[float, float]:

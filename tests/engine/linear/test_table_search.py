@@ -109,7 +109,7 @@ def printed(script: str) -> list[str]:
     """The lines of a script beside this file, run without the compiler."""
     done = subprocess.run(
         [sys.executable, Path(__file__).parent / script],
-        env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
+        env={**os.environ, "VIBROIMPACT_KERNELS": "1", "NUMBA_DISABLE_JIT": "1"},
         capture_output=True,
         text=True,
         check=True,

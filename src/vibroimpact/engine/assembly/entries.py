@@ -12,7 +12,7 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.channels import CLEARANCE
 from vibroimpact.engine.assembly.curved import advance as curved
 from vibroimpact.engine.assembly.curved import channels as curved_channels
-from vibroimpact.engine.assembly.curved.tangent import carry_disturbances as carry_curved
+from vibroimpact.engine.assembly.curved.tangent import carry_along_series as carry_curved
 from vibroimpact.engine.assembly.tangent import carry_disturbances
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer

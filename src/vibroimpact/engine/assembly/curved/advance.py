@@ -9,7 +9,7 @@ from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.happen import decide, switch
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
 from vibroimpact.engine.assembly.curved.step import take_step, travel
-from vibroimpact.engine.assembly.curved.terms import expand, move_alike
+from vibroimpact.engine.assembly.curved.terms import expand_all, move_alike
 from vibroimpact.engine.assembly.curved.watch import first_of
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -38,7 +38,7 @@ def _gone(plan: Vector, y: Vector) -> bool:
 
 
 @apart
-def next_stretch(plan: Vector, left: float) -> int:
+def next_curved_stretch(plan: Vector, left: float) -> int:
     """Go on to the next event, at most for a step and for the time that is left.
 
     As `assembly.advance.next_stretch`.
@@ -123,7 +123,7 @@ def reopen(plan: Vector) -> None:
     length = plan[at.LENGTH]
     # A stretch of no length shows what is at its end: on such a moment nothing changes.
     unit = length if length > 0.0 else _MOMENT / plan[at.STIFF_RATE]
-    expand(plan, y, deformation, unit, of.ORDER)
+    expand_all(plan, y, deformation, unit, of.ORDER)
 
 
 @kernel
@@ -131,9 +131,12 @@ def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Ve
     """See `flow.advance`; a step ends a stretch, too, which is kept in the plan."""
     clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
     load_motion(plan, before, before[clock], before[clock + 1])
-    event = next_stretch(plan, limit)
+    event = next_curved_stretch(plan, limit)
     ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
     store_motion(plan, after)
     if event == at.LIMIT and plan[at.LENGTH] < limit:
         return at.PASSED
     return event
+
+
+next_stretch = next_curved_stretch

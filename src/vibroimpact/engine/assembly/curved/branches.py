@@ -14,7 +14,7 @@ def _bit(plan: Vector, f: int, which: int) -> int:
 
 
 @kernel
-def way_of(plan: Vector, f: int, mode: int) -> float:
+def way_of_slide(plan: Vector, f: int, mode: int) -> float:
     """The sign of s′ at a row with branches."""
     return -1.0 if mode >> _bit(plan, f, 0) & 1 else 1.0
 

@@ -16,7 +16,7 @@ from vibroimpact.engine.assembly.channels import (
 )
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.advance import reopen
-from vibroimpact.engine.assembly.curved.branches import way_of
+from vibroimpact.engine.assembly.curved.branches import way_of_slide
 from vibroimpact.engine.assembly.curved.terms import node, remembers, row_of
 from vibroimpact.engine.assembly.curved.watch import held_force, relative
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -30,7 +30,7 @@ open_stretch = reopen
 
 
 @kernel
-def open_piece(plan: Vector, i: int) -> None:
+def keep_piece(plan: Vector, i: int) -> None:
     """The stretch is one piece, whose series are there."""
 
 
@@ -58,7 +58,7 @@ def _of_link(plan: Vector, channel: int, f: int, out: Vector) -> int:
             for j in range(order + 1):
                 out[j] = -plan[held + j * count]
         else:
-            out[0] = way_of(plan, f, mode) * plan[row + _FRICTION]
+            out[0] = way_of_slide(plan, f, mode) * plan[row + _FRICTION]
     elif plan[row + of.ACTIVE] != 0.0:
         force = node(plan, row, of.FORCE_NODE, int(plan[at.NODES]))
         for j in range(order + 1):
@@ -67,7 +67,7 @@ def _of_link(plan: Vector, channel: int, f: int, out: Vector) -> int:
 
 
 @apart
-def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
+def curved_series(plan: Vector, channel: int, index: int, out: Vector) -> int:
     """Write a channel's power series in τ, 0 to 1 on the piece; returns its order."""
     if channel >= CLEARANCE:
         kind = plan[int(plan[at.STOP]) + index * at.STOP_WIDTH + at.KIND]
@@ -92,10 +92,13 @@ def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
     return found
 
 
+open_piece, series = keep_piece, curved_series
+
+
 @kernel
 def value(plan: Vector, channel: int, index: int, tau: float) -> float:
     """A channel's value on the piece."""
     out = beyond(plan, int(plan[at.ROOM]))
-    order = series(plan, channel, index, out)
+    order = curved_series(plan, channel, index, out)
     found: float = evaluate(out, order, tau)
     return found

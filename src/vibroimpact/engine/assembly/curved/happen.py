@@ -5,9 +5,14 @@ from __future__ import annotations
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
-from vibroimpact.engine.assembly.curved.branches import side_of, way_of, with_side, with_way
+from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide, with_side, with_way
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
-from vibroimpact.engine.assembly.curved.terms import accelerations, expand, move_alike, row_of
+from vibroimpact.engine.assembly.curved.terms import (
+    accelerations_of_all,
+    expand_all,
+    move_alike,
+    row_of,
+)
 from vibroimpact.engine.assembly.events import closing, impacts, switch_mode
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -32,7 +37,7 @@ def _settles(
     size = size_of(plan, y)
     enter(plan, y, deformation, size)
     length = 1.0 / plan[at.RATE]
-    expand(plan, y, deformation, length, 2)
+    expand_all(plan, y, deformation, length, 2)
     n = int(plan[at.MASSES])
     row = 2 * (n + 1)
     first = int(plan[at.SERIES]) + n + 1
@@ -86,7 +91,7 @@ def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> in
     while some:
         enter(plan, y, deformation, size_of(plan, y))
         place = int(plan[at.ROOM])
-        accelerations(plan, y, deformation, place)
+        accelerations_of_all(plan, y, deformation, place)
         forces = place + n + 1 + int(plan[at.PRESSED])
         worst, most, force = -1, 1.0, 0.0
         for j in range(int(plan[at.RESTING])):
@@ -133,7 +138,7 @@ def decide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
     size = size_of(plan, y)
     enter(plan, y, deformation, size)
     length = 1.0 / plan[at.STIFF_RATE]
-    expand(plan, y, deformation, length, 4)
+    expand_all(plan, y, deformation, length, 4)
     row_width = 2 * (n + 1)
     series = int(plan[at.SERIES]) + n + 1
     for f in range(count):
@@ -156,7 +161,7 @@ def decide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
         if (behaviour == of.HYSTERETIC and deformation[f] == 0.0) or (
             behaviour == of.OWN and closing(plan, f, y) == 0.0
         ):
-            mode = with_side(plan, f, mode, way_of(plan, f, mode))
+            mode = with_side(plan, f, mode, way_of_slide(plan, f, mode))
             zeros[f] = float(int(zeros[f]) | of.SIDE_FRESH)
     enter_mode(plan, mode)
     return mode
@@ -166,7 +171,7 @@ def decide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
 def _follow(plan: Vector, mode: int, f: int) -> int:
     """Let the other rows of a link that friction holds no more go its way."""
     stops = int(plan[at.STOP])
-    one, way = stops + f * at.STOP_WIDTH, way_of(plan, f, mode)
+    one, way = stops + f * at.STOP_WIDTH, way_of_slide(plan, f, mode)
     for g in range(int(plan[at.STOPS])):
         other, row = stops + g * at.STOP_WIDTH, row_of(plan, g)
         if g == f or not is_link(plan, g) or plan[row + of.BRANCH] < 0.0 or mode >> g & 1:
@@ -210,7 +215,7 @@ def _turned(plan: Vector, mode: int, f: int, which: int, y: Vector, deformation:
         return with_way(plan, f, with_side(plan, f, mode, -1.0), way)
     if which == 0:
         zeros[f] = float(of.V_FRESH)
-        return with_way(plan, f, mode, -way_of(plan, f, mode))
+        return with_way(plan, f, mode, -way_of_slide(plan, f, mode))
     zeros[f] = float(of.SIDE_FRESH)
     if behaviour == of.HYSTERETIC:
         deformation[f] = 0.0

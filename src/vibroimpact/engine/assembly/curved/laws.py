@@ -94,7 +94,7 @@ def written(stops: Sequence[Any]) -> tuple[Any, Any]:
             branches += 1
         if stop.behaviour == of.FRICTION:
             continue
-        push = pushed(np.array(stop.law), 1) if stop.behaviour in PUSHING else 0
+        push = pushed(np.array(stop.law), 0) if stop.behaviour in PUSHING else 0
         made = Written(shape_of(np.array(stop.law), push), len(tape))
         row[of.FIRST_OP], row[of.CONSTANTS] = len(tape), made.constants
         tape += made.rows

@@ -7,8 +7,8 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
-from vibroimpact.engine.assembly.curved.branches import side_of, way_of
-from vibroimpact.engine.assembly.curved.terms import accelerations, expand, node, row_of
+from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide
+from vibroimpact.engine.assembly.curved.terms import accelerations_of_all, expand_all, node, row_of
 from vibroimpact.engine.assembly.events import closing, speeds
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
@@ -66,7 +66,7 @@ def _link_numbers(plan: Vector, f: int, row: int, mode: int, z: float) -> None:
     behaviour = int(plan[row + of.BEHAVIOUR])
     way, side = 1.0, 1.0
     if plan[row + of.BRANCH] >= 0.0:
-        way, side = way_of(plan, f, mode), side_of(plan, f, mode)
+        way, side = way_of_slide(plan, f, mode), side_of(plan, f, mode)
     plan[row + _WAY], plan[row + _SIDE] = way, side
     if behaviour == of.SMOOTH:
         plan[row + _CUBIC], plan[row + _QUINTIC] = plan[row + _LAW + par.CUBIC], 0.0
@@ -130,7 +130,7 @@ def enter(plan: Vector, y: Vector, deformation: Vector, size: float) -> float:
     if not powers:
         return math.inf
     place = int(plan[at.ROOM])
-    accelerations(plan, y, deformation, place)
+    accelerations_of_all(plan, y, deformation, place)
     longest = math.inf
     for f in range(count):
         row = row_of(plan, f)
@@ -209,7 +209,7 @@ def _own(plan: Vector, f: int, row: int, y: Vector, deformation: Vector, gains: 
     pushes = force > even
     if not pushes and force >= -even:
         length = 1.0 / plan[at.STIFF_RATE]
-        expand(plan, y, deformation, length, 2)
+        expand_all(plan, y, deformation, length, 2)
         raw = node(plan, row, of.RAW_NODE, int(plan[at.NODES]))
         slope = plan[raw + 1]
         pushes = slope > 0.0 or (slope == 0.0 and plan[raw + 2] > 0.0)

@@ -8,7 +8,7 @@ from vibroimpact.engine.assembly import section as linear
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.branches import (
     side_of,
-    way_of,
+    way_of_slide,
     with_side,
     with_way,
 )
@@ -116,7 +116,7 @@ def mirror(plan: Vector, state: Vector, q: Vector) -> None:
         row = row_of(plan, f)
         if plan[row + of.BRANCH] < 0.0:
             continue
-        found = with_way(plan, f, found, -way_of(plan, f, mode))
+        found = with_way(plan, f, found, -way_of_slide(plan, f, mode))
         side = side_of(plan, f, mode)
         if int(plan[row + of.BEHAVIOUR]) != of.BILINEAR:
             side = -side

@@ -7,8 +7,8 @@ import math
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.terms import (
-    accelerations,
-    expand,
+    accelerations_of_all,
+    expand_all,
     node,
     remembers,
     row_of,
@@ -92,7 +92,7 @@ def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float
         memory[f] = deformation[f]
     travel(plan, kept, memory, tau)
     place = int(plan[at.ROOM])
-    accelerations(plan, kept, memory, place)
+    accelerations_of_all(plan, kept, memory, place)
     h, row = plan[at.PIECE_LENGTH] * tau, 2 * (n + 1)
     rate, most = plan[at.STIFF_RATE], 0.0
     for i in range(n):
@@ -124,7 +124,7 @@ def take_step(
     unit = 2.0 ** -math.floor(math.log2(max(rate, 1e-200)))
     last = 0.0
     for _ in range(40):
-        expand(plan, y, deformation, unit, _ORDER)
+        expand_all(plan, y, deformation, unit, _ORDER)
         last = _last(plan, _ORDER, rate) + _last(plan, _ORDER - 1, rate)
         if last < math.inf:
             break

@@ -20,12 +20,12 @@ from vibroimpact.engine.assembly.curved.branches import side_of
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
 from vibroimpact.engine.assembly.curved.step import travel
 from vibroimpact.engine.assembly.curved.terms import (
-    accelerations,
-    expand,
+    accelerations_of_all,
+    expand_all,
+    expand_slopes,
     node,
     remembers,
     row_of,
-    slopes,
 )
 from vibroimpact.engine.assembly.events import closing, halt
 from vibroimpact.engine.assembly.mode import enter_mode
@@ -210,7 +210,7 @@ def _lost(plan: Vector, h: float) -> float:
 
 
 @apart
-def carry_disturbances(plan: Vector, q: Vector, rows: int) -> float:
+def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
     """Carry the rows of q through the last stretch and its event.
 
     Returns what curved laws took of a volume of (u, v, z), as an exponent.
@@ -225,8 +225,8 @@ def carry_disturbances(plan: Vector, q: Vector, rows: int) -> float:
     while left > 0.0:
         h = left
         for _ in range(60):
-            expand(plan, y, deformation, h, of.ORDER)
-            slopes(plan)
+            expand_all(plan, y, deformation, h, of.ORDER)
+            expand_slopes(plan)
             excess = _too_long(plan, h)
             if excess <= 1.0 or h <= least:
                 break
@@ -244,7 +244,7 @@ def carry_disturbances(plan: Vector, q: Vector, rows: int) -> float:
     rates = there + 2 * (n + 1 + count)
     jumps = event not in (at.LIMIT, at.GIVEN_UP)
     if jumps:
-        accelerations(
+        accelerations_of_all(
             plan,
             beyond(plan, int(plan[at.END])),
             beyond(plan, int(plan[at.END_DEFORMATION])),
@@ -257,7 +257,7 @@ def carry_disturbances(plan: Vector, q: Vector, rows: int) -> float:
         return lost
     now, numbers = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
     enter(plan, now, numbers, size_of(plan, now))
-    accelerations(plan, now, numbers, there)
+    accelerations_of_all(plan, now, numbers, there)
     _rates(plan, rates + count)
     for i in range(rows):
         _jump(plan, beyond(q, i * width), before, here, there, rates)
@@ -317,5 +317,5 @@ def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
         e = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RESTITUTION]
         left = e > 0.0 and not int(plan[at.MODE]) >> f & 1
         notes[DAMPING] += -2.0 * math.log(e) if left else math.inf
-    lost = carry_disturbances(plan, q, 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]))
+    lost = carry_along_series(plan, q, 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]))
     notes[DAMPING] += lost

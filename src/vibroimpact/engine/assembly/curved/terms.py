@@ -8,7 +8,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved import tape as op
-from vibroimpact.engine.assembly.curved.branches import way_of
+from vibroimpact.engine.assembly.curved.branches import way_of_slide
 from vibroimpact.engine.assembly.series import Places, drive, places, restrain
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
@@ -142,7 +142,7 @@ def push(plan: Vector, of_: Places, here: Vector, k: int, base: int, into: int) 
         if behaviour == of.FRICTION:
             if k > 0 or mode >> f & 1:
                 continue
-            force = plan[row + _FRICTION] * -way_of(plan, f, mode)
+            force = plan[row + _FRICTION] * -way_of_slide(plan, f, mode)
         else:
             left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
             x, v = here[left] - here[right], here[n + 1 + left] - here[n + 1 + right]
@@ -169,7 +169,7 @@ _FRICTION = of.NUMBERS + par.FRICTION
 
 
 @apart
-def slopes(plan: Vector) -> None:
+def expand_slopes(plan: Vector) -> None:
     """Write the series of the slopes of all forces that act, over the series in hand."""
     base = int(plan[at.NODES])
     for f in range(int(plan[at.STOPS])):
@@ -213,7 +213,7 @@ def move_alike(plan: Vector, values: Vector) -> None:
 
 
 @apart
-def expand(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
+def expand_all(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
     """Write the series of u, v, w, the memories and all forces in t / length.
 
     y is u, v, w, 1. The mode and the numbers of its laws are those that were entered.
@@ -307,7 +307,7 @@ def shorten(plan: Vector, tau: float) -> None:
 
 
 @apart
-def accelerations(plan: Vector, y: Vector, deformation: Vector, place: int) -> None:
+def accelerations_of_all(plan: Vector, y: Vector, deformation: Vector, place: int) -> None:
     """Write the accelerations of a state y, u, v, w, in the mode that was entered.
 
     After n + 1 of them follow the forces of those pressed and of those held. What the laws make

@@ -6,7 +6,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.advance import first_event
 from vibroimpact.engine.assembly.curved import layout as of
-from vibroimpact.engine.assembly.curved.branches import side_of, way_of
+from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide
 from vibroimpact.engine.assembly.curved.terms import node, row_of
 from vibroimpact.engine.assembly.events import speeds
 from vibroimpact.engine.assembly.roots import NONE, first_fall
@@ -114,7 +114,7 @@ def _of_link(
     if behaviour == of.SMOOTH:
         return NONE, 0
     side_fresh, v_fresh = fresh & of.SIDE_FRESH != 0, fresh & of.V_FRESH != 0
-    way, side = way_of(plan, f, mode), side_of(plan, f, mode)
+    way, side = way_of_slide(plan, f, mode), side_of(plan, f, mode)
     if behaviour == of.FRICTION and mode >> f & 1:
         place, count, most = held_force(plan, f), int(plan[at.STOPS]), 0.0
         found, which = NONE, 0
