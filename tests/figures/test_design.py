@@ -10,6 +10,7 @@ import pytest
 
 import vibroimpact as vi
 from earthquakes.rigs import RIGS, noise
+from vibroimpact.datasets.stops import quantity
 from vibroimpact.figures import design_chart, pareto_front
 from vibroimpact.model import GRAVITY
 
@@ -149,7 +150,7 @@ def limited(data, **limits):
     """The same designs under limits, as `design` writes them."""
     within = np.ones(data["pareto"].shape, dtype=bool)
     for name, limit in limits.items():
-        within &= data[name].values <= limit
+        within &= quantity(data, name).values <= limit
     about = {**json.loads(data.attrs["parameters"]), "limits": limits}
     new = data.assign(within_limits=(data["pareto"].dims, within), pareto=data["pareto"] & within)
     return new.assign_attrs(parameters=json.dumps(about))
