@@ -174,6 +174,15 @@ def link(objects: list[bytes], target: Target, path: Path) -> None:
         command = [sys.executable, "-m", "ziglang", "cc", "-target", target.linker]
         options = ["-shared", "-s", "-O2", "-o", str(path), "-lm"]
         subprocess.run([*command, *options, *map(str, files), str(stub)], check=True)
+    path.write_bytes(_without_places(path.read_bytes()))
+
+
+def _without_places(library: bytes) -> bytes:
+    """Blank the folders of this machine, which stand in exceptions that no kernel raises."""
+    for package in (numba, engine):
+        place = str(Path(str(package.__file__)).parents[1]).encode()
+        library = library.replace(place, b"." * len(place))
+    return library
 
 
 def _made(work: tuple[bytes, Target]) -> bytes:
