@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_mapping
 from vibroimpact.attraction.attractor_variables import shares
 from vibroimpact.attraction.basin_metrics import entropies, uncertainty_exponent
+from vibroimpact.attraction.find_attractors import MOST
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError, shown
@@ -44,8 +45,6 @@ _TOLERANCE = 1e-9
 _VISITS = 1000
 """Cycles by which a motion that does not repeat itself is known."""
 _SAMPLES, _WINDOW, _EXPONENTS = 64, 200, 20_000
-_MOST = 64
-"""Motions that are told apart."""
 _LOSES = 1e-9
 """Least share of a volume that dies out in a cycle."""
 _KEPT = ("displacement_excursion", "acceleration_excursion", "eccentricity", "impacts")
@@ -244,9 +243,9 @@ class _Search:
             return UNDECIDED
         motion = describe_motion(found, _SAMPLES, _WINDOW, _EXPONENTS, self.max_events)
         self._check_loses(motion)
-        if len(self.known) == _MOST:
+        if len(self.known) == MOST:
             raise InputError(
-                f"rig: more than {_MOST} motions were found, so perhaps every state has its own "
+                f"rig: more than {MOST} motions were found, so perhaps every state has its own "
                 f"motion; add damping, narrow the plane, or raise {MORE_CYCLES}"
             )
         size = reach(found, found.state)

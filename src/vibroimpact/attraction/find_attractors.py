@@ -35,7 +35,7 @@ _Whole = NDArray[np.integer[Any]]
 _Tiny = NDArray[np.int8]
 
 MOST = 64
-"""Motions that are told apart."""
+"""The largest number of different motions that are searched for."""
 _PILOT = 500
 """Number of states that are simulated first."""
 _FIRST = 100

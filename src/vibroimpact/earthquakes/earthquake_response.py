@@ -51,10 +51,7 @@ def earthquake_response(
     InputError
         If a value cannot be used, or the motion was given up.
     """
-    after = free_tail(rig) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
-    motion = compute_history(rig, None, None, samples, after, progress=progress)
-    if int(motion["status"]) != Status.DONE:
-        raise InputError(f"the motion could not be computed: {motion.attrs['message']}")
+    after, motion = _motion(rig, tail, samples, progress)
     spectra = {
         "ground": response_spectrum(rig.record, _PERIODS, _DAMPING),
         "floor": response_spectrum(floor_record(motion), _PERIODS, _DAMPING),
@@ -107,13 +104,21 @@ def assembly_response(
     InputError
         If a value cannot be used, or the motion was given up.
     """
-    after = free_tail(rig) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
-    motion = compute_history(rig, None, None, samples, after, progress=progress)
-    if int(motion["status"]) != Status.DONE:
-        raise InputError(f"the motion could not be computed: {motion.attrs['message']}")
+    after, motion = _motion(rig, tail, samples, progress)
     ground = response_spectrum(rig.record, _PERIODS, _DAMPING)
     return {
         "response": seismic_response(rig, tail=after, progress=progress),
         "motion": motion,
         "ground": remove_units(ground) if has_no_units(rig) else ground,
     }
+
+
+def _motion(
+    rig: Rig, tail: float | str | None, samples: int, progress: Progress | None
+) -> tuple[float, xr.Dataset]:
+    """Return the duration of free vibration (s), and the motion through record and vibration."""
+    after = free_tail(rig) if tail is None else to_si(tail, TIME, "tail", minimum=0.0)
+    motion = compute_history(rig, None, None, samples, after, progress=progress)
+    if int(motion["status"]) != Status.DONE:
+        raise InputError(f"the motion could not be computed: {motion.attrs['message']}")
+    return after, motion

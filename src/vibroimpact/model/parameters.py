@@ -287,7 +287,7 @@ def _steps_of_parts(assembly: Assembly, path: str) -> list[Steps]:
         return [one.steps for one in places[name]]
     part, *rest = name.split(".")
     if part in (_LINKS, _STOPS) and len(rest) > 1 and rest[1] not in ("left", "right"):
-        # A field of a law that is no number, such as its kind.
+        # A law has fields that are not numbers, such as its kind.
         return [(part, rest[0], _LAW, *rest[1:])]
     return [(part, *rest)]
 
