@@ -41,9 +41,12 @@ def until(page, condition, given=None):
 
 
 def settle(page):
+    """Wait until what was last asked for is drawn finely; a field shows it at once."""
     until(
         page,
-        "document.body.dataset.fine === 'true' && !document.getElementById('status').textContent",
+        "Number(document.body.dataset.settled) >= Number(document.body.dataset.asked ?? 0)"
+        " && document.body.dataset.fine === 'true'"
+        " && !document.getElementById('status').textContent",
     )
 
 

@@ -33,7 +33,8 @@ const link = new Link({
 const send = (message) => {
   resting = !message.dragging;
   patient(true);
-  return (asked = link.send(message));
+  document.body.dataset.asked = asked = link.send(message);
+  return asked;
 };
 const knobs = new Knobs(send);
 const curves = new Curves((direction, frequency) => send({ do: "choose", direction, frequency }));
