@@ -17,7 +17,6 @@ def show_versions() -> None:
     from vibroimpact._version import __version__
     from vibroimpact.engine import native
 
-    library = native.find_library()
     lines = {"vibroimpact": __version__, "python": sys.version.split()[0]}
     for name in _PACKAGES:
         try:
@@ -26,6 +25,6 @@ def show_versions() -> None:
             lines[name] = "not installed"
     lines["system"] = platform.platform()
     lines["processor"] = f"{native.machine()}, levels {', '.join(native.levels()) or 'none'}"
-    lines["engine"] = library.name if library else "compiled by numba at first use"
+    lines["engine"] = native.described()
     width = max(map(len, lines))
     print("\n".join(f"{name:<{width}}  {value}" for name, value in lines.items()))

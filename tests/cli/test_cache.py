@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from vibroimpact.engine import native
 from vibroimpact.engine.jit import cache_directory
 
 COMMAND = "cache"
@@ -54,6 +55,7 @@ def test_what_is_told(run, kept):
         ["engine-0", "2.0", "MB", "1", "2", "days", "ago"],
     ]
     assert f"{kept.parent}: 2 folders, 6.0 MB" in out
+    assert f"engine: {native.described()}" in out
     assert compiled(kept.parent) == 6
 
 

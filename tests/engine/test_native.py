@@ -6,12 +6,13 @@ import json
 import os
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from vibroimpact.engine import native
+from vibroimpact.engine import compilation, jit, native
 
 MOTIONS = """\
 import json, sys
@@ -101,19 +102,35 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return made
 
 
+def choice() -> native.Choice:
+    return native.choose.__wrapped__()
+
+
 def found() -> Path | None:
-    return native.find_library.__wrapped__()
+    return choice().path
 
 
-def test_a_library_of_other_sources_is_not_used(folder: Path) -> None:
+def test_a_library_of_other_sources_is_not_used_and_that_is_announced(
+    folder: Path, monkeypatch
+) -> None:
     assert found() is not None
     (folder / native.DIGEST).write_text("0")
     assert found() is None
+    lines: list[str] = []
+    monkeypatch.setattr(jit, "announce", lines.append)
+    monkeypatch.setattr(jit, "_announced", threading.Event())
+    monkeypatch.setattr(native, "choose", lambda made=choice(): made)
+    compilation._say()
+    compilation._say()
+    (line,) = lines
+    assert "was made of other sources (make kernels)" in line
 
 
 def test_a_library_that_others_may_write_is_not_used(folder: Path) -> None:
     (path,) = (one for one in folder.iterdir() if one.name != native.DIGEST)
     path.chmod(0o666)
+    assert choice().unexpected
+    assert repr(str(path)) in choice().why
     assert found() is None
     path.chmod(0o644)
     assert found() == path
@@ -123,3 +140,4 @@ def test_a_processor_that_lacks_features_takes_a_lower_level(folder: Path, monke
     assert native.levels() == list(native.LEVELS[native.machine()])[-len(native.levels()) :]
     monkeypatch.setattr(native, "levels", list)
     assert found() is None
+    assert not choice().unexpected

@@ -12,10 +12,11 @@ from vibroimpact.cli.function_options import calls
 def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = False) -> int:
     """List the folders of compiled code with their sizes and ages, or remove them.
 
-    vibroimpact compiles its numerical code on first use. The compiled code is stored in the cache
-    folder of the user, or in the folder that the environment variable VIBROIMPACT_CACHE_DIR names.
-    Each version of vibroimpact has its own subfolder. You can remove the code at any time. Code
-    that another process is compiling or loading is not removed.
+    vibroimpact contains its numerical code as machine code for some systems and processors; the
+    first line says whether it is used. If not, the code is compiled on first use and stored in the
+    cache folder of the user, or in the folder that the environment variable VIBROIMPACT_CACHE_DIR
+    names. Each version of vibroimpact has its own subfolder. You can remove the code at any time.
+    Code that another process is compiling or loading is not removed.
 
     For example:
 
@@ -31,6 +32,7 @@ def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = Fal
     """
     from json import dumps
 
+    from vibroimpact.engine import native
     from vibroimpact.engine.compiled_code import list_compiled_code, remove
     from vibroimpact.engine.jit import cache_directory
     from vibroimpact.facts.compiled_code import text
@@ -41,6 +43,7 @@ def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = Fal
     in_use = [one.folder.name for one in before if clean and not remove(one, clean)]
     after = list_compiled_code(own) if clean else before
     facts = {
+        "engine": native.described(),
         "folder": str(own.parent),
         "kept": [one._asdict() | {"folder": one.folder.name} for one in after],
         "size": sum(one.size for one in after),

@@ -26,6 +26,11 @@ def _uncollected() -> Iterator[None]:
             gc.enable()
 
 
+def _say() -> None:
+    choice = native.choose()
+    jit.say(choice.why if choice.unexpected else "")
+
+
 class Compiled:
     """A function that is compiled for one signature and for each type of its first argument."""
 
@@ -104,7 +109,7 @@ class Compiled:
         if unsafe := cache.remove_damaged(directory, self.__name__):
             jit.say_refused(unsafe)
         if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
-            jit.say()
+            _say()
         import numba
         from numba.core import config
 
@@ -123,7 +128,7 @@ class Compiled:
     def _for_this_process(self, signature: Any) -> Callable[..., Any]:
         import numba
 
-        jit.say()
+        _say()
         return self._compiled_for(signature, numba.njit(**jit.OPTIONS)(self.function))
 
     def _compiled_for(self, signature: Any, dispatcher: Any) -> Callable[..., Any]:

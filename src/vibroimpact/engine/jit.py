@@ -110,13 +110,13 @@ def cache_directory() -> Path:
     return base / f"engine-{digest.hexdigest()[:16]}"
 
 
-def say() -> None:
-    """Announce once; further parts of the engine compile without a word."""
+def say(why: str = "") -> None:
+    """Announce once, with a reason; further parts of the engine compile without a word."""
     if not _announced.is_set():
         _announced.set()
         announce(
-            "compiling the engine: each part is compiled once, when it is first used, and takes "
-            "10 to 30 s ..."
+            f"compiling the engine{f', because {why}' if why else ''}: each part is compiled once, "
+            "when it is first used, and takes 10 to 30 s ..."
         )
 
 

@@ -16,7 +16,7 @@ import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -45,7 +45,7 @@ _ARGUMENT = re.compile(r"(?:UniTuple\((?:f8|i8), (\d)\))|(f8|i8|boolean|void)(\[
 
 def name_of(system: str, machine: str, level: str) -> str:
     """File of the library for a system (as `sys.platform`), a machine and a level."""
-    return f"{system}-{machine}-{level}.{_SUFFIX[system]}"
+    return f"{system}-{machine}-{level}.{_SUFFIX.get(system, 'so')}"
 
 
 def machine() -> str:
@@ -73,18 +73,44 @@ def levels() -> list[str]:
     return [level for level, needed in known.items() if all(features.get(one) for one in needed)]
 
 
+class Choice(NamedTuple):
+    """Whether a library is used."""
+
+    path: Path | None
+    why: str = ""
+    """Reason why none is used."""
+    unexpected: bool = False
+    """Whether there is one that would fit this machine."""
+
+
 @functools.cache
-def find_library() -> Path | None:
-    """The library that is used; None if there is none for this machine and these sources."""
-    asked = os.environ.get("VIBROIMPACT_ENGINE") == "numba" or os.environ.get("NUMBA_DISABLE_JIT")
-    if asked or sys.platform not in _SUFFIX:
-        return None
+def choose() -> Choice:
+    """Choose the library for this machine and these sources, if there is one."""
+    if os.environ.get("VIBROIMPACT_ENGINE") == "numba":
+        return Choice(None, "VIBROIMPACT_ENGINE is numba")
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+        return Choice(None, "NUMBA_DISABLE_JIT is set")
     names = [name_of(sys.platform, machine(), level) for level in levels()]
     path = next((FOLDER / name for name in names if (FOLDER / name).exists()), None)
-    if path is None or (FOLDER / DIGEST).read_text().strip() != digest():
-        return None
+    if path is None:
+        return Choice(None, f"there is no machine code for {sys.platform}, {machine()}")
+    if (FOLDER / DIGEST).read_text().strip() != digest():
+        return Choice(None, f"{path.name} was made of other sources (make kernels)", True)
     # Whoever can write to it can run code as the user.
-    return None if cache.writable_by_others((FOLDER, path)) else path
+    if writable := cache.writable_by_others((FOLDER, path)):
+        return Choice(None, f"other users may write to {str(writable)!r} (chmod go-w)", True)
+    return Choice(path)
+
+
+def find_library() -> Path | None:
+    """The library that is used; None if numba compiles."""
+    return choose().path
+
+
+def described() -> str:
+    """How the engine runs, in words."""
+    library, why, _ = choose()
+    return library.name if library else f"compiled by numba at first use; {why}"
 
 
 @functools.cache

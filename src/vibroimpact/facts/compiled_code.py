@@ -36,7 +36,7 @@ def text(facts: dict[str, Any], cleaned: bool) -> RenderableType:
     if cleaned:
         lines.append(f"removed: {_bytes(facts['removed'])}")
     lines += [f"kept, because another process uses it: {name}" for name in facts["in_use"]]
-    return Group(table, Text(), Text("\n".join(lines)))
+    return Group(Text(f"engine: {facts['engine']}\n"), table, Text(), Text("\n".join(lines)))
 
 
 def _bytes(size: int) -> str:
