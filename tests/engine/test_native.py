@@ -119,7 +119,8 @@ def test_a_library_of_other_sources_is_not_used_and_that_is_announced(
     lines: list[str] = []
     monkeypatch.setattr(jit, "announce", lines.append)
     monkeypatch.setattr(jit, "_announced", threading.Event())
-    monkeypatch.setattr(native, "choose", lambda made=choice(): made)
+    made = choice()
+    monkeypatch.setattr(native, "choose", lambda: made)
     compilation._say()
     compilation._say()
     (line,) = lines
