@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.event import CONTACT, DETACHMENT, LIMIT, event_of
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.contact import contact
 from vibroimpact.engine.linear.evaluate import relaxed
@@ -11,21 +12,20 @@ from vibroimpact.engine.linear.layout import LATE_TABLES, SIZE, SLOTS, TABLES, V
 from vibroimpact.engine.linear.table_search import WITHIN, Bounds
 from vibroimpact.engine.motion import (
     BOTH,
-    DETACHED,
     FLIGHT,
-    LIMIT,
     RELEASED,
     SEEN_LEFT,
     Motion,
     Row,
     coordinates,
+    main_stop,
 )
 
 WORK_LIMIT = 3e7
 """Table steps that one forcing cycle may take, about a second of computing."""
 
 Ended = tuple[int, float, float, Motion]
-"""event, t, arrival, motion: what ended a stretch (see `motion`), its length (s), the velocity
+"""event, t, arrival, motion: what ended a stretch (see `event`), its length (s), the velocity
 just before, and the motion just behind."""
 
 
@@ -74,7 +74,8 @@ def fly(plan: Vector, motion: Motion, limit: float) -> Ended:
     faces = (right, left)
     if way == WITHIN:
         return LIMIT, t, v, Motion(FLIGHT, 0, u, v, faces, z, age + t, (s, c))
-    return way, t, v, Motion(way, way, u, v, faces, z, 0.0, (s, c))
+    event = event_of(CONTACT, main_stop(way))
+    return event, t, v, Motion(way, way, u, v, faces, z, 0.0, (s, c))
 
 
 @inlined
@@ -85,16 +86,18 @@ def press(plan: Vector, motion: Motion, stop: int, limit: float) -> Ended:
     slot = mode
     if mode == BOTH and stop == 1:
         slot, sign, row = SEEN_LEFT, -1.0, Row(faces[1], -v, -clock[0], -clock[1])
-    event, t, row = contact(plan, slot, stop, row, fresh == 1 << stop, limit, age)
+    left, t, row = contact(plan, slot, stop, row, fresh == 1 << stop, limit, age)
     x, v, s, c = row
     other = 1 - stop
     free = -x - total_gap(plan) if mode == BOTH else relaxed(faces[other], rate_of(plan, other), t)
     faces = (x, free) if stop == 0 else (free, x)
     u = place_at(plan, stop, x)
     v, clock = sign * v, (sign * s, sign * c)
-    if event == DETACHED:
-        return event, t, v, Motion(mode & ~(1 << stop), 1 << stop, u, v, faces, z, 0.0, clock)
-    return event, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
+    if left:
+        bit = 1 << stop
+        after = Motion(mode & ~bit, bit, u, v, faces, z, 0.0, clock)
+        return event_of(DETACHMENT, stop), t, v, after
+    return LIMIT, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
 
 
 @inlined
@@ -102,7 +105,7 @@ def advance_apart(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next contact or detachment, or for the time `limit` if that comes first."""
     if motion.mode == FLIGHT:
         return fly(plan, motion, limit)
-    return press(plan, motion, motion.mode - 1, limit)
+    return press(plan, motion, main_stop(motion.mode), limit)
 
 
 @kernel

@@ -10,6 +10,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import acceleration_of, isolator_force, springs
+from vibroimpact.engine.event import CONTACT, IMPACT, LIMIT, REST_ENDS, event_of, kind_of, stop_of
 from vibroimpact.engine.forcing.dispatch import pace, release_time, turned, value
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.advance import (
@@ -28,10 +29,8 @@ from vibroimpact.engine.linear.table_search import BELOW, WITHIN, Bounds
 from vibroimpact.engine.linear.tables import overlapping, resting, rigid
 from vibroimpact.engine.motion import (
     BOTH,
-    DETACHED,
     FLIGHT,
     LEFT,
-    LIMIT,
     RELEASED,
     RIGHT,
     SETTLING,
@@ -40,6 +39,7 @@ from vibroimpact.engine.motion import (
     Row,
     changed,
     facing,
+    main_stop,
 )
 
 _CHATTERED = 1e-6
@@ -64,14 +64,14 @@ def relaxed_faces(plan: Vector, mode: int, faces: Pair, t: float) -> Pair:
 
 
 @kernel
-def impact(plan: Vector, event: int, t: float, arrival: float, motion: Motion) -> Ended:
+def impact(plan: Vector, stop: int, t: float, arrival: float, motion: Motion) -> Ended:
     """What follows when the mass meets a rigid stop: u̇ → −e u̇, or rest."""
     mode, _, _, v, faces, z, _, clock = motion
-    stop = event - 1
+    event, bit = event_of(IMPACT, stop), 1 << stop
     restitution = plan[par.stop_at(stop) + par.RESTITUTION]
     u = place_at(plan, stop, 0.0)  # which from a pressed bumper's face is rounded
     v = -restitution * v
-    bounced = Motion(mode & ~event, event, u, v, faces, z, 0.0, clock)
+    bounced = Motion(mode & ~bit, bit, u, v, faces, z, 0.0, clock)
     push = facing(stop) * acceleration_of(plan, bounced)  # towards the stop
     if not push > 0.0 or restitution >= 1.0:
         return event, t, arrival, bounced
@@ -91,7 +91,7 @@ def impact(plan: Vector, event: int, t: float, arrival: float, motion: Motion) -
     lost = plan[par.CURVED] != 0.0 and v * v < 2.0 * push * _GRAIN * size
     if (rest * rate > _CHATTERED or rest * change > _CHATTERED * push) and not lost:
         return event, t, arrival, bounced
-    last = Motion(bounced.mode, event | SETTLING, u, v, faces, z, 0.0, clock)
+    last = Motion(bounced.mode, bit | SETTLING, u, v, faces, z, 0.0, clock)
     return event, t, arrival, last
 
 
@@ -105,14 +105,15 @@ def chatter(v: float, restitution: float, push: float) -> float:
 def settle(plan: Vector, motion: Motion, limit: float) -> Ended:
     """What is left of a chatter, and the rest to which it leads."""
     mode, fresh, _, v, faces, z, _, clock = motion
-    event = fresh & BOTH
-    stop = event - 1
+    bit = fresh & BOTH
+    stop = main_stop(bit)
     push = acceleration_of(plan, motion) * facing(stop)
     t = min(chatter(v, plan[par.stop_at(stop) + par.RESTITUTION], push), limit)
     faces = changed(relaxed_faces(plan, mode, faces, t), stop, 0.0)
     u = place_at(plan, stop, 0.0)
     clock = turned(plan, clock[0], clock[1], t)
-    return event, t, 0.0, Motion(mode | event, event, u, 0.0, faces, z, 0.0, clock)
+    event = event_of(IMPACT, stop)
+    return event, t, 0.0, Motion(mode | bit, bit, u, 0.0, faces, z, 0.0, clock)
 
 
 @kernel
@@ -132,20 +133,21 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
     event, t = LIMIT, limit
     free, s, c = release_time(plan, sign, level, s, c, limit)
     if free < math.inf:
-        event, t = DETACHED, free
+        event, t = event_of(REST_ENDS, stop), free
     met = mode & there
     if overlapping(plan) and not met and plan[facing_stop + par.KIND] != par.ABSENT:
         # The free bumper comes back to where the mass rests.
         meets = comes_back(faces[other], -total_gap(plan), rate_of(plan, other))
         if meets < t:
-            event, t = 1 + other, meets
-    clock = (s, c) if event == DETACHED else turned(plan, clock[0], clock[1], t)
-    if event == 1 + other:
+            event, t = event_of(CONTACT, other), meets
+    kind = kind_of(event)
+    clock = (s, c) if kind == REST_ENDS else turned(plan, clock[0], clock[1], t)
+    if kind == CONTACT:
         faces = changed(faces, other, -total_gap(plan))
         return event, t, 0.0, Motion(BOTH, there, u, 0.0, faces, z, 0.0, clock)
     if not met:
         faces = changed(faces, other, relaxed(faces[other], rate_of(plan, other), t))
-    if event == DETACHED:
+    if kind == REST_ENDS:
         fresh = here if pulled else here | RELEASED
         return event, t, 0.0, Motion(mode & ~here, fresh, u, 0.0, faces, z, 0.0, clock)
     return event, t, 0.0, Motion(mode, 0, u, 0.0, faces, z, age + t, clock)
@@ -155,7 +157,7 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
 def approach(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Pressed on one side, free of the other until that is touched as well."""
     mode, fresh, _, v, faces, z, age, clock = motion
-    stop = mode - 1
+    stop = main_stop(mode)
     other = 1 - stop
     sign, there = facing(stop), 1 << other
     s, c = clock
@@ -176,7 +178,7 @@ def approach(plan: Vector, motion: Motion, limit: float) -> Ended:
     u = place_at(plan, stop, x)
     if way == WITHIN:
         return LIMIT, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
-    return 1 + other, t, v, Motion(BOTH, there, u, v, faces, z, 0.0, clock)
+    return event_of(CONTACT, other), t, v, Motion(BOTH, there, u, v, faces, z, 0.0, clock)
 
 
 @kernel
@@ -200,6 +202,6 @@ def advance_any(plan: Vector, motion: Motion, limit: float) -> Ended:
             one = approach(plan, motion, t)
             if one[0] != LIMIT:
                 event, t, arrival, after = one
-    if event in (RIGHT, LEFT) and rigid(plan, event - 1):
-        return impact(plan, event, t, arrival, after)
+    if kind_of(event) == CONTACT and rigid(plan, stop_of(event)):
+        return impact(plan, stop_of(event), t, arrival, after)
     return event, t, arrival, after

@@ -9,14 +9,14 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.dispatch import acceleration_of, begin, expanded, has_piece, next_piece
+from vibroimpact.engine.event import IMPACT, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.advance import gap_of, rate_of
 from vibroimpact.engine.linear.evaluate import horner, relaxed
 from vibroimpact.engine.linear.layout import ORDER, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
-from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Stretch, arrived, facing
+from vibroimpact.engine.motion import FLIGHT, Stretch, arrived, facing
 
 
 @kernel
@@ -39,11 +39,11 @@ def slope_series(series: Vector, slope: Vector) -> float:
 @kernel
 def impact_depth(plan: Vector, stretch: Stretch) -> float:
     """Depth to which an impact would go without its stop; infinite where it would not turn."""
-    event, after = stretch.event, stretch.after
-    if event not in (RIGHT, LEFT) or after.mode & event or not rigid(plan, event - 1):
+    after, stop = stretch.after, stop_of(stretch.event)
+    if kind_of(stretch.event) != IMPACT or after.mode >> stop & 1:
         return math.inf
     met = arrived(stretch.before.mode, stretch.arrival, after)
-    back = -facing(event - 1) * acceleration_of(plan, met)
+    back = -facing(stop) * acceleration_of(plan, met)
     if not back > 0.0:
         return math.inf
     depth: float = stretch.arrival * stretch.arrival / (2.0 * back)

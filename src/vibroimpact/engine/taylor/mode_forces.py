@@ -18,8 +18,8 @@ from vibroimpact.engine.motion import (
     BOTH,
     RELEASED,
     RIGHT,
-    SLIPS_LEFT,
-    SLIPS_RIGHT,
+    SLIPPED,
+    SLIPS,
     Motion,
     direction,
     facing,
@@ -221,7 +221,7 @@ def grip(plan: Vector) -> float:
 @kernel
 def stuck(plan: Vector, motion: Motion) -> bool:
     """Whether friction holds the mass, or a drag that no force overcomes."""
-    if motion.v != 0.0 or motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT):
+    if motion.v != 0.0 or motion.fresh & SLIPPED:
         return False
     if plan[par.FRICTION] == 0.0 and not steep(plan):
         return False
@@ -247,7 +247,7 @@ def idle(plan: Vector, motion: Motion) -> bool:
     """
     if motion.v != 0.0 or plan[par.HYSTERETIC] == 0.0:
         return False
-    if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED):
+    if motion.fresh & (SLIPPED | RELEASED):
         return False
     return bool(abs(without_friction(plan, motion)) < rounding(plan, motion))
 
@@ -288,10 +288,8 @@ def way_of(plan: Vector, motion: Motion) -> float:
         return math.copysign(1.0, motion.v)
     if motion.fresh & RELEASED:  # ü is zero but for rounding
         return -1.0 if motion.fresh & RIGHT else 1.0
-    if motion.fresh & SLIPS_RIGHT:
-        return 1.0
-    if motion.fresh & SLIPS_LEFT:
-        return -1.0
+    if motion.fresh & SLIPPED:
+        return 1.0 if motion.fresh & SLIPS else -1.0
     a = -changes(plan, motion) if balanced(plan, motion) else without_friction(plan, motion)
     return math.copysign(1.0, a)
 
