@@ -99,6 +99,11 @@ class Stretch(NamedTuple):
     after: Motion
 
 
+Ended = tuple[int, float, float, Motion]
+"""event, t, arrival, motion: what ended a stretch (see `event`), its length (s), the velocity
+just before, and the motion just behind."""
+
+
 @kernel
 def arrived(mode: int, arrival: float, after: Motion) -> Motion:
     """The motion just before an event, from that just after it."""

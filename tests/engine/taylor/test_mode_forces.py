@@ -13,7 +13,8 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
 from vibroimpact.engine.series.values import Push
-from vibroimpact.engine.taylor.mode_forces import isolator_force, pushing, stuck
+from vibroimpact.engine.stops.curved import pushing
+from vibroimpact.engine.taylor.mode_forces import isolator_force, stuck
 from vibroimpact.engine.taylor.plan import build
 from vibroimpact.response.engine_input import engine_rig
 

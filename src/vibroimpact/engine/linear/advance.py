@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from vibroimpact.engine import parameters as par
 from vibroimpact.engine.event import CONTACT, DETACHMENT, LIMIT, event_of
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.contact import contact
-from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.flight import flight
 from vibroimpact.engine.linear.layout import LATE_TABLES, SIZE, SLOTS, TABLES, VALID_FROM, H
 from vibroimpact.engine.linear.table_search import WITHIN, Bounds
@@ -15,43 +13,17 @@ from vibroimpact.engine.motion import (
     FLIGHT,
     RELEASED,
     SEEN_LEFT,
+    Ended,
     Motion,
     Row,
     coordinates,
     main_stop,
 )
+from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed
+from vibroimpact.engine.stops.places import gap_of, place_at, total_gap
 
 WORK_LIMIT = 3e7
 """Table steps that one forcing cycle may take, about a second of computing."""
-
-Ended = tuple[int, float, float, Motion]
-"""event, t, arrival, motion: what ended a stretch (see `event`), its length (s), the velocity
-just before, and the motion just behind."""
-
-
-@inlined
-def gap_of(plan: Vector, stop: int) -> float:
-    """Gap of a stop (m)."""
-    return plan[par.stop_at(stop) + par.GAP]  # type: ignore[no-any-return]
-
-
-@inlined
-def rate_of(plan: Vector, stop: int) -> float:
-    """Rate at which the free stop relaxes (1/s)."""
-    return plan[par.stop_at(stop) + par.RATE]  # type: ignore[no-any-return]
-
-
-@inlined
-def place_at(plan: Vector, stop: int, deformation: float) -> float:
-    """The displacement of a mass at a stop that is deformed so far."""
-    u = gap_of(plan, stop) + deformation
-    return u if stop == 0 else -u
-
-
-@inlined
-def total_gap(plan: Vector) -> float:
-    """Sum of both gaps (m); below 0 where both stops can be touched at once."""
-    return gap_of(plan, 0) + gap_of(plan, 1)
 
 
 @inlined

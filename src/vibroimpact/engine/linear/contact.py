@@ -6,7 +6,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand
-from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import scaled_acceleration, travel
 from vibroimpact.engine.linear.layout import (
     FORCE,
@@ -28,15 +28,9 @@ from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.table_search import WITHIN, Bounds, Watched, ended, next_window, walk
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
+from vibroimpact.engine.stops.kelvin_voigt import relieved
 
 _PRESSING = Bounds(math.inf, 0.0, 0.0, 0.0, math.inf, math.inf)
-
-
-@inlined
-def relieved(row: Row, damping: float) -> Row:
-    """Where the force is zero; without a dashpot so is the deformation, exactly."""
-    x, v, s, c = row
-    return Row(0.0 if damping == 0.0 else x, v, s, c)
 
 
 @kernel

@@ -6,6 +6,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import Motion, facing
+from vibroimpact.engine.stops import kelvin_voigt
 
 
 @kernel
@@ -47,18 +48,13 @@ def stop_deformation(plan: Vector, motion: Motion, stop: int) -> float:
 @kernel
 def stop_push(plan: Vector, motion: Motion, stop: int) -> float:
     """What a pressed bumper pushes with, away from it."""
-    at = par.stop_at(stop)
-    closing = facing(stop) * motion.v
-    push: float = plan[at + par.BUMPER_STIFFNESS] * stop_deformation(plan, motion, stop)
-    push += plan[at + par.BUMPER_DAMPING] * closing
-    return push
+    return kelvin_voigt.push(plan, stop, motion.faces[stop], facing(stop) * motion.v)
 
 
 @kernel
 def stop_power(plan: Vector, motion: Motion, stop: int) -> float:
     """What a pressed bumper loses, per unit mass and time."""
-    damping: float = plan[par.stop_at(stop) + par.BUMPER_DAMPING]
-    return damping * motion.v * motion.v
+    return kelvin_voigt.power(plan, stop, motion.v)
 
 
 @kernel

@@ -24,15 +24,15 @@ from vibroimpact.engine.dispatch import (
     next_piece,
     rest_level,
 )
-from vibroimpact.engine.event import IMPACT, begins_contact, event_of, stop_of
+from vibroimpact.engine.event import begins_contact, stop_of
 from vibroimpact.engine.forcing.dispatch import pull_series
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import ORDER, RATE
 from vibroimpact.engine.linear.roots import jet
-from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.linear.window_bounds import Enclosed, chords
 from vibroimpact.engine.memory import stack, workspace
 from vibroimpact.engine.motion import FLIGHT, LEFT, Motion, Stretch, direction, facing, main_stop
+from vibroimpact.engine.stops.rigid import rigid, struck
 
 _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
 
@@ -132,14 +132,6 @@ def pushed(
     pulled = least if way > 0.0 else -largest
     force: float = rest_level(plan, before, stop) - pulled * rate * rate
     return max(most, force)
-
-
-@kernel
-def struck(stretch: Stretch, stop: int) -> float:
-    """How much an impact on a rigid stop changes the velocity (m/s); 0 without one."""
-    if stretch.event != event_of(IMPACT, stop):
-        return 0.0
-    return abs(stretch.arrival - stretch.after.v)
 
 
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT = range(6)

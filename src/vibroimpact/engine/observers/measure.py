@@ -23,7 +23,6 @@ from vibroimpact.engine.dispatch import (
     moment,
     next_piece,
     rest_level,
-    stop_deformation,
     stop_power,
     stop_push,
     unreturned_energy,
@@ -31,11 +30,9 @@ from vibroimpact.engine.dispatch import (
 from vibroimpact.engine.event import IMPACT, at_stop, kind_of, stop_of
 from vibroimpact.engine.forcing.dispatch import pull_series, value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import total_gap
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, RATE, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
-from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import (
     SETTLING,
@@ -74,6 +71,9 @@ from vibroimpact.engine.observers.phases import (
     WORK,
 )
 from vibroimpact.engine.observers.record import recorded_kind
+from vibroimpact.engine.stops.kelvin_voigt import closing_speed, relaxed_loss
+from vibroimpact.engine.stops.places import total_gap
+from vibroimpact.engine.stops.rigid import rigid
 
 _X, _W = np.polynomial.legendre.leggauss(12)
 ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
@@ -236,27 +236,6 @@ def measure_settling(plan: Vector, before: Motion, step: float, after: Motion, r
         if before.mode >> stop & 1:
             push = stop_push(plan, before, stop) + stop_push(plan, last, stop)
             row[column(stop, IMPULSE)] += 0.5 * step * push
-
-
-@kernel
-def relaxed_loss(plan: Vector, stop: int, before: float, after: float) -> float:
-    """What a free bumper loses that relaxes from one deformation to the other."""
-    at = par.stop_at(stop)
-    if plan[at + par.KIND] != par.KELVIN_VOIGT:
-        return 0.0
-    stiffness: float = plan[at + par.BUMPER_STIFFNESS]
-    return 0.5 * stiffness * (before * before - after * after)
-
-
-@kernel
-def closing_speed(plan: Vector, stop: int, velocity: float, after: Motion) -> float:
-    """How fast a stop and the mass approach each other; a free bumper relaxes towards the mass."""
-    at = par.stop_at(stop)
-    closing = facing(stop) * velocity
-    if plan[at + par.KIND] == par.KELVIN_VOIGT and plan[at + par.BUMPER_DAMPING] > 0.0:
-        rate = plan[at + par.BUMPER_STIFFNESS] / plan[at + par.BUMPER_DAMPING]
-        closing += rate * stop_deformation(plan, after, stop)
-    return closing
 
 
 @kernel

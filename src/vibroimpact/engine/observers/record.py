@@ -14,9 +14,9 @@ from vibroimpact.engine.dispatch import (
 )
 from vibroimpact.engine.event import LIMIT, at_stop, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.memory import beyond, stack, workspace
 from vibroimpact.engine.motion import BOTH, Motion, Stretch, arrived, direction, facing, main_stop
+from vibroimpact.engine.stops.kelvin_voigt import relaxed
 
 # Rows of the samples: a row a variable, so that each is one piece of memory.
 DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE = range(5)

@@ -25,17 +25,16 @@ from vibroimpact.engine.event import (
 )
 from vibroimpact.engine.forcing.dispatch import change_rate, release_time, stepped, turned, value
 from vibroimpact.engine.jit import Vector, apart, kernel
-from vibroimpact.engine.linear.advance import Ended, gap_of, place_at, rate_of
-from vibroimpact.engine.linear.evaluate import comes_back
-from vibroimpact.engine.linear.stops import impact, relaxed_faces, rest, settle
-from vibroimpact.engine.linear.tables import rigid
-from vibroimpact.engine.motion import RELEASED, SETTLING, SLIPS, Motion, changed, facing
+from vibroimpact.engine.motion import RELEASED, SETTLING, SLIPS, Ended, Motion, changed, facing
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
 from vibroimpact.engine.series.step_control import write_header
+from vibroimpact.engine.stops.curved import curved_stop
+from vibroimpact.engine.stops.kelvin_voigt import comes_back, rate_of, relaxed_faces
+from vibroimpact.engine.stops.places import gap_of, place_at
+from vibroimpact.engine.stops.rigid import impact, rest, rigid, settle
 from vibroimpact.engine.taylor.mode_forces import (
     creeps,
-    curved_stop,
     frame_of,
     grip,
     idle,

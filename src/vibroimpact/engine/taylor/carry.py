@@ -13,7 +13,6 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine import saltation
 from vibroimpact.engine.event import DETACHMENT, IMPACT, TURN, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import SETTLING, Motion, Stretch, facing, main_stop
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY, contraction, meet
 from vibroimpact.engine.series.layout import (
@@ -29,19 +28,18 @@ from vibroimpact.engine.series.layout import (
     ROOM,
 )
 from vibroimpact.engine.series.values import Frame, Laws
+from vibroimpact.engine.stops.curved import curved_stop, push_of, stop_force
+from vibroimpact.engine.stops.rigid import resting
 from vibroimpact.engine.taylor.laws import laws_of
 from vibroimpact.engine.taylor.mode_forces import (
     acceleration_of,
     branch_of,
-    curved_stop,
-    motion_rate,
-    push_of,
-    stop_force,
     stop_push,
     stuck,
     without_friction,
 )
 from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, sloped
+from vibroimpact.engine.taylor.plan import motion_rate
 from vibroimpact.engine.taylor.step_setup import varies
 
 _SLOPES_LAST = 2.0**-47

@@ -9,15 +9,15 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.event import DETACHMENT, EASED, LIMIT, NEITHER, event_of
 from vibroimpact.engine.forcing.dispatch import stepped
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
-from vibroimpact.engine.linear.tables import overlapping
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, main_stop
 from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
 from vibroimpact.engine.series.kernels import Slot
 from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
 from vibroimpact.engine.series.step_control import Shaken, certified_step, number
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
-from vibroimpact.engine.taylor.laws import EVEN
-from vibroimpact.engine.taylor.mode_forces import branch_of, curved_stop, push_of
+from vibroimpact.engine.stops.curved import EVEN, curved_stop, push_of
+from vibroimpact.engine.stops.places import overlapping
+from vibroimpact.engine.taylor.mode_forces import branch_of
 from vibroimpact.engine.taylor.pieces import coordinate, placed
 from vibroimpact.engine.taylor.step_events import (
     Found,

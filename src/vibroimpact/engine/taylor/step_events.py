@@ -18,9 +18,7 @@ from vibroimpact.engine.event import (
     event_of,
 )
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
-from vibroimpact.engine.linear.advance import gap_of, rate_of, total_gap
 from vibroimpact.engine.linear.roots import NONE, Clearance
-from vibroimpact.engine.linear.tables import overlapping
 from vibroimpact.engine.motion import BOTH, RELEASED, SLIPPED, Motion, facing
 from vibroimpact.engine.series.events import (
     FIXED,
@@ -53,8 +51,10 @@ from vibroimpact.engine.series.layout import (
     Z,
 )
 from vibroimpact.engine.series.values import Frame
-from vibroimpact.engine.taylor.laws import EVEN
-from vibroimpact.engine.taylor.mode_forces import balanced, curved_stop, push_of, steep
+from vibroimpact.engine.stops.curved import EVEN, curved_stop, push_of
+from vibroimpact.engine.stops.kelvin_voigt import rate_of
+from vibroimpact.engine.stops.places import gap_of, overlapping, total_gap
+from vibroimpact.engine.taylor.mode_forces import balanced, steep
 from vibroimpact.engine.taylor.pieces import facing_of
 from vibroimpact.law_numbers import ABSOLUTE_X
 

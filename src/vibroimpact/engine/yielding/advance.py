@@ -20,20 +20,21 @@ from vibroimpact.engine.event import (
     stop_of,
 )
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import Ended, gap_of, place_at, rate_of
-from vibroimpact.engine.linear.stops import impact, relaxed_faces, settle
-from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.motion import (
     BOTH,
     RELEASED,
     SETTLING,
     SLIPPED,
+    Ended,
     Motion,
     Row,
     changed,
     direction,
     main_stop,
 )
+from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed_faces
+from vibroimpact.engine.stops.places import gap_of, place_at
+from vibroimpact.engine.stops.rigid import impact, rigid, settle
 from vibroimpact.engine.taylor.advance import still
 from vibroimpact.engine.taylor.mode_forces import stands, way_of
 from vibroimpact.engine.yielding.layout import ELASTIC, MOVES_LEFT, MOVES_RIGHT
