@@ -273,7 +273,7 @@ def advance(plan: Vector, motion: Motion, limit: float) -> Ended:
     Returns
     -------
     event, t, arrival, motion
-        What ended the stretch (see `motion`), its length (s), the velocity just before the event,
+        What ended the stretch (see `event`), its length (s), the velocity just before the event,
         and the motion just after it.
     """
     chosen: Any = (advance_any, advance_taylor, advance_yielding)[par.laws(plan)]

@@ -32,10 +32,7 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
     for stop in range(2):
         at = par.stop_at(stop)
         if motion.mode >> stop & 1 and plan[at + par.KIND] == par.KELVIN_VOIGT:
-            sign = facing(stop)
-            deformation = motion.faces[stop]
-            a -= sign * plan[at + par.BUMPER_STIFFNESS] * deformation
-            a -= plan[at + par.BUMPER_DAMPING] * motion.v
+            a = kelvin_voigt.slowed(plan, stop, a, motion.faces[stop], motion.v)
     return a
 
 

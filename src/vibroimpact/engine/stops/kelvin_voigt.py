@@ -34,6 +34,15 @@ def push(plan: Vector, stop: int, deformation: float, closing: float) -> float:
 
 
 @kernel
+def slowed(plan: Vector, stop: int, a: float, deformation: float, v: float) -> float:
+    """An acceleration of the mass with that of its push added (m/s²)."""
+    at = par.stop_at(stop)
+    a -= facing(stop) * plan[at + par.BUMPER_STIFFNESS] * deformation
+    a -= plan[at + par.BUMPER_DAMPING] * v
+    return a
+
+
+@kernel
 def power(plan: Vector, stop: int, speed: float) -> float:
     """What its dashpot takes while it is pressed, per unit mass."""
     damping: float = plan[par.stop_at(stop) + par.BUMPER_DAMPING]

@@ -121,8 +121,7 @@ def without_friction(plan: Vector, motion: Motion) -> float:
         sign = facing(stop)
         memory = faces[stop]
         if plan[at + par.KIND] == par.KELVIN_VOIGT:
-            a -= sign * plan[at + par.BUMPER_STIFFNESS] * memory
-            a -= plan[at + par.BUMPER_DAMPING] * v
+            a = kelvin_voigt.slowed(plan, stop, a, memory, v)
         elif curved_stop(plan, stop):
             push = push_of(plan, stop, sign * v, memory)
             a -= sign * stop_force(plan, stop, push, sign * u - plan[at + par.GAP], sign * v)
