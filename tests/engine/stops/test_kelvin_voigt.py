@@ -42,13 +42,18 @@ def test_it_comes_back_when_it_has_relaxed_so_far() -> None:
     assert kelvin_voigt.relaxed(0.1, rate, t) == pytest.approx(0.03, rel=1e-13)
 
 
-@pytest.mark.parametrize(("stop", "u", "expected"), [
-    (0, 0.6, (0.1, True)), (0, 0.45, (0.02, False)), (1, -0.6, (0.1, True)), (1, 0.6, (0.0, False)),
+@pytest.mark.parametrize(("stop", "mode", "u", "v", "expected"), [
+    (0, 0, 0.6, 0.0, (0.1, True)),
+    (0, 0, 0.45, 0.0, (0.02, False)),  # beyond its face
+    (0, 1, 0.6, -10.0, (0.1, False)),  # it would pull
+    (0, 1, 0.45, 9.0, (0.0, False)),  # nor does it follow the mass beyond its place at rest
+    (1, 0, -0.6, 0.0, (0.1, True)),
+    (1, 0, 0.6, 0.0, (0.0, False)),
 ])  # fmt: skip
 def test_beside_a_mass_it_is_pressed_or_free(
-    stop: int, u: float, expected: tuple[float, bool]
+    stop: int, mode: int, u: float, v: float, expected: tuple[float, bool]
 ) -> None:
-    deformation, pressed = kelvin_voigt.placed(PLAN, stop, 0, u, 0.0, 0.02)
+    deformation, pressed = kelvin_voigt.placed(PLAN, stop, mode, u, v, 0.02)
     assert pressed == expected[1]
     assert deformation == pytest.approx(expected[0], abs=1e-15)
 
