@@ -10,11 +10,12 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.engine import batch, flow
 from vibroimpact.engine.entry import entry
+from vibroimpact.engine.event import at_stop, begins_contact
 from vibroimpact.engine.event_loop import observed
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import kernel
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import DETACHED, LIMIT, STATE, U, V
+from vibroimpact.engine.motion import STATE, U, V
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.state import EVENT, STEP, T, copy, load, room, width
 from vibroimpact.response.engine_input import engine_rig
@@ -27,10 +28,11 @@ CONTACTS, DETACHMENTS, TIME, GAPS, LAST_U, LAST_V = range(6)
 
 @kernel
 def see(plan, before, ended, after, notes):
-    if ended[EVENT] == DETACHED:
-        notes[DETACHMENTS] += 1
-    elif ended[EVENT] != LIMIT:
+    event = int(ended[EVENT])
+    if begins_contact(event):
         notes[CONTACTS] += 1
+    elif at_stop(event):
+        notes[DETACHMENTS] += 1
     if ended[T] > 0.0 and (before[U] != notes[LAST_U] or before[V] != notes[LAST_V]):
         notes[GAPS] += 1
     notes[TIME] += ended[STEP]

@@ -14,8 +14,7 @@ from vibroimpact.engine.motion import (
     LEFT,
     RELEASED,
     RIGHT,
-    SLIPS_LEFT,
-    SLIPS_RIGHT,
+    SLIPS,
     STATE,
     Motion,
     coordinates,
@@ -36,7 +35,7 @@ def motion(mode: int, fresh: int = 0) -> Motion:
 
 
 @pytest.mark.parametrize("mode", MODES)
-@pytest.mark.parametrize("fresh", [0, RIGHT, LEFT | RELEASED, SLIPS_RIGHT])
+@pytest.mark.parametrize("fresh", [0, RIGHT, LEFT | RELEASED, SLIPS])
 def test_packing_loses_nothing(mode: int, fresh: int) -> None:
     state = np.full(STATE + 2, math.nan)
     pack(motion(mode, fresh), state)
@@ -68,5 +67,6 @@ def test_a_left_contact_is_seen_as_the_mirror_image_of_a_right_one() -> None:
 
 
 def test_which_way_friction_lets_go_is_mirrored() -> None:
-    assert mirrored(motion(FLIGHT, SLIPS_RIGHT)).fresh == SLIPS_LEFT
-    assert mirrored(motion(RIGHT, SLIPS_LEFT | LEFT)).fresh == SLIPS_RIGHT | RIGHT
+    right, left = SLIPS << 0, SLIPS << 1
+    assert mirrored(motion(FLIGHT, right)).fresh == left
+    assert mirrored(motion(RIGHT, left | LEFT)).fresh == right | RIGHT

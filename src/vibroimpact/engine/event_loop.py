@@ -10,8 +10,9 @@ from typing import Any
 
 from vibroimpact.engine import flow
 from vibroimpact.engine import state as states
+from vibroimpact.engine.event import GIVEN_UP, LIMIT, PASSED, kind_of
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import GIVEN_UP, LIMIT, PASSED, SETTLING
+from vibroimpact.engine.motion import SETTLING
 from vibroimpact.engine.observers.demand import add
 from vibroimpact.engine.observers.phases import note
 from vibroimpact.engine.state import EVENT, FRESH, STEP, T, room, stretch_room
@@ -39,17 +40,18 @@ def loop(advance: Any, load: Any, put: Any, finite: Any, observe: Any) -> Any:
         events = 0
         while True:
             event = advance(plan, here, max(length - t, 0.0), ended, there)
-            if event == GIVEN_UP:
+            kind = kind_of(event)
+            if kind == GIVEN_UP:
                 if finite(plan, there):  # else it left the range of numbers: its caller sees it
                     events = max_events + 1
                 break
             if observe is not None:
                 ended[EVENT], ended[T] = event, t
                 observe(plan, here, ended, there, *notes)
-            if event == LIMIT:
+            if kind == LIMIT:
                 break
             t += ended[STEP]
-            if event == PASSED:
+            if kind == PASSED:
                 put(plan, there, here)
                 continue
             events += 1

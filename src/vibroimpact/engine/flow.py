@@ -262,7 +262,7 @@ def undisturbed(plan: Vector, state: Vector, dying: float, result: Vector) -> in
 def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
     """Go on from a state to the next event, or for the time `limit` (s) if that comes first.
 
-    Returns the event (see `motion`) and writes the state just after it; of `ended` the length of
+    Returns the event (see `event`) and writes the state just after it; of `ended` the length of
     the stretch and the velocity just before the event (`state`).
     """
 

@@ -26,11 +26,11 @@ from vibroimpact.engine.jit import CHOSEN, Vector
 from vibroimpact.engine.linear import advance as linear_advance
 from vibroimpact.engine.linear import carry as linear_carry
 from vibroimpact.engine.linear import contact_free, forces, pieces, tables, window_bounds
-from vibroimpact.engine.linear.advance import Ended, advance_apart
+from vibroimpact.engine.linear.advance import advance_apart
+from vibroimpact.engine.linear.any_stops import advance_any
 from vibroimpact.engine.linear.layout import PLAN
-from vibroimpact.engine.linear.stops import advance_any
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import Motion
+from vibroimpact.engine.motion import Ended, Motion
 from vibroimpact.engine.series import kernels
 from vibroimpact.engine.taylor import advance as taylor_advance
 from vibroimpact.engine.taylor import carry as taylor_carry
@@ -273,7 +273,7 @@ def advance(plan: Vector, motion: Motion, limit: float) -> Ended:
     Returns
     -------
     event, t, arrival, motion
-        What ended the stretch (see `motion`), its length (s), the velocity just before the event,
+        What ended the stretch (see `event`), its length (s), the velocity just before the event,
         and the motion just after it.
     """
     chosen: Any = (advance_any, advance_taylor, advance_yielding)[par.laws(plan)]

@@ -17,19 +17,17 @@ resting."""
 SEEN_LEFT = 4
 """The table of BOTH in the left bumper's coordinates; that of the right one is BOTH itself."""
 
-LIMIT, DETACHED, TURNED, PASSED, GIVEN_UP = 0, 3, 7, 8, 9
-"""What ends a stretch: the time limit, a contact or an impact (1 + stop), a detachment, a branch
-of the isolator's law (TURNED), which no stop knows of, the end of a step at which nothing happens
-(PASSED), or more steps than can be counted."""
-
 RELEASED = 4
 """Added to the bit of the stop that has just been left if the mass was at rest there."""
 
 SETTLING = 8
 """Added to the bit of the stop of an impact after which all others of a chatter follow at once."""
 
-SLIPS_RIGHT, SLIPS_LEFT = 16, 32
-"""Said of a mass that friction has just let go: which way it goes, still without velocity."""
+SLIPS = 16
+"""Shifted by the number of the stop towards which it goes, still without velocity: the bit of a
+mass that friction has just let go."""
+SLIPPED = SLIPS | SLIPS << 1
+"""Both of these bits."""
 
 MODE, FRESH, U, V, RIGHT_BUMPER, LEFT_BUMPER, ISOLATOR, AGE = range(8)
 FACES = RIGHT_BUMPER
@@ -89,8 +87,8 @@ class Motion(NamedTuple):
 class Stretch(NamedTuple):
     """What lies between two events.
 
-    `t` is the time since the section at its start, `step` its length (s), `arrival` the velocity
-    just before the event that ends it, which an impact changes.
+    `t` is the time since the section at its start, `event` what ends it (see `event`), `step` its
+    length (s), `arrival` the velocity just before the event, which an impact changes.
     """
 
     before: Motion
@@ -99,6 +97,11 @@ class Stretch(NamedTuple):
     step: float
     arrival: float
     after: Motion
+
+
+Ended = tuple[int, float, float, Motion]
+"""event, t, arrival, motion: what ended a stretch (see `event`), its length (s), the velocity
+just before, and the motion just behind."""
 
 
 @kernel
@@ -135,7 +138,7 @@ def pack(motion: Motion, state: Vector) -> None:
 
 def swapped(sides: int) -> int:
     """Right for left, other bits as they are."""
-    pairs = RIGHT | SLIPS_RIGHT
+    pairs = RIGHT | SLIPS
     return (sides & ~(pairs | pairs << 1)) | (sides & pairs) << 1 | (sides >> 1) & pairs
 
 

@@ -20,7 +20,6 @@ from vibroimpact.engine.motion import (
     Motion,
     Stretch,
     changed,
-    facing,
     mirrored,
     pack,
     unpacked,
@@ -48,6 +47,7 @@ from vibroimpact.engine.observers.margin import least_margin
 from vibroimpact.engine.observers.measure import measure_stretch
 from vibroimpact.engine.observers.tangent import DISTURBANCE
 from vibroimpact.engine.state import ARRIVAL, EVENT, FIRST, STEP, T, copy
+from vibroimpact.engine.stops import curved, kelvin_voigt, rigid
 
 PARTS = DISTURBANCE
 """u, u̇, u_R, u_L, z."""
@@ -100,8 +100,7 @@ def numbers(plan: Vector) -> int:
 def complete(plan: Vector) -> None:
     for stop in range(2):
         at = par.stop_at(stop)
-        if plan[at + par.KIND] == par.KELVIN_VOIGT and plan[at + par.BUMPER_DAMPING] > 0.0:
-            plan[at + par.RATE] = plan[at + par.BUMPER_STIFFNESS] / plan[at + par.BUMPER_DAMPING]
+        kelvin_voigt.complete(plan, stop)
         # Newton's method may look beyond what can be; above 1 the mass bounces all the same.
         plan[at + par.RESTITUTION] = max(plan[at + par.RESTITUTION], 0.0)
 
@@ -154,32 +153,19 @@ def place(plan: Vector, state: Vector) -> None:
     faces = max(state[FACES], 0.0), max(state[FACES + 1], 0.0)
     found = 0
     for stop in range(2):
-        at, bit = par.stop_at(stop), 1 << stop
-        kind = plan[at + par.KIND]
+        kind = plan[par.stop_at(stop) + par.KIND]
         if kind == par.ABSENT:
             continue
-        sign, deformation = facing(stop), faces[stop]
-        reach = sign * u - plan[at + par.GAP]
+        deformation = faces[stop]
         if kind == par.RIGID:
+            u, touches = rigid.placed(plan, stop, mode, u, v)
             deformation = 0.0
-            if reach > 0.0:
-                u = sign * plan[at + par.GAP]
-            if mode & bit and reach >= 0.0 and v == 0.0:
-                found |= bit
-        elif kind != par.KELVIN_VOIGT:
-            if reach > 0.0 or (reach == 0.0 and mode & bit):
-                found |= bit
-            else:
-                deformation = 0.0
+        elif kind == par.KELVIN_VOIGT:
+            deformation, touches = kelvin_voigt.placed(plan, stop, mode, u, v, deformation)
         else:
-            if mode & bit or reach > deformation:
-                force = plan[at + par.BUMPER_STIFFNESS] * reach
-                force += plan[at + par.BUMPER_DAMPING] * sign * v
-                deformation = max(reach, 0.0)
-                if reach >= 0.0 and force >= 0.0:
-                    found |= bit
-            if plan[at + par.BUMPER_DAMPING] == 0.0 and not found & bit:
-                deformation = 0.0
+            deformation, touches = curved.placed(plan, stop, mode, u, deformation)
+        if touches:
+            found |= 1 << stop
         faces = changed(faces, stop, deformation)
     z = min(max(state[MEMORY], -plan[par.YIELD]), plan[par.YIELD])
     pack(Motion(found, found, u, v, faces, z, 0.0, unpacked(state).clock), state)

@@ -19,6 +19,7 @@ from vibroimpact.datasets.description import describe, excitation_parameters
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.assembly.entries import follow_sections
 from vibroimpact.engine.assembly.plan import plan_of
+from vibroimpact.engine.event import CONTACT, IMPACT, REST_ENDS
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Assembly, Periodic, Record, Repeated, equilibrium
@@ -42,9 +43,9 @@ _Array = NDArray[np.float64]
 
 _WORK_LIMIT = 1e7
 """Steps that one section may take."""
-_START, _END, _CONTACT, _IMPACT = 1, 0, layout.CONTACT, layout.IMPACT
+_START, _END = 1, 0
 _HIT = 2
-"""Kinds of events in a dataset, `event_contact`, and in the engine's log."""
+"""Kinds of events in a dataset, `event_contact`."""
 _SAME = 1e-15
 """Share of a section within which a stretch ends where the log has its event."""
 _AT_REST = 1e-12
@@ -286,9 +287,9 @@ class _Run:
                 held = {g for g in range(self.stops) if seen.contact_force[after, g] != 0.0}
             else:
                 held = {g for g in range(self.stops) if int(self.state[0]) >> g & 1}
-            if i + 1 < len(log) and log[i + 1, 3] == layout.RISE:
+            if i + 1 < len(log) and log[i + 1, 3] == REST_ENDS:
                 held.add(int(log[i + 1, 2]))
-            if what == _IMPACT:
+            if what == IMPACT:
                 for g in sorted(resting - {f} - held):
                     yield _Event(section, time, g, _END, u, v)
                     resting.discard(g)
@@ -304,7 +305,7 @@ class _Run:
                     )
                     resting.add(f)
             else:
-                yield _Event(section, time, f, _START if what == _CONTACT else _END, u, v)
+                yield _Event(section, time, f, _START if what == CONTACT else _END, u, v)
                 resting.discard(f)
             row = after
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.assembly import layout
+from vibroimpact.engine.event import IMPACT
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Record, Repeated, RigidStop
 from vibroimpact.model.assembly import numbers
@@ -291,7 +292,7 @@ class Measurer:
         for i, (section, time, stop, what) in enumerate(seen.log):
             while row < last and ends[row] < (section, time - slack):
                 row += 1
-            if what == layout.IMPACT:
+            if what == IMPACT:
                 again = i > 0 and tuple(seen.log[i - 1, :3]) == (section, time, stop)
                 found.append((before + row, int(stop), bool(again)))
             row += 1

@@ -1,6 +1,6 @@
 """Motions that come to rest on a rigid stop: their chatter has infinitely many impacts.
 
-Some are followed one by one (`engine.linear.stops`). Where another one is followed before the
+Some are followed one by one (`engine.stops.rigid`). Where another one is followed before the
 chatter is completed, the count of contacts changes though the motion does not: no grazing.
 """
 

@@ -12,6 +12,7 @@ from engine.assembly.systems import System, joined, neighbours, record, row, sha
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.entries import follow_sections, sections
 from vibroimpact.engine.assembly.plan import GROUND, Forcing, Stop, base_motion
+from vibroimpact.engine.event import REST_ENDS
 
 
 def still(n: int) -> Forcing:
@@ -195,7 +196,7 @@ def test_a_pair_moves_as_one_mass_of_their_reduced_mass(e: float | None, tables:
     ]
     assert counts[0] == counts[1] >= 6
     if e is not None:
-        assert at.RISE in logs[1, :, 3]
+        assert REST_ENDS in logs[1, :, 3]
     found = [two[2] - two[3], two[4] - two[5]]
     assert found == pytest.approx(single[2:4], abs=1e-11)
 
@@ -329,7 +330,7 @@ def test_one_mass_as_by_its_own_flow(kind: str) -> None:
         state = system.state()
         count, _ = run(system, state, sections(0.0, system.period, cycles), tables, log=log)
         if kind == "rest":
-            assert at.RISE in log[:count, 3]
+            assert REST_ENDS in log[:count, 3]
         scale = abs(end["velocity"].values).max()
         assert state[2] == pytest.approx(float(end["displacement"][-1]), abs=1e-13)
         assert state[3] == pytest.approx(float(end["velocity"][-1]), abs=1e-12 * scale)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.engine.forcing.harmonic import turn
-from vibroimpact.engine.linear.evaluate import horner, node, relaxed, travel
+from vibroimpact.engine.linear.evaluate import horner, node, travel
 from vibroimpact.engine.linear.layout import (
     FORGOTTEN,
     LATE_TABLES,
@@ -20,10 +20,13 @@ from vibroimpact.engine.linear.layout import (
     VALID_FROM,
     H,
 )
-from vibroimpact.engine.linear.tables import build, overlapping, resting
+from vibroimpact.engine.linear.tables import build
 from vibroimpact.engine.motion import BOTH, FLIGHT, LEFT, RIGHT, SEEN_LEFT, Row
 from vibroimpact.engine.parameters import SIZE as RIG
 from vibroimpact.engine.parameters import rig_vector
+from vibroimpact.engine.stops.kelvin_voigt import relaxed
+from vibroimpact.engine.stops.places import overlapping
+from vibroimpact.engine.stops.rigid import resting
 from vibroimpact.law_numbers import StopNumbers
 
 PRESSED = (20.0, 0.4, -0.3)

@@ -10,9 +10,10 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.engine import flow, lyapunov
 from vibroimpact.engine.entry import entry
+from vibroimpact.engine.event import LIMIT, TURN
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.motion import LIMIT, RIGHT, STATE
+from vibroimpact.engine.motion import STATE
 from vibroimpact.engine.observers import growth
 from vibroimpact.engine.observers.growth import LEAST, NOTHING, Rows, orthonormalise
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
@@ -202,7 +203,7 @@ def test_pieces_that_end_otherwise_than_their_stretch_leave_the_growth_unknown()
     grown_over(rig, length, LIMIT, q, logarithms)
     assert logarithms.sum() == pytest.approx(-damping * length, rel=1e-9)
     q, logarithms = np.zeros((DISTURBANCE, DISTURBANCE)), np.zeros(2)
-    grown_over(rig, length, RIGHT, q, logarithms)  # which no piece meets
+    grown_over(rig, length, TURN, q, logarithms)  # which no piece meets
     assert np.isfinite(logarithms[0])
     assert np.isnan(logarithms[1])
     assert np.isfinite(q).all()

@@ -12,8 +12,7 @@ from engine.taylor.rigs import ISOLATORS, SHAKEN, STOPS, between
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Motion
-from vibroimpact.engine.series.values import Push
-from vibroimpact.engine.taylor.mode_forces import isolator_force, pushing, stuck
+from vibroimpact.engine.taylor.mode_forces import isolator_force, stuck
 from vibroimpact.engine.taylor.plan import build
 from vibroimpact.response.engine_input import engine_rig
 
@@ -35,13 +34,6 @@ def test_force_without_a_memory_is_the_static_one(isolator: str, u: float) -> No
     assert force == pytest.approx(law.static_force(u) - math.copysign(friction, u), rel=1e-14)
     rate = law.damping * 0.7
     assert isolator_force(plan, u, 0.7, 0.0) == pytest.approx(force + rate, rel=1e-14)
-
-
-def test_a_stop_never_pulls() -> None:
-    push = Push(40.0, 1.5, 0.5, 0.0)
-    assert pushing(push, 0.04, 1.0) == pytest.approx(40.0 * 0.008 * 1.5, rel=1e-14)
-    assert pushing(push, 0.04, -2.0) == pushing(push, 0.04, -9.0) == 0.0
-    assert pushing(push, 0.0, 3.0) == pushing(push, -0.1, 3.0) == 0.0
 
 
 @pytest.mark.parametrize(

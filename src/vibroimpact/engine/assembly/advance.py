@@ -24,6 +24,7 @@ from vibroimpact.engine.assembly.tables import (
     travel_by_tables,
 )
 from vibroimpact.engine.assembly.tables import is_clear as is_clear_on_leap
+from vibroimpact.engine.event import GIVEN_UP, LIMIT, PASSED, event_of
 from vibroimpact.engine.event_loop import unobserved
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
@@ -248,8 +249,8 @@ def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
 def next_stretch(plan: Vector, left: float) -> int:
     """Go on to the next event, at most for a step and for the time that is left.
 
-    Returns what ended the stretch; its length is `plan[LENGTH]`, its stop `plan[EVENT_STOP]`. The
-    stretch is kept in the plan, for `channels` and `tangent`.
+    Returns what ended the stretch; its length is `plan[LENGTH]`. The stretch is kept
+    in the plan, for `channels` and `tangent`.
     """
     n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
     y, deformation = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
@@ -262,8 +263,8 @@ def next_stretch(plan: Vector, left: float) -> int:
     for i in range(2 * n):
         total += abs(y[i])
     if not total < 1e200:
-        plan[at.EVENT], plan[at.LENGTH] = float(at.GIVEN_UP), 0.0
-        return at.GIVEN_UP
+        plan[at.EVENT], plan[at.LENGTH] = float(GIVEN_UP), 0.0
+        return GIVEN_UP
     place = table_of_mode(plan)
     if place > 0:
         return stretch_by_tables(plan, place, left)
@@ -296,12 +297,13 @@ def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int
     if moved:
         for f in range(int(plan[at.STOPS])):
             plan[int(plan[at.ZEROS]) + f] = 0.0
-    plan[at.LENGTH], plan[at.EVENT_STOP] = length, float(hit)
+    plan[at.LENGTH] = length
     plan[at.AGE] += length
-    event = at.LIMIT
+    event = LIMIT
     if hit >= 0:
         remember(plan, int(plan[at.END]), int(plan[at.END_DEFORMATION]))
-        mode, event = switch_mode(plan, mode, hit, y, deformation)
+        mode, kind = switch_mode(plan, mode, hit, y, deformation)
+        event = event_of(kind, hit)
         enter_mode(plan, mode)
         plan[at.AGE] = 0.0
         plan[at.LEVEL] = 0.0
@@ -317,8 +319,8 @@ def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Ve
     event = next_stretch(plan, limit)
     ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
     store_motion(plan, after)
-    if event == at.LIMIT and plan[at.LENGTH] < limit:
-        return at.PASSED
+    if event == LIMIT and plan[at.LENGTH] < limit:
+        return PASSED
     return event
 
 

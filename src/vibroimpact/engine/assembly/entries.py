@@ -14,6 +14,7 @@ from vibroimpact.engine.assembly.curved import advance as curved
 from vibroimpact.engine.assembly.curved import channels as curved_channels
 from vibroimpact.engine.assembly.curved.tangent import carry_along_series as carry_curved
 from vibroimpact.engine.assembly.tangent import carry_disturbances
+from vibroimpact.engine.event import GIVEN_UP, LIMIT, TURN, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.plain_entries import single
@@ -59,7 +60,7 @@ def _follower(flow: Any, seen: Any, carry: Any) -> Any:
             while t < length:
                 left = length - t
                 event = next_stretch(plan, left)
-                if event == at.GIVEN_UP:
+                if event == GIVEN_UP:
                     return -1 - k
                 if len(disturbances):
                     carry(plan, pointer(disturbances), len(disturbances))
@@ -80,15 +81,15 @@ def _follower(flow: Any, seen: Any, carry: Any) -> Any:
                             written += 1
                     close_stretch(plan)
                 t = length if plan[at.LENGTH] == left else t + plan[at.LENGTH]
-                if event != at.LIMIT:
+                if event != LIMIT:
                     events += 1
                     if events > max_events:
                         return -1 - k
-                    if event == at.TURN:
+                    if kind_of(event) == TURN:
                         continue
                     if count < len(log):
                         log[count, 0], log[count, 1] = k, t
-                        log[count, 2], log[count, 3] = plan[at.EVENT_STOP], event
+                        log[count, 2], log[count, 3] = stop_of(event), kind_of(event)
                     count += 1
             store_motion(plan, here)
         return count
@@ -169,7 +170,7 @@ def follow_sections(
         In one section, at which the motion is given up.
     log : ndarray, shape (event, 4)
         Gets of each event its section, the time since this began (s), stop, and what happened
-        (`layout.CONTACT`, …); what does not fit is dropped.
+        (of `event`); what does not fit is dropped.
     disturbances : ndarray, shape (row, 2 n + stops)
         Are carried along.
     samples : ndarray, shape (piece, 2 + 4 n + 3 stops)

@@ -8,6 +8,7 @@ from typing import Any
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import enter_mode, hold
 from vibroimpact.engine.assembly.series import accelerate, places, take_off
+from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, REST_ENDS
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -196,15 +197,15 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
     bit = 1 << f
     if mode >> f & 1:
         zeros[f] = 3.0
-        event = at.RISE
+        kind = REST_ENDS
         if not rigid:
-            event = at.RELEASE
+            kind = DETACHMENT
             if not dashpot or deformation[f] < 0.0:
                 deformation[f] = 0.0
             zeros[f] = 2.0 if deformation[f] > 0.0 else 1.0
-        return mode & ~bit, event
+        return mode & ~bit, kind
     if rigid:
-        return impact(plan, mode, f, y, deformation), at.IMPACT
+        return impact(plan, mode, f, y, deformation), IMPACT
     # A dashpot's force begins with a jump, a spring's with zero.
     zeros[f] = 0.0 if dashpot else 1.0
     if not dashpot:
@@ -213,7 +214,7 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
         for g in range(count):
             if g != f and coupling[g] != 0.0:
                 zeros[g] = min(zeros[g], 2.0)
-    return mode | bit, at.CONTACT
+    return mode | bit, CONTACT
 
 
 @kernel

@@ -11,8 +11,6 @@ tells which watched functions are zero by construction, and how far to leap (see
 
 from __future__ import annotations
 
-from vibroimpact.engine import motion
-
 (
     MASSES,
     STOPS,
@@ -61,7 +59,6 @@ from vibroimpact.engine import motion
     # The last stretch.
     STRETCH_MODE,
     EVENT,
-    EVENT_STOP,
     LENGTH,
     PIECES,
     START,
@@ -112,8 +109,8 @@ from vibroimpact.engine import motion
     POINT,
     KEPT_Y,
     SHORT,
-) = range(88)
-HEADER = 88
+) = range(87)
+HEADER = 87
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)
 FIRST, BEHIND, PARTNER = range(8, 11)
@@ -131,12 +128,6 @@ TERMS = 28
 """Taylor coefficients, at most."""
 STEP = 2.5
 """h ρ; the remainder is then 2.5²⁸/28! = 5e-19 of the state."""
-
-CONTACT, IMPACT, RELEASE, RISE, TURN = range(1, 6)
-LIMIT, PASSED, GIVEN_UP = motion.LIMIT, motion.PASSED, motion.GIVEN_UP
-"""What ends a stretch: its limit, a deformable stop is met, a rigid one is hit (or comes to rest:
-its bit is set then), a deformable stop is left, a rest ends, another piece of a curved law begins,
-a step, or the motion is no longer finite."""
 
 STATE_MODE, STATE_FRESH, PARTS = range(3)
 

@@ -19,6 +19,7 @@ from vibroimpact.engine.assembly.channels import (
 )
 from vibroimpact.engine.assembly.events import closing
 from vibroimpact.engine.assembly.series import to_bernstein
+from vibroimpact.engine.event import IMPACT, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
 
@@ -207,12 +208,12 @@ def observing(channels: Any) -> Any:
                     of_stops[OF_STOP * f + PUSHED] = range_[1]
         close_stretch(plan)
         event = int(plan[at.EVENT])
-        if event not in (at.CONTACT, at.IMPACT):
+        if not begins_contact(event):
             return
-        f = int(plan[at.EVENT_STOP])
+        f = stop_of(event)
         stop = beyond(of_stops, OF_STOP * f)
         stop[HITS] += 1.0
-        if event == at.IMPACT:
+        if kind_of(event) == IMPACT:
             change = closing(plan, f, beyond(plan, int(plan[at.END]) + n))
             change -= closing(plan, f, beyond(plan, int(plan[at.Y]) + n))
             impulse = change / plan[int(plan[at.COUPLING]) + f * int(plan[at.STOPS]) + f]

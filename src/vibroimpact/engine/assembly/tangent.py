@@ -26,6 +26,15 @@ from vibroimpact.engine.assembly.channels import (
 from vibroimpact.engine.assembly.events import accelerations, closing, halt
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.assembly.series import expand_state, travel_by_series
+from vibroimpact.engine.event import (
+    CONTACT,
+    GIVEN_UP,
+    IMPACT,
+    LIMIT,
+    begins_contact,
+    kind_of,
+    stop_of,
+)
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.state import DAMPING, HITS
@@ -63,7 +72,7 @@ def carry_disturbances(plan: Vector, q: Vector, rows: int) -> None:
     """Carry the rows of q through the last stretch and its event."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
     width = 2 * n + count
-    event = int(plan[at.EVENT])
+    kind = kind_of(int(plan[at.EVENT]))
     open_stretch(plan)
     y = beyond(plan, int(plan[at.PIECE_Y]))
     length = piece_length(plan)
@@ -81,20 +90,20 @@ def carry_disturbances(plan: Vector, q: Vector, rows: int) -> None:
                 fade(plan, deformation, length)
             for k in range(2 * n):
                 row[k] = y[k]
-    if event == at.IMPACT:
+    if kind == IMPACT:
         accelerations_at(plan, at.END, at.END_DEFORMATION, int(plan[at.ROOM]))
     close_stretch(plan)
-    if event == at.LIMIT or event == at.GIVEN_UP:
+    if kind in (LIMIT, GIVEN_UP):
         return
     before = int(plan[at.ROOM])
     after = before + 2 * (n + 1 + count)
-    if event == at.IMPACT:
+    if kind == IMPACT:
         accelerations_at(plan, at.Y, at.DEFORMATION, after)
     for i in range(rows):
         row = beyond(q, i * width)
-        if event == at.IMPACT:
+        if kind == IMPACT:
             reflect(plan, row, beyond(plan, before), beyond(plan, after))
-        elif event == at.CONTACT:
+        elif kind == CONTACT:
             meet(plan, row)
         tie(plan, row)
 
@@ -119,11 +128,12 @@ def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
 
     An impact multiplies what is left of a volume of (u, v) by e², a rest leaves nothing.
     """
-    f, event, length = int(plan[at.EVENT_STOP]), int(plan[at.EVENT]), plan[at.LENGTH]
+    event, length = int(plan[at.EVENT]), plan[at.LENGTH]
+    f = stop_of(event)
     notes[DAMPING] += length * contraction(plan, int(plan[at.STRETCH_MODE]))
-    if event in (at.CONTACT, at.IMPACT):
+    if begins_contact(event):
         notes[HITS + f] += 1.0
-    if event == at.IMPACT:
+    if kind_of(event) == IMPACT:
         e = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RESTITUTION]
         left = e > 0.0 and not int(plan[at.MODE]) >> f & 1
         notes[DAMPING] += -2.0 * math.log(e) if left else math.inf
@@ -142,7 +152,7 @@ def accelerations_at(plan: Vector, state: int, deformations: int, place: int) ->
 @kernel
 def meet(plan: Vector, row: Vector) -> None:
     """Let a disturbance meet a Kelvin–Voigt stop."""
-    n, f = int(plan[at.MASSES]), int(plan[at.EVENT_STOP])
+    n, f = int(plan[at.MASSES]), stop_of(int(plan[at.EVENT]))
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH
     gap = row[2 * n + f] - closing(plan, f, row)
     push = plan[one + at.STOP_DAMPING] * gap
@@ -156,7 +166,7 @@ def meet(plan: Vector, row: Vector) -> None:
 @kernel
 def reflect(plan: Vector, row: Vector, before: Vector, after: Vector) -> None:
     """Let a disturbance through an impact; the accelerations before and after it are known."""
-    n, f = int(plan[at.MASSES]), int(plan[at.EVENT_STOP])
+    n, f = int(plan[at.MASSES]), stop_of(int(plan[at.EVENT]))
     count = int(plan[at.STOPS])
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH
     arrived = beyond(plan, int(plan[at.END]) + n)

@@ -2,56 +2,28 @@
 
 from __future__ import annotations
 
-from vibroimpact.engine import parameters as par
+from vibroimpact.engine.event import CONTACT, DETACHMENT, LIMIT, event_of
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.contact import contact
-from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.flight import flight
 from vibroimpact.engine.linear.layout import LATE_TABLES, SIZE, SLOTS, TABLES, VALID_FROM, H
 from vibroimpact.engine.linear.table_search import WITHIN, Bounds
 from vibroimpact.engine.motion import (
     BOTH,
-    DETACHED,
     FLIGHT,
-    LIMIT,
     RELEASED,
     SEEN_LEFT,
+    Ended,
     Motion,
     Row,
     coordinates,
+    main_stop,
 )
+from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed
+from vibroimpact.engine.stops.places import gap_of, place_at, total_gap
 
 WORK_LIMIT = 3e7
 """Table steps that one forcing cycle may take, about a second of computing."""
-
-Ended = tuple[int, float, float, Motion]
-"""event, t, arrival, motion: what ended a stretch (see `motion`), its length (s), the velocity
-just before, and the motion just behind."""
-
-
-@inlined
-def gap_of(plan: Vector, stop: int) -> float:
-    """Gap of a stop (m)."""
-    return plan[par.stop_at(stop) + par.GAP]  # type: ignore[no-any-return]
-
-
-@inlined
-def rate_of(plan: Vector, stop: int) -> float:
-    """Rate at which the free stop relaxes (1/s)."""
-    return plan[par.stop_at(stop) + par.RATE]  # type: ignore[no-any-return]
-
-
-@inlined
-def place_at(plan: Vector, stop: int, deformation: float) -> float:
-    """The displacement of a mass at a stop that is deformed so far."""
-    u = gap_of(plan, stop) + deformation
-    return u if stop == 0 else -u
-
-
-@inlined
-def total_gap(plan: Vector) -> float:
-    """Sum of both gaps (m); below 0 where both stops can be touched at once."""
-    return gap_of(plan, 0) + gap_of(plan, 1)
 
 
 @inlined
@@ -74,7 +46,8 @@ def fly(plan: Vector, motion: Motion, limit: float) -> Ended:
     faces = (right, left)
     if way == WITHIN:
         return LIMIT, t, v, Motion(FLIGHT, 0, u, v, faces, z, age + t, (s, c))
-    return way, t, v, Motion(way, way, u, v, faces, z, 0.0, (s, c))
+    event = event_of(CONTACT, main_stop(way))
+    return event, t, v, Motion(way, way, u, v, faces, z, 0.0, (s, c))
 
 
 @inlined
@@ -85,16 +58,18 @@ def press(plan: Vector, motion: Motion, stop: int, limit: float) -> Ended:
     slot = mode
     if mode == BOTH and stop == 1:
         slot, sign, row = SEEN_LEFT, -1.0, Row(faces[1], -v, -clock[0], -clock[1])
-    event, t, row = contact(plan, slot, stop, row, fresh == 1 << stop, limit, age)
+    left, t, row = contact(plan, slot, stop, row, fresh == 1 << stop, limit, age)
     x, v, s, c = row
     other = 1 - stop
     free = -x - total_gap(plan) if mode == BOTH else relaxed(faces[other], rate_of(plan, other), t)
     faces = (x, free) if stop == 0 else (free, x)
     u = place_at(plan, stop, x)
     v, clock = sign * v, (sign * s, sign * c)
-    if event == DETACHED:
-        return event, t, v, Motion(mode & ~(1 << stop), 1 << stop, u, v, faces, z, 0.0, clock)
-    return event, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
+    if left:
+        bit = 1 << stop
+        after = Motion(mode & ~bit, bit, u, v, faces, z, 0.0, clock)
+        return event_of(DETACHMENT, stop), t, v, after
+    return LIMIT, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
 
 
 @inlined
@@ -102,7 +77,7 @@ def advance_apart(plan: Vector, motion: Motion, limit: float) -> Ended:
     """Go on to the next contact or detachment, or for the time `limit` if that comes first."""
     if motion.mode == FLIGHT:
         return fly(plan, motion, limit)
-    return press(plan, motion, motion.mode - 1, limit)
+    return press(plan, motion, main_stop(motion.mode), limit)
 
 
 @kernel

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.event import begins_contact
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.tables import resting
-from vibroimpact.engine.motion import LEFT, RIGHT, Stretch
+from vibroimpact.engine.motion import Stretch
 from vibroimpact.engine.observers.tangent import DISTURBANCE, contraction, meet, tie
+from vibroimpact.engine.stops.rigid import resting
 
 
 @kernel
@@ -79,7 +80,7 @@ def carry(plan: Vector, stretch: Stretch, q: Vector, rows: int) -> float:
         q[at] = uu * u + uv * v
         q[at + 1] = vu * u + vv * v
         tie(mode, q, at)
-    if event in (RIGHT, LEFT):
+    if begins_contact(event):
         meet(plan, event, arrival, after, q, rows)
     lost: float = damping(plan, mode) * step + contraction(plan, event, after)
     return lost

@@ -6,7 +6,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand
-from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import scaled_acceleration, travel
 from vibroimpact.engine.linear.layout import (
     FORCE,
@@ -27,16 +27,10 @@ from vibroimpact.engine.linear.layout import (
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
 from vibroimpact.engine.linear.table_search import WITHIN, Bounds, Watched, ended, next_window, walk
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import DETACHED, LIMIT, Row
+from vibroimpact.engine.motion import Row
+from vibroimpact.engine.stops.kelvin_voigt import relieved
 
 _PRESSING = Bounds(math.inf, 0.0, 0.0, 0.0, math.inf, math.inf)
-
-
-@inlined
-def relieved(row: Row, damping: float) -> Row:
-    """Where the force is zero; without a dashpot so is the deformation, exactly."""
-    x, v, s, c = row
-    return Row(0.0 if damping == 0.0 else x, v, s, c)
 
 
 @kernel
@@ -48,7 +42,7 @@ def contact(
     fresh: bool,
     limit: float,
     age: float,
-) -> tuple[int, float, Row]:
+) -> tuple[bool, float, Row]:
     """Stay in contact until the force stops pressing, or until the limit.
 
     Parameters
@@ -66,8 +60,8 @@ def contact(
 
     Returns
     -------
-    event, t, row
-        DETACHED or LIMIT, the elapsed time (s), and the state there, mirrored as given.
+    left, t, row
+        Whether it stops pressing, the elapsed time (s), and the state there, mirrored as given.
     """
     series = workspace()
     at = par.stop_at(stop)
@@ -103,7 +97,7 @@ def contact(
                 series[0] = max(series[0], 0.0)
                 y = first_root(series, Clearance(0.0, 1.0, 0.0, 0.0, False), 0.0, high)
                 if y != NONE:
-                    return DETACHED, h * y, relieved(travel(plan, table, y, row), damping)
+                    return True, h * y, relieved(travel(plan, table, y, row), damping)
                 clear = max(clear, high)
         fresh = False
         force = Watched(stiffness, damping * plan[table + RATE], FORCE, 5, TAYLOR_F)
@@ -111,8 +105,8 @@ def contact(
             plan, table, force, _PRESSING, f, band, row, span, math.inf, clear, True, series
         )
         if way != WITHIN:
-            return DETACHED, t + (i + y) * h, relieved(end, damping)
+            return True, t + (i + y) * h, relieved(end, damping)
         if span <= NODES:
-            return LIMIT, limit, ended(plan, table, row, span)
+            return False, limit, ended(plan, table, row, span)
         row = next_window(plan, table, row)
         t += NODES * h

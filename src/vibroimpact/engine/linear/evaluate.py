@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import (
     expand,
@@ -20,7 +18,6 @@ from vibroimpact.engine.linear.layout import (
     BAND_X,
     FINE,
     FINE_NODE,
-    FORGOTTEN,
     LATE,
     LEFT_OUT,
     MIDDLE,
@@ -43,21 +40,6 @@ from vibroimpact.engine.linear.layout import (
 )
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
-
-
-@kernel
-def relaxed(deformation: float, rate: float, t: float) -> float:
-    """A free bumper's deformation after the time t."""
-    if deformation > 0.0:
-        x = rate * t
-        return deformation * math.exp(-x) if x < FORGOTTEN else 0.0
-    return 0.0
-
-
-@kernel
-def comes_back(deformation: float, depth: float, rate: float) -> float:
-    """When a free bumper has relaxed to a depth above 0, and meets the mass that stands there."""
-    return math.log(deformation / depth) / rate if deformation > depth else 0.0
 
 
 @kernel

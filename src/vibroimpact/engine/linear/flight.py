@@ -11,7 +11,7 @@ import math
 
 from vibroimpact.engine.forcing.dispatch import expand
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import band, relaxed, travel
+from vibroimpact.engine.linear.evaluate import band, travel
 from vibroimpact.engine.linear.layout import (
     LATE,
     LATE_TABLES,
@@ -40,6 +40,7 @@ from vibroimpact.engine.linear.table_search import (
 )
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
+from vibroimpact.engine.stops.kelvin_voigt import relaxed
 
 _WEAK_PULL = 0.45  # theory, section 3.3
 _LEAST = 1e-300  # in place of no bend at all: nothing is divided by 0

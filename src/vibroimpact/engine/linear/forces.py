@@ -6,6 +6,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import Motion, facing
+from vibroimpact.engine.stops import kelvin_voigt
 
 
 @kernel
@@ -31,10 +32,7 @@ def acceleration_of(plan: Vector, motion: Motion) -> float:
     for stop in range(2):
         at = par.stop_at(stop)
         if motion.mode >> stop & 1 and plan[at + par.KIND] == par.KELVIN_VOIGT:
-            sign = facing(stop)
-            deformation = motion.faces[stop]
-            a -= sign * plan[at + par.BUMPER_STIFFNESS] * deformation
-            a -= plan[at + par.BUMPER_DAMPING] * motion.v
+            a = kelvin_voigt.slowed(plan, stop, a, motion.faces[stop], motion.v)
     return a
 
 
@@ -47,18 +45,13 @@ def stop_deformation(plan: Vector, motion: Motion, stop: int) -> float:
 @kernel
 def stop_push(plan: Vector, motion: Motion, stop: int) -> float:
     """What a pressed bumper pushes with, away from it."""
-    at = par.stop_at(stop)
-    closing = facing(stop) * motion.v
-    push: float = plan[at + par.BUMPER_STIFFNESS] * stop_deformation(plan, motion, stop)
-    push += plan[at + par.BUMPER_DAMPING] * closing
-    return push
+    return kelvin_voigt.push(plan, stop, motion.faces[stop], facing(stop) * motion.v)
 
 
 @kernel
 def stop_power(plan: Vector, motion: Motion, stop: int) -> float:
     """What a pressed bumper loses, per unit mass and time."""
-    damping: float = plan[par.stop_at(stop) + par.BUMPER_DAMPING]
-    return damping * motion.v * motion.v
+    return kelvin_voigt.power(plan, stop, motion.v)
 
 
 @kernel

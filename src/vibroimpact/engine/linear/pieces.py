@@ -18,7 +18,6 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import expand, pull_series, turned, value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import place_at, total_gap
 from vibroimpact.engine.linear.evaluate import absolute_acceleration, horner, moved, node
 from vibroimpact.engine.linear.layout import (
     LATE_TABLES,
@@ -39,10 +38,11 @@ from vibroimpact.engine.linear.layout import (
     WIDTH,
     H,
 )
-from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import BOTH, Motion, Row, changed, coordinates, direction, main_stop
 from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, VELOCITY
+from vibroimpact.engine.stops.places import place_at, total_gap
+from vibroimpact.engine.stops.rigid import rigid
 
 
 class Cursor(NamedTuple):

@@ -16,13 +16,14 @@ from typing import NamedTuple
 from vibroimpact.engine.forcing.dispatch import expand, product, short_series
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
-from vibroimpact.engine.linear.evaluate import moved, node, relaxed, travel
+from vibroimpact.engine.linear.evaluate import moved, node, travel
 from vibroimpact.engine.linear.layout import FOURTH, FOURTH_0, LATE, MIDDLE, NODE, NODES, WIDTH, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
-from vibroimpact.engine.motion import Row
+from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Row
+from vibroimpact.engine.stops.kelvin_voigt import relaxed
 
-ABOVE, BELOW, WITHIN = 1, 2, 0
-"""Where the function goes."""
+ABOVE, BELOW, WITHIN = RIGHT, LEFT, FLIGHT
+"""Where the function goes: the bit of the stop that is met there."""
 
 
 class Watched(NamedTuple):

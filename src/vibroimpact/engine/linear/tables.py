@@ -63,6 +63,8 @@ from vibroimpact.engine.linear.table_rows import (
     swing_of,
 )
 from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, SEEN_LEFT, facing
+from vibroimpact.engine.stops.places import overlapping
+from vibroimpact.engine.stops.rigid import resting
 
 
 @kernel
@@ -70,24 +72,6 @@ def stiff_rate(plan: Vector) -> float:
     """What makes a velocity of a displacement: ω0, or ω where there is no spring."""
     k = plan[par.STIFFNESS]
     return math.sqrt(k) if k > 0.0 else plan[OMEGA]
-
-
-@kernel
-def overlapping(plan: Vector) -> bool:
-    """Whether both stops can be touched at once."""
-    return bool(plan[par.stop_at(0) + par.GAP] + plan[par.stop_at(1) + par.GAP] < 0.0)
-
-
-@kernel
-def rigid(plan: Vector, stop: int) -> bool:
-    """Whether a stop is rigid."""
-    return bool(plan[par.stop_at(stop) + par.KIND] == par.RIGID)
-
-
-@kernel
-def resting(plan: Vector, mode: int) -> bool:
-    """Whether a rigid stop holds the mass in this mode."""
-    return bool((mode & RIGHT and rigid(plan, 0)) or (mode & LEFT and rigid(plan, 1)))
 
 
 @kernel

@@ -24,23 +24,15 @@ from vibroimpact.engine.dispatch import (
     next_piece,
     rest_level,
 )
+from vibroimpact.engine.event import begins_contact, stop_of
 from vibroimpact.engine.forcing.dispatch import pull_series
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import ORDER, RATE
 from vibroimpact.engine.linear.roots import jet
-from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.linear.window_bounds import Enclosed, chords
 from vibroimpact.engine.memory import stack, workspace
-from vibroimpact.engine.motion import (
-    FLIGHT,
-    LEFT,
-    RIGHT,
-    Motion,
-    Stretch,
-    direction,
-    facing,
-    main_stop,
-)
+from vibroimpact.engine.motion import FLIGHT, LEFT, Motion, Stretch, direction, facing, main_stop
+from vibroimpact.engine.stops.rigid import rigid, struck
 
 _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
 
@@ -142,14 +134,6 @@ def pushed(
     return max(most, force)
 
 
-@kernel
-def struck(plan: Vector, stretch: Stretch, stop: int) -> float:
-    """How much an impact on a rigid stop changes the velocity (m/s); 0 without one."""
-    if stretch.event != 1 + stop or not rigid(plan, stop):
-        return 0.0
-    return abs(stretch.arrival - stretch.after.v)
-
-
 U_LEAST, U_MOST, A_LEAST, A_MOST, HITS_RIGHT, HITS_LEFT = range(6)
 """Of the notes: range of the displacement (m) and of the absolute acceleration (m/s²), contacts
 begun."""
@@ -242,9 +226,9 @@ def widen(plan: Vector, notes: Vector, stretch: Stretch) -> None:
         notes[U_MOST] = max(u_most, displacement(plan, before.mode, x_most))
     notes[A_LEAST], notes[A_MOST] = min(a_least, least_a), max(a_most, most_a)
     for stop in range(2):
-        change = struck(plan, stretch, stop)
+        change = struck(stretch, stop)
         if change > 0.0:
             notes[FORCE_RIGHT + stop] = math.inf
             notes[IMPULSE_RIGHT + stop] = max(notes[IMPULSE_RIGHT + stop], change)
-    if event in (RIGHT, LEFT):
-        notes[HITS_RIGHT + event - 1] += 1.0
+    if begins_contact(event):
+        notes[HITS_RIGHT + stop_of(event)] += 1.0

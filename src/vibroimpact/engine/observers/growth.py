@@ -18,9 +18,10 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import flow
+from vibroimpact.engine.event import LIMIT, PASSED, kind_of
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
-from vibroimpact.engine.motion import LIMIT, PASSED, SETTLING
+from vibroimpact.engine.motion import SETTLING
 from vibroimpact.engine.state import (
     EVENT,
     FRESH,
@@ -270,16 +271,17 @@ def _grow_in_pieces(plan: Vector, before: Vector, ended: Vector, rows: Rows) -> 
     put(plan, before, here)
     for i in range(count):
         last[i] = math.nan
-    timed = int(ended[EVENT]) in (LIMIT, PASSED)
+    timed = kind_of(int(ended[EVENT])) in (LIMIT, PASSED)
     span = ended[STEP] if timed else _BEFORE_EVENT * ended[STEP]
     done, pieces, number, alike = 0.0, 0, 1.0, 1.0
     piece = _INSTANT * span
     while done < span:
         length = min(number * piece, span - done)
         event = flow.advance(plan, here, length, part, there)
-        if event == PASSED:
+        kind = kind_of(event)
+        if kind == PASSED:
             length, number = part[STEP], 1.0
-        elif event != LIMIT:
+        elif kind != LIMIT:
             return False
         part[EVENT], part[T] = LIMIT, 0.0
         copy(start, q, count * parts)

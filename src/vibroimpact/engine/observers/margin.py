@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.dispatch import acceleration_of, begin, expanded, has_piece, next_piece
+from vibroimpact.engine.dispatch import begin, expanded, has_piece, next_piece
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import gap_of, rate_of
-from vibroimpact.engine.linear.evaluate import horner, relaxed
+from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
-from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, LEFT, RIGHT, Stretch, arrived, facing
+from vibroimpact.engine.motion import FLIGHT, Stretch, facing
+from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed
+from vibroimpact.engine.stops.places import gap_of
+from vibroimpact.engine.stops.rigid import impact_depth
 
 
 @kernel
@@ -34,20 +35,6 @@ def slope_series(series: Vector, slope: Vector) -> float:
         slope[n] = (n + 1) * series[n + 1]
     slope[ORDER - 1] = 0.0
     return leading_sign(slope)
-
-
-@kernel
-def impact_depth(plan: Vector, stretch: Stretch) -> float:
-    """Depth to which an impact would go without its stop; infinite where it would not turn."""
-    event, after = stretch.event, stretch.after
-    if event not in (RIGHT, LEFT) or after.mode & event or not rigid(plan, event - 1):
-        return math.inf
-    met = arrived(stretch.before.mode, stretch.arrival, after)
-    back = -facing(event - 1) * acceleration_of(plan, met)
-    if not back > 0.0:
-        return math.inf
-    depth: float = stretch.arrival * stretch.arrival / (2.0 * back)
-    return depth
 
 
 @kernel

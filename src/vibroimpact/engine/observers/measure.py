@@ -23,25 +23,19 @@ from vibroimpact.engine.dispatch import (
     moment,
     next_piece,
     rest_level,
-    stop_deformation,
     stop_power,
     stop_push,
     unreturned_energy,
 )
+from vibroimpact.engine.event import IMPACT, at_stop, kind_of, stop_of
 from vibroimpact.engine.forcing.dispatch import pull_series, value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import total_gap
 from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, RATE, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
-from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import (
-    LEFT,
-    LIMIT,
-    RIGHT,
     SETTLING,
-    TURNED,
     Motion,
     Stretch,
     arrived,
@@ -76,7 +70,10 @@ from vibroimpact.engine.observers.phases import (
     U_LEAST,
     WORK,
 )
-from vibroimpact.engine.observers.record import kind_of
+from vibroimpact.engine.observers.record import recorded_kind
+from vibroimpact.engine.stops.kelvin_voigt import closing_speed, relaxed_loss
+from vibroimpact.engine.stops.places import total_gap
+from vibroimpact.engine.stops.rigid import rigid
 
 _X, _W = np.polynomial.legendre.leggauss(12)
 ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
@@ -242,36 +239,15 @@ def measure_settling(plan: Vector, before: Motion, step: float, after: Motion, r
 
 
 @kernel
-def relaxed_loss(plan: Vector, stop: int, before: float, after: float) -> float:
-    """What a free bumper loses that relaxes from one deformation to the other."""
-    at = par.stop_at(stop)
-    if plan[at + par.KIND] != par.KELVIN_VOIGT:
-        return 0.0
-    stiffness: float = plan[at + par.BUMPER_STIFFNESS]
-    return 0.5 * stiffness * (before * before - after * after)
-
-
-@kernel
-def closing_speed(plan: Vector, stop: int, velocity: float, after: Motion) -> float:
-    """How fast a stop and the mass approach each other; a free bumper relaxes towards the mass."""
-    at = par.stop_at(stop)
-    closing = facing(stop) * velocity
-    if plan[at + par.KIND] == par.KELVIN_VOIGT and plan[at + par.BUMPER_DAMPING] > 0.0:
-        rate = plan[at + par.BUMPER_STIFFNESS] / plan[at + par.BUMPER_DAMPING]
-        closing += rate * stop_deformation(plan, after, stop)
-    return closing
-
-
-@kernel
 def measure_event(plan: Vector, stretch: Stretch, row: Vector) -> None:
     """Write what the event is that ends a phase, and what the stop that it is at loses."""
     before, _, event, _, arrival, after = stretch
-    kind, stop = kind_of(event, after)
-    row[KIND], row[AT_STOP] = kind, stop
+    stop = stop_of(event)
+    row[KIND], row[AT_STOP] = recorded_kind(event, after), stop
     behind = acceleration(plan, after)
     sharp = acceleration(plan, arrived(before.mode, arrival, after))
     row[SYSTEM + A_EVENT] = max(abs(sharp), abs(behind))
-    if event in (RIGHT, LEFT) and rigid(plan, event - 1):
+    if kind_of(event) == IMPACT:
         # The rest of a chatter ends without velocity.
         last = before.v if before.fresh & SETTLING else arrival
         row[column(stop, HIT)] = 0.5 * (last * last - after.v * after.v)
@@ -294,5 +270,5 @@ def measure_stretch(plan: Vector, stretch: Stretch, row: Vector) -> None:
             row[loses] += relaxed_loss(plan, stop, before.faces[stop], after.faces[stop])
         row[column(stop, CLOSING)] = closing_speed(plan, stop, arrival, after)
     row[SYSTEM + ARRIVAL], row[SYSTEM + PARTING] = arrival, after.v
-    if event not in (LIMIT, TURNED):
+    if at_stop(event):
         measure_event(plan, stretch, row)

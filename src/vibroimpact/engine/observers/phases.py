@@ -10,9 +10,9 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import flow
+from vibroimpact.engine.event import at_stop
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.motion import LIMIT, PASSED, TURNED
 from vibroimpact.engine.state import EVENT, STEP, T, copy
 
 # Columns of a phase: what ends it (of `record`, or NOTHING) and the number of that stop, when (the
@@ -95,7 +95,7 @@ def note(
     row = beyond(rows, width * at)
     flow.measure(plan, before, ended, after, row)
     row[LENGTH] += ended[STEP]
-    if ended[EVENT] in (LIMIT, PASSED, TURNED):
+    if not at_stop(int(ended[EVENT])):
         return
     row[SECTION], row[SINCE] = notes[NUMBER], ended[T] + ended[STEP]
     notes[WRITTEN] += 1.0

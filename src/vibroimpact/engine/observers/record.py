@@ -12,21 +12,11 @@ from vibroimpact.engine.dispatch import (
     sample_stretch,
     stop_deformation,
 )
+from vibroimpact.engine.event import LIMIT, at_stop, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.memory import beyond, stack, workspace
-from vibroimpact.engine.motion import (
-    BOTH,
-    DETACHED,
-    LIMIT,
-    TURNED,
-    Motion,
-    Stretch,
-    arrived,
-    direction,
-    facing,
-    main_stop,
-)
+from vibroimpact.engine.motion import BOTH, Motion, Stretch, arrived, direction, facing, main_stop
+from vibroimpact.engine.stops.kelvin_voigt import relaxed
 
 # Rows of the samples: a row a variable, so that each is one piece of memory.
 DISPLACEMENT, VELOCITY, ACCELERATION, RIGHT_FACE, LEFT_FACE = range(5)
@@ -197,12 +187,11 @@ def sample(
 
 
 @kernel
-def kind_of(event: int, after: Motion) -> tuple[float, int]:
-    """What happens at the end of a stretch, and at which stop."""
-    stop = (after.fresh & BOTH) - 1
-    if event == DETACHED:
-        return DETACHMENT, stop
-    return (CONTACT_BEGINS if after.mode >> stop & 1 else IMPACT), stop
+def recorded_kind(event: int, after: Motion) -> float:
+    """What the event of a stop is in the column E_KIND, which tells rest from an impact."""
+    if not begins_contact(event):
+        return DETACHMENT
+    return CONTACT_BEGINS if after.mode >> stop_of(event) & 1 else IMPACT
 
 
 @kernel
@@ -212,13 +201,12 @@ def write_down(
     """Write down one stretch and the event that ends it."""
     before, t, event, step, arrival, after = stretch
     if notes[COUNT]:
-        sample(plan, notes, samples, before, t, math.inf if event == LIMIT else step)
-    if event not in (LIMIT, TURNED) and notes[WRITTEN] < notes[LAST]:
+        sample(plan, notes, samples, before, t, math.inf if kind_of(event) == LIMIT else step)
+    if at_stop(event) and notes[WRITTEN] < notes[LAST]:
         row = beyond(events, EVENT * int(notes[WRITTEN]))
         row[E_CYCLE], row[E_TIME] = notes[NUMBER], t + step
-        kind, stop = kind_of(event, after)
-        row[E_KIND] = kind
-        row[E_SIDE] = facing(stop)
+        row[E_KIND] = recorded_kind(event, after)
+        row[E_SIDE] = facing(stop_of(event))
         row[E_U], row[E_V] = after.u, arrival
         row[E_RIGHT], row[E_LEFT] = (
             stop_deformation(plan, after, 0),

@@ -13,6 +13,7 @@ import math
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine import saltation
 from vibroimpact.engine.dispatch import acceleration_of, carry
+from vibroimpact.engine.event import IMPACT, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Stretch, arrived
 from vibroimpact.engine.state import DAMPING, HITS
@@ -36,18 +37,19 @@ def tie(mode: int, q: Vector, at: int) -> None:
 @kernel
 def meet(plan: Vector, event: int, arrival: float, after: Motion, q: Vector, rows: int) -> None:
     """Let disturbances (rows of q) meet a rigid stop, or one of a spring and a dashpot."""
-    stop = par.stop_at(event - 1)
-    if plan[stop + par.KIND] != par.RIGID:
+    number = stop_of(event)
+    stop = par.stop_at(number)
+    if kind_of(event) != IMPACT:
         for i in range(rows):
             at = i * DISTURBANCE
-            saltation.contact(q, at, at + 1 + event, plan[stop + par.BUMPER_DAMPING])
+            saltation.contact(q, at, at + 2 + number, plan[stop + par.BUMPER_DAMPING])
         return
     mode = after.mode
     before = acceleration_of(plan, arrived(mode, arrival, after))
     behind = acceleration_of(plan, after)
     for i in range(rows):
         at = i * DISTURBANCE
-        if mode & event:
+        if mode >> number & 1:
             saltation.rest(q, at)
         else:
             saltation.impact(q, at, plan[stop + par.RESTITUTION], arrival, before, behind)
@@ -77,18 +79,16 @@ def unit_disturbances(plan: Vector, mode: int, q: Vector) -> None:
 @kernel
 def contraction(plan: Vector, event: int, after: Motion) -> float:
     """Minus the logarithm of the area that an event leaves of (u, u̇): 2 ln(1/e) at an impact."""
-    if event not in (RIGHT, LEFT):
+    if kind_of(event) != IMPACT:
         return 0.0
-    stop = par.stop_at(event - 1)
-    if plan[stop + par.KIND] != par.RIGID:
-        return 0.0
-    e: float = plan[stop + par.RESTITUTION]
-    return math.inf if after.mode & event or e == 0.0 else -2.0 * math.log(e)
+    stop = stop_of(event)
+    e: float = plan[par.stop_at(stop) + par.RESTITUTION]
+    return math.inf if after.mode >> stop & 1 or e == 0.0 else -2.0 * math.log(e)
 
 
 @kernel
 def carry_all(plan: Vector, notes: Vector, q: Vector, stretch: Stretch) -> None:
     """Carry a disturbance of each component, the rows of q, through one stretch."""
     notes[DAMPING] += carry(plan, stretch, q, DISTURBANCE)
-    if stretch.event in (RIGHT, LEFT):
-        notes[HITS + stretch.event - 1] += 1.0
+    if begins_contact(stretch.event):
+        notes[HITS + stop_of(stretch.event)] += 1.0

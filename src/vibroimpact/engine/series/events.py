@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
-from vibroimpact.engine.linear.evaluate import relaxed
 from vibroimpact.engine.linear.flight import leave
 from vibroimpact.engine.linear.layout import ORDER
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root
@@ -32,6 +31,7 @@ from vibroimpact.engine.series.layout import (
     X,
     Z,
 )
+from vibroimpact.engine.stops.kelvin_voigt import relaxed
 
 NEVER = math.inf
 

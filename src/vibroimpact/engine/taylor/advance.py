@@ -8,33 +8,33 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.event import (
+    CENTRED,
+    CONTACT,
+    DETACHMENT,
+    EASED,
+    GIVEN_UP,
+    LACKS,
+    LIMIT,
+    NEITHER,
+    TURN,
+    YIELD,
+    event_of,
+    kind_of,
+    stop_of,
+)
 from vibroimpact.engine.forcing.dispatch import change_rate, release_time, stepped, turned, value
 from vibroimpact.engine.jit import Vector, apart, kernel
-from vibroimpact.engine.linear.advance import Ended, gap_of, place_at, rate_of
-from vibroimpact.engine.linear.evaluate import comes_back
-from vibroimpact.engine.linear.stops import impact, relaxed_faces, rest, settle
-from vibroimpact.engine.linear.tables import rigid
-from vibroimpact.engine.motion import (
-    DETACHED,
-    GIVEN_UP,
-    LEFT,
-    LIMIT,
-    RELEASED,
-    RIGHT,
-    SETTLING,
-    SLIPS_LEFT,
-    SLIPS_RIGHT,
-    TURNED,
-    Motion,
-    changed,
-    facing,
-)
+from vibroimpact.engine.motion import RELEASED, SETTLING, SLIPS, Ended, Motion, changed, facing
 from vibroimpact.engine.series.events import state_near
 from vibroimpact.engine.series.layout import LACKING, OVERFLOWED
 from vibroimpact.engine.series.step_control import write_header
+from vibroimpact.engine.stops.curved import curved_stop
+from vibroimpact.engine.stops.kelvin_voigt import comes_back, rate_of, relaxed_faces
+from vibroimpact.engine.stops.places import gap_of, place_at
+from vibroimpact.engine.stops.rigid import impact, rest, rigid, settle
 from vibroimpact.engine.taylor.mode_forces import (
     creeps,
-    curved_stop,
     frame_of,
     grip,
     idle,
@@ -46,18 +46,10 @@ from vibroimpact.engine.taylor.mode_forces import (
 from vibroimpact.engine.taylor.pieces import coordinate, placed
 from vibroimpact.engine.taylor.root_steps import MOST, pressed_for, root_of
 from vibroimpact.engine.taylor.step_events import (
-    CENTRED,
-    DETACHED_LEFT,
-    EASED,
-    NEITHER,
-    YIELDS,
     ends_of,
     search,
 )
 from vibroimpact.engine.taylor.step_setup import NOT_YET, ahead_of, branched, stepped_on, varies
-
-_LACKS, _TOO_MANY = -2, -3
-"""Why a stretch is given up: kernels, or an end after any number of steps."""
 
 
 @apart
@@ -83,24 +75,24 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
         sign = -1.0 if way == 0 else 1.0  # to the right where −A_t exceeds a level
         free, s1, c1 = release_time(plan, sign, most + sign * still, s, c, t)
         if free < t:
-            event, t, after = TURNED, free, (s1, c1)
-            slips = SLIPS_RIGHT if way == 0 else SLIPS_LEFT
+            event, t, after = TURN, free, (s1, c1)
+            slips = SLIPS << way
     for stop in range(2):
         memory, rate = faces[stop], rate_of(plan, stop)
         depth = facing(stop) * u - gap_of(plan, stop)
         if not mode >> stop & 1 and memory > 0.0 and depth > 0.0 and rate < math.inf:
             meets = comes_back(memory, depth, rate)
             if meets < t:
-                event, t, after = 1 + stop, meets, turned(plan, s, c, meets)
-    touched = event in (RIGHT, LEFT)
+                event, t, after = event_of(CONTACT, stop), meets, turned(plan, s, c, meets)
     faces = relaxed_faces(plan, mode, faces, t)
-    if touched:
-        stop = event - 1
+    if kind_of(event) == CONTACT:
+        stop = stop_of(event)
+        bit = 1 << stop
         faces = changed(faces, stop, max(facing(stop) * u - gap_of(plan, stop), 0.0))
-        return event, t, 0.0, Motion(mode | event, event, u, 0.0, faces, z, 0.0, after)
-    fresh = slips if event == TURNED else 0
-    if not mode and event == TURNED:  # away from what it touches, at first without acceleration
-        stop = 0 if slips == SLIPS_LEFT else 1
+        return event, t, 0.0, Motion(mode | bit, bit, u, 0.0, faces, z, 0.0, after)
+    fresh = slips if event == TURN else 0
+    if not mode and event == TURN:  # away from what it touches, at first without acceleration
+        stop = 1 if slips == SLIPS else 0
         if facing(stop) * u >= gap_of(plan, stop) + faces[stop]:
             fresh |= 1 << stop | RELEASED
     return event, t, 0.0, Motion(mode, fresh, u, 0.0, faces, z, age + t, after)
@@ -110,37 +102,36 @@ def held(plan: Vector, motion: Motion, limit: float) -> Ended:
 def motion_after_event(plan: Vector, event: int, here: Motion, t: float) -> Ended:
     """The motion just after the event, exactly there."""
     mode, _, u, v, faces, z, _, clock = here
-    if event in (RIGHT, LEFT):
-        stop = event - 1
+    kind, stop = kind_of(event), stop_of(event)
+    bit = 1 << stop
+    if kind == CONTACT:
         if not mode:  # else the pressed bumper's deformation is the primary quantity
             u = place_at(plan, stop, faces[stop])
         if curved_stop(plan, stop):
             faces = changed(faces, stop, abs(v))
-        after = Motion(mode | event, event, u, v, faces, z, 0.0, clock)
+        after = Motion(mode | bit, bit, u, v, faces, z, 0.0, clock)
         return event, t, v, after
-    if event in (DETACHED, DETACHED_LEFT):
-        stop = 0 if event == DETACHED else 1
-        bit = 1 << stop
+    if kind == DETACHMENT:
         if curved_stop(plan, stop) or plan[par.stop_at(stop) + par.BUMPER_DAMPING] == 0.0:
             faces = changed(faces, stop, 0.0)
             u = place_at(plan, stop, 0.0)
         after = Motion(mode & ~bit, bit, u, v, faces, z, 0.0, clock)
-        return DETACHED, t, v, after
+        return event, t, v, after
     arrival = v
-    if event == TURNED:
+    if kind == TURN:
         v = 0.0
-    elif event == EASED:
+    elif kind == EASED:
         pass
-    elif event == CENTRED:
+    elif kind == CENTRED:
         u = 0.0
         for stop in range(2):
             if mode >> stop & 1 and plan[par.stop_at(stop) + par.KIND] == par.KELVIN_VOIGT:
                 faces = changed(faces, stop, -gap_of(plan, stop))
-    elif event == YIELDS:
+    elif kind == YIELD:
         z = math.copysign(plan[par.YIELD], z)
     else:
         z = 0.0
-    return TURNED, t, arrival, Motion(mode, 0, u, v, faces, z, 0.0, clock)
+    return TURN, t, arrival, Motion(mode, 0, u, v, faces, z, 0.0, clock)
 
 
 @kernel
@@ -177,7 +168,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
     x, z, clock = coordinate(plan, motion), sign * motion.z, motion.clock
     v, ahead = 0.0, NOT_YET
     root = root_of(plan, motion) if anew else 0
-    event = _TOO_MANY
+    event = GIVEN_UP
     for _ in range(MOST):
         if anew or t == 0.0:
             if root:
@@ -187,13 +178,13 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
                     break
             x, z, clock = coordinate(plan, here), sign * here.z, here.clock
             if anew and creeps(plan, here):
-                event = TURNED
+                event = TURN
                 break
             ahead = ahead_of(plan, here, frame, x, limit - t, matters, anew)
             v = sign * here.v * ahead.unit
         h, after = stepped_on(plan, clock, x, v, z, ahead, (limit - t) * ahead.per_unit)
         if plan[LACKING] != 0.0:
-            event = _LACKS
+            event = LACKS
             break
         ends = ends_of(plan, h, x, v, z, hysteretic)
         ways = ahead.way if matters else 0.0
@@ -214,7 +205,7 @@ def advance_taylor(plan: Vector, motion: Motion, limit: float) -> Ended:
         t += step
         if event != LIMIT or not t < limit:
             break
-        event = _TOO_MANY
+        event = GIVEN_UP
         if anew:
             here, there = placed(plan, here, x), True
     # One way out for all: each call that returns a motion needs memory, which is cleared first.
@@ -236,13 +227,13 @@ def stretch_end(
 ) -> Ended:
     """What a stretch ends with; the mass is where the coordinate x says, if not there already."""
     here = with_relaxed_stops(plan, here if there else placed(plan, here, x), t)
-    if event == _LACKS:
+    if event == LACKS:
         return abandoned(plan, here, t)
-    if event == _TOO_MANY:
+    if event == GIVEN_UP:
         return GIVEN_UP, t, here.v, here
     if event == LIMIT:
         return LIMIT, limit, here.v, here
     event, t, arrival, after = motion_after_event(plan, event, here, t)
-    if event in (RIGHT, LEFT) and rigid(plan, event - 1):
-        return impact(plan, event, t, arrival, after)
+    if kind_of(event) == CONTACT and rigid(plan, stop_of(event)):
+        return impact(plan, stop_of(event), t, arrival, after)
     return event, t, arrival, after

@@ -11,20 +11,9 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine import saltation
+from vibroimpact.engine.event import DETACHMENT, IMPACT, TURN, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.tables import resting, rigid
-from vibroimpact.engine.motion import (
-    BOTH,
-    DETACHED,
-    LEFT,
-    RIGHT,
-    SETTLING,
-    TURNED,
-    Motion,
-    Stretch,
-    facing,
-    main_stop,
-)
+from vibroimpact.engine.motion import SETTLING, Motion, Stretch, facing, main_stop
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY, contraction, meet
 from vibroimpact.engine.series.layout import (
     BY_CHI,
@@ -39,19 +28,18 @@ from vibroimpact.engine.series.layout import (
     ROOM,
 )
 from vibroimpact.engine.series.values import Frame, Laws
+from vibroimpact.engine.stops.curved import curved_stop, push_of, stop_force
+from vibroimpact.engine.stops.rigid import resting
 from vibroimpact.engine.taylor.laws import laws_of
 from vibroimpact.engine.taylor.mode_forces import (
     acceleration_of,
     branch_of,
-    curved_stop,
-    motion_rate,
-    push_of,
-    stop_force,
     stop_push,
     stuck,
     without_friction,
 )
 from vibroimpact.engine.taylor.pieces import begun, coordinate, motion_at, sloped
+from vibroimpact.engine.taylor.plan import motion_rate
 from vibroimpact.engine.taylor.step_setup import varies
 
 _SLOPES_LAST = 2.0**-47
@@ -318,12 +306,12 @@ def _event(
     rows: int,
 ) -> None:
     """What an event does to disturbances."""
-    if event in (RIGHT, LEFT):
-        if curved_stop(plan, event - 1):
-            _meet_curved(plan, event, arrival, after, q, rows)
+    kind, stop = kind_of(event), stop_of(event)
+    if begins_contact(event):
+        if curved_stop(plan, stop):
+            _meet_curved(plan, stop, arrival, after, q, rows)
             return
-        is_rigid = rigid(plan, event - 1)
-        if is_rigid and plan[par.HYSTERETIC] != 0.0 and arrival != 0.0:
+        if kind == IMPACT and plan[par.HYSTERETIC] != 0.0 and arrival != 0.0:
             # A spring that has not yielded before follows u up to the impact, also if it
             # would yield there.
             met = _rate(plan, before, arrival, after.z) * arrival
@@ -332,12 +320,11 @@ def _event(
                 at = i * DISTURBANCE
                 saltation.jump(q, at + MEMORY, -q[at] / arrival, met, left)
         meet(plan, event, arrival, after, q, rows)
-    elif event == DETACHED:
-        stop = (after.fresh & BOTH) - 1
+    elif kind == DETACHMENT:
         if curved_stop(plan, stop):
             for i in range(rows):
                 saltation.detachment(q, i * DISTURBANCE + 2 + stop)
-    elif event == TURNED:
+    elif kind == TURN:
         if after.v == 0.0 and not stuck(plan, before):
             here, gone = 1.0, 1.0
             if stuck(plan, after):
@@ -355,17 +342,17 @@ def _event(
 
 @kernel
 def _meet_curved(
-    plan: Vector, event: int, arrival: float, after: Motion, q: Vector, rows: int
+    plan: Vector, stop: int, arrival: float, after: Motion, q: Vector, rows: int
 ) -> None:
     """Let disturbances meet a stop of a curved law; its own part is how fast it is met."""
-    stop = par.stop_at(event - 1)
-    jumps = plan[stop + par.KIND] == par.FORMULA and arrival != 0.0
-    remembers = plan[stop + par.DISSIPATION] < 0.0 and arrival != 0.0
-    force = stop_push(plan, after, event - 1) if jumps else 0.0
+    numbers = par.stop_at(stop)
+    jumps = plan[numbers + par.KIND] == par.FORMULA and arrival != 0.0
+    remembers = plan[numbers + par.DISSIPATION] < 0.0 and arrival != 0.0
+    force = stop_push(plan, after, stop) if jumps else 0.0
     acceleration = acceleration_of(plan, after) if remembers else 0.0
     for i in range(rows):
         at = i * DISTURBANCE
-        own = at + 1 + event
+        own = at + 2 + stop
         q[own] = 0.0
         if jumps:
             saltation.force_jump(q, at, arrival, force)

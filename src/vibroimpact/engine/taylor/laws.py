@@ -11,91 +11,31 @@ import math
 import numpy as np
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
-from vibroimpact.engine.linear.advance import total_gap
+from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.linear.layout import MOST, STEEPEST
 from vibroimpact.engine.motion import BOTH, Motion, facing, main_stop
 from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.step_control import ROUNDING
-from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws, Push
-from vibroimpact.engine.taylor.mode_forces import (
-    acceleration_of,
-    branch_of,
+from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
+from vibroimpact.engine.stops.curved import (
+    NO_TRACE,
+    beyond,
     curved_stop,
-    motion_rate,
+    depth_of,
+    own_pressing,
     own_push,
+    pressing,
     push_of,
-    stop_deformation,
+    shallow,
 )
-
-_NOTHING = 2.0**-60
-"""A share of the motion's energy or force that leaves no trace in it."""
-
-_LEFT_OUT = 16.0
-"""How many times its bound a force may grow while it is left out."""
+from vibroimpact.engine.stops.places import total_gap
+from vibroimpact.engine.taylor.mode_forces import acceleration_of, branch_of
+from vibroimpact.engine.taylor.plan import motion_rate
 
 _STABLE = 8.0
 """Times that in which a drag decays: a series of a step's degree grows with a longer one."""
 
 _PLACES, _WEIGHTS = np.polynomial.legendre.leggauss(10)
-
-EVEN = 1e-14
-"""1 + χ δ′ where a stop begins or ceases to push: its own rounding."""
-
-
-@inlined
-def beyond(power: float) -> float:
-    """How many times its bound a deformation or velocity may reach while its power is left out."""
-    return 2.0 if power <= 4.0 else _LEFT_OUT ** (1.0 / power)
-
-
-@kernel
-def shallow(
-    push: Push,
-    deformation: float,
-    closing: float,
-    gains: float,
-    jerk: float,
-    grain: float,
-    longest: float,
-) -> tuple[Push, float]:
-    """A stop that is pressed so little that nothing comes of it is left out, while it is.
-
-    The work that its force has done is then a share ε of the motion's, or the deformation is no
-    more than the rounding of a displacement, `grain`. The power of the deformation has a
-    singularity where it begins, which no series passes. From rest it is δ″, `gains`, or the change
-    of what shakes the mass, `jerk`, that ends this, not the speed.
-    """
-    if push.stiffness == 0.0:
-        return push, longest
-    # What it does up to a depth δ is beside a speed that is there from the start, or comes by δ″ or
-    # δ‴: δ′ = √(2 δ″ δ) or (9/2 δ‴ δ²)^⅓.
-    power, gained, quickened = push.exponent + 1.0, max(gains, 0.0), (4.5 * jerk) ** (1.0 / 3.0)
-    share = _NOTHING * power / push.stiffness
-    little = max(
-        (0.5 * share * closing * closing) ** (1.0 / power),
-        (share * gained) ** (1.0 / (power - 1.0)),
-        (0.5 * share * quickened * quickened) ** (1.0 / (power - 4.0 / 3.0)),
-    )
-    if push.viscous > 0.0:
-        share = _NOTHING / push.viscous
-        beside = max(
-            (share * max(closing, 0.0)) ** 0.8,
-            (share * math.sqrt(2.0 * gained)) ** (4.0 / 3.0),
-            (share * quickened) ** (12.0 / 7.0),
-        )
-        little = min(little, beside)
-    little = max(little, grain)
-    if deformation > little:
-        # The series of its slope ends where it begins to be pressed.
-        return push, min(longest, 0.5 * deformation / abs(closing)) if closing else longest
-    way = beyond(power) * little - deformation
-    soon = max(closing, 0.0) + math.sqrt(max(closing, 0.0) ** 2 + 2.0 * max(gains, 0.0) * way)
-    if soon > 0.0:
-        longest = min(longest, 2.0 * way / soon)
-    if jerk > 0.0:
-        longest = min(longest, (6.0 * way / jerk) ** (1.0 / 3.0))
-    return NO_PUSH, longest
 
 
 @kernel
@@ -109,7 +49,7 @@ def slowness(
     force = max(a, most) + 1e-300
     if drag == 0.0:
         return 0.0, math.inf, math.inf
-    time = (_NOTHING * force * unit / (2.0 * drag * force**exponent * math.sqrt(unit))) ** (
+    time = (NO_TRACE * force * unit / (2.0 * drag * force**exponent * math.sqrt(unit))) ** (
         1.0 / (exponent + 0.5)
     )
     little = force * min(time, unit)
@@ -193,22 +133,6 @@ def laws_of(
 
 
 @kernel
-def own_pressing(
-    plan: Vector, stop: int, depth: float, closing: float, gains: float, grain: float
-) -> Push:
-    """As `pressing`, of a stop that follows a formula: it pushes where that is above 0.
-
-    `grain` is some rounding of a displacement.
-    """
-    force, by_depth, by_rate = own_push(plan, stop, max(depth, 0.0), closing)
-    even = EVEN * (abs(by_depth * depth) + abs(by_rate * closing)) + abs(by_depth) * grain
-    rises = by_depth * closing + by_rate * gains
-    if force > even or (force >= -even and rises > 0.0):
-        return Push(1.0, 1.0, 0.0, 0.0)
-    return NO_PUSH
-
-
-@kernel
 def unreturned_energy(plan: Vector, before: Motion, after: Motion, stop: int) -> float:
     """What a stop loses between two moments that would pull and does not push: of its spring's."""
     if not (before.mode >> stop & 1 and curved_stop(plan, stop)):
@@ -218,7 +142,7 @@ def unreturned_energy(plan: Vector, before: Motion, after: Motion, stop: int) ->
     closing = sign * before.v
     push = push_of(plan, stop, closing, memory)
     gains = sign * acceleration_of(plan, before)
-    begun, ended = stop_deformation(plan, before, stop), stop_deformation(plan, after, stop)
+    begun, ended = depth_of(plan, before, stop), depth_of(plan, after, stop)
     if plan[par.stop_at(stop) + par.KIND] == par.FORMULA:
         gap = plan[par.stop_at(stop) + par.GAP]
         grain = 16.0 * ROUNDING * (abs(begun) + abs(gap))
@@ -233,15 +157,3 @@ def unreturned_energy(plan: Vector, before: Motion, after: Motion, stop: int) ->
         return 0.0
     power = push.exponent + 1.0
     return push.stiffness / power * (begun**power - ended**power)  # type: ignore[no-any-return]
-
-
-@kernel
-def pressing(push: Push, closing: float, gains: float) -> Push:
-    """The push of a stop, unless it would pull: 1 + χ δ′ below 0, or on the way there.
-
-    `gains` is δ″ where it does not push.
-    """
-    stays = 1.0 + push.dissipation * closing
-    if stays > EVEN or (stays > -EVEN and gains > 0.0):
-        return push
-    return NO_PUSH

@@ -10,25 +10,27 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.forcing.dispatch import change_rate, value
+from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.linear.layout import MOST
-from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.motion import (
     BOTH,
     RELEASED,
     RIGHT,
-    SLIPS_LEFT,
-    SLIPS_RIGHT,
+    SLIPPED,
+    SLIPS,
     Motion,
     direction,
     facing,
     main_stop,
 )
-from vibroimpact.engine.series.kernels import STRIDE, Slot, run
+from vibroimpact.engine.series.kernels import Slot, run
 from vibroimpact.engine.series.layout import OWN_FORCE
-from vibroimpact.engine.series.values import Branch, Frame, Push
-from vibroimpact.engine.taylor.plan import stiff_rate
+from vibroimpact.engine.series.values import Branch, Frame
+from vibroimpact.engine.stops import kelvin_voigt
+from vibroimpact.engine.stops.curved import curved_stop, depth_of, own_push, push_of, stop_force
+from vibroimpact.engine.stops.rigid import resting
+from vibroimpact.engine.taylor.plan import motion_rate
 
 _OWN = int(Slot.OWN)
 
@@ -37,10 +39,6 @@ _CREEP = 2.0**-36
 
 _ROUNDING = 1e-15
 """Of forces that balance, as a share of what shakes the mass."""
-
-_UNMET = 1e-12
-"""Share of the rig's typical speed. A stop that is met no faster, or is pressed from the start, has
-not been met: there is no impact from which it could take energy."""
 
 
 @kernel
@@ -112,59 +110,6 @@ def stiffness_at(plan: Vector, u: float) -> float:
 
 
 @kernel
-def curved_stop(plan: Vector, stop: int) -> bool:
-    """Whether a stop follows a power of its deformation, or a formula."""
-    kind = plan[par.stop_at(stop) + par.KIND]
-    return bool(kind in par.CURVED_STOPS)
-
-
-@kernel
-def push_of(plan: Vector, stop: int, closing: float, speed: float) -> Push:
-    """The law of a pressed power-law stop.
-
-    `closing` is the rate of its deformation, whose sign may matter, `speed` that at which it
-    was met, which a law of restitution divides by.
-    """
-    at = par.stop_at(stop)
-    if plan[at + par.KIND] == par.FORMULA:
-        return Push(1.0, 1.0, 0.0, 0.0)  # which says that it pushes; how much, the formula says
-    dissipation = plan[at + par.DISSIPATION]
-    if dissipation < 0.0:
-        met = speed > _UNMET * (plan[MOST] + abs(plan[par.LOAD])) / motion_rate(plan)
-        dissipation = -dissipation / speed if met else 0.0
-    viscous = plan[at + par.BUMPER_DAMPING] if closing > 0.0 else 0.0
-    return Push(plan[at + par.BUMPER_STIFFNESS], plan[at + par.EXPONENT], dissipation, viscous)
-
-
-@kernel
-def pushing(push: Push, deformation: float, closing: float) -> float:
-    """Its force per unit mass, never below 0."""
-    if not deformation > 0.0:
-        return 0.0
-    force = push.stiffness * deformation**push.exponent * (1.0 + push.dissipation * closing)
-    force += push.viscous * math.sqrt(math.sqrt(deformation)) * closing
-    return max(force, 0.0)  # type: ignore[no-any-return]
-
-
-@kernel
-def stop_force(plan: Vector, stop: int, push: Push, deformation: float, closing: float) -> float:
-    """The force of a pressed stop by its law, per unit mass, never below 0."""
-    if plan[par.stop_at(stop) + par.KIND] != par.FORMULA:
-        return pushing(push, deformation, closing)
-    return max(own_push(plan, stop, deformation, closing)[0], 0.0)
-
-
-@apart
-def own_push(
-    plan: Vector, stop: int, deformation: float, closing: float
-) -> tuple[float, float, float]:
-    """What a stop's own formula gives, and its slopes, per unit mass; below 0 it does not push."""
-    way = math.copysign(1.0, closing)
-    run(plan, _OWN + STRIDE * (stop + 1), deformation, closing, 0.0, 1.0, way, 0.0, 0.0)
-    return plan[OWN_FORCE], plan[OWN_FORCE + 1], plan[OWN_FORCE + 2]
-
-
-@kernel
 def without_friction(plan: Vector, motion: Motion) -> float:
     """Acceleration ü relative to the base, from all forces but Coulomb's."""
     mode, _, u, v, faces, z, _, clock = motion
@@ -176,21 +121,11 @@ def without_friction(plan: Vector, motion: Motion) -> float:
         sign = facing(stop)
         memory = faces[stop]
         if plan[at + par.KIND] == par.KELVIN_VOIGT:
-            a -= sign * plan[at + par.BUMPER_STIFFNESS] * memory
-            a -= plan[at + par.BUMPER_DAMPING] * v
+            a = kelvin_voigt.slowed(plan, stop, a, memory, v)
         elif curved_stop(plan, stop):
             push = push_of(plan, stop, sign * v, memory)
             a -= sign * stop_force(plan, stop, push, sign * u - plan[at + par.GAP], sign * v)
     return a
-
-
-@kernel
-def motion_rate(plan: Vector) -> float:
-    """How fast motions change (1/s): the rig's own rate and that of the shaking, above 0.
-
-    An acceleration over it is the velocity that the acceleration makes.
-    """
-    return stiff_rate(plan) + change_rate(plan) + 1e-300
 
 
 @kernel
@@ -221,7 +156,7 @@ def grip(plan: Vector) -> float:
 @kernel
 def stuck(plan: Vector, motion: Motion) -> bool:
     """Whether friction holds the mass, or a drag that no force overcomes."""
-    if motion.v != 0.0 or motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT):
+    if motion.v != 0.0 or motion.fresh & SLIPPED:
         return False
     if plan[par.FRICTION] == 0.0 and not steep(plan):
         return False
@@ -247,7 +182,7 @@ def idle(plan: Vector, motion: Motion) -> bool:
     """
     if motion.v != 0.0 or plan[par.HYSTERETIC] == 0.0:
         return False
-    if motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED):
+    if motion.fresh & (SLIPPED | RELEASED):
         return False
     return bool(abs(without_friction(plan, motion)) < rounding(plan, motion))
 
@@ -288,10 +223,8 @@ def way_of(plan: Vector, motion: Motion) -> float:
         return math.copysign(1.0, motion.v)
     if motion.fresh & RELEASED:  # ü is zero but for rounding
         return -1.0 if motion.fresh & RIGHT else 1.0
-    if motion.fresh & SLIPS_RIGHT:
-        return 1.0
-    if motion.fresh & SLIPS_LEFT:
-        return -1.0
+    if motion.fresh & SLIPPED:
+        return 1.0 if motion.fresh & SLIPS else -1.0
     a = -changes(plan, motion) if balanced(plan, motion) else without_friction(plan, motion)
     return math.copysign(1.0, a)
 
@@ -327,10 +260,10 @@ def stop_rounding(plan: Vector, motion: Motion, stop: int) -> float:
     at = par.stop_at(stop)
     slope: float = plan[at + par.BUMPER_STIFFNESS]
     if plan[at + par.KIND] == par.FORMULA:
-        slope = abs(own_push(plan, stop, stop_deformation(plan, motion, stop), 0.0)[1])
+        slope = abs(own_push(plan, stop, depth_of(plan, motion, stop), 0.0)[1])
     elif curved_stop(plan, stop):
         exponent = plan[at + par.EXPONENT]
-        slope *= exponent * stop_deformation(plan, motion, stop) ** (exponent - 1.0)
+        slope *= exponent * depth_of(plan, motion, stop) ** (exponent - 1.0)
     size: float = max(abs(motion.u), abs(plan[at + par.GAP]))
     return slope * size
 
@@ -357,22 +290,17 @@ def branch_of(plan: Vector, motion: Motion, sign: float) -> Branch:
 @kernel
 def stop_deformation(plan: Vector, motion: Motion, stop: int) -> float:
     """How far a stop is deformed (m)."""
-    if not curved_stop(plan, stop):
-        return motion.faces[stop]
-    if not motion.mode >> stop & 1:
-        return 0.0
-    gap = plan[par.stop_at(stop) + par.GAP]
-    return max(facing(stop) * motion.u - gap, 0.0)  # type: ignore[no-any-return]
+    if curved_stop(plan, stop):
+        return depth_of(plan, motion, stop)
+    return motion.faces[stop]
 
 
 @kernel
 def stop_push(plan: Vector, motion: Motion, stop: int) -> float:
     """What a pressed stop pushes with, away from it, per unit mass (m/s²)."""
-    at = par.stop_at(stop)
     closing = facing(stop) * motion.v
     memory = motion.faces[stop]
     if curved_stop(plan, stop):
         law = push_of(plan, stop, closing, memory)
-        return stop_force(plan, stop, law, stop_deformation(plan, motion, stop), closing)
-    push: float = plan[at + par.BUMPER_STIFFNESS] * memory + plan[at + par.BUMPER_DAMPING] * closing
-    return push
+        return stop_force(plan, stop, law, depth_of(plan, motion, stop), closing)
+    return kelvin_voigt.push(plan, stop, memory, closing)

@@ -11,10 +11,7 @@ from typing import NamedTuple
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import total_gap
 from vibroimpact.engine.linear.layout import RATE, RESTING, SCALED_W, H
-from vibroimpact.engine.linear.stops import relaxed_faces
-from vibroimpact.engine.linear.tables import resting
 from vibroimpact.engine.linear.window_bounds import ANYWHERE, Enclosed
 from vibroimpact.engine.motion import LEFT, Clock, Motion, changed, facing, main_stop
 from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, MEMORY, VELOCITY
@@ -34,13 +31,11 @@ from vibroimpact.engine.series.layout import (
 )
 from vibroimpact.engine.series.step_control import at, hold_still, scale, shake, write_header
 from vibroimpact.engine.series.values import Frame
-from vibroimpact.engine.taylor.mode_forces import (
-    acceleration_of,
-    curved_stop,
-    frame_of,
-    stands,
-    way_of,
-)
+from vibroimpact.engine.stops.curved import curved_stop
+from vibroimpact.engine.stops.kelvin_voigt import relaxed_faces
+from vibroimpact.engine.stops.places import total_gap
+from vibroimpact.engine.stops.rigid import resting
+from vibroimpact.engine.taylor.mode_forces import acceleration_of, frame_of, stands, way_of
 from vibroimpact.engine.taylor.step_setup import ahead_of, branched, stepped_on, varies
 
 _SMALL = 0.4  # rad, over which `turn` is right to rounding

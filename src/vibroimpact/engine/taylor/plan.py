@@ -46,3 +46,12 @@ def too_much_work(plan: Vector, period: float) -> bool:
         if plan[at + par.KIND] == par.KELVIN_VOIGT:
             rate += math.sqrt(plan[at + par.BUMPER_STIFFNESS]) + plan[at + par.BUMPER_DAMPING]
     return not rate * period < WORK_LIMIT
+
+
+@kernel
+def motion_rate(plan: Vector) -> float:
+    """How fast motions change (1/s): the rig's own rate and that of the shaking, above 0.
+
+    An acceleration over it is the velocity that the acceleration makes.
+    """
+    return stiff_rate(plan) + change_rate(plan) + 1e-300

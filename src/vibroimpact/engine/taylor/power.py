@@ -6,12 +6,11 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.forcing.dispatch import value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import Motion, facing
+from vibroimpact.engine.stops import kelvin_voigt
+from vibroimpact.engine.stops.curved import curved_stop, depth_of, spring
 from vibroimpact.engine.taylor.mode_forces import (
     branch_of,
-    curved_stop,
     own_force,
-    own_push,
-    stop_deformation,
     stop_push,
     without_friction,
 )
@@ -20,19 +19,13 @@ from vibroimpact.engine.taylor.mode_forces import (
 @kernel
 def stop_power(plan: Vector, motion: Motion, stop: int) -> float:
     """What a stop that pushes loses, per unit mass and time: what it takes and does not keep."""
-    at = par.stop_at(stop)
     closing = facing(stop) * motion.v
     if not curved_stop(plan, stop):
-        return plan[at + par.BUMPER_DAMPING] * closing * closing  # type: ignore[no-any-return]
+        return kelvin_voigt.power(plan, stop, closing)
     push = stop_push(plan, motion, stop)
     if push == 0.0:
         return 0.0
-    depth = stop_deformation(plan, motion, stop)
-    if plan[at + par.KIND] == par.FORMULA:
-        spring = own_push(plan, stop, depth, 0.0)[0]
-    else:
-        spring = plan[at + par.BUMPER_STIFFNESS] * depth ** plan[at + par.EXPONENT]
-    lost: float = (push - spring) * closing
+    lost: float = (push - spring(plan, stop, depth_of(plan, motion, stop))) * closing
     return lost
 
 

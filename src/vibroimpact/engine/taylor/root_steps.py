@@ -6,22 +6,20 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.event import DETACHMENT, EASED, LIMIT, NEITHER, event_of
 from vibroimpact.engine.forcing.dispatch import stepped
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
-from vibroimpact.engine.linear.tables import overlapping
-from vibroimpact.engine.motion import BOTH, DETACHED, LEFT, LIMIT, RIGHT, Motion
+from vibroimpact.engine.motion import BOTH, LEFT, RIGHT, Motion, main_stop
 from vibroimpact.engine.series.events import NEVER, Line, first_zero, state_near, summed
 from vibroimpact.engine.series.kernels import Slot
 from vibroimpact.engine.series.layout import F_T, FOUND, ROOTS, UNIT, T
 from vibroimpact.engine.series.step_control import Shaken, certified_step, number
 from vibroimpact.engine.series.values import NO_PUSH, Frame, Laws
-from vibroimpact.engine.taylor.laws import EVEN
-from vibroimpact.engine.taylor.mode_forces import branch_of, curved_stop, push_of
+from vibroimpact.engine.stops.curved import EVEN, curved_stop, push_of
+from vibroimpact.engine.stops.places import overlapping
+from vibroimpact.engine.taylor.mode_forces import branch_of
 from vibroimpact.engine.taylor.pieces import coordinate, placed
 from vibroimpact.engine.taylor.step_events import (
-    DETACHED_LEFT,
-    EASED,
-    NEITHER,
     Found,
     earlier,
     ends_of,
@@ -54,28 +52,28 @@ class Pressed(NamedTuple):
 @kernel
 def root_of(plan: Vector, motion: Motion) -> int:
     """In which root of a stop's deformation a motion is followed; 0 if in none."""
-    mode = motion.mode
+    mode, stop = motion.mode, main_stop(motion.mode)
     if mode not in (RIGHT, LEFT) or motion.fresh & ~BOTH or overlapping(plan):
         return 0
-    if not curved_stop(plan, mode - 1):
+    if not curved_stop(plan, stop):
         return 0
-    at = par.stop_at(mode - 1)
-    if plan[at + par.EXPONENT] != plan[ROOTS + 2 * (mode - 1)]:
+    at = par.stop_at(stop)
+    if plan[at + par.EXPONENT] != plan[ROOTS + 2 * stop]:
         return 0
     if int(plan[par.OWN + par.OWN_FLAGS]) & ABSOLUTE_X and plan[at + par.GAP] < 0.0:
         return 0  # only steps in time look for where u changes its sign
-    return int(plan[ROOTS + 2 * (mode - 1) + 1])
+    return int(plan[ROOTS + 2 * stop + 1])
 
 
 @kernel
 def pressed_by(plan: Vector, motion: Motion, frame: Frame, x: float, root: int) -> Pressed:
     """What the steps of a stretch are made with that begins with this motion; write its numbers."""
-    mode = motion.mode
+    mode, stop = motion.mode, main_stop(motion.mode)
     unit: float = plan[UNIT]
     branch = branch_of(plan, motion, frame.sign)
     v = frame.sign * motion.v
-    memory = motion.faces[mode - 1]
-    push = push_of(plan, mode - 1, branch.way if v == 0.0 else v, memory)
+    memory = motion.faces[stop]
+    push = push_of(plan, stop, branch.way if v == 0.0 else v, memory)
     drag = plan[par.DAMPING] if plan[par.DRAG] != 1.0 else 0.0
     number(plan, frame, Laws(branch, push, NO_PUSH, 0.0, drag), unit)
     n = push.exponent
@@ -161,14 +159,13 @@ def pressed_for(
     w = rooted(max(x, 0.0), root)
     here = motion
     t = 0.0
-    event = NEITHER
+    event, leaves = NEITHER, event_of(DETACHMENT, main_stop(mode))
     for _ in range(MOST):
         shaken = Shaken(frame.sign, clock, by.unit, per_unit)
         h, after = certified_step(plan, by.slot, w, v, z, shaken, max(w, by.size), 0.0, math.inf)
         ends = ends_of(plan, h, w, v, z, hysteretic)
         found = Found(LIMIT, NEVER)
-        which = DETACHED if mode == RIGHT else DETACHED_LEFT
-        found = earlier(found, which, first_zero(plan, Line(0.0, 1.0, 0.0, 0.0), ends, w))
+        found = earlier(found, leaves, first_zero(plan, Line(0.0, 1.0, 0.0, 0.0), ends, w))
         if by.chi != 0.0:
             line = Line(1.0, 0.0, by.chi, 0.0)
             found = earlier(found, EASED, first_zero(plan, line, ends, 1.0 + by.chi * v))

@@ -6,21 +6,20 @@ import math
 from typing import NamedTuple
 
 from vibroimpact.engine import parameters as par
-from vibroimpact.engine.jit import Vector, apart, inlined, kernel
-from vibroimpact.engine.linear.advance import gap_of, rate_of, total_gap
-from vibroimpact.engine.linear.roots import NONE, Clearance
-from vibroimpact.engine.linear.tables import overlapping
-from vibroimpact.engine.motion import (
-    BOTH,
-    DETACHED,
+from vibroimpact.engine.event import (
+    CENTRED,
+    CONTACT,
+    DETACHMENT,
+    EASED,
     LIMIT,
-    RELEASED,
-    SLIPS_LEFT,
-    SLIPS_RIGHT,
-    TURNED,
-    Motion,
-    facing,
+    TURN,
+    UNBENT,
+    YIELD,
+    event_of,
 )
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.linear.roots import NONE, Clearance
+from vibroimpact.engine.motion import BOTH, RELEASED, SLIPPED, Motion, facing
 from vibroimpact.engine.series.events import (
     FIXED,
     NEVER,
@@ -52,8 +51,10 @@ from vibroimpact.engine.series.layout import (
     Z,
 )
 from vibroimpact.engine.series.values import Frame
-from vibroimpact.engine.taylor.laws import EVEN
-from vibroimpact.engine.taylor.mode_forces import balanced, curved_stop, push_of, steep
+from vibroimpact.engine.stops.curved import EVEN, curved_stop, push_of
+from vibroimpact.engine.stops.kelvin_voigt import rate_of
+from vibroimpact.engine.stops.places import gap_of, overlapping, total_gap
+from vibroimpact.engine.taylor.mode_forces import balanced, steep
 from vibroimpact.engine.taylor.pieces import facing_of
 from vibroimpact.law_numbers import ABSOLUTE_X
 
@@ -63,12 +64,6 @@ _BOTH, _OTHER = int(Slot.BOTH), int(Slot.OTHER)
 
 _FADED = 1e-18
 """A bumper's memory, as a share of the displacement, that does not move where it is met."""
-
-DETACHED_LEFT, YIELDS, UNBENT, EASED, CENTRED = 16, 17, 18, 19, 20
-"""Events of a step besides those of a stretch."""
-
-NEITHER = -1
-"""Neither an event nor the time limit."""
 
 
 class Found(NamedTuple):
@@ -147,7 +142,7 @@ def earlier_release(
     g = level + facing * ends.x
     if motion.fresh & BOTH == 1 << stop:
         g = max(g, 0.0)
-    event = DETACHED if stop == 0 else DETACHED_LEFT
+    event = event_of(DETACHMENT, stop)
     return earlier(found, event, first_zero(plan, Line(level, facing, 0.0, 0.0), ends, g))
 
 
@@ -180,7 +175,7 @@ def starts_still(plan: Vector, motion: Motion) -> bool:
     """Whether a motion starts without velocity and, but for rounding, without acceleration."""
     if motion.v != 0.0:
         return False
-    slips = motion.fresh & (SLIPS_RIGHT | SLIPS_LEFT | RELEASED)
+    slips = motion.fresh & (SLIPPED | RELEASED)
     return bool((slips and not steep(plan)) or balanced(plan, motion))
 
 
@@ -195,9 +190,9 @@ def turns(
             t = searched(plan, line, FIXED, 0.0, True, ends.h)
         else:
             t = first_zero(plan, line, ends, 0.0)
-        found = earlier(found, TURNED, t)
+        found = earlier(found, TURN, t)
     else:
-        found = earlier(found, TURNED, first_zero(plan, line, ends, ways * ends.v))
+        found = earlier(found, TURN, first_zero(plan, line, ends, ways * ends.v))
     if plan[par.HYSTERETIC] == 0.0:
         return found
     z, limit = motion.z, plan[par.YIELD]
@@ -205,7 +200,7 @@ def turns(
     if limit < math.inf:
         if abs(z) < limit or way * z < 0.0:
             line = Line(limit, 0.0, 0.0, -ways)
-            found = earlier(found, YIELDS, first_zero(plan, line, ends, limit - way * z))
+            found = earlier(found, YIELD, first_zero(plan, line, ends, limit - way * z))
     elif plan[par.KNEE] != 0.0 or int(plan[par.SHARPNESS]) % 2 == 0:
         side = math.copysign(1.0, z) if z != 0.0 else way
         line = Line(0.0, 0.0, 0.0, sign * side)
@@ -238,7 +233,7 @@ def search(
         if kind == par.ABSENT:
             continue
         if mode >> stop & 1:
-            event = DETACHED if stop == 0 else DETACHED_LEFT
+            event = event_of(DETACHMENT, stop)
             if kind == par.KELVIN_VOIGT:
                 found = earlier(found, event, parts(plan, motion, stop, ends, unit))
             elif kind != par.RIGID:
@@ -256,7 +251,8 @@ def search(
         just = fresh & BOTH == 1 << stop
         free = Free(memory, rate, since, just, just and fresh & RELEASED != 0)
         size = abs(level) + abs(ends.x)
-        found = earlier(found, 1 + stop, met(plan, level, sign, free, ends, _FADED * size))
+        t = met(plan, level, sign, free, ends, _FADED * size)
+        found = earlier(found, event_of(CONTACT, stop), t)
     if ways != 0.0:
         found = turns(plan, motion, ways, frame.sign, ends, since, found)
     if int(plan[par.OWN + par.OWN_FLAGS]) & ABSOLUTE_X:

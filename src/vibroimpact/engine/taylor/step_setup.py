@@ -14,8 +14,9 @@ from vibroimpact.engine.series.kernels import drags_any_power
 from vibroimpact.engine.series.layout import SLOT, UNIT
 from vibroimpact.engine.series.step_control import Shaken, certified_step, number, slot_of
 from vibroimpact.engine.series.values import NO_PUSH, Branch, Frame, Laws, Push
+from vibroimpact.engine.stops.curved import curved_stop, own_push
 from vibroimpact.engine.taylor.laws import laws_of
-from vibroimpact.engine.taylor.mode_forces import branch_of, curved_stop, own_push, stiffness_at
+from vibroimpact.engine.taylor.mode_forces import branch_of, stiffness_at
 
 
 class Ahead(NamedTuple):

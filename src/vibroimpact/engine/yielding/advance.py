@@ -9,40 +9,42 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine import parameters as par
+from vibroimpact.engine.event import (
+    CONTACT,
+    DETACHMENT,
+    LIMIT,
+    TURN,
+    YIELD,
+    event_of,
+    kind_of,
+    stop_of,
+)
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.advance import Ended, gap_of, place_at, rate_of
-from vibroimpact.engine.linear.stops import impact, relaxed_faces, settle
-from vibroimpact.engine.linear.tables import rigid
 from vibroimpact.engine.motion import (
     BOTH,
-    DETACHED,
     RELEASED,
     SETTLING,
-    SLIPS_LEFT,
-    SLIPS_RIGHT,
-    TURNED,
+    SLIPPED,
+    Ended,
     Motion,
     Row,
     changed,
     direction,
     main_stop,
 )
-from vibroimpact.engine.motion import LIMIT as NOTHING
+from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed_faces
+from vibroimpact.engine.stops.places import gap_of, place_at
+from vibroimpact.engine.stops.rigid import impact, rigid, settle
 from vibroimpact.engine.taylor.advance import still
 from vibroimpact.engine.taylor.mode_forces import stands, way_of
 from vibroimpact.engine.yielding.layout import ELASTIC, MOVES_LEFT, MOVES_RIGHT
 from vibroimpact.engine.yielding.monotone_motion import (
+    AHEAD,
     BEGUN,
-    BEHIND,
     FROM_AHEAD,
     FROM_BEHIND,
     LANDED,
-    LIMIT,
-    PARTS,
     SOFTLY,
-    STOPS,
-    TURNS,
-    YIELDS,
     Leg,
 )
 from vibroimpact.engine.yielding.plan import table_of
@@ -83,7 +85,7 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     memory, rate, behind_memory, behind_rate = 0.0, 0.0, 0.0, 0.0
     push_x, push_v, push_0 = 0.0, 0.0, 0.0
     start = BEGUN
-    if fresh & (RELEASED | SLIPS_RIGHT | SLIPS_LEFT):
+    if fresh & (RELEASED | SLIPPED):
         start |= SOFTLY
     ahead = 0 if way > 0.0 else 1
     if not mode:
@@ -115,32 +117,32 @@ def advance_yielding(plan: Vector, motion: Motion, limit: float) -> Ended:
     x, v, s, c = row
     x += about
     v, clock = sign * v, (sign * s, sign * c)
-    if end == PARTS and damping == 0.0:
+    kind = kind_of(end)
+    if kind == DETACHMENT and damping == 0.0:
         x = 0.0
     faces = relaxed_faces(plan, mode, faces, t)
     u = x
     if mode:
         faces = changed(faces, pressed, x)
         u = place_at(plan, pressed, x)
-    event = NOTHING
-    if end in (STOPS, BEHIND):
-        met = ahead if end == STOPS else 1 - ahead
-        event = 1 + met
+    met = ahead if stop_of(end) == AHEAD else 1 - ahead
+    if kind == CONTACT:
         u = place_at(plan, met, faces[met])
     if elastic:
         z = u - slack
-    if event != NOTHING:
-        after = Motion(event, event, u, v, faces, z, 0.0, clock)
-        if rigid(plan, event - 1):
-            return impact(plan, event, t, v, after)
-        return event, t, v, after
-    if end == LIMIT:
-        return NOTHING, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
-    if end == PARTS:
-        return DETACHED, t, v, Motion(0, mode, u, v, faces, z, 0.0, clock)
+    if kind == CONTACT:
+        bit = 1 << met
+        after = Motion(bit, bit, u, v, faces, z, 0.0, clock)
+        if rigid(plan, met):
+            return impact(plan, met, t, v, after)
+        return event_of(CONTACT, met), t, v, after
+    if kind == LIMIT:
+        return LIMIT, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
+    if kind == DETACHMENT:
+        return event_of(DETACHMENT, pressed), t, v, Motion(0, mode, u, v, faces, z, 0.0, clock)
     arrival = v
-    if end == TURNS:
+    if kind == TURN:
         v = 0.0
-    elif end == YIELDS:
+    elif kind == YIELD:
         z = math.copysign(plan[par.YIELD], way)
-    return TURNED, t, arrival, Motion(mode, 0, u, v, faces, z, 0.0, clock)
+    return TURN, t, arrival, Motion(mode, 0, u, v, faces, z, 0.0, clock)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine.event import CONTACT, DETACHMENT, LIMIT, TURN, YIELD, event_of
 from vibroimpact.engine.forcing.dispatch import expand
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.evaluate import moved
@@ -14,17 +15,13 @@ from vibroimpact.engine.linear.table_search import ABOVE, BELOW
 from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Row
 from vibroimpact.engine.yielding.monotone_motion import (
+    AHEAD,
     BEGUN,
     BEHIND,
     FROM_AHEAD,
     FROM_BEHIND,
     LANDED,
-    LIMIT,
-    PARTS,
     SOFTLY,
-    STOPS,
-    TURNS,
-    YIELDS,
     Leg,
 )
 
@@ -62,7 +59,7 @@ def careful(
     for n in range(ORDER - 1):
         asked[n] = (n + 1) * x[n + 1]
     asked[ORDER - 1] = 0.0
-    found = TURNS
+    found = TURN
     first = first_root(asked, Clearance(0.0, way, 0.0, 0.0, False), low, high)
     if push_x != 0.0:
         for n in range(ORDER):
@@ -72,20 +69,20 @@ def careful(
             asked[0] = max(asked[0], 0.0)
         y = first_root(asked, Clearance(0.0, 1.0, 0.0, 0.0, False), low, high)
         if y < first:
-            found, first = PARTS, y
+            found, first = DETACHMENT, y
     if stop < math.inf and not start & FROM_AHEAD:
         y = first_root(x, Clearance(stop, -way, memory, rate * h, False), low, high)
         if y < first:
-            found, first = STOPS, y
+            found, first = event_of(CONTACT, AHEAD), y
     if yields < math.inf:
         y = first_root(x, Clearance(yields, -way, 0.0, 0.0, False), low, high)
         if y < first:
-            found, first = YIELDS, y
+            found, first = YIELD, y
     if behind_memory > 0.0 and not start & FROM_BEHIND:
         clearance = Clearance(-behind, way, behind_memory, behind_rate * h, False)
         y = first_root(x, clearance, low, high)
         if y < first:
-            found, first = BEHIND, y
+            found, first = event_of(CONTACT, BEHIND), y
     if start & (FROM_AHEAD | FROM_BEHIND):
         ahead = start & FROM_AHEAD != 0
         side = ABOVE if (way > 0.0) == ahead else BELOW
@@ -93,5 +90,5 @@ def careful(
             behind_memory, behind_rate = memory, rate
         y = leave(x, side, start & SOFTLY != 0, behind_memory, behind_rate * h, high)
         if y < first:
-            found, first = STOPS if ahead else BEHIND, y
+            found, first = event_of(CONTACT, AHEAD if ahead else BEHIND), y
     return (found, first + middle) if first != NONE else (LIMIT, NONE)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-LIMIT, STOPS, YIELDS, TURNS, PARTS, BEHIND = range(6)
-"""What ends a leg: its time, the stop ahead, the isolator that yields, a turn of the mass, the
-bumper that is left, or the one behind, whose face comes after the mass."""
+AHEAD, BEHIND = 0, 1
+"""Numbers of the stops as a leg has them, in the events that end it: that to which the mass goes,
+and the one behind, whose face comes after it."""
 
 PLAIN, BEGUN, FROM_AHEAD, FROM_BEHIND, SOFTLY, LANDED = 0, 1, 2, 4, 8, 16
 """What is known of its beginning, a bit each: that it is one; that the mass has just left the stop

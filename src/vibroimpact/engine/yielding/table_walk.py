@@ -10,26 +10,24 @@ from __future__ import annotations
 
 import math
 
+from vibroimpact.engine.event import CONTACT, DETACHMENT, LIMIT, TURN, YIELD, event_of
 from vibroimpact.engine.forcing.dispatch import product
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.crossing import crossing_guess, quick_root
-from vibroimpact.engine.linear.evaluate import node, relaxed, scaled_acceleration, travel
+from vibroimpact.engine.linear.evaluate import node, scaled_acceleration, travel
 from vibroimpact.engine.linear.flight import parted
 from vibroimpact.engine.linear.layout import NODE, NODES, RATE, ROW_V, WIDTH, H
 from vibroimpact.engine.linear.roots import NONE
 from vibroimpact.engine.linear.table_search import ended, next_window
 from vibroimpact.engine.motion import Row
+from vibroimpact.engine.stops.kelvin_voigt import relaxed
 from vibroimpact.engine.yielding.certified_search import careful
 from vibroimpact.engine.yielding.layout import BEND_0, PUSH_0, PUSH_E, ROOT, TURN_0, TURN_E
 from vibroimpact.engine.yielding.monotone_motion import (
+    AHEAD,
     BEGUN,
     FROM_BEHIND,
-    LIMIT,
-    PARTS,
     PLAIN,
-    STOPS,
-    TURNS,
-    YIELDS,
     Leg,
 )
 
@@ -55,9 +53,9 @@ def follow_leg(
         x, v, _, _ = row
         xs, vs = way * x, way * v
         if xs >= stop and v != 0.0 and xs >= stop + relaxed(memory, rate, t):
-            return STOPS, t, row
+            return event_of(CONTACT, AHEAD), t, row
         if xs >= yields and yields != stop:
-            return YIELDS, t, row
+            return YIELD, t, row
         gain = scaled_acceleration(plan, table, row)
         size = plan[table + ROOT] * abs(v) + abs(gain) * (per_second * per_second)
         bend = plan[table + TURN_E] * size + plan[table + TURN_0]  # of the velocity, per step²
@@ -118,12 +116,12 @@ def follow_leg(
                 if moves and presses and before_x < top:
                     cleared = inside
                     if yields < stop:
-                        found = YIELDS
+                        found = YIELD
                     elif stop + relaxed(memory, rate, t + i * h) == stop:
-                        found = STOPS
+                        found = event_of(CONTACT, AHEAD)
                 elif presses and vs < 0.0 and before_v > 0.0:
                     found, weight_x, weight_v, level, most = (
-                        TURNS,
+                        TURN,
                         0.0,
                         -way * per_second,
                         0.0,
@@ -131,7 +129,7 @@ def follow_leg(
                     )
                     earlier, before, now = -earlier_v, -before_v, -vs
                 elif inside and moves and force < 0.0 and before_force > 0.0:
-                    found, level, most = PARTS, push_0, bend_force
+                    found, level, most = DETACHMENT, push_0, bend_force
                     weight_x, weight_v = -way * push_x, -way * push_v * per_second
                     earlier = push_0 - earlier_force
                     before, now = push_0 - before_force, push_0 - force
@@ -147,7 +145,7 @@ def follow_leg(
                     y, steep, end = quick_root(plan, table, weight_x, weight_v, level, guess, near)
                     if not 2.0 * steep > most * y:
                         y = NONE
-                    if found == TURNS and way * end.x >= top:
+                    if found == TURN and way * end.x >= top:
                         y = NONE
                     elif y != NONE and i + y > span:
                         break

@@ -12,6 +12,7 @@ from vibroimpact.engine.assembly.curved.step import take_step, travel
 from vibroimpact.engine.assembly.curved.terms import expand_all, move_alike
 from vibroimpact.engine.assembly.curved.watch import first_of
 from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.event import GIVEN_UP, LIMIT, PASSED, TURN, event_of
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.state import ARRIVAL, STEP
@@ -47,11 +48,11 @@ def next_curved_stretch(plan: Vector, left: float) -> int:
     y, deformation = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
     plan[at.STEPS] += 1.0
     plan[at.PIECES], plan[at.PIECE] = 1.0, 0.0
-    plan[at.EVENT], plan[at.LENGTH] = float(at.GIVEN_UP), 0.0
+    plan[at.EVENT], plan[at.LENGTH] = float(GIVEN_UP), 0.0
     if _gone(plan, y):
         remember(plan, int(plan[at.START]), int(plan[at.START_DEFORMATION]))
         plan[at.STRETCH_MODE] = plan[at.MODE]
-        return at.GIVEN_UP
+        return GIVEN_UP
     if plan[at.LEVEL] == of.NEW:
         decide(plan, int(plan[at.MODE]), y, deformation)
         plan[at.LEVEL] = 0.0
@@ -66,7 +67,7 @@ def next_curved_stretch(plan: Vector, left: float) -> int:
     short = h * plan[at.STIFF_RATE] < _SHORT and h < left
     plan[at.SHORT] = plan[at.SHORT] + 1.0 if short else 0.0
     if (h == 0.0 and left > 0.0) or plan[at.SHORT] > _MOST:
-        return at.GIVEN_UP
+        return GIVEN_UP
     hit, which, end = -1, 0, 1.0
     for f in range(count):
         limit = end if hit < 0 else end - _SAME
@@ -83,15 +84,16 @@ def next_curved_stretch(plan: Vector, left: float) -> int:
     if end > _SAME:
         for f in range(count):
             plan[int(plan[at.ZEROS]) + f] = 0.0
-    plan[at.LENGTH], plan[at.EVENT_STOP] = length, float(hit)
+    plan[at.LENGTH] = length
     plan[at.AGE] += length
-    event = at.LIMIT
+    event = LIMIT
     if hit >= 0:
         remember(plan, int(plan[at.END]), int(plan[at.END_DEFORMATION]))
-        mode, event = switch(plan, mode, hit, which, y, deformation)
+        mode, kind = switch(plan, mode, hit, which, y, deformation)
         enter_mode(plan, mode)
-        if event != at.TURN:
+        if kind != TURN:
             plan[at.AGE] = 0.0
+        event = event_of(kind, hit)
     plan[at.EVENT] = float(event)
     return event
 
@@ -134,8 +136,8 @@ def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Ve
     event = next_curved_stretch(plan, limit)
     ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
     store_motion(plan, after)
-    if event == at.LIMIT and plan[at.LENGTH] < limit:
-        return at.PASSED
+    if event == LIMIT and plan[at.LENGTH] < limit:
+        return PASSED
     return event
 
 

@@ -15,6 +15,7 @@ from vibroimpact.engine.assembly.curved.terms import (
 )
 from vibroimpact.engine.assembly.events import closing, impacts, switch_mode
 from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, TURN
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -231,18 +232,18 @@ def switch(
     kind = plan[one + at.KIND]
     zeros = beyond(plan, int(plan[at.ZEROS]))
     if kind == at.LINK:
-        return _turned(plan, mode, f, which, y, deformation), at.TURN
+        return _turned(plan, mode, f, which, y, deformation), TURN
     if kind == at.PUSHING:
         if not mode >> f & 1:
             deformation[f] = abs(closing(plan, f, beyond(y, int(plan[at.MASSES]))))
             zeros[f] = 1.0
-            return mode | 1 << f, at.CONTACT
+            return mode | 1 << f, CONTACT
         if which == 1:
             zeros[f] = 2.0
-            return mode, at.TURN
+            return mode, TURN
         deformation[f] = 0.0
         zeros[f] = 1.0
-        return mode & ~(1 << f), at.RELEASE
+        return mode & ~(1 << f), DETACHMENT
     if kind == at.RIGID and not mode >> f & 1:
         # Friction passes no impulse on.
         for g in range(count):
@@ -250,6 +251,6 @@ def switch(
                 mode &= ~(1 << g)
         enter_mode(plan, mode)
         mode = _impact(plan, mode, f, y, deformation)
-        return decide(plan, mode, y, deformation), at.IMPACT
+        return decide(plan, mode, y, deformation), IMPACT
     found: tuple[int, int] = switch_mode(plan, mode, f, y, deformation)
     return found

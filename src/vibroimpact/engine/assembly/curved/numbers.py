@@ -14,7 +14,8 @@ from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.series.layout import NAMES
 from vibroimpact.engine.series.values import Push
-from vibroimpact.engine.taylor.laws import EVEN, pressing, shallow, slowness
+from vibroimpact.engine.stops.curved import EVEN, pressing, shallow
+from vibroimpact.engine.taylor.laws import slowness
 
 _UNMET = 1e-12
 """Share of the motion's speed. A stop that is met no faster has not been met: the dissipation that

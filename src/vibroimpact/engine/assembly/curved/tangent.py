@@ -31,6 +31,16 @@ from vibroimpact.engine.assembly.events import closing, halt
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.assembly.series import drive, places, restrain
 from vibroimpact.engine.assembly.tangent import contraction, meet, reflect
+from vibroimpact.engine.event import (
+    CONTACT,
+    DETACHMENT,
+    GIVEN_UP,
+    IMPACT,
+    LIMIT,
+    begins_contact,
+    kind_of,
+    stop_of,
+)
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.state import DAMPING, HITS
@@ -242,7 +252,7 @@ def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
     here = int(plan[at.ROOM])
     there = here + 2 * (n + 1 + count)
     rates = there + 2 * (n + 1 + count)
-    jumps = event not in (at.LIMIT, at.GIVEN_UP)
+    jumps = kind_of(event) not in (LIMIT, GIVEN_UP)
     if jumps:
         accelerations_of_all(
             plan,
@@ -277,24 +287,25 @@ def _rates(plan: Vector, into: int) -> None:
 @kernel
 def _jump(plan: Vector, row: Vector, before: int, here: int, there: int, rates: int) -> None:
     n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
-    f, event, mode = int(plan[at.EVENT_STOP]), int(plan[at.EVENT]), int(plan[at.MODE])
+    event, mode = int(plan[at.EVENT]), int(plan[at.MODE])
+    f, happens = stop_of(event), kind_of(event)
     one, law = int(plan[at.STOP]) + f * at.STOP_WIDTH, row_of(plan, f)
     kind, late = plan[one + at.KIND], 0.0
     arrived = beyond(plan, int(plan[at.END]) + n)
     speed = closing(plan, f, arrived)
-    if event == at.IMPACT:
+    if happens == IMPACT:
         late = -closing(plan, f, row) / speed if speed > 0.0 else 0.0
         for g in range(count):
             row[2 * n + g] += (plan[rates + g] - plan[rates + count + g]) * late
         reflect(plan, row, beyond(plan, here), beyond(plan, there))
-    elif kind == at.PUSHING and event in (at.CONTACT, at.RELEASE):
+    elif kind == at.PUSHING and happens in (CONTACT, DETACHMENT):
         if speed != 0.0:
             late = -closing(plan, f, row) / speed
         met = closing(plan, f, beyond(row, n)) + late * closing(plan, f, beyond(plan, here))
         for i in range(n):
             row[n + i] += (plan[here + i] - plan[there + i]) * late
-        row[2 * n + f] = met if event == at.CONTACT and speed > 0.0 else 0.0
-    elif event == at.CONTACT:
+        row[2 * n + f] = met if happens == CONTACT and speed > 0.0 else 0.0
+    elif happens == CONTACT:
         meet(plan, row)
     elif int(plan[law + of.BEHAVIOUR]) == of.FRICTION and not before >> f & 1:
         gains = closing(plan, f, beyond(plan, here))
@@ -309,11 +320,12 @@ def _jump(plan: Vector, row: Vector, before: int, here: int, there: int, rates: 
 @kernel
 def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
     """Carry a disturbance of each part through the last stretch; see `assembly.tangent`."""
-    f, event, length = int(plan[at.EVENT_STOP]), int(plan[at.EVENT]), plan[at.LENGTH]
+    event, length = int(plan[at.EVENT]), plan[at.LENGTH]
+    f = stop_of(event)
     notes[DAMPING] += length * contraction(plan, int(plan[at.STRETCH_MODE]))
-    if event in (at.CONTACT, at.IMPACT):
+    if begins_contact(event):
         notes[HITS + f] += 1.0
-    if event == at.IMPACT:
+    if kind_of(event) == IMPACT:
         e = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RESTITUTION]
         left = e > 0.0 and not int(plan[at.MODE]) >> f & 1
         notes[DAMPING] += -2.0 * math.log(e) if left else math.inf

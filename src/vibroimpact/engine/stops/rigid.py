@@ -1,8 +1,4 @@
-"""From one event to the next, for any stops: rigid ones, and bumpers that overlap.
-
-Each stop that is touched may let go, each that is free may be touched: every one is asked in
-turn, and only for the time until the earliest of those asked before.
-"""
+"""A rigid stop: it returns the mass with a share of its speed, or the mass rests on it."""
 
 from __future__ import annotations
 
@@ -10,37 +6,26 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.dispatch import acceleration_of, isolator_force, springs
+from vibroimpact.engine.event import CONTACT, IMPACT, LIMIT, REST_ENDS, event_of, kind_of, stop_of
 from vibroimpact.engine.forcing.dispatch import pace, release_time, turned, value
-from vibroimpact.engine.jit import Vector, inlined, kernel
-from vibroimpact.engine.linear.advance import (
-    Ended,
-    fly,
-    gap_of,
-    place_at,
-    press,
-    rate_of,
-    total_gap,
-)
-from vibroimpact.engine.linear.evaluate import comes_back, relaxed
-from vibroimpact.engine.linear.flight import flight
+from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import STEEPEST
-from vibroimpact.engine.linear.table_search import BELOW, WITHIN, Bounds
-from vibroimpact.engine.linear.tables import overlapping, resting, rigid
 from vibroimpact.engine.motion import (
     BOTH,
-    DETACHED,
-    FLIGHT,
     LEFT,
-    LIMIT,
     RELEASED,
     RIGHT,
     SETTLING,
+    Ended,
     Motion,
-    Pair,
-    Row,
+    Stretch,
+    arrived,
     changed,
     facing,
+    main_stop,
 )
+from vibroimpact.engine.stops.kelvin_voigt import comes_back, rate_of, relaxed, relaxed_faces
+from vibroimpact.engine.stops.places import gap_of, overlapping, place_at, total_gap
 
 _CHATTERED = 1e-6
 """A chatter is completed where its rest lasts for less than this share of the time in which the
@@ -52,26 +37,37 @@ _GRAIN = 2.0**-49
 in two at its top: they would go on for ever."""
 
 
-@inlined
-def relaxed_faces(plan: Vector, mode: int, faces: Pair, t: float) -> Pair:
-    """Deformations of the stops after the time t, in which those that are not touched relax."""
-    right, left = faces
-    if not mode & RIGHT:
-        right = relaxed(right, rate_of(plan, 0), t)
-    if not mode & LEFT:
-        left = relaxed(left, rate_of(plan, 1), t)
-    return right, left
+@kernel
+def rigid(plan: Vector, stop: int) -> bool:
+    """Whether a stop is rigid."""
+    return bool(plan[par.stop_at(stop) + par.KIND] == par.RIGID)
 
 
 @kernel
-def impact(plan: Vector, event: int, t: float, arrival: float, motion: Motion) -> Ended:
+def resting(plan: Vector, mode: int) -> bool:
+    """Whether a rigid stop holds the mass in this mode."""
+    return bool((mode & RIGHT and rigid(plan, 0)) or (mode & LEFT and rigid(plan, 1)))
+
+
+@kernel
+def placed(plan: Vector, stop: int, mode: int, u: float, v: float) -> tuple[float, bool]:
+    """The displacement of a mass that no rigid stop lets through, and whether it rests there."""
+    sign = facing(stop)
+    reach = sign * u - gap_of(plan, stop)
+    if reach > 0.0:
+        u = sign * gap_of(plan, stop)
+    return u, bool(mode >> stop & 1 and reach >= 0.0 and v == 0.0)
+
+
+@kernel
+def impact(plan: Vector, stop: int, t: float, arrival: float, motion: Motion) -> Ended:
     """What follows when the mass meets a rigid stop: u̇ → −e u̇, or rest."""
     mode, _, _, v, faces, z, _, clock = motion
-    stop = event - 1
+    event, bit = event_of(IMPACT, stop), 1 << stop
     restitution = plan[par.stop_at(stop) + par.RESTITUTION]
     u = place_at(plan, stop, 0.0)  # which from a pressed bumper's face is rounded
     v = -restitution * v
-    bounced = Motion(mode & ~event, event, u, v, faces, z, 0.0, clock)
+    bounced = Motion(mode & ~bit, bit, u, v, faces, z, 0.0, clock)
     push = facing(stop) * acceleration_of(plan, bounced)  # towards the stop
     if not push > 0.0 or restitution >= 1.0:
         return event, t, arrival, bounced
@@ -91,7 +87,7 @@ def impact(plan: Vector, event: int, t: float, arrival: float, motion: Motion) -
     lost = plan[par.CURVED] != 0.0 and v * v < 2.0 * push * _GRAIN * size
     if (rest * rate > _CHATTERED or rest * change > _CHATTERED * push) and not lost:
         return event, t, arrival, bounced
-    last = Motion(bounced.mode, event | SETTLING, u, v, faces, z, 0.0, clock)
+    last = Motion(bounced.mode, bit | SETTLING, u, v, faces, z, 0.0, clock)
     return event, t, arrival, last
 
 
@@ -105,14 +101,15 @@ def chatter(v: float, restitution: float, push: float) -> float:
 def settle(plan: Vector, motion: Motion, limit: float) -> Ended:
     """What is left of a chatter, and the rest to which it leads."""
     mode, fresh, _, v, faces, z, _, clock = motion
-    event = fresh & BOTH
-    stop = event - 1
+    bit = fresh & BOTH
+    stop = main_stop(bit)
     push = acceleration_of(plan, motion) * facing(stop)
     t = min(chatter(v, plan[par.stop_at(stop) + par.RESTITUTION], push), limit)
     faces = changed(relaxed_faces(plan, mode, faces, t), stop, 0.0)
     u = place_at(plan, stop, 0.0)
     clock = turned(plan, clock[0], clock[1], t)
-    return event, t, 0.0, Motion(mode | event, event, u, 0.0, faces, z, 0.0, clock)
+    event = event_of(IMPACT, stop)
+    return event, t, 0.0, Motion(mode | bit, bit, u, 0.0, faces, z, 0.0, clock)
 
 
 @kernel
@@ -132,74 +129,43 @@ def rest(plan: Vector, motion: Motion, limit: float) -> Ended:
     event, t = LIMIT, limit
     free, s, c = release_time(plan, sign, level, s, c, limit)
     if free < math.inf:
-        event, t = DETACHED, free
+        event, t = event_of(REST_ENDS, stop), free
     met = mode & there
     if overlapping(plan) and not met and plan[facing_stop + par.KIND] != par.ABSENT:
         # The free bumper comes back to where the mass rests.
         meets = comes_back(faces[other], -total_gap(plan), rate_of(plan, other))
         if meets < t:
-            event, t = 1 + other, meets
-    clock = (s, c) if event == DETACHED else turned(plan, clock[0], clock[1], t)
-    if event == 1 + other:
+            event, t = event_of(CONTACT, other), meets
+    kind = kind_of(event)
+    clock = (s, c) if kind == REST_ENDS else turned(plan, clock[0], clock[1], t)
+    if kind == CONTACT:
         faces = changed(faces, other, -total_gap(plan))
         return event, t, 0.0, Motion(BOTH, there, u, 0.0, faces, z, 0.0, clock)
     if not met:
         faces = changed(faces, other, relaxed(faces[other], rate_of(plan, other), t))
-    if event == DETACHED:
+    if kind == REST_ENDS:
         fresh = here if pulled else here | RELEASED
         return event, t, 0.0, Motion(mode & ~here, fresh, u, 0.0, faces, z, 0.0, clock)
     return event, t, 0.0, Motion(mode, 0, u, 0.0, faces, z, age + t, clock)
 
 
 @kernel
-def approach(plan: Vector, motion: Motion, limit: float) -> Ended:
-    """Pressed on one side, free of the other until that is touched as well."""
-    mode, fresh, _, v, faces, z, age, clock = motion
-    stop = mode - 1
-    other = 1 - stop
-    sign, there = facing(stop), 1 << other
-    s, c = clock
-    # Seen from the pressed stop, the other one lies below.
-    way, t, row, _, free = flight(
-        plan,
-        mode,
-        Row(faces[stop], sign * v, sign * s, sign * c),
-        Bounds(math.inf, -total_gap(plan), 0.0, faces[other], math.inf, rate_of(plan, other)),
-        BELOW if fresh & BOTH == there else WITHIN,
-        fresh & RELEASED != 0,
-        limit,
-        age,
-    )
-    x, v, s, c = row
-    v, clock = sign * v, (sign * s, sign * c)
-    faces = (x, free) if stop == 0 else (free, x)
-    u = place_at(plan, stop, x)
-    if way == WITHIN:
-        return LIMIT, t, v, Motion(mode, 0, u, v, faces, z, age + t, clock)
-    return 1 + other, t, v, Motion(BOTH, there, u, v, faces, z, 0.0, clock)
+def struck(stretch: Stretch, stop: int) -> float:
+    """How much an impact on a rigid stop changes the velocity (m/s); 0 without one."""
+    if stretch.event != event_of(IMPACT, stop):
+        return 0.0
+    return abs(stretch.arrival - stretch.after.v)
 
 
 @kernel
-def advance_any(plan: Vector, motion: Motion, limit: float) -> Ended:
-    """Go on to the next event, or for the time `limit` if that comes first."""
-    mode = motion.mode
-    if motion.fresh & SETTLING:
-        return settle(plan, motion, limit)
-    if resting(plan, mode):
-        return rest(plan, motion, limit)
-    if mode == FLIGHT:
-        event, t, arrival, after = fly(plan, motion, limit)
-    else:
-        event, t, arrival, after = LIMIT, limit, motion.v, motion
-        for stop in range(2):
-            if mode >> stop & 1:
-                one = press(plan, motion, stop, t)
-                if one[0] != LIMIT or event == LIMIT:
-                    event, t, arrival, after = one
-        if mode != BOTH and overlapping(plan):
-            one = approach(plan, motion, t)
-            if one[0] != LIMIT:
-                event, t, arrival, after = one
-    if event in (RIGHT, LEFT) and rigid(plan, event - 1):
-        return impact(plan, event, t, arrival, after)
-    return event, t, arrival, after
+def impact_depth(plan: Vector, stretch: Stretch) -> float:
+    """Depth to which an impact would go without its stop; infinite where it would not turn."""
+    after, stop = stretch.after, stop_of(stretch.event)
+    if kind_of(stretch.event) != IMPACT or after.mode >> stop & 1:
+        return math.inf
+    met = arrived(stretch.before.mode, stretch.arrival, after)
+    back = -facing(stop) * acceleration_of(plan, met)
+    if not back > 0.0:
+        return math.inf
+    depth: float = stretch.arrival * stretch.arrival / (2.0 * back)
+    return depth
