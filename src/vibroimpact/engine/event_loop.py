@@ -12,7 +12,6 @@ from vibroimpact.engine import flow
 from vibroimpact.engine import state as states
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import GIVEN_UP, LIMIT, PASSED, SETTLING
-from vibroimpact.engine.observers.demand import add
 from vibroimpact.engine.observers.phases import note
 from vibroimpact.engine.state import EVENT, FRESH, STEP, T, room, stretch_room
 
@@ -89,7 +88,7 @@ def observed(observe: Any) -> Any:
 
 unobserved = observed(None)
 extremes = observed(flow.extremes)
-demand = observed(add)
+demand = observed(flow.demand)
 margin = observed(flow.margin)
 record = observed(flow.record)
 tangent = observed(flow.tangent)

@@ -12,6 +12,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers.fourier import BEGINS, INTERVAL
 from vibroimpact.engine.observers.phases import (
+    DRIFTS,
     MASSES,
     NUMBER,
     WIDTH,
@@ -134,7 +135,7 @@ def measure_motion(
         ended = _follow_integrated(plan, here, schedule, first, last, max_events, log, None)
     else:
         if first == 0 and notes[WRITTEN] == 0.0:
-            begin_row(log.out, int(notes[MASSES]), int(notes[WIDTH]))
+            begin_row(log.out, int(notes[MASSES]), int(notes[DRIFTS]), int(notes[WIDTH]))
         ended = _follow_measured(plan, here, schedule, first, last, max_events, log, None)
     copy(here, pointer(state), width(plan))
     return ended

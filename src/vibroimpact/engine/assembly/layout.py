@@ -112,8 +112,11 @@ from vibroimpact.engine import motion
     POINT,
     KEPT_Y,
     SHORT,
-) = range(88)
-HEADER = 88
+    # What is observed of pairs of bodies.
+    DRIFTS,
+    DRIFT,
+) = range(90)
+HEADER = 96
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)
 FIRST, BEHIND, PARTNER = range(8, 11)
@@ -121,6 +124,11 @@ FIRST, BEHIND, PARTNER = range(8, 11)
 dashpot), the range of masses on which it acts at once, and the stop that is its mirror image (−1 if
 none is)."""
 STOP_WIDTH = 11
+
+DRIFT_LEFT, DRIFT_RIGHT, DRIFT_DAMPING = range(3)
+"""Of a drift u_right − u_left: its bodies (n for the ground), and the dashpot between them (N s/m)
+that is part of the damping."""
+DRIFT_WIDTH = 3
 
 KELVIN_VOIGT, RIGID, PUSHING, LINK = range(4)
 """Kinds of stops. A stop of a curved law pushes; curved links stand behind the stops, as rows that
@@ -132,7 +140,8 @@ TERMS = 28
 STEP = 2.5
 """h ρ; the remainder is then 2.5²⁸/28! = 5e-19 of the state."""
 
-CONTACT, IMPACT, RELEASE, RISE, TURN = range(1, 6)
+CONTACT, IMPACT, RELEASE, RISE = range(1, 5)
+TURN = motion.TURNED
 LIMIT, PASSED, GIVEN_UP = motion.LIMIT, motion.PASSED, motion.GIVEN_UP
 """What ends a stretch: its limit, a deformable stop is met, a rigid one is hit (or comes to rest:
 its bit is set then), a deformable stop is left, a rest ends, another piece of a curved law begins,

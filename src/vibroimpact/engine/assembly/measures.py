@@ -161,7 +161,7 @@ def extend_range(plan: Vector, a: Vector, order: int, room: Vector) -> None:
 
 
 @kernel
-def _force_on_base(plan: Vector, a: Vector, b: Vector) -> int:
+def force_on_base(plan: Vector, a: Vector, b: Vector) -> int:
     """Write the series of ι · (f + p − M a) with absolute accelerations; returns its order."""
     n, w, carried = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.CARRIED])
     push, waves = int(plan[at.PUSH]), int(plan[at.WAVE_SERIES])
@@ -197,7 +197,7 @@ def observing(channels: Any) -> Any:
                 extend_range(plan, a, order, beyond(notes, OF_MASS * i + U_LEAST))
                 order = series(plan, ABSOLUTE_ACCELERATION, i, a)
                 extend_range(plan, a, order, beyond(notes, OF_MASS * i + A_LEAST))
-            order = _force_on_base(plan, a, b)
+            order = force_on_base(plan, a, b)
             extend_range(plan, b, order, beyond(notes, OF_MASS * n))
             for f in range(stops):
                 if mode >> f & 1:

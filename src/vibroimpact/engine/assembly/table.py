@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.assembly import advance as motion
+from vibroimpact.engine.assembly import channels, measures, section, stretches
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly import measures, section
 from vibroimpact.engine.assembly import tangent as disturbances
 from vibroimpact.engine.assembly.free_motion import stays_free as in_closed_form
 from vibroimpact.engine.jit import Vector, kernel
@@ -21,6 +21,9 @@ disturb, place, point, at_point = (
     section.at_point,
 )
 mirror = section.mirror
+start_demand = stretches.start_demand
+_measure = stretches.measuring(channels)
+_demand, _integrate = stretches.demanding(_measure), stretches.integrating(channels)
 
 
 @kernel
@@ -108,3 +111,29 @@ def tangent(
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """See `flow.margin`; it is not known."""
     notes[0] = math.nan
+
+
+@kernel
+def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
+    """See `flow.measure`."""
+    _measure(plan, before, True, row)
+
+
+@kernel
+def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `flow.demand`."""
+    _demand(plan, before, notes)
+
+
+@kernel
+def integrate(
+    plan: Vector,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
+    lines: Vector,
+    out: Vector,
+) -> None:
+    """See `flow.integrate`."""
+    _integrate(plan, ended, notes, lines, out)

@@ -71,12 +71,13 @@ from vibroimpact.engine.observers.phases import (
     MASS,
     PARTING,
     STOP,
+    STRUCK,
     SYSTEM,
     TOUCHED,
     U_LEAST,
     WORK,
 )
-from vibroimpact.engine.observers.record import kind_of
+from vibroimpact.engine.observers.record import IMPACT, kind_of
 
 _X, _W = np.polynomial.legendre.leggauss(12)
 ABSCISSAE = tuple(float(x) for x in 0.5 * _X + 0.5)
@@ -268,6 +269,8 @@ def measure_event(plan: Vector, stretch: Stretch, row: Vector) -> None:
     before, _, event, _, arrival, after = stretch
     kind, stop = kind_of(event, after)
     row[KIND], row[AT_STOP] = kind, stop
+    if kind == IMPACT:
+        row[STRUCK] = abs(arrival - after.v)
     behind = acceleration(plan, after)
     sharp = acceleration(plan, arrived(before.mode, arrival, after))
     row[SYSTEM + A_EVENT] = max(abs(sharp), abs(behind))
