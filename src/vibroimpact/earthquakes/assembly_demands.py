@@ -20,7 +20,6 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Record, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_contacts import coordinates, energies, extremes
-from vibroimpact.response.assembly_motion import too_much_work
 from vibroimpact.response.assembly_phases import AssemblyPhases, phases_layout
 from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
 from vibroimpact.response.assembly_state import assembly_vector
@@ -258,22 +257,19 @@ def seismic_response_of_assembly(
     assembly, record = rig.system, rig.record
     assert isinstance(assembly, Assembly)
     check_laws(assembly)
-    if too_much_work(assembly, record, record.step):
-        status, values = Status.TOO_MUCH_WORK, _nothing(assembly)
-    else:
-        begin = assembly_vector(assembly, equilibrium(assembly))
-        final, lines = begin.copy(), straight(record, tail)
-        vector = assembly_numbers(assembly, record, tables=True)
-        course = Course(
-            vector, record.peak, 0.0, 0.0, lines, True, final, len(lines), phases_layout(assembly)
-        )
-        status, rows = course.measured(max_events, progress)
+    begin = assembly_vector(assembly, equilibrium(assembly))
+    final, lines = begin.copy(), straight(record, tail)
+    vector = assembly_numbers(assembly, record, tables=True)
+    course = Course(
+        vector, record.peak, 0.0, 0.0, lines, True, final, len(lines), phases_layout(assembly)
+    )
+    status, rows = course.measured(max_events, progress)
+    values = _nothing(assembly)
+    if status is Status.DONE:
         nothing = np.empty(0)
         found = AssemblyPhases(assembly, Followed(status, rows, nothing, nothing), begin, final)
-        values = _nothing(assembly)
-        if status is Status.DONE:
-            peaks = extremes(found)
-            values = {name: peaks[name] for name in PEAKS} | energies(found)
+        peaks = extremes(found)
+        values = {name: peaks[name] for name in PEAKS} | energies(found)
     data = xr.Dataset(values, coordinates(assembly))
     data["status"] = int(status)
     return status, data

@@ -81,7 +81,7 @@ def _free(follow: Any) -> Any:
         if outcome == DONE and rest > _SHORT * step:
             row[LASTS] = rest
             _, outcome = follow(plan, state, still, 0, 1.0, max_events, notes, counter)
-        return outcome
+        return int(outcome)
 
     return kernel(freely)
 

@@ -22,8 +22,9 @@ from vibroimpact.engine.observers.phases import (
     put_back,
     save_phase,
 )
-from vibroimpact.engine.sections import FULL, C, Leg, S, Schedule, loop
+from vibroimpact.engine.sections import FULL, LASTS, C, Leg, S, Schedule, loop
 from vibroimpact.engine.state import copy, load, put, room, width
+from vibroimpact.engine.status import TOO_MUCH_WORK
 
 
 class Log(NamedTuple):
@@ -129,6 +130,8 @@ def measure_motion(
     here, log = room(), Log(pointer(notes), pointer(lines), pointer(out))
     load(plan, pointer(state), here, 0.0, 0.0)
     schedule = Schedule(pointer(sections), len(sections), changes != 0)
+    if flow.too_much_work(plan, schedule.rows[LASTS]) != 0:
+        return first, TOO_MUCH_WORK
     if not changes:  # the clock of a periodic forcing is that of a phase
         schedule.rows[S], schedule.rows[C] = math.sin(phase), math.cos(phase)
     if len(lines) > 0:

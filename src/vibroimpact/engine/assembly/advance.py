@@ -314,6 +314,7 @@ def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Ve
     """See `flow.advance`; a step ends a stretch, too, which is kept in the plan."""
     clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
     load_motion(plan, before, before[clock], before[clock + 1])
+    plan[at.ORDERED_BEFORE] = plan[at.ORDERED]
     event = next_stretch(plan, limit)
     ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
     store_motion(plan, after)

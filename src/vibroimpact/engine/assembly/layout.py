@@ -115,7 +115,9 @@ from vibroimpact.engine import motion
     # What is observed of pairs of bodies.
     DRIFTS,
     DRIFT,
-) = range(90)
+    SEEN,
+    ORDERED_BEFORE,
+) = range(92)
 HEADER = 96
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)

@@ -252,6 +252,7 @@ def make_vector(
     room(at.SLOT_OF, 2 * max(modes, 1))
     room(at.TABLE_ROOM, (8 * 16 + 4) * (width + count + 8) if modes else 0)
     room(at.TABLE, modes * size)
+    room(at.SEEN, (2 * n + 1 + len(drifts)) * 16 * width if modes else 0)
     header[at.LENGTH_OF_PLAN] = end
 
     vector = np.zeros(int(header[at.NUMBERS]))

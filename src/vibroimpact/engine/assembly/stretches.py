@@ -19,12 +19,14 @@ from vibroimpact.engine.assembly.channels import (
     SERIES,
     VELOCITY,
     close_stretch,
+    drift_ends,
     evaluate,
+    observed,
     piece_length,
     pieces,
 )
 from vibroimpact.engine.assembly.events import LEVELS, closing
-from vibroimpact.engine.assembly.measures import extend_range, force_on_base, stops_of
+from vibroimpact.engine.assembly.measures import extend_range, staying, stops_of
 from vibroimpact.engine.assembly.mode import hold
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
@@ -50,21 +52,20 @@ def width(plan: Vector) -> int:
 
 
 @kernel
-def drift_ends(plan: Vector, k: int) -> tuple[int, int]:
-    """The bodies of a drift; n is the ground."""
-    one = int(plan[at.DRIFT]) + k * at.DRIFT_WIDTH
-    return int(plan[one + at.DRIFT_LEFT]), int(plan[one + at.DRIFT_RIGHT])
+def _range_of(plan: Vector, c: int) -> int:
+    """Where in a row the range of an observed channel stands."""
+    n = int(plan[at.MASSES])
+    if c < n:
+        return SYSTEM + MASS * c + phases.U_LEAST
+    if c < 2 * n:
+        return SYSTEM + MASS * (c - n) + phases.A_LEAST
+    if c == 2 * n:
+        return phases.CARRIED_LEAST
+    drift = SYSTEM + MASS * n + STOP * stops_of(plan) + DRIFT * (c - 2 * n - 1)
+    return drift + phases.D_LEAST
 
 
-@kernel
-def _drift(plan: Vector, k: int, a: Vector) -> int:
-    """Write the series of a drift; returns its order."""
-    left, right = drift_ends(plan, k)
-    row, order = 2 * (int(plan[at.MASSES]) + 1), int(plan[at.ORDER])
-    series = int(plan[at.SERIES])
-    for j in range(order + 1):
-        a[j] = plan[series + j * row + right] - plan[series + j * row + left]
-    return order
+_stays = staying(_range_of)
 
 
 @kernel
@@ -85,48 +86,6 @@ def _velocities(plan: Vector, tau: float, v: Vector, waves: Vector) -> None:
             waves[q] = waves[q] * tau + now[q]
 
 
-@apart
-def _add_powers(plan: Vector, series: Any, row: Vector, a: Vector) -> None:
-    """Add the work of the shaking and what is lost on a piece, at the nodes of a quadrature."""
-    n, w, stops = int(plan[at.MASSES]), int(plan[at.WAVES]), stops_of(plan)
-    mode, length = int(plan[at.MODE]), plan[at.PIECE_LENGTH]
-    mass, push, damping = int(plan[at.MASS]), int(plan[at.PUSH]), int(plan[at.DAMPING])
-    v = beyond(plan, int(plan[at.SCRATCH]))
-    waves = beyond(v, n + 1)
-    of_stops = beyond(row, SYSTEM + MASS * n)
-    of_drifts = beyond(of_stops, STOP * stops)
-    for k in range(len(WEIGHTS)):
-        share = WEIGHTS[k] * length
-        _velocities(plan, ABSCISSAE[k], v, waves)
-        for i in range(n):
-            momentum, pushed, damped = 0.0, 0.0, 0.0
-            for j in range(n):
-                momentum += plan[mass + i * n + j] * v[j]
-            for q in range(w):
-                pushed += plan[push + i * w + q] * waves[q]
-            begin, end = int(plan[at.ROWS]) + 2 * i, int(plan[at.ROWS]) + 2 * i + 1
-            for j in range(int(plan[begin]), int(plan[end])):
-                damped += plan[damping + i * n + j] * v[j]
-            row[phases.WORK] += share * momentum * pushed
-            row[phases.LOST] += share * momentum * damped
-        for d in range(int(plan[at.DRIFTS])):
-            left, right = drift_ends(plan, d)
-            rate = v[right] - v[left]
-            dashpot = plan[int(plan[at.DRIFT]) + d * at.DRIFT_WIDTH + at.DRIFT_DAMPING]
-            of_drifts[DRIFT * d + phases.D_LOST] += share * dashpot * rate * rate
-        for f in range(stops):
-            one = int(plan[at.STOP]) + f * at.STOP_WIDTH
-            if mode >> f & 1 == 0 or plan[one + at.KIND] == at.RIGID:
-                continue
-            rate = v[int(plan[one + at.LEFT])] - v[int(plan[one + at.RIGHT])]
-            if plan[one + at.KIND] == at.KELVIN_VOIGT:
-                lost = plan[one + at.STOP_DAMPING] * rate * rate
-            else:  # what it takes up while it is touched, it gives back or loses
-                order = series(plan, FORCE, f, a)
-                lost = rate * evaluate(a, order, ABSCISSAE[k])
-            of_stops[STOP * f + phases.LOSES] += share * lost
-
-
 @kernel
 def _left_without_speed(plan: Vector, fresh: float, f: int) -> bool:
     """Whether the bodies had just left a rigid stop without speed, by what a state says of it."""
@@ -138,35 +97,48 @@ def _left_without_speed(plan: Vector, fresh: float, f: int) -> bool:
     return False
 
 
+@kernel
+def kind_of(plan: Vector, fresh: float) -> float:
+    """What the event is that ends the last stretch; `fresh` as of the state before that.
+
+    Where bodies come to rest on a rigid stop, an impact comes first, unless they have no speed any
+    more.
+    """
+    n, f, event = int(plan[at.MASSES]), int(plan[at.EVENT_STOP]), int(plan[at.EVENT])
+    if event != at.IMPACT:
+        return CONTACT_BEGINS if event == at.CONTACT else DETACHMENT
+    if int(plan[at.MODE]) >> f & 1 == 0:
+        return IMPACT
+    v, fastest = beyond(plan, int(plan[at.END]) + n), 0.0
+    for i in range(n):
+        fastest = max(fastest, abs(v[i]))
+    moving = abs(closing(plan, f, v)) > _AT_REST * fastest
+    return IMPACT if moving and not _left_without_speed(plan, fresh, f) else CONTACT_BEGINS
+
+
 @apart
 def _add_event(plan: Vector, before: Vector, row: Vector) -> None:
     """Write what the event is that ends a phase, and what the impact takes.
 
-    Where bodies come to rest on a rigid stop, an impact comes first, unless they have no speed any
-    more; other rests that they lean on get impulses, too.
+    Other rests that the bodies lean on get impulses, too.
     """
     n, count, f = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.EVENT_STOP])
-    event, mode = int(plan[at.EVENT]), int(plan[at.MODE])
-    row[phases.KIND], row[phases.AT_STOP] = DETACHMENT, float(f)
-    if event == at.CONTACT:
-        row[phases.KIND] = CONTACT_BEGINS
-    if event != at.IMPACT:
+    row[phases.KIND], row[phases.AT_STOP] = kind_of(plan, before[FRESH]), float(f)
+    if int(plan[at.EVENT]) != at.IMPACT:
         return
     ahead, behind = beyond(plan, int(plan[at.END]) + n), beyond(plan, int(plan[at.Y]) + n)
     room = beyond(plan, int(plan[at.SCRATCH]))
     change, impulses = room, beyond(room, n)
-    fastest, lost = 0.0, 0.0
+    lost = 0.0
     for i in range(n):
         change[i] = ahead[i] - behind[i]
-        fastest = max(fastest, abs(ahead[i]))
     for i in range(n):
         for j in range(n):
             mass = plan[int(plan[at.MASS]) + i * n + j]
             lost += 0.5 * change[i] * mass * (ahead[j] + behind[j])
     of_stops = beyond(row, SYSTEM + MASS * n)
-    rests = mode >> f & 1 == 1
     struck = closing(plan, f, change) / plan[int(plan[at.COUPLING]) + f * count + f]
-    if rests:
+    if int(plan[at.MODE]) >> f & 1:
         listed = int(plan[at.RESTING_LIST])
         for j in range(int(plan[at.RESTING])):
             impulses[j] = closing(plan, int(plan[listed + j]), change)
@@ -177,12 +149,9 @@ def _add_event(plan: Vector, before: Vector, row: Vector) -> None:
                 struck = impulses[j]
             elif plan[int(plan[at.STOP]) + g * at.STOP_WIDTH + at.KIND] == at.RIGID:
                 of_stops[STOP * g + phases.IMPULSE] += impulses[j]
-    moving = abs(closing(plan, f, ahead)) > _AT_REST * fastest
-    if rests and (not moving or _left_without_speed(plan, before[FRESH], f)):
-        row[phases.KIND] = CONTACT_BEGINS
-        return
-    row[phases.KIND], row[phases.STRUCK] = IMPACT, struck
-    of_stops[STOP * f + phases.HIT] = lost
+    if row[phases.KIND] == IMPACT:
+        row[phases.STRUCK] = struck
+        of_stops[STOP * f + phases.HIT] = lost
 
 
 @apart
@@ -213,33 +182,77 @@ def _add_ends(plan: Vector, row: Vector) -> None:
         stop[phases.CLOSING] = speed
 
 
+def _powers(channels: Any) -> Any:
+    """Make what adds the powers on a piece, with what the stretches of a flow show."""
+    series = channels.series
+
+    def add_powers(plan: Vector, row: Vector, a: Vector) -> None:
+        """Add the work of the shaking and what is lost on a piece, at the nodes of a quadrature."""
+        n, w, stops = int(plan[at.MASSES]), int(plan[at.WAVES]), stops_of(plan)
+        mode, length = int(plan[at.MODE]), plan[at.PIECE_LENGTH]
+        mass, push, damping = int(plan[at.MASS]), int(plan[at.PUSH]), int(plan[at.DAMPING])
+        v = beyond(plan, int(plan[at.SCRATCH]))
+        waves = beyond(v, n + 1)
+        of_stops = beyond(row, SYSTEM + MASS * n)
+        of_drifts = beyond(of_stops, STOP * stops)
+        for k in range(len(WEIGHTS)):
+            share = WEIGHTS[k] * length
+            _velocities(plan, ABSCISSAE[k], v, waves)
+            for i in range(n):
+                momentum, pushed, damped = 0.0, 0.0, 0.0
+                for j in range(n):
+                    momentum += plan[mass + i * n + j] * v[j]
+                for q in range(w):
+                    pushed += plan[push + i * w + q] * waves[q]
+                begin, end = int(plan[at.ROWS]) + 2 * i, int(plan[at.ROWS]) + 2 * i + 1
+                for j in range(int(plan[begin]), int(plan[end])):
+                    damped += plan[damping + i * n + j] * v[j]
+                row[phases.WORK] += share * momentum * pushed
+                row[phases.LOST] += share * momentum * damped
+            for d in range(int(plan[at.DRIFTS])):
+                left, right = drift_ends(plan, d)
+                rate = v[right] - v[left]
+                dashpot = plan[int(plan[at.DRIFT]) + d * at.DRIFT_WIDTH + at.DRIFT_DAMPING]
+                of_drifts[DRIFT * d + phases.D_LOST] += share * dashpot * rate * rate
+            for f in range(stops):
+                one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+                if mode >> f & 1 == 0 or plan[one + at.KIND] == at.RIGID:
+                    continue
+                rate = v[int(plan[one + at.LEFT])] - v[int(plan[one + at.RIGHT])]
+                if plan[one + at.KIND] == at.KELVIN_VOIGT:
+                    lost = plan[one + at.STOP_DAMPING] * rate * rate
+                else:  # what it takes up while it is touched, it gives back or loses
+                    order = series(plan, FORCE, f, a)
+                    lost = rate * evaluate(a, order, ABSCISSAE[k])
+                of_stops[STOP * f + phases.LOSES] += share * lost
+
+    return apart(add_powers)
+
+
 def measuring(channels: Any) -> Any:
     """Make what adds a stretch of a flow to a row, with what its stretches show.
 
-    It is called with the plan, the state before the stretch, whether energies are looked for, and
-    the row.
+    It is called with the plan, the state before the stretch, whether more than ranges, impulses and
+    impacts is looked for, and the row.
     """
     open_stretch, open_piece, series = channels.open_stretch, channels.open_piece, channels.series
+    add_powers = _powers(channels)
 
     def measure(plan: Vector, before: Vector, everything: bool, row: Vector) -> None:
         n, stops, mode = int(plan[at.MASSES]), stops_of(plan), int(plan[at.STRETCH_MODE])
         a, b, range_ = _series_room(), _series_room(), _range_room()
         of_stops = beyond(row, SYSTEM + MASS * n)
-        of_drifts = beyond(of_stops, STOP * stops)
-        open_stretch(plan)
-        for piece in range(pieces(plan) if plan[at.LENGTH] > 0.0 else 0):
+        count = 2 * n + 1 + int(plan[at.DRIFTS])
+        left = pieces(plan) if plan[at.LENGTH] > 0.0 else 0
+        if not everything and _stays(plan, count, row):
+            left = 0
+        if left > 0:
+            open_stretch(plan)
+        for piece in range(left):
             open_piece(plan, piece)
-            for i in range(n):
-                mass = beyond(row, SYSTEM + MASS * i)
-                order = series(plan, DISPLACEMENT, i, a)
-                extend_range(plan, a, order, beyond(mass, phases.U_LEAST))
-                order = series(plan, ABSOLUTE_ACCELERATION, i, a)
-                extend_range(plan, a, order, beyond(mass, phases.A_LEAST))
-            for d in range(int(plan[at.DRIFTS])):
-                order = _drift(plan, d, a)
-                extend_range(plan, a, order, beyond(of_drifts, DRIFT * d + phases.D_LEAST))
-            order = force_on_base(plan, a, b)
-            extend_range(plan, b, order, beyond(row, phases.CARRIED_LEAST))
+            for c in range(count):
+                order = observed(plan, c, a, b)
+                extend_range(plan, b, order, beyond(row, _range_of(plan, c)))
             for f in range(stops):
                 if mode >> f & 1 == 0:
                     continue
@@ -255,9 +268,11 @@ def measuring(channels: Any) -> Any:
                 extend_range(plan, a, order, range_)
                 stop[phases.DEPTH] = range_[1]
             if everything:
-                _add_powers(plan, series, row, a)
-        close_stretch(plan)
-        _add_ends(plan, row)
+                add_powers(plan, row, a)
+        if left > 0:
+            close_stretch(plan)
+        if everything:
+            _add_ends(plan, row)
         if int(plan[at.EVENT_STOP]) >= 0 and int(plan[at.EVENT]) != at.TURN:
             _add_event(plan, before, row)
 

@@ -9,6 +9,7 @@ from vibroimpact.engine.assembly import channels, measures, section, stretches
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly import tangent as disturbances
 from vibroimpact.engine.assembly.free_motion import stays_free as in_closed_form
+from vibroimpact.engine.assembly.record import recording
 from vibroimpact.engine.jit import Vector, kernel
 
 begin, build, advance, cycle = motion.begin, motion.build, motion.advance, motion.cycle
@@ -23,6 +24,7 @@ disturb, place, point, at_point = (
 mirror = section.mirror
 start_demand = stretches.start_demand
 _measure = stretches.measuring(channels)
+_write_down, write = recording(motion, channels)
 _demand, _integrate = stretches.demanding(_measure), stretches.integrating(channels)
 
 
@@ -137,3 +139,17 @@ def integrate(
 ) -> None:
     """See `flow.integrate`."""
     _integrate(plan, ended, notes, lines, out)
+
+
+@kernel
+def record(
+    plan: Vector,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
+    samples: Vector,
+    events: Vector,
+) -> None:
+    """See `flow.record`."""
+    _write_down(plan, before, ended, notes, samples, events)

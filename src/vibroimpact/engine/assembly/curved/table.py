@@ -8,6 +8,7 @@ from vibroimpact.engine.assembly.curved import advance as motion
 from vibroimpact.engine.assembly.curved import channels
 from vibroimpact.engine.assembly.curved import section as curved
 from vibroimpact.engine.assembly.curved import tangent as disturbances
+from vibroimpact.engine.assembly.record import recording
 from vibroimpact.engine.event_loop import unobserved
 from vibroimpact.engine.jit import Vector, kernel
 
@@ -21,6 +22,7 @@ units, disturb, place, at_point = curved.units, curved.disturb, curved.place, cu
 start_demand = stretches.start_demand
 _observed = measures.observing(channels)
 _measure = stretches.measuring(channels)
+_write_down, write = recording(motion, channels)
 _demand, _integrate = stretches.demanding(_measure), stretches.integrating(channels)
 
 
@@ -95,3 +97,17 @@ def integrate(
 ) -> None:
     """See `flow.integrate`."""
     _integrate(plan, ended, notes, lines, out)
+
+
+@kernel
+def record(
+    plan: Vector,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
+    samples: Vector,
+    events: Vector,
+) -> None:
+    """See `flow.record`."""
+    _write_down(plan, before, ended, notes, samples, events)
