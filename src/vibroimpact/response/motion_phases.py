@@ -197,7 +197,7 @@ class Course(NamedTuple):
     ) -> tuple[Status, _Array]:
         """Return the rows of its phases; the state is carried on."""
         of = self.layout
-        notes, rows = np.zeros(layout.NOTES), np.empty((1024, of.width))
+        notes, rows = np.zeros(layout.NOTES), np.full((1024, of.width), np.nan)
         notes[layout.WIDTH], notes[layout.MASSES] = of.width, of.masses
         notes[layout.DRIFTS] = of.drifts
 
