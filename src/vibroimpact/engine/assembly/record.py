@@ -10,6 +10,7 @@ import math
 from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.advance import load_motion
 from vibroimpact.engine.assembly.channels import (
     ABSOLUTE_ACCELERATION,
     CLEARANCE,
@@ -60,10 +61,9 @@ def event_width(masses: int) -> int:
     return E_MASSES + 3 * masses
 
 
-def recording(flow: Any, channels: Any) -> tuple[Any, Any]:
+def recording(next_stretch: Any, channels: Any) -> tuple[Any, Any]:
     """Make what writes down a stretch of a flow, and what writes one state as a sample."""
     open_stretch, open_piece, value = channels.open_stretch, channels.open_piece, channels.value
-    load_motion, next_stretch = flow.load_motion, flow.next_stretch
 
     def put(plan: Vector, tau: float, samples: Vector, columns: int, k: int) -> None:
         row = k

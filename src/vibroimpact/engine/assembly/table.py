@@ -24,7 +24,7 @@ disturb, place, point, at_point = (
 mirror = section.mirror
 start_demand = stretches.start_demand
 _measure = stretches.measuring(channels)
-_write_down, write = recording(motion, channels)
+_write_down, write = recording(motion.next_stretch, channels)
 _demand, _integrate = stretches.demanding(_measure), stretches.integrating(channels)
 
 

@@ -22,7 +22,7 @@ units, disturb, place, at_point = curved.units, curved.disturb, curved.place, cu
 start_demand = stretches.start_demand
 _observed = measures.observing(channels)
 _measure = stretches.measuring(channels)
-_write_down, write = recording(motion, channels)
+_write_down, write = recording(motion.next_stretch, channels)
 _demand, _integrate = stretches.demanding(_measure), stretches.integrating(channels)
 
 
