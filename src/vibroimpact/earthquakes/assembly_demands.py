@@ -98,7 +98,7 @@ def follow_all(
     workers: Workers,
     progress: Progress | None,
 ) -> list[Found]:
-    """Follow assemblies through records from rest, and return what is found, run by run."""
+    """Follow assemblies through records from rest; returns the result of each run."""
     vectors = []
     for one in runs:
         check_laws(one.assembly)

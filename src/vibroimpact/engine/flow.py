@@ -349,7 +349,7 @@ def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vec
 
 @_function(_MEASURED, types.void, P, _N)
 def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
-    """Begin the notes of `demand`; whether energies are looked for stands behind them."""
+    """Begin the notes of `demand`; the number after them says whether energies are looked for."""
 
 
 @_function(_MEASURED, types.void, P, P, P, P)

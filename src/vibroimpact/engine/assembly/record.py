@@ -42,8 +42,8 @@ from vibroimpact.engine.state import EVENT, FRESH, STEP, T
 
 E_CYCLE, E_TIME, E_KIND, E_STOP, E_BEFORE, E_BEHIND, E_ORDERED = range(7)
 """Columns of an event: its section, the time since, what happens at which stop (`observers.record`;
-CONTACT_BEGINS at a rigid stop is a rest without an impact), the modes before and behind it, and
-whether a rule ordered it among impacts. Displacements, velocities just before it and behind it
+CONTACT_BEGINS at a rigid stop is a rest without an impact), the modes before and after it, and
+whether a rule ordered it among impacts. Displacements, velocities just before it and just after it
 follow."""
 E_MASSES = 7
 

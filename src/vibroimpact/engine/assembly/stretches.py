@@ -70,7 +70,7 @@ _stays = staying(_range_of)
 
 @kernel
 def _velocities(plan: Vector, tau: float, v: Vector, waves: Vector) -> None:
-    """Write the velocities, and that of the ground behind them, and the forcing on a piece."""
+    """Write the velocities, then that of the ground, and the forcing on a piece."""
     n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
     row, order = 2 * (n + 1), int(plan[at.ORDER])
     series, forced = int(plan[at.SERIES]) + n + 1, int(plan[at.WAVE_SERIES])
@@ -310,7 +310,7 @@ def demanding(measure: Any) -> Any:
 def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
     """Begin the row of a whole motion.
 
-    Behind it stand the contacts begun at each stop, and whether energies are looked for. Impulses
+    Then come the contacts begun at each stop, and whether energies are looked for. Impulses
     and losses of impacts are added to those of the stop.
     """
     whole, stops = width(plan), stops_of(plan)
