@@ -48,7 +48,7 @@ follow."""
 E_MASSES = 7
 
 _FEW = 64
-"""Events at one instant, at most, behind which a state is written."""
+"""Events at one instant, at most, after which a state is written."""
 
 
 def samples_of(masses: int, stops: int) -> int:
