@@ -101,6 +101,17 @@ def test_peaks_without_contact_are_those_of_modal_superposition() -> None:
             assert found[name].values[i] == pytest.approx(peak, rel=1e-12)
 
 
+def test_peaks_by_tables_are_those_of_whole_phases() -> None:
+    """`demands` leaves out what widens no range, `seismic_response` measures every stretch."""
+    for system in (neighbours(), vi.chain([3.0] * 4, [900.0] * 4, 0.02)):
+        peaks = vi.seismic_response(vi.Rig(system, QUAKE), tail=1.0)
+        found = vi.demands(system, QUAKE, tail=1.0, threads=1).isel(record=0, scale=0)
+        for name in ("peak_displacement", "peak_acceleration", "peak_drift", "displacement_min",
+                     "drift_max", "impulse", "peak_force", "peak_transmitted_force"):  # fmt: skip
+            np.testing.assert_allclose(found[name], peaks[name], rtol=1e-12)
+        assert (found["impact_count"] == peaks["impact_count"]).all()
+
+
 def test_demands_are_those_of_the_oscillator() -> None:
     single, assembly = one_mass(BUMPER, LIVELY)
     records = {"quake": QUAKE, "half": QUAKE.scaled(0.5)}

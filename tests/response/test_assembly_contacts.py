@@ -155,6 +155,19 @@ def test_totals_of_a_steady_motion_are_those_of_its_sweep(stop: object) -> None:
     assert lost == pytest.approx(float(found["total_stops"].sum()), rel=1e-9)
 
 
+def test_bodies_that_stop_at_once_leave_no_extreme_unknown() -> None:
+    """Without restitution an impact and the rest after it are at one instant."""
+    motion = vi.simulate(
+        vi.Rig(frame(vi.RigidStop(0.0, 0.012)), vi.Harmonic("1 m/s2", 0.9)), 8, samples=64
+    )
+    found = vi.totals(motion)
+    assert (found["impact_count"] > 2.0).all()
+    sampled = abs(motion["acceleration"]).max("time")
+    assert (found["peak_acceleration"] >= sampled * (1.0 - 1e-9)).all()
+    assert float(found["peak_transmitted_force"]) >= float(abs(motion["transmitted_force"]).max())
+    balance(found)
+
+
 def test_impacts_of_an_impact_damper_are_those_of_its_formula() -> None:
     zeta, mu, e, d, speed = 0.01, 0.05, 0.75, 30.0, 14.78340654
     rig = damper(zeta=zeta, mass=mu, e=e, clearance=d)

@@ -9,18 +9,16 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.earthquakes.free_vibration import free_tail
+from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, follow_all
+from vibroimpact.earthquakes.peak_demands import MAX_EVENTS
 from vibroimpact.earthquakes.suites import quantiles
+from vibroimpact.engine.assembly.plan import Drift
+from vibroimpact.engine.observers import phases
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Harmonic, Record, equilibrium
-from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_contacts import coordinates
-from vibroimpact.response.assembly_motion import sections_of, too_much_work
-from vibroimpact.response.assembly_phases import MAX_EVENTS, Measurer
-from vibroimpact.response.assembly_pieces import NODES_OF_RANGES
-from vibroimpact.response.assembly_state import assembly_vector
-from vibroimpact.tasks.threads import Progress, Tally, Workers, each
+from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]
 
@@ -51,27 +49,20 @@ def gaps_for_records(
     InputError
         If the motion without stops cannot be computed.
     """
-    closing = _closing(assembly)
+    _closing(assembly)
     free = assembly.without_stops()
-
-    def task(record: Record, tally: Tally) -> tuple[Status, _Array]:
-        if too_much_work(free, record, record.step):
-            return Status.TOO_MUCH_WORK, np.full(len(closing), np.nan)
-        after = free_tail(Rig(free, record)) if tail is None else tail
-        measurer = Measurer(free, record, MAX_EVENTS, NODES_OF_RANGES, closing)
-        state = assembly_vector(free, equilibrium(free))
-        found = measurer.follow(state, sections_of(record, after, 0.0))
-        return found.status, found.drift[..., 1].max(axis=0, initial=-math.inf)
-
-    found = each(task, list(records.values()), threads=workers, progress=progress)
-    for status, _ in found:
+    # What closes at a stop is the drift of its bodies the other way.
+    closing = [Drift(*assembly.ends(stop)[::-1]) for stop in assembly.stops.values()]
+    runs = [AssemblyRuns(free, record, np.ones(1), closing) for record in records.values()]
+    found = follow_all(runs, tail, MAX_EVENTS, workers, progress)
+    for (status,) in (one.status for one in found):
         if status is Status.NOT_FINITE:
             raise InputError(_GROWS)
         if status is not Status.DONE:
             raise InputError(
                 f"shaking: the motion without stops could not be computed: {status.advice}"
             )
-    reached = np.array([one for _, one in found])
+    reached = np.array([one.of_drift(phases.D_MOST)[0] for one in found])
     (gap,) = quantiles(reached, [fractile], 0)
     return xr.Dataset(
         {"required_gap": ("stop", gap), "peak_closing": (("record", "stop"), reached)},

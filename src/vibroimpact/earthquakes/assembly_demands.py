@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,16 +11,20 @@ from numpy.typing import NDArray
 
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.run_plan import Runs
+from vibroimpact.engine import earthquakes, sections
+from vibroimpact.engine.assembly.plan import Drift
+from vibroimpact.engine.observers import phases
+from vibroimpact.engine.observers.phases import Layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Record, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_contacts import coordinates, energies, extremes
-from vibroimpact.response.assembly_motion import sections_of, too_much_work
-from vibroimpact.response.assembly_phases import Measurer
-from vibroimpact.response.assembly_pieces import NODES, NODES_OF_RANGES
-from vibroimpact.response.assembly_rig import check_laws
+from vibroimpact.response.assembly_phases import AssemblyPhases, phases_layout
+from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
 from vibroimpact.response.assembly_state import assembly_vector
+from vibroimpact.response.motion_phases import Course, Followed
+from vibroimpact.response.record_history import straight
 from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
@@ -48,42 +52,125 @@ ENERGIES = {
 }
 
 
-class AssemblyRun(NamedTuple):
-    """An assembly, a record, and the number that the record is multiplied by."""
+class AssemblyRuns(NamedTuple):
+    """An assembly, a record, the numbers that it is multiplied by, and the drifts that are seen."""
 
     assembly: Assembly
     record: Record
-    factor: float = 1.0
+    factors: _Array
+    drifts: Sequence[Drift] | None = None
+    """Default: those of the links."""
 
 
-def response(
-    run: AssemblyRun,
+class Found(NamedTuple):
+    """What the engine found of runs."""
+
+    rows: _Array
+    """As of a phase, a row for each factor (`engine.assembly.stretches`)."""
+    layout: Layout
+    status: list[Status]
+
+    def of_mass(self, column: int) -> _Array:
+        """Return a column of each mass, shape (factor, mass)."""
+        of = self.layout
+        return self.rows[:, of.mass(column) : of.mass(0, of.masses) : phases.MASS]
+
+    def of_stop(self, column: int) -> _Array:
+        """Return a column of each stop, shape (factor, stop)."""
+        of = self.layout
+        return self.rows[:, of.stop(column, 0) : of.stop(0, of.stops) : phases.STOP]
+
+    def of_drift(self, column: int) -> _Array:
+        """Return a column of each drift, shape (factor, drift)."""
+        of = self.layout
+        return self.rows[:, of.drift(column, 0) : of.drift(0, of.drifts) : phases.DRIFT]
+
+    @property
+    def impact_count(self) -> _Array:
+        """Contacts begun, of rigid stops impacts, shape (factor, stop)."""
+        return self.rows[:, self.layout.width :][:, : self.layout.stops]
+
+
+def follow_all(
+    runs: Sequence[AssemblyRuns],
     tail: float | None,
     max_events: int,
-    *,
-    with_energies: bool = False,
-    told: Callable[[int], None] | None = None,
-) -> tuple[Status, dict[str, Any]]:
-    """Return how a run ended, and its peaks (and energies) as variables; NaN if it was given up."""
-    assembly, factor = run.assembly, run.factor
-    record = run.record if factor == 1.0 else run.record.scaled(factor)
-    after = free_tail(Rig(assembly, record)) if tail is None else tail
-    if too_much_work(assembly, record, record.step):
-        return Status.TOO_MUCH_WORK, _nothing(assembly, with_energies)
-    nodes = NODES if with_energies else NODES_OF_RANGES
-    measurer = Measurer(assembly, record, max_events, nodes)
-    state = assembly_vector(assembly, equilibrium(assembly))
-    found = measurer.follow(state, sections_of(record, after, 0.0), told)
-    if found.status is not Status.DONE:
-        return found.status, _nothing(assembly, with_energies)
-    every = extremes(found, measurer.parts)
-    values = {name: every[name] for name in PEAKS}
-    return found.status, values | (energies(found, measurer.parts) if with_energies else {})
+    workers: Workers,
+    progress: Progress | None,
+) -> list[Found]:
+    """Follow assemblies through records from rest; returns the result of each run."""
+    vectors = []
+    for one in runs:
+        check_laws(one.assembly)
+        vectors.append(assembly_numbers(one.assembly, one.record, tables=True, drifts=one.drifts))
+    earthquakes.respond.prepare(*vectors)
+    count = sum(len(one.factors) for one in runs)
+    steps = sum(len(one.factors) * (len(one.record.acceleration) - 1) for one in runs)
+
+    def task(number: int, tally: Tally) -> Found:
+        assembly, record, factors, drifts = runs[number]
+        of = Layout(
+            len(assembly.names),
+            len(assembly.stops),
+            len(assembly.links) if drifts is None else len(drifts),
+        )
+        rows = np.empty((len(factors), of.width + of.stops + earthquakes.BEHIND))
+        earthquakes.respond(
+            vectors[number],
+            np.array(record.acceleration),  # which is not to be written to: another type, refused
+            record.step,
+            np.array(factors, dtype=np.float64),
+            free_tail(Rig(assembly, record)) if tail is None else tail,
+            assembly_vector(assembly, equilibrium(assembly)),
+            max_events,
+            0,
+            0.0,
+            0,
+            0.0,
+            tally,
+            np.empty((len(record.acceleration) - 1, sections.ROW)),
+            rows,
+        )
+        status = [Status(int(code)) for code in rows[:, earthquakes.OUTCOME]]
+        return Found(rows, of, status)
+
+    def told(done: int, total: int | None) -> None:
+        assert progress is not None
+        progress(done * count // (total or 1), count)
+
+    return each(
+        task,
+        range(len(runs)),
+        steps=steps,
+        threads=workers,
+        progress=None if progress is None else told,
+    )
 
 
-def _nothing(assembly: Assembly, with_energies: bool) -> dict[str, Any]:
+def _variables(found: Found) -> dict[str, _Array]:
+    """Return the peaks of runs, shape (factor, mass, link or stop)."""
+    low, high = found.of_mass(phases.U_LEAST), found.of_mass(phases.U_MOST)
+    felt = np.maximum(-found.of_mass(phases.A_LEAST), found.of_mass(phases.A_MOST))
+    closes, opens = found.of_drift(phases.D_LEAST), found.of_drift(phases.D_MOST)
+    carried = found.rows[:, [phases.CARRIED_LEAST, phases.CARRIED_MOST]]
+    return {
+        "peak_displacement": np.maximum(-low, high),
+        "displacement_max": high,
+        "displacement_min": low,
+        "peak_acceleration": felt,
+        "peak_drift": np.maximum(-closes, opens),
+        "drift_max": opens,
+        "drift_min": closes,
+        "peak_force": found.of_stop(phases.FORCE),
+        "impulse": found.of_stop(phases.IMPULSE),
+        "impact_count": found.impact_count,
+        "peak_transmitted_force": np.abs(carried).max(axis=1),
+    }
+
+
+def _nothing(assembly: Assembly) -> dict[str, Any]:
     sizes = {name: len(found) for name, found in coordinates(assembly).items()}
-    names = PEAKS | (ENERGIES if with_energies else {})
+    names = PEAKS | ENERGIES
     return {
         name: (dim, np.full(sizes[dim], np.nan)) if dim else ((), np.nan)
         for name, dim in names.items()
@@ -144,25 +231,22 @@ def demands_of_assemblies(
     places = list(np.ndindex(*rigs.shape))
     systems = [rigs.system(at) for at in places]
     items = [
-        AssemblyRun(system, record, float(factor))  # type: ignore[arg-type]
+        AssemblyRuns(system, record, row)  # type: ignore[arg-type]
         for record, row in zip(records, factors, strict=True)
-        for factor in row
         for system in systems
     ]
-
-    def task(item: AssemblyRun, tally: Tally) -> tuple[Status, dict[str, Any]]:
-        return response(item, tail, max_events)
-
-    found = each(task, items, threads=workers, progress=progress)
-    shape = (*factors.shape, *rigs.shape)
+    found = follow_all(items, tail, max_events, workers, progress)
+    shape = (len(records), *rigs.shape, factors.shape[1])
+    scale = len(shape) - 1
     dims = ("record", "scale", *rigs.dims)
+    columns = [_variables(one) for one in found]
     variables: dict[str, Any] = {}
     for name, dim in PEAKS.items():
-        columns = [values[name][1] for _, values in found]
-        whole = np.array(columns).reshape(*shape, *np.shape(columns[0]))
+        whole = np.array([one[name] for one in columns])
+        whole = np.moveaxis(whole.reshape(*shape, *whole.shape[2:]), scale, 1)
         variables[name] = ((*dims, dim) if dim else dims, whole)
-    statuses = [int(status) for status, _ in found]
-    variables["status"] = (dims, np.array(statuses, dtype=np.int64).reshape(shape))
+    statuses = np.array([[int(code) for code in one.status] for one in found], dtype=np.int64)
+    variables["status"] = (dims, np.moveaxis(statuses.reshape(shape), scale, 1))
     return variables, coordinates(first)
 
 
@@ -173,15 +257,19 @@ def seismic_response_of_assembly(
     assembly, record = rig.system, rig.record
     assert isinstance(assembly, Assembly)
     check_laws(assembly)
-    lines = len(sections_of(record, tail, 0.0).lines)
-
-    def told(done: int) -> None:
-        if progress is not None:
-            progress(min(done, lines), lines)
-
-    status, values = response(
-        AssemblyRun(assembly, record), tail, max_events, with_energies=True, told=told
+    begin = assembly_vector(assembly, equilibrium(assembly))
+    final, lines = begin.copy(), straight(record, tail)
+    vector = assembly_numbers(assembly, record, tables=True)
+    course = Course(
+        vector, record.peak, 0.0, 0.0, lines, True, final, len(lines), phases_layout(assembly)
     )
+    status, rows = course.measured(max_events, progress)
+    values = _nothing(assembly)
+    if status is Status.DONE:
+        nothing = np.empty(0)
+        found = AssemblyPhases(assembly, Followed(status, rows, nothing, nothing), begin, final)
+        peaks = extremes(found)
+        values = {name: peaks[name] for name in PEAKS} | energies(found)
     data = xr.Dataset(values, coordinates(assembly))
     data["status"] = int(status)
     return status, data

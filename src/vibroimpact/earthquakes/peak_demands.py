@@ -45,6 +45,9 @@ RESIDUALS = ("residual_displacement", "residual_swing")
 MAX_EVENTS = 10_000
 """Contacts and detachments in a step of a record at which a motion is given up."""
 
+_FOUND = demand.EVERYTHING + found.BEHIND
+"""What the engine finds of a run."""
+
 _AT_ONCE = 64
 """Scales of one call of the engine, at most."""
 
@@ -97,7 +100,7 @@ def peaks(
         the left side as a further axis, 0 where the rig has no stop.
     """
     count = len(shaken[0].factors) if shaken else 0
-    rows = np.full((len(shaken), count, found.FOUND), np.nan)
+    rows = np.full((len(shaken), count, _FOUND), np.nan)
     workers = breadth(threads)
     # Few rigs with many scales are dealt out, too.
     few = max(1, min(_AT_ONCE, -(-count * len(shaken) // (4 * workers))))
@@ -112,7 +115,7 @@ def peaks(
 
     def task(item: tuple[Shaken, _Array, _Array], tally: Tally) -> _Array:
         (rig, record, factors), vector, start = item
-        mine = np.empty((len(factors), found.FOUND))
+        mine = np.empty((len(factors), _FOUND))
         rests = residuals and settles(rig)
         found.respond(
             vector,

@@ -17,22 +17,15 @@ from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.motion import U
-from vibroimpact.engine.observers.demand import (
-    EVERYTHING,
-    LOST_STOPS,
-    WORK,
-    note_room,
-    start_notes,
-)
-from vibroimpact.engine.observers.extremes import U_LEAST, U_MOST
+from vibroimpact.engine.observers.extremes import U_LEAST, U_MOST, notes_room
 from vibroimpact.engine.sections import LASTS, C, S, Schedule, observed, row_room
 from vibroimpact.engine.state import load, room
 from vibroimpact.engine.status import DONE, STOPPED, TOO_MUCH_WORK
 
-# What is found of a run, the observer's numbers first; then where the mass comes to rest, half the
+# What is found of a run: the notes of `flow.demand`, then where one mass comes to rest, half the
 # width of its last swing about that place (m), and how the run ended, a `Status`.
-REST, SWING, OUTCOME = range(EVERYTHING, EVERYTHING + 3)
-FOUND = EVERYTHING + 3
+REST, SWING, OUTCOME = range(-3, 0)
+BEHIND = 3
 
 _SHORT = 1e-9
 """Share of a step that is none."""
@@ -66,28 +59,35 @@ def _shaken(
     return outcome
 
 
-@kernel
-def _freely(
-    plan: Vector,
-    state: Vector,
-    step: float,
-    length: float,
-    max_events: int,
-    notes: Vector,
-    counter: NDArray[Any],
-) -> int:
-    """While the base stands still."""
-    row = row_room()
-    row[S], row[C], row[LASTS] = 0.0, 0.0, step
-    still = Schedule(row, 1, True)
-    whole = int(length / step)
-    rest = length - whole * step
-    last = float(whole)
-    _, outcome = follow(plan, state, still, 0, last, max_events, notes, counter)
-    if outcome == DONE and rest > _SHORT * step:
-        row[LASTS] = rest
-        _, outcome = follow(plan, state, still, 0, 1.0, max_events, notes, counter)
-    return outcome
+def _free(follow: Any) -> Any:
+    """Make the free motion while the base stands still, of a loop over sections."""
+
+    def freely(
+        plan: Vector,
+        state: Vector,
+        step: float,
+        length: float,
+        max_events: int,
+        notes: Vector,
+        counter: NDArray[Any],
+    ) -> int:
+        row = row_room()
+        row[S], row[C], row[LASTS] = 0.0, 0.0, step
+        still = Schedule(row, 1, True)
+        whole = int(length / step)
+        rest = length - whole * step
+        last = float(whole)
+        _, outcome = follow(plan, state, still, 0, last, max_events, notes, counter)
+        if outcome == DONE and rest > _SHORT * step:
+            row[LASTS] = rest
+            _, outcome = follow(plan, state, still, 0, 1.0, max_events, notes, counter)
+        return int(outcome)
+
+    return kernel(freely)
+
+
+_freely = _free(follow)
+_swing_freely = _free(observed(event_loop.extremes))
 
 
 @kernel
@@ -101,17 +101,17 @@ def _settled(
     max_events: int,
     counter: NDArray[Any],
 ) -> tuple[int, float, float]:
-    """Where the free motion comes to rest, and half the width of its last swing about it.
+    """Where the free motion of one mass comes to rest, and half the width of its last swing.
 
     It is followed block by block until it swings by less than `small`, or by no less than before:
     what nothing damps goes on round the place where it would rest.
     """
     outcome = DONE
-    notes = note_room()
+    notes = notes_room()
     middle, swing = state[U], math.inf
     for _ in range(blocks):
-        start_notes(notes, 0)
-        outcome = _freely(plan, state, step, block, max_events, notes, counter)
+        flow.nothing(plan, notes)
+        outcome = _swing_freely(plan, state, step, block, max_events, notes, counter)
         if outcome != DONE:
             break
         last = swing
@@ -156,7 +156,7 @@ def respond(
         Numbers that the record is multiplied by.
     tail : float
         How long the motion is followed after it (s).
-    state : ndarray, shape (motion.STATE,)
+    state : ndarray, shape (`state.width`,)
         Where the motion starts.
     max_events : int
         Contacts and detachments in one line at which the motion is given up.
@@ -165,22 +165,23 @@ def respond(
     block, blocks, small : float, int, float
         Behind the tail the mass is followed by so many blocks at most, each so long (s), until it
         swings by less than the share `small` of its extremes; with no blocks it is not asked where
-        it rests.
+        it rests; several masses are not.
     counter : ndarray
         [0] counts the lines of the record that are done, once for each scale; not 0 in [1] stops.
     lines : ndarray, shape (len(record) - 1, sections.ROW)
         Room for the record's lines at one scale.
-    out : ndarray, shape (scale, FOUND)
+    out : ndarray, shape (scale, notes of `flow.demand` + BEHIND)
         Written. What is known of a run that was given up is not kept.
     """
     before, count = counter[0], len(lines)
-    here, notes = room(), note_room()
+    here, known = room(), out.shape[1] - BEHIND
     for k in range(len(scales)):
         found = out[k]
-        for i in range(FOUND):
+        notes = pointer(found)
+        for i in range(len(found)):
             found[i] = math.nan
         if counter[1] != 0:
-            found[OUTCOME] = STOPPED
+            found[known + 2] = STOPPED
             continue
         scale = scales[k]
         plan = planned(given, rig)
@@ -192,11 +193,11 @@ def respond(
             steepest = max(steepest, abs(lines[i, C]))
         flow.build(plan, most, steepest / most if most > 0.0 else 0.0)
         if flow.too_much_work(plan, step) != 0:
-            found[OUTCOME] = TOO_MUCH_WORK
+            found[known + 2] = TOO_MUCH_WORK
             counter[0] = before + (k + 1) * count
             continue
         load(plan, pointer(state), here, 0.0, 0.0)
-        start_notes(notes, everything)
+        flow.start_demand(plan, notes, everything)
         outcome = _shaken(plan, here, pointer(lines), count, max_events, notes, counter)
         if outcome == DONE:
             outcome = _freely(plan, here, step, tail, max_events, notes, counter)
@@ -207,9 +208,9 @@ def respond(
                 plan, here, step, block, blocks, size, max_events, counter
             )
         if outcome == DONE:
-            # Energies are not looked for unless everything is.
-            for i in range(LOST_STOPS + 1 if everything else WORK):
-                found[i] = notes[i]
-            found[REST], found[SWING] = middle, swing
-        found[OUTCOME] = outcome
+            found[known], found[known + 1] = middle, swing
+        else:
+            for i in range(len(found)):
+                found[i] = math.nan
+        found[known + 2] = outcome
         counter[0] = before + (k + 1) * count

@@ -25,7 +25,10 @@ class Entry(Compiled):
 
     def __call__(self, rig: Any, *args: Any) -> Any:
         """Run, compiling or loading first what is called for the first time in the process."""
-        plan = plan_of(rig, self.groups)
+        return self.on(plan_of(rig, self.groups), rig, *args)
+
+    def on(self, plan: Any, rig: Any, *args: Any) -> Any:
+        """Run on a plan of the rig (`plan_of`), which keeps what its flow counts."""
         return self.of(plan)(plan, rig, *args)
 
     def prepare(self, *rigs: Any) -> None:

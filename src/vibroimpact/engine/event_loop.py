@@ -13,7 +13,6 @@ from vibroimpact.engine import state as states
 from vibroimpact.engine.event import GIVEN_UP, LIMIT, PASSED, kind_of
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.motion import SETTLING
-from vibroimpact.engine.observers.demand import add
 from vibroimpact.engine.observers.phases import note
 from vibroimpact.engine.state import EVENT, FRESH, STEP, T, room, stretch_room
 
@@ -91,7 +90,7 @@ def observed(observe: Any) -> Any:
 
 unobserved = observed(None)
 extremes = observed(flow.extremes)
-demand = observed(add)
+demand = observed(flow.demand)
 margin = observed(flow.margin)
 record = observed(flow.record)
 tangent = observed(flow.tangent)

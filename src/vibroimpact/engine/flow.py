@@ -347,6 +347,16 @@ def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vec
     """Add a stretch to the row of its phase, see `observers.phases`."""
 
 
+@_function(_MEASURED, types.void, P, _N)
+def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
+    """Begin the notes of `demand`; the number after them says whether energies are looked for."""
+
+
+@_function(_MEASURED, types.void, P, P, P, P)
+def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `observers.demand`."""
+
+
 @_function(_MEASURED, types.void, P, P, P, P, P, P)
 def integrate(
     plan: Vector,

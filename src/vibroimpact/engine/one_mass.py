@@ -27,6 +27,7 @@ from vibroimpact.engine.motion import (
 from vibroimpact.engine.motion import ISOLATOR as MEMORY
 from vibroimpact.engine.motion import U as DISPLACEMENT
 from vibroimpact.engine.motion import V as VELOCITY
+from vibroimpact.engine.observers import demand as demands
 from vibroimpact.engine.observers import record as recording
 from vibroimpact.engine.observers import tangent as disturbances
 from vibroimpact.engine.observers.extremes import (
@@ -342,6 +343,16 @@ def mirror(plan: Vector, state: Vector, q: Vector) -> None:
 @kernel
 def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
     measure_stretch(plan, _stretch(before, ended, after), row)
+
+
+@kernel
+def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
+    demands.start_notes(notes, everything)
+
+
+@kernel
+def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    demands.add(plan, before, ended, after, notes)
 
 
 @kernel

@@ -12,6 +12,7 @@ from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.observers.fourier import BEGINS, INTERVAL
 from vibroimpact.engine.observers.phases import (
+    DRIFTS,
     MASSES,
     NUMBER,
     WIDTH,
@@ -21,8 +22,9 @@ from vibroimpact.engine.observers.phases import (
     put_back,
     save_phase,
 )
-from vibroimpact.engine.sections import FULL, C, Leg, S, Schedule, loop
+from vibroimpact.engine.sections import FULL, LASTS, C, Leg, S, Schedule, loop
 from vibroimpact.engine.state import copy, load, put, room, width
+from vibroimpact.engine.status import TOO_MUCH_WORK
 
 
 class Log(NamedTuple):
@@ -128,13 +130,15 @@ def measure_motion(
     here, log = room(), Log(pointer(notes), pointer(lines), pointer(out))
     load(plan, pointer(state), here, 0.0, 0.0)
     schedule = Schedule(pointer(sections), len(sections), changes != 0)
+    if flow.too_much_work(plan, schedule.rows[LASTS]) != 0:
+        return first, TOO_MUCH_WORK
     if not changes:  # the clock of a periodic forcing is that of a phase
         schedule.rows[S], schedule.rows[C] = math.sin(phase), math.cos(phase)
     if len(lines) > 0:
         ended = _follow_integrated(plan, here, schedule, first, last, max_events, log, None)
     else:
         if first == 0 and notes[WRITTEN] == 0.0:
-            begin_row(log.out, int(notes[MASSES]), int(notes[WIDTH]))
+            begin_row(log.out, int(notes[MASSES]), int(notes[DRIFTS]), int(notes[WIDTH]))
         ended = _follow_measured(plan, here, schedule, first, last, max_events, log, None)
     copy(here, pointer(state), width(plan))
     return ended

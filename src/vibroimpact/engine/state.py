@@ -11,8 +11,10 @@ MODE, FRESH, FIRST = range(3)
 BEHIND = 3
 """Numbers behind the parts: the age of the mode, and the clock."""
 
+MOST_PARTS = 1024
+"""Largest number of parts of a motion that is followed."""
 LARGEST = 64
-"""Largest number of parts."""
+"""Of one that is disturbed, or of whose sections a map is made."""
 
 EVENT, T, STEP, ARRIVAL = range(4)
 """Of a stretch between two states: what ended it, the time since the section at its start (s), its
@@ -27,7 +29,7 @@ MEASURES = 3 * LARGEST + 8
 
 stretch_room = stack(4)
 """Room for them."""
-room = stack(FIRST + LARGEST + BEHIND)
+room = stack(FIRST + MOST_PARTS + BEHIND)
 """Room for a state."""
 parts_room = stack(LARGEST)
 """Room for a number for each part."""

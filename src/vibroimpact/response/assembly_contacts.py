@@ -12,20 +12,21 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, excitation_from, motion_parameters, noted
 from vibroimpact.engine.assembly import layout
-from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, warn_of_result
+from vibroimpact.engine.observers import phases
+from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Record, Repeated, validate
-from vibroimpact.response.assembly_motion import Sections, sections_of
-from vibroimpact.response.assembly_phases import AssemblyParts, Measured, Measurer
-from vibroimpact.response.assembly_pieces import final_mode
+from vibroimpact.response.assembly_phases import AssemblyPhases, phases_layout
+from vibroimpact.response.assembly_rig import assembly_numbers
 from vibroimpact.response.assembly_rows import range_variables
 from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
-from vibroimpact.response.motion_phases import shaken_by
+from vibroimpact.response.motion_phases import (
+    doubts,
+    record_course,
+    repeated_course,
+    shaken_by,
+)
 
 _Array = NDArray[np.float64]
-
-_DEPARTED = 1e-6
-"""Share of the largest displacement by which the end of a motion may differ from its record."""
 
 
 class Origin(NamedTuple):
@@ -66,62 +67,29 @@ def assembly_origin(motion: xr.Dataset) -> Origin:
     return Origin(assembly, excitation_from(given), periodic)
 
 
-def _measured(motion: xr.Dataset, origin: Origin) -> tuple[Measured, list[str]]:
-    """Follow a recorded motion again, and measure its pieces; with notes of doubt."""
+def _measured(motion: xr.Dataset, origin: Origin) -> tuple[AssemblyPhases, list[str]]:
+    """Follow a recorded motion again, and measure its phases; with notes of doubt."""
     assembly, shaking = origin.assembly, origin.shaking
-    state = as_assembly_state(motion["initial_state"], assembly)
-    vector = assembly_vector(assembly, state)
-    measurer = Measurer(assembly, shaking)
+    begin = assembly_vector(assembly, as_assembly_state(motion["initial_state"], assembly))
+    final, of = begin.copy(), phases_layout(assembly)
+    rig = assembly_numbers(assembly, shaking)
     if isinstance(shaking, Record):
-        tail = float(motion_parameters(motion)["tail"])
-        sections = _cut(sections_of(shaking, tail, 0.0), motion)
+        course = record_course(motion, shaking, rig, final, of)
     else:
-        first, last = (float(motion["cycle"].values[end]) for end in (0, -1))
-        phase = shaking.phase
-        if first > 0.0:  # its first samples were cut off
-            measurer.follow(vector, sections_of(shaking, first, phase))
-            phase += 2.0 * math.pi * (first % 1.0)
-        sections = sections_of(shaking, last - first, phase)
-    found = measurer.follow(vector, sections)
-    begins = float(motion["time"].values[0])
-    return found._replace(begin=found.begin + begins), _doubts(motion, found)
-
-
-def _cut(sections: Sections, motion: xr.Dataset) -> Sections:
-    """Return the sections until the end of a motion through a record."""
-    left, lines = float(motion["time"].values[-1]), sections.lines.copy()
-    begins = np.append(0.0, np.cumsum(lines[:, 2]))[:-1]
-    slack = 1e-9 * sections.interval
-    lines[:, 2] = np.minimum(lines[:, 2], np.maximum(left - begins, 0.0))
-    whole = np.abs(lines[:, 2] - sections.lines[:, 2]) <= slack
-    lines[whole] = sections.lines[whole]
-    return sections._replace(lines=lines[lines[:, 2] > slack])
-
-
-def _doubts(motion: xr.Dataset, found: Measured) -> list[str]:
-    """Describe in words that the motion followed is not the recorded one, if so, and warn."""
+        course = repeated_course(shaking, float(motion["cycle"].values[-1]), rig, final, of)
+    found = AssemblyPhases(assembly, course.again(motion), begin, final)
     held = motion["displacement"].transpose("mass", "time").values
-    end = found.final[layout.PARTS : layout.PARTS + len(held)]
-    apart, size = float(np.abs(end - held[:, -1]).max()), float(np.abs(held).max())
-    if found.status is Status.DONE and apart <= _DEPARTED * size:
-        return []
-    told = (
-        f"followed again from its initial state, the motion ends {apart:.3g} m away from the "
-        "recorded one, because it is sensitive to rounding and was computed by another version or "
-        "on another processor: the result is that of the motion followed now"
-    )
-    warn_of_result(told)
-    return [told]
+    end = final[layout.PARTS : layout.PARTS + len(held)]
+    return found, doubts(motion, found.status, float(np.abs(end - held[:, -1]).max()))
 
 
 def assembly_totals(motion: xr.Dataset) -> xr.Dataset:
     """Do what `totals` does, of the motion of an assembly."""
     origin = assembly_origin(motion)
-    found, doubts = _measured(motion, origin)
-    parts = AssemblyParts(origin.assembly)
-    values = {**extremes(found, parts), **energies(found, parts)}
+    found, doubted = _measured(motion, origin)
+    values = {**extremes(found), **energies(found)}
     data = xr.Dataset(values, coordinates(origin.assembly))
-    notes = [*noted(motion), *doubts, *energy_notes(origin.assembly)]
+    notes = [*noted(motion), *doubted, *energy_notes(origin.assembly)]
     return describe(data, "vibroimpact.totals", motion_parameters(motion), notes)
 
 
@@ -142,41 +110,44 @@ def energy_notes(assembly: Assembly) -> list[str]:
     ]
 
 
-def extremes(found: Measured, parts: AssemblyParts) -> dict[str, Any]:
+def extremes(found: AssemblyPhases) -> dict[str, Any]:
     """Return the extremes of a motion, and forces, impulses and impacts by stop."""
 
-    def spread(name: str, pieces: _Array, *dims: str) -> dict[str, Any]:
-        least, most = pieces[..., 0].min(axis=0), pieces[..., 1].max(axis=0)
-        return range_variables(name, least, most, dims)
+    def spread(name: str, low: _Array, high: _Array, *dims: str) -> dict[str, Any]:
+        return range_variables(name, low.min(axis=0), high.max(axis=0), dims)
 
-    impacts, stops = found.impacts, len(parts.closing)
-    hit = np.bincount(impacts.stop, minlength=stops)
-    struck = np.bincount(impacts.stop, impacts.impulse, stops)
-    begun = (found.pressed[1:] & ~found.pressed[:-1]).sum(axis=0)
-    least, most = (
-        end(found.displacement[..., i], axis=0) for i, end in enumerate((np.min, np.max))
-    )
+    rows, at, stops = found.rows, found.impacts, found.layout.stops
+    stop, pressed = rows[at, phases.AT_STOP].astype(np.int64), found.pressed
+    hit = np.bincount(stop, minlength=stops)
+    struck = np.bincount(stop, rows[at, phases.STRUCK], stops)
+    begun = (pressed[1:] & ~pressed[:-1]).sum(axis=0)
+    low, high = found.of_mass(phases.U_LEAST), found.of_mass(phases.U_MOST)
+    felt = found.of_mass(phases.A_LEAST), found.of_mass(phases.A_MOST)
+    drift = found.of_drift(phases.D_LEAST), found.of_drift(phases.D_MOST)
+    carried = rows[:, phases.CARRIED_LEAST], rows[:, phases.CARRIED_MOST]
+    force = found.of_stop(phases.FORCE).max(axis=0)
     return {
-        **spread("displacement", found.displacement, "mass"),
-        **spread("acceleration", found.acceleration, "mass"),
-        **spread("drift", found.drift, "link"),
-        **spread("transmitted_force", found.carried),
-        "eccentricity": ("mass", 0.5 * (least + most)),
-        "peak_force": ("stop", np.where(struck > 0.0, np.inf, found.force.max(axis=0))),
-        "impact_count": ("stop", np.where(parts.rigid, hit, begun)),
-        "impulse": ("stop", found.impulse.sum(axis=0) + struck),
+        **spread("displacement", low, high, "mass"),
+        **spread("acceleration", *felt, "mass"),
+        **spread("drift", *drift, "link"),
+        **spread("transmitted_force", *carried),
+        "eccentricity": ("mass", 0.5 * (low.min(axis=0) + high.max(axis=0))),
+        "peak_force": ("stop", np.where(struck > 0.0, np.inf, force)),
+        "impact_count": ("stop", np.where(found.parts.rigid, hit, begun)),
+        "impulse": ("stop", found.of_stop(phases.IMPULSE).sum(axis=0) + struck),
     }
 
 
-def energies(found: Measured, parts: AssemblyParts) -> dict[str, Any]:
+def energies(found: AssemblyPhases) -> dict[str, Any]:
     """Return the energies (J) of a motion by link and stop, whose balance is closed."""
-    impacts = np.bincount(found.impacts.stop, found.impacts.lost, len(parts.closing))
+    links = found.of_drift(phases.D_LOST).sum(axis=0)
+    stops = found.of_stop(phases.LOSES) + found.of_stop(phases.HIT)
     return {
-        "total_supplied": float(found.work.sum()),
-        "total_links": ("link", found.link_lost.sum(axis=0)),
-        "total_damping": float(found.damping_lost.sum()),
-        "total_stops": ("stop", found.stop_lost.sum(axis=0) + impacts),
-        "total_stored": found.stored(parts),
+        "total_supplied": float(found.rows[:, phases.WORK].sum()),
+        "total_links": ("link", np.where(found.parts.curved, np.nan, links)),
+        "total_damping": float(found.rows[:, phases.LOST].sum() - links.sum()),
+        "total_stops": ("stop", stops.sum(axis=0)),
+        "total_stored": found.stored(),
     }
 
 
@@ -184,7 +155,7 @@ class _Contact(NamedTuple):
     """A contact: a number for each, and the velocities of all masses."""
 
     order: float
-    """Number of the piece in which it begins; of an impact, between two."""
+    """Number of the phase in which it begins; of an impact, between two."""
     stop: int
     begin: float
     angle: float
@@ -203,9 +174,8 @@ class _Contact(NamedTuple):
 def assembly_contacts(motion: xr.Dataset, share: float) -> xr.Dataset:
     """Do what `contacts` does, of the motion of an assembly; ``share`` as ``grazing`` there."""
     origin = assembly_origin(motion)
-    found, doubts = _measured(motion, origin)
-    parts = AssemblyParts(origin.assembly)
-    every = [*_impacts(found, parts), *_lasting(found, parts, origin)]
+    found, doubted = _measured(motion, origin)
+    every = [*_impacts(found), *_lasting(found, origin)]
     every.sort(key=lambda one: one.order)
     masses = len(origin.assembly.names)
     arrival, parting = (
@@ -218,8 +188,11 @@ def assembly_contacts(motion: xr.Dataset, share: float) -> xr.Dataset:
         return np.array([getattr(one, name) for one in every], dtype=float)
 
     begin, length, closing = column("begin"), column("length"), column("closing")
-    ahead, behind = ((parts.closing[stop] * v).sum(axis=1) for v in (arrival, parting))
-    fastest = float(np.abs(found.v).max())
+    ahead, behind = ((found.parts.closing[stop] * v).sum(axis=1) for v in (arrival, parting))
+    fastest = max(
+        float(np.abs(motion[name].values).max(initial=0.0))
+        for name in ("velocity", "event_velocity")
+    )
     names = np.array(list(origin.assembly.stops), dtype=np.str_)
     values: dict[str, Any] = {
         "stop": names[stop],
@@ -251,61 +224,66 @@ def assembly_contacts(motion: xr.Dataset, share: float) -> xr.Dataset:
     )
     for name, value in (("start", arrival), ("end", parting)):
         data[f"contact_{name}_velocity"] = (("contact_number", "mass"), value)
-    notes = [*noted(motion), *doubts]
+    notes = [*noted(motion), *doubted]
     return describe(data, "vibroimpact.contacts", motion_parameters(motion), notes)
 
 
-def _impacts(found: Measured, parts: AssemblyParts) -> list[_Contact]:
+def _impacts(found: AssemblyPhases) -> list[_Contact]:
     """Return the impacts on rigid stops: contacts of no duration."""
-    rows = []
-    for piece, stop, ahead, behind, impulse, lost in zip(*found.impacts, strict=True):
-        at = found.begin[piece] + found.length[piece]
-        closing = float(parts.closing[stop] @ ahead)
-        angle = found.angle[piece, 1]
-        rows.append(
-            _Contact(
-                *(piece + 0.5, int(stop), at, angle, 0.0, ahead, behind, closing),
-                *(math.nan, impulse, 0.0, lost, 0.0),
-            )
+    rows, at = found.rows, found.impacts
+    ahead, behind = found.of_mass(phases.ARRIVAL)[at], found.of_mass(phases.PARTING)[at]
+    stops = rows[at, phases.AT_STOP].astype(np.int64)
+    lost = found.of_stop(phases.HIT)[at, stops]
+    closing = found.of_stop(phases.CLOSING)[at, stops]
+    return [
+        _Contact(
+            *(i + 0.5, int(stops[k]), found.bounds[i + 1], found.angle[i + 1], 0.0),
+            *(ahead[k], behind[k], float(closing[k]), math.nan, rows[i, phases.STRUCK]),
+            *(0.0, lost[k], 0.0),
         )
-    return rows
+        for k, i in enumerate(at)
+    ]
 
 
-def _lasting(found: Measured, parts: AssemblyParts, origin: Origin) -> list[_Contact]:
+def _lasting(found: AssemblyPhases, origin: Origin) -> list[_Contact]:
     """Return the contacts with bumpers, and rests on rigid stops, that are complete."""
-    rows = []
-    mode, count = final_mode(found.final), len(found.begin)
-    for stop in range(len(parts.closing)):
-        touched = found.pressed[:, stop]
-        for run in _runs(touched, origin.periodic, bool(mode >> stop & 1)):
+    contacts, rows, pressed = [], found.rows, found.pressed
+    count = len(rows)
+    cut = count > 0 and rows[-1, phases.KIND] == phases.NOTHING
+    arrival, parting = found.of_mass(phases.ARRIVAL), found.of_mass(phases.PARTING)
+    closing, force = found.of_stop(phases.CLOSING), found.of_stop(phases.FORCE)
+    impulse, depth = found.of_stop(phases.IMPULSE), found.of_stop(phases.DEPTH)
+    lost, length = found.of_stop(phases.LOSES), rows[:, phases.LENGTH]
+    for stop, w in enumerate(found.parts.closing):
+        touched = pressed[:, stop]
+        for run in _runs(touched, origin.periodic, bool(cut)):
             first, last = int(run[0]), int(run[-1])
-            ahead, d = found.v[first, 0], found.d[first - 1, 1, stop]
-            closing = float(parts.closing[stop] @ ahead)
-            if parts.stop_dashpots[stop] > 0.0:  # a relaxing face recedes
-                closing += parts.springs[stop] / parts.stop_dashpots[stop] * d
             free = np.arange(last + 1, _next(touched, last, origin.periodic)) % count
-            rows.append(
+            # The event with which it begins ends the phase before it; a rest begins behind it.
+            ahead = parting[first - 1]
+            rigid = found.parts.rigid[stop]
+            contacts.append(
                 _Contact(
                     order=float(first),
                     stop=stop,
-                    begin=found.begin[first],
-                    angle=found.angle[first, 0],
-                    length=float(found.length[run].sum()),
+                    begin=found.bounds[first],
+                    angle=found.angle[first],
+                    length=float(length[run].sum()),
                     arrival=ahead,
-                    parting=found.v[last, 1],
-                    closing=closing,
-                    force=found.force[run, stop].max(),
-                    impulse=found.impulse[run, stop].sum(),
-                    penetration=found.depth[run, stop].max(),
-                    dissipated=found.stop_lost[run, stop].sum(),
-                    relaxing=found.stop_lost[free, stop].sum(),
+                    parting=arrival[last],
+                    closing=float(w @ ahead) if rigid else float(closing[first - 1, stop]),
+                    force=force[run, stop].max(),
+                    impulse=impulse[run, stop].sum(),
+                    penetration=depth[run, stop].max(),
+                    dissipated=lost[run, stop].sum(),
+                    relaxing=lost[free, stop].sum(),
                 )
             )
-    return rows
+    return contacts
 
 
 def _next(touched: NDArray[np.bool_], last: int, periodic: bool) -> int:
-    """Return the piece at which a stop is touched again, counted on where the motion repeats."""
+    """Return the phase at which a stop is touched again, counted on where the motion repeats."""
     later = np.flatnonzero(touched[last + 1 :])
     if len(later):
         return int(last + 1 + later[0])
@@ -313,7 +291,7 @@ def _next(touched: NDArray[np.bool_], last: int, periodic: bool) -> int:
 
 
 def _runs(touched: NDArray[np.bool_], periodic: bool, goes_on: bool) -> list[NDArray[np.int64]]:
-    """Return the pieces of each complete contact, by the order in which they begin."""
+    """Return the phases of each complete contact, by the order in which they begin."""
     begins = np.flatnonzero(touched & ~np.append(False, touched[:-1]))
     ends = np.flatnonzero(touched & ~np.append(touched[1:], False))
     runs = [np.arange(i, j + 1) for i, j in zip(begins, ends, strict=True)]

@@ -1,9 +1,4 @@
-"""The motion of an assembly, as `simulate` returns it.
-
-The flow of several masses goes from section to section: a forcing cycle, or a line of a record.
-Samples come from a second run through the same section, from the same state, so that they do not
-change the motion. Neither run uses tables, so that both are the same wherever they begin.
-"""
+"""The motion of an assembly, as `simulate` returns it."""
 
 from __future__ import annotations
 
@@ -16,24 +11,25 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, excitation_parameters
+from vibroimpact.engine import batch, record_forcing
 from vibroimpact.engine.assembly import layout
-from vibroimpact.engine.assembly.entries import follow_sections
-from vibroimpact.engine.assembly.plan import plan_of
-from vibroimpact.engine.event import CONTACT, IMPACT, REST_ENDS
+from vibroimpact.engine.assembly import record as writing
+from vibroimpact.engine.flow_tables import plan_of
+from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import Assembly, Periodic, Record, Repeated, equilibrium
+from vibroimpact.model import Assembly, Record, Repeated, RigidStop, equilibrium
 from vibroimpact.model.argument_types import check_samples
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_pieces import forcing_size, why_given_up
-from vibroimpact.response.assembly_rig import assembly_numbers, check_laws, link_parts
+from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
 from vibroimpact.response.assembly_state import (
     as_assembly_state,
     assembly_vector,
     component_names,
     state_components,
 )
+from vibroimpact.response.history_variables import EVENTS_AT_ONCE
 from vibroimpact.response.record_dataset import record_parameters
 from vibroimpact.response.record_history import base_acceleration, straight
 from vibroimpact.tasks.interruptible import Calls
@@ -41,282 +37,119 @@ from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
 
-_WORK_LIMIT = 1e7
-"""Steps that one section may take."""
-_START, _END = 1, 0
-_HIT = 2
-"""Kinds of events in a dataset, `event_contact`."""
-_SAME = 1e-15
-"""Share of a section within which a stretch ends where the log has its event."""
-_AT_REST = 1e-12
-"""A closing speed below this share of the largest speed is none: rest begins without an impact."""
-
-
-class Sections(NamedTuple):
-    """The sections of a motion: when each begins, and the forcing there."""
-
-    lines: _Array
-    """Clock s, c and length (s) of each; see `follow_sections`."""
-    interval: float
-    """Length of a whole one (s): a forcing period, or the step of a record."""
-    turn: float
-    """Phase at which each forcing cycle begins (rad); NaN for a record."""
-
-    def parts(self, k: int, samples: int) -> _Array:
-        """Return a section cut at its samples."""
-        s, c, length = self.lines[k]
-        count = max(math.ceil(length / self.interval * samples - 1e-6), 1)
-        share = np.arange(count + 1) / samples
-        times = share * self.interval
-        times[-1] = length
-        if math.isnan(self.turn):
-            return np.column_stack([s + c * times[:-1], np.full(count, c), np.diff(times)])
-        angle = self.turn + 2.0 * math.pi * share[:-1]
-        return np.column_stack([np.sin(angle), np.cos(angle), np.diff(times)])
-
-    def following(self, samples: int) -> _Array:
-        """Return a section of the length of a sample that begins where the last one ends."""
-        s, c, length = self.lines[-1]
-        last = self.interval / samples
-        if math.isnan(self.turn):
-            return np.array([[s + c * length, c, last]])
-        angle = self.turn + 2.0 * math.pi * length / self.interval
-        return np.array([[math.sin(angle), math.cos(angle), last]])
-
-
-def sections_of(shaking: Repeated | Record, length: float, phase: float) -> Sections:
-    """Return the sections of a motion of so many forcing cycles, or of a record with its tail."""
-    if isinstance(shaking, Record):
-        return Sections(straight(shaking, length), shaking.step, math.nan)
-    whole, rest = math.floor(length), length % 1.0
-    lasts = [shaking.period] * whole + ([rest * shaking.period] if rest > 0.0 else [])
-    clock = [math.sin(phase), math.cos(phase)]
-    lines = np.column_stack([np.tile(clock, (len(lasts), 1)), lasts])
-    return Sections(lines, shaking.period, phase)
-
-
-class _Seen(NamedTuple):
-    """What the channels show at one instant: a row for each, a number for each mass or stop."""
-
-    displacement: _Array
-    velocity: _Array
-    acceleration: _Array
-    clearance: _Array
-    contact_force: _Array
-    deformation: _Array
-
-    @classmethod
-    def of(cls, rows: _Array, n: int, stops: int) -> _Seen:
-        u, v, _, absolute = (rows[:, 2 + i * n : 2 + (i + 1) * n] for i in range(4))
-        parts = rows[:, 2 + 4 * n :]
-        count = parts.shape[1] // 3  # behind the stops stand the curved parts of links
-        return cls(u, v, absolute, *(parts[:, i * count :][:, :stops] for i in range(3)))
-
 
 class _Event(NamedTuple):
     section: int
     time: float
     """Since the section began (s)."""
     stop: int
-    kind: int
+    kind: float
     displacement: _Array
     velocity: _Array
 
 
-def _fastest(assembly: Assembly, shaking: Repeated | Record) -> float:
-    """A bound on the rates with all bumpers pressed (1/s), in the norm max(ρ |u|, |v|)."""
-    of = numbers(assembly)
-    k, c = of.stiffness.copy(), of.damping.copy()
-    for stop in assembly.stops.values():
-        if (pair := stop.stop.spring_and_dashpot) is not None:
-            w = assembly.closing(stop)
-            k += pair[0] * np.outer(w, w)
-            c += pair[1] * np.outer(w, w)
-    stiff, damped = (np.abs(np.linalg.solve(of.mass, one)).sum(1) for one in (k, c))
-    most = float((0.5 * (damped + np.sqrt(damped * damped + 4.0 * stiff))).max())
-    if isinstance(shaking, Record):
-        return most
-    harmonics = len(shaking.amplitudes) if isinstance(shaking, Periodic) else 1
-    return max(most, harmonics * shaking.angular_frequency)
-
-
-def too_much_work(assembly: Assembly, shaking: Repeated | Record, interval: float) -> bool:
-    """Return whether a section of such a length (s) may take too many steps."""
-    return not _fastest(assembly, shaking) * interval < layout.STEP * _WORK_LIMIT
-
-
 class _Run:
-    """A motion that is followed, and what was written down of it."""
+    """A motion that is followed, and what was written down of it.
+
+    Parameters
+    ----------
+    rig, shaking
+        What vibrates, and what shakes it.
+    length, phase
+        As `compute_assembly_history`; where the forcing begins (rad).
+    state : ndarray
+        Where the motion begins; carried on.
+    samples, max_events
+        As in `simulate`.
+    """
 
     def __init__(
         self,
         rig: Rig,
         shaking: Repeated | Record,
-        sections: Sections,
-        vector: _Array,
+        length: float,
+        phase: float,
+        state: _Array,
         samples: int,
         max_events: int,
     ) -> None:
         system = rig.system
         assert isinstance(system, Assembly)
         self.n, self.stops = len(system.names), len(system.stops)
-        self.parts = self.stops + len(link_parts(system))
-        self.sections, self.state, self.samples = sections, vector, samples
-        self.closing = [system.closing(stop) for stop in system.stops.values()]
-        self.forcing = forcing_size(shaking)
-        self.plan = plan_of(assembly_numbers(system, shaking))
-        self.sampling = self.plan.copy()
+        self.shaking, self.state, self.samples = shaking, state, samples
         self.max_events = max_events
-        self.log = np.empty((max_events + 1, 4))
-        self.rows = np.empty((256, 2 + 4 * self.n + 3 * self.parts))
-        self.seen: list[_Array] = []
-        self.events: list[_Event] = []
+        self.rigid = [isinstance(one.stop, RigidStop) for one in system.stops.values()]
+        if isinstance(shaking, Record):
+            self.interval = shaking.step
+            self.lines = straight(shaking, length)
+            self.total = float(len(self.lines))
+            ends = (shaking.duration + length) / shaking.step
+        else:
+            self.interval, self.total, ends = shaking.period, length, length
+        self.phase = phase
+        count = math.ceil(ends * samples - 1e-6) + 1 if samples else 0
+        self.out = np.empty((writing.samples_of(self.n, self.stops), count))
+        self.rows = np.empty((0, writing.event_width(self.n)))
+        self.undecided = False
+        self.vector = assembly_numbers(system, shaking)
         self.status = Status.DONE
-        self.ordered_in: int | None = None
-        if too_much_work(system, shaking, sections.interval):
-            self.status = Status.TOO_MUCH_WORK
 
     def follow(self, progress: Progress | None) -> int:
         """Follow the motion; returns the number of sections that were finished."""
-        total, done = len(self.sections.lines), 0
-        calls = Calls(total, progress)
-        while done < total and self.status is Status.DONE:
-            end = int(calls.end(done))
-            ways = [(done, end)] if not self.samples else [(k, k + 1) for k in range(done, end)]
-            for first, last in ways:
-                done = self._over(first, last)
-                if self.status is not Status.DONE:
-                    break
-        if self.samples and total and self.status is Status.DONE:
-            # What is at the very end is the beginning of what would follow.
-            following = self.sections.following(self.samples)
-            self.seen.append(self._sampled(following, self.state))
-        return done
+        entry = record_forcing.follow if isinstance(self.shaking, Record) else batch.trajectory
+        plan = plan_of(self.vector, entry.groups)
+        # Impacts that were ordered by a rule are counted, so that events are always listed.
+        buffer = np.empty((self.max_events + 1 + EVENTS_AT_ONCE, self.rows.shape[1]))
+        found = [self.rows]
+        at, outcome = 0, int(Status.DONE)
+        calls = Calls(self.total, progress)
+        while at < self.total and outcome == Status.DONE:
+            arguments = self._arguments(at, calls.end(at))
+            at, events, outcome = entry.on(plan, *arguments, self.out, buffer)
+            found.append(buffer[:events].copy())
+            self.undecided |= bool(plan[layout.UNDECIDED] > 0.0)
+        self.rows, self.status = np.concatenate(found), Status(outcome)
+        if self.status is Status.DONE:
+            return at
+        # The section that was given up is left out; its events until then are kept.
+        finished = max(at - 1, 0)
+        self.out = self.out[:, : finished * self.samples]
+        return finished
 
-    def _over(self, first: int, last: int) -> int:
-        lines = self.sections.lines[first:last]
-        before = self.state.copy()
-        ordered = self.plan[layout.ORDERED]
-        count, rows = self._logged(lines)
-        if count < 0:
-            first += -1 - count
-            # Of the section that was given up, alone.
-            before, lines = self.state.copy(), self.sections.lines[first : first + 1]
-            count, rows = self._logged(lines)
-            self.status = why_given_up(self.plan)
-            count, last = int((self.log[:, 0] >= 0.0).sum()), first
-        if self.ordered_in is None and self.plan[layout.ORDERED] > ordered:
-            self.ordered_in = first
-        if self.samples:
-            self.events += self._named(first, self.log[:count], rows, before)
-            if self.status is Status.DONE:
-                self.seen.append(self._sampled(self.sections.parts(first, self.samples), before))
-        return last
+    def _arguments(self, at: int, end: float) -> tuple[Any, ...]:
+        """Return what an entry gets, from a section to another."""
+        shaking = self.shaking
+        if isinstance(shaking, Record):
+            lines = self.lines[: int(end)]
+            steepest = float(np.abs(self.lines[:, record_forcing.SLOPE]).max())
+            forced = (shaking.peak, steepest, lines, self.state, at)
+            return (self.vector, *forced, self.samples, self.interval, self.max_events)
+        forcing = (shaking.amplitude, shaking.frequency, self.phase, self.state, float(at), end)
+        return (self.vector, *forcing, self.samples, self.max_events)
 
-    def _logged(self, lines: _Array) -> tuple[int, _Array]:
-        """Go over sections; the number of events, and all channels where a stretch ends."""
-        self.log[:, 0] = -1.0
-        start = self.state.copy()
-        ordered, undecided = self.plan[layout.ORDERED], self.plan[layout.UNDECIDED]
-        while True:
-            self.rows[:, 0] = -1.0
-            count = follow_sections(
-                self.plan,
-                *self.forcing,
-                self.state,
-                lines,
-                max_events=self.max_events,
-                log=self.log,
-                samples=self.rows if self.samples else None,
-                tau=1.0,
-            )
-            if not self.samples or self.rows[-1, 0] < 0.0:
-                return count, self.rows[self.rows[:, 0] >= 0.0].copy()
-            self._more_rows()
-            self.state[:] = start
-            self.plan[layout.ORDERED], self.plan[layout.UNDECIDED] = ordered, undecided
-            self.log[:, 0] = -1.0
+    def channel(self, first: int, count: int) -> _Array:
+        """Return samples of a channel, shape (mass or stop, time)."""
+        return self.out[first : first + count] + 0.0
 
-    def _rows_at_begin(self, lines: _Array, start: _Array) -> _Array:
-        """Go over sections; all channels where a stretch begins."""
-        while True:
-            self.rows[:, 0] = -1.0
-            follow_sections(
-                self.sampling,
-                *self.forcing,
-                start.copy(),
-                lines,
-                max_events=self.max_events,
-                samples=self.rows,
-                tau=0.0,
-            )
-            if self.rows[-1, 0] < 0.0:
-                return self.rows[self.rows[:, 0] >= 0.0].copy()
-            self._more_rows()
-
-    def _sampled(self, parts: _Array, start: _Array) -> _Array:
-        """Return all channels where each part begins, just after what happens there."""
-        rows = self._rows_at_begin(parts, start)
-        rows = rows[rows[:, 1] == 0.0]
-        # A stretch without length, which ends in an event at once, has no series: take the last.
-        found: _Array = rows[np.searchsorted(rows[:, 0], np.arange(len(parts)), side="right") - 1]
-        return found
-
-    def _more_rows(self) -> None:
-        self.rows = np.empty((2 * len(self.rows), self.rows.shape[1]))
-
-    def _named(self, section: int, log: _Array, rows: _Array, before: _Array) -> Iterator[_Event]:
-        """Yield the events of a section, with the states just before them.
-
-        The engine's log does not say which impact is the last one before a rest, and which rest is
-        ended by the impact of another stop. The force in the stretch after it does.
-        """
-        seen = _Seen.of(rows, self.n, self.stops)
-        rigid = self.plan[int(self.plan[layout.STOP]) :][layout.KIND :: layout.STOP_WIDTH]
-        rigid = rigid[: self.stops] == layout.RIGID
-        mode = int(before[layout.STATE_MODE])
-        resting = {f for f in range(self.stops) if rigid[f] and mode >> f & 1}
-        slack = _SAME * self.sections.interval
-        row = 0
-        for i, (_, time, stop, what) in enumerate(log):
-            while row < len(rows) - 1 and rows[row, 1] < time - slack:
-                row += 1
-            f, after = int(stop), row + 1
-            u, v = seen.displacement[row], seen.velocity[row]
-            if after < len(rows):
-                held = {g for g in range(self.stops) if seen.contact_force[after, g] != 0.0}
-            else:
-                held = {g for g in range(self.stops) if int(self.state[0]) >> g & 1}
-            if i + 1 < len(log) and log[i + 1, 3] == REST_ENDS:
-                held.add(int(log[i + 1, 2]))
-            if what == IMPACT:
-                for g in sorted(resting - {f} - held):
-                    yield _Event(section, time, g, _END, u, v)
-                    resting.discard(g)
-                closing = abs(float(self.closing[f] @ v))
-                again = i > 0 and log[i - 1, 2] == f and log[i - 1, 1] == time
-                moving = closing > _AT_REST * float(np.abs(v).max())
-                if f not in held or (moving and not again):
-                    yield _Event(section, time, f, _HIT, u, v)
-                if f in held:
-                    # The impact after which the bodies rest is followed by the rest.
-                    yield _Event(
-                        section, time, f, _START, u, self._velocity_after(after, section, before)
-                    )
-                    resting.add(f)
-            else:
-                yield _Event(section, time, f, _START if what == CONTACT else _END, u, v)
-                resting.discard(f)
-            row = after
-
-    def _velocity_after(self, row: int, section: int, before: _Array) -> _Array:
-        """Return the velocities at the beginning of a stretch of a section."""
-        rows = self._rows_at_begin(self.sections.lines[section : section + 1], before)
-        if row < len(rows):
-            found: _Array = _Seen.of(rows, self.n, self.stops).velocity[row]
-            return found
-        now: _Array = self.state[layout.PARTS + self.n : layout.PARTS + 2 * self.n].copy()
-        return now
+    def events(self) -> Iterator[_Event]:
+        """Yield what happens at the stops, with the states just before it."""
+        n = self.n
+        for row in self.rows:
+            section, stop = int(row[writing.E_CYCLE]), int(row[writing.E_STOP])
+            time, kind = float(row[writing.E_TIME]), row[writing.E_KIND]
+            u, v, behind = np.split(row[writing.E_MASSES :], [n, 2 * n])
+            before, after = int(row[writing.E_BEFORE]), int(row[writing.E_BEHIND])
+            rests = self.rigid[stop] and after >> stop & 1 > 0
+            if kind != DETACHMENT:
+                # Other rests of bodies that are hit end.
+                for g in range(self.stops):
+                    if g != stop and self.rigid[g] and before & ~after & 1 << g:
+                        yield _Event(section, time, g, DETACHMENT, u, v)
+            if not (rests and kind == CONTACT_BEGINS):
+                yield _Event(section, time, stop, kind, u, v)
+            if rests:
+                # The impact after which the bodies rest is followed by the rest.
+                yield _Event(section, time, stop, CONTACT_BEGINS, u, behind)
 
 
 def compute_assembly_history(
@@ -350,11 +183,10 @@ def compute_assembly_history(
         phase, ends = 0.0, shaking.duration + length
     else:
         phase, ends = shaking.phase if state.phase is None else state.phase, length
-    sections = sections_of(shaking, length, phase)
-    if isinstance(shaking, Record):
-        check_samples(len(sections.lines), samples, "samples", "time steps")
     first = state_components(assembly, vector, phase)
-    run = _Run(rig, shaking, sections, vector, samples, max_events)
+    run = _Run(rig, shaking, length, phase, vector, samples, max_events)
+    if isinstance(shaking, Record):
+        check_samples(len(run.lines), samples, "samples", "time steps")
     finished = run.follow(progress)
     told = run.status
     record = shaking if isinstance(shaking, Record) else None
@@ -367,7 +199,7 @@ def compute_assembly_history(
     last_phase = 0.0 if record else phase + 2.0 * math.pi * (ends % 1.0)
     variables: dict[str, Any] = {
         "final_state": ("component", state_components(assembly, run.state, last_phase)),
-        "simultaneous_impacts": int(run.plan[layout.ORDERED]),
+        "simultaneous_impacts": int(run.rows[:, writing.E_ORDERED].sum()),
         "status": int(told),
     }
     coordinates: dict[str, Any] = {"component": component_names(assembly)}
@@ -400,10 +232,7 @@ def _sampled(
     coordinates: dict[str, Any],
 ) -> dict[str, Any]:
     """Return the samples, and write their times into the coordinates."""
-    width = run.rows.shape[1]
-    rows = np.concatenate([np.empty((0, width)), *run.seen])
-    seen = _Seen.of(rows, run.n, run.stops)
-    count = len(rows)
+    n, stops, count = run.n, run.stops, run.out.shape[1]
     if isinstance(shaking, Record):
         time = np.minimum(np.arange(count) * (shaking.step / run.samples), ends)
         coordinates["time"] = time
@@ -417,13 +246,15 @@ def _sampled(
         name = "base_acceleration" if shaking.moves_base else "applied_force"
         values = shaking.at(2.0 * np.pi * (cycle % 1.0) + phase) + 0.0
     found: dict[str, Any] = {
-        one: (("mass" if one in _OF_MASSES else "stop", "time"), column.T + 0.0)
-        for one, column in seen._asdict().items()
+        one: (("mass", "time"), run.channel(i * n, n)) for i, one in enumerate(_OF_MASSES)
     }
+    for i, one in enumerate(_OF_STOPS):
+        found[one] = (("stop", "time"), run.channel(3 * n + i * stops, stops))
     found[name] = ("time", values)
     # The force that would balance the masses if the base moved them as a rigid body.
     of = numbers(assembly)
-    carried = -seen.acceleration @ (of.mass @ of.influence) + of.influence @ of.force
+    _, acceleration = found["acceleration"]
+    carried = -(of.mass @ of.influence) @ acceleration + of.influence @ of.force
     if name == "applied_force":
         assert not isinstance(shaking, Record)
         carried += of.influence[assembly.names.index(shaking.on or assembly.names[0])] * values
@@ -432,12 +263,13 @@ def _sampled(
 
 
 _OF_MASSES = ("displacement", "velocity", "acceleration")
+_OF_STOPS = ("clearance", "contact_force", "deformation")
 
 
 def _listed(assembly: Assembly, run: _Run, record: bool) -> dict[str, Any]:
     """Return the contacts and detachments."""
-    events = run.events
-    interval = run.sections.interval
+    events = list(run.events())
+    interval = run.interval
     section = np.array([one.section for one in events], dtype=np.int64)
     since = np.array([one.time for one in events], dtype=float)
     stops = list(assembly.stops)
@@ -458,21 +290,18 @@ def _listed(assembly: Assembly, run: _Run, record: bool) -> dict[str, Any]:
 def _doubts(run: _Run, section: str) -> list[str]:
     """What the engine decided by a rule, or could not decide."""
     notes = []
-    ordered, undecided = int(run.plan[layout.ORDERED]), int(run.plan[layout.UNDECIDED])
-    if ordered:
-        where = (
-            ""
-            if run.ordered_in is None or not run.samples
-            else (f" (the first in {section} {run.ordered_in})")
-        )
+    by_rule = run.rows[run.rows[:, writing.E_ORDERED] > 0.0]
+    if ordered := len(by_rule):
+        first = int(by_rule[0, writing.E_CYCLE])
+        where = f" (the first in {section} {first})"
         notes.append(
             f"{ordered} impact{'s' if ordered > 1 else ''} at the same instant as another impact "
             f"or rest of the same mass{where}; their order is that of the stops in the assembly, "
             "because restitution alone does not determine the result"
         )
-    if undecided:
+    if run.undecided:
         notes.append(
-            f"the search for an event was given up {undecided} time{'s' if undecided > 1 else ''} "
-            "and counted as no event; check the orders of magnitude of the input"
+            "the search for an event was given up and counted as no event; check the orders of "
+            "magnitude of the input"
         )
     return notes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +12,7 @@ from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.assembly.curved.laws import link_rows, stop_law
 from vibroimpact.engine.assembly.curved.layout import BILINEAR, HYSTERETIC
 from vibroimpact.engine.assembly.plan import (
+    Drift,
     Forcing,
     Stop,
     base_motion,
@@ -75,12 +77,16 @@ def check_size(assembly: Assembly) -> None:
 
 
 def assembly_numbers(
-    assembly: Assembly, shaking: Repeated | Record, *, tables: bool = False
+    assembly: Assembly,
+    shaking: Repeated | Record,
+    *,
+    tables: bool = False,
+    drifts: Sequence[Drift] | None = None,
 ) -> _Array:
     """Return an assembly that is shaken as the engine's vector.
 
     With `tables`, contact modes that come again are faster, and a motion that is computed in parts
-    may differ in its last digits.
+    may differ in its last digits. Default of `drifts`: those of the links.
     """
     check_laws(assembly)
     of = numbers(assembly)
@@ -93,7 +99,23 @@ def assembly_numbers(
         if law.drag == 1.0:
             damping += c * np.outer(w, w)
     forcing = _forcing(assembly, shaking, of.mass, of.influence)
-    return make_vector(of.mass, damping, stiffness, stops, forcing, of.force, tables, of.influence)
+    pairs = _drifts(assembly) if drifts is None else drifts
+    return make_vector(
+        of.mass, damping, stiffness, stops, forcing, of.force, tables, of.influence, pairs
+    )
+
+
+def _drifts(assembly: Assembly) -> list[Drift]:
+    """Return the drift of each link, with its dashpot as far as that is linear."""
+    dashpots = {}
+    for part in numbers(assembly).links:
+        _, damping, law = part.law.engine_numbers()
+        dashpots[part.name] = damping if law.drag == 1.0 else 0.0
+    found = []
+    for name, link in assembly.links.items():
+        damping = link.law.damping if link.law.linear else dashpots[name]  # type: ignore[union-attr]
+        found.append(Drift(*assembly.ends(link), damping))
+    return found
 
 
 def _rows(assembly: Assembly) -> list[Stop]:

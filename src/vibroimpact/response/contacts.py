@@ -246,7 +246,7 @@ def _impacts(every: Phases) -> _Contacts:
         behind,
         closing,
         np.full(len(at), np.nan),
-        np.abs(before - behind),
+        every.rows[at, layout.STRUCK],
         none,
         lost,
         none,

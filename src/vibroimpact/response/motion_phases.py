@@ -20,7 +20,7 @@ from vibroimpact.engine import sections
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
-from vibroimpact.engine.observers.phases import ONE_MASS
+from vibroimpact.engine.observers.phases import ONE_MASS, Layout
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPACT
 from vibroimpact.engine.phases import measure_motion
 from vibroimpact.engine.status import Status
@@ -31,6 +31,7 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
 from vibroimpact.response.record_history import straight
 from vibroimpact.tasks.interruptible import Calls
+from vibroimpact.tasks.threads import Progress
 
 _Shaking = TypeVar("_Shaking", bound=Repeated | Record, covariant=True)
 
@@ -41,7 +42,7 @@ _NONE = np.empty(0)
 SIDES = (1, -1)
 """Of the stops, in the order of their numbers: right, left."""
 
-_INSTANT = 1e-300
+INSTANT = 1e-300
 """Cycles of a motion of a single sample."""
 _DEPARTED = 1e-6
 """Share of the largest displacement by which the end of a motion may differ from its record."""
@@ -166,7 +167,7 @@ def beginning(motion: xr.Dataset) -> State:
     return as_state(motion["initial_state"])
 
 
-class _Course(NamedTuple):
+class Course(NamedTuple):
     """A motion as the engine follows it (`engine.phases`)."""
 
     rig: _Array
@@ -178,19 +179,27 @@ class _Course(NamedTuple):
     state: _Array
     last: float
     """Where it ends, in sections."""
+    layout: Layout = ONE_MASS
+    """Of the rows of its phases."""
 
-    def follow(self, call: Callable[[int, float], tuple[int, int]]) -> Status:
+    def follow(
+        self, call: Callable[[int, float], tuple[int, int]], progress: Progress | None = None
+    ) -> Status:
         """Follow it by calls of the engine, each from a section to another."""
         at, outcome = 0, int(Status.DONE)
-        calls = Calls(self.last)
+        calls = Calls(self.last, progress)
         while at < self.last and outcome == Status.DONE:
             at, outcome = call(at, calls.end(at))
         return Status(outcome)
 
-    def measured(self) -> tuple[Status, _Array]:
+    def measured(
+        self, max_events: int = MOST_EVENTS, progress: Progress | None = None
+    ) -> tuple[Status, _Array]:
         """Return the rows of its phases; the state is carried on."""
-        notes, rows = np.zeros(layout.NOTES), np.empty((1024, ONE_MASS.width))
-        notes[layout.WIDTH], notes[layout.MASSES] = ONE_MASS.width, ONE_MASS.masses
+        of = self.layout
+        notes, rows = np.zeros(layout.NOTES), np.full((1024, of.width), np.nan)
+        notes[layout.WIDTH], notes[layout.MASSES] = of.width, of.masses
+        notes[layout.DRIFTS] = of.drifts
 
         def call(at: int, end: float) -> tuple[int, int]:
             nonlocal rows
@@ -201,7 +210,7 @@ class _Course(NamedTuple):
                 self.state,
                 at,
                 end,
-                MOST_EVENTS,
+                max_events,
                 notes,
                 _NONE,
                 rows,
@@ -210,34 +219,76 @@ class _Course(NamedTuple):
                 rows = np.concatenate([rows, np.empty_like(rows)])
             return next_one, outcome
 
-        outcome = self.follow(call)
+        outcome = self.follow(call, progress)
         count = int(notes[layout.WRITTEN])
         # Behind an event at the very end there is nothing.
-        seen = np.isfinite(rows[count, ONE_MASS.mass(layout.U_LEAST)])
+        seen = np.isfinite(rows[count, of.mass(layout.U_LEAST)])
         return outcome, rows[: count + int(seen)]
 
+    def again(self, motion: xr.Dataset) -> Followed:
+        """Follow the motion of a dataset again, which may have lost its first samples."""
+        course, begins = self, float(motion["time"].values[0])
+        if begins > 0.0:  # under a repeated forcing
+            first = float(motion["cycle"].values[0])
+            self._replace(last=first).measured()
+            phase = self.phase + 2.0 * math.pi * (first % 1.0)
+            course = self._replace(phase=phase, last=max(self.last - first, INSTANT))
+        outcome, rows = course.measured()
+        interval = float(self.sections[0, sections.LASTS])
+        turns = math.nan if self.changes else 2.0 * math.pi / interval
+        since = np.append(0.0, rows[:, layout.SINCE])
+        bounds = begins + np.append(0.0, rows[:, layout.SECTION]) * interval + since
+        if len(rows) and rows[-1, layout.KIND] == layout.NOTHING:
+            bounds[-1] = bounds[-2] + rows[-1, layout.LENGTH]
+            since[-1] = since[-2] + rows[-1, layout.LENGTH]
+        return Followed(outcome, rows, bounds, course.phase + turns * since)
 
-def _course(motion: xr.Dataset, origin: Recorded[Any]) -> _Course:
+
+class Followed(NamedTuple):
+    """The phases of a motion that was followed again."""
+
+    status: Status
+    rows: _Array
+    bounds: _Array
+    """As of `Phases`."""
+    angle: _Array
+
+
+def record_course(
+    motion: xr.Dataset, record: Record, rig: _Array, state: _Array, of: Layout = ONE_MASS
+) -> Course:
+    """Return how the engine follows a dataset's motion through a record, which may be cut."""
+    tail = float(json.loads(motion.attrs["parameters"])["tail"])
+    lines = straight(record, tail)
+    peak, steepest = record.peak, float(np.abs(lines[:, sections.C]).max())
+    ends = float(motion["time"].values[-1])
+    last = float(len(lines))
+    if ends < record.duration + tail:
+        whole = min(int(ends / record.step + 1e-9), len(lines) - 1)
+        rest = (ends - whole * record.step) / lines[whole, sections.LASTS]
+        last = whole + (rest if rest > 1e-9 else 0.0)
+    turns = steepest / peak if peak > 0.0 else 0.0
+    return Course(rig, peak, turns, 0.0, lines, True, state, last, of)
+
+
+def repeated_course(
+    shaken: Repeated, cycles: float, rig: _Array, state: _Array, of: Layout = ONE_MASS
+) -> Course:
+    """Return how the engine follows a motion under a repeated forcing."""
+    row = np.array([[math.nan, math.nan, shaken.period]])
+    turns = 2.0 * math.pi * shaken.frequency
+    cycles = max(cycles, INSTANT)
+    return Course(rig, shaken.amplitude, turns, shaken.phase, row, False, state, cycles, of)
+
+
+def _course(motion: xr.Dataset, origin: Recorded[Any]) -> Course:
     """How the engine follows the motion of a dataset, as `simulate` has done."""
     oscillator, shaken = origin.oscillator, origin.excitation
     rig = engine_rig(Rig(oscillator, shaken))
     state = engine_state(oscillator, beginning(motion))
-    if not isinstance(shaken, Record):
-        row = np.array([[math.nan, math.nan, shaken.period]])
-        turns = 2.0 * math.pi * shaken.frequency
-        cycles = max(origin.cycles, _INSTANT)
-        return _Course(rig, shaken.amplitude, turns, shaken.phase, row, False, state, cycles)
-    tail = float(json.loads(motion.attrs["parameters"])["tail"])
-    lines = straight(shaken, tail)
-    peak, steepest = shaken.peak, float(np.abs(lines[:, sections.C]).max())
-    ends = float(motion["time"].values[-1])
-    last = float(len(lines))
-    if ends < shaken.duration + tail:
-        whole = min(int(ends / shaken.step + 1e-9), len(lines) - 1)
-        rest = (ends - whole * shaken.step) / lines[whole, sections.LASTS]
-        last = whole + (rest if rest > 1e-9 else 0.0)
-    turns = steepest / peak if peak > 0.0 else 0.0
-    return _Course(rig, peak, turns, 0.0, lines, True, state, last)
+    if isinstance(shaken, Record):
+        return record_course(motion, shaken, rig, state)
+    return repeated_course(shaken, origin.cycles, rig, state)
 
 
 def phases(motion: xr.Dataset, origin: Recorded[Any]) -> Phases:
@@ -245,23 +296,10 @@ def phases(motion: xr.Dataset, origin: Recorded[Any]) -> Phases:
 
     Of a motion whose first samples were cut off, the phases begin with what is left of the first.
     """
-    course, shaken = _course(motion, origin), origin.excitation
-    begins = float(motion["time"].values[0])
-    if begins > 0.0:  # under a repeated forcing
-        first = float(motion["cycle"].values[0])
-        course._replace(last=first).measured()
-        phase = shaken.phase + 2.0 * math.pi * (first % 1.0)
-        course = course._replace(phase=phase, last=max(course.last - first, _INSTANT))
-    outcome, rows = course.measured()
-    interval = shaken.step if isinstance(shaken, Record) else shaken.period
-    turns = math.nan if isinstance(shaken, Record) else 2.0 * math.pi / interval
-    since = np.append(0.0, rows[:, layout.SINCE])
-    bounds = begins + np.append(0.0, rows[:, layout.SECTION]) * interval + since
-    if rows[-1, layout.KIND] == layout.NOTHING:
-        bounds[-1] = bounds[-2] + rows[-1, layout.LENGTH]
-        since[-1] = since[-2] + rows[-1, layout.LENGTH]
-    doubts = _doubts(motion, outcome, course.state[U])
-    return Phases(rows, bounds, course.phase + turns * since, doubts)
+    course = _course(motion, origin)
+    status, rows, bounds, angle = course.again(motion)
+    apart = abs(course.state[U] - float(motion["displacement"].values[-1]))
+    return Phases(rows, bounds, angle, doubts(motion, status, apart))
 
 
 def fourier_integrals(motion: xr.Dataset, origin: Recorded[Repeated], lines: _Array) -> _Array:
@@ -280,10 +318,12 @@ def fourier_integrals(motion: xr.Dataset, origin: Recorded[Repeated], lines: _Ar
     return out
 
 
-def _doubts(motion: xr.Dataset, outcome: Status, end: float) -> list[str]:
-    """Describe in words that the motion followed is not the recorded one, if so, and warn."""
-    held = motion["displacement"].values
-    apart, size = abs(end - float(held[-1])), float(np.abs(held).max())
+def doubts(motion: xr.Dataset, outcome: Status, apart: float) -> list[str]:
+    """Describe in words that the motion followed is not the recorded one, if so, and warn.
+
+    It ends ``apart`` (m) from it.
+    """
+    size = float(np.abs(motion["displacement"].values).max())
     if outcome is Status.DONE and apart <= _DEPARTED * size:
         return []
     told = (

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from engine.assembly.following import follow_sections, sections
 from engine.assembly.systems import System, joined
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import table
 from vibroimpact.engine.assembly.curved.laws import link_rows, stop_law
 from vibroimpact.engine.assembly.curved.layout import NEW
-from vibroimpact.engine.assembly.entries import follow_sections, sections
 from vibroimpact.engine.assembly.plan import GROUND, Stop, base_motion
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer

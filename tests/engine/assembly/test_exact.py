@@ -7,8 +7,8 @@ import pytest
 
 import samples
 from engine.assembly.exact import Exact
+from engine.assembly.following import follow_sections, sections
 from engine.assembly.systems import System, full_mass, neighbours, record, row, shaken, storeys
-from vibroimpact.engine.assembly.entries import follow_sections, sections
 
 SYSTEMS = {
     "neighbours": neighbours(),

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from engine.assembly.following import follow_sections, sections
 from engine.assembly.systems import System, neighbours, row
 from vibroimpact.engine import (
     batch,
@@ -20,7 +21,6 @@ from vibroimpact.engine import (
 )
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly import measures, table
-from vibroimpact.engine.assembly.entries import follow_sections, sections
 from vibroimpact.engine.assembly.plan import GROUND, Stop, base_motion, make_vector
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
@@ -294,11 +294,11 @@ def test_extremes_bound_what_is_sampled_and_are_met() -> None:
     turns = 0.3 + math.tau * np.arange(20_000) / 20_000
     lasts = np.full(20_000, system.period / 20_000)
     parts = np.column_stack([np.sin(turns), np.cos(turns), lasts])
-    rows = np.full((80_000, 2 + 4 * n + 3 * stops), np.nan)
+    rows = np.full((80_000, 2 + 3 * n + 3 * stops), np.nan)
     follow_sections(plan, system.amplitude, system.omega, state, parts, samples=rows, tau=0.0)
     rows = rows[~np.isnan(rows[:, 0])]
-    u, absolute = rows[:, 2 : 2 + n], rows[:, 2 + 3 * n : 2 + 4 * n]
-    forces = rows[:, 2 + 4 * n + stops : 2 + 4 * n + 2 * stops]
+    u, absolute = rows[:, 2 : 2 + n], rows[:, 2 + 2 * n : 2 + 3 * n]
+    forces = rows[:, 2 + 3 * n + stops : 2 + 3 * n + 2 * stops]
     seen = result[MEASURED:]
     base = measures.OF_MASS * n
     carried = -absolute @ np.diag(system.mass) + system.constant.sum()

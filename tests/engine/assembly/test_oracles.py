@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from engine.assembly.following import follow_sections, sections
 from engine.assembly.systems import System, joined, neighbours, record, row, shaken, storeys
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.entries import follow_sections, sections
 from vibroimpact.engine.assembly.plan import GROUND, Forcing, Stop, base_motion
 from vibroimpact.engine.event import REST_ENDS
 

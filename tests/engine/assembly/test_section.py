@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from engine.assembly.following import follow_sections, sections
 from engine.assembly.systems import neighbours, row
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.assembly import section
 from vibroimpact.engine.assembly.advance import build
-from vibroimpact.engine.assembly.entries import follow_sections, sections
 from vibroimpact.engine.assembly.plan import make_vector
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.memory import pointer

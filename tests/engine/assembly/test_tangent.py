@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from engine.assembly.following import follow_sections, sections
 from engine.assembly.systems import System, full_mass, neighbours, row, storeys
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.entries import follow_sections, sections
 
 SYSTEMS = {
     "neighbours": neighbours(),

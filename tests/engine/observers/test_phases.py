@@ -77,7 +77,7 @@ def followed(given, rig, amplitude, omega, start, notes, rows, samples, events, 
     state, kept = room(), written.note_room()
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
-    begin_row(pointer(rows), 1, int(notes[layout.WIDTH]))
+    begin_row(pointer(rows), 1, 0, int(notes[layout.WIDTH]))
     event_loop.phases(plan, state, S, C, LENGTH, MOST, pointer(notes), pointer(rows))
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
@@ -106,7 +106,7 @@ def shaking(name, time):
 @pytest.mark.parametrize("name", FLOWS)
 def test_a_flow_measures_what_its_samples_tell(name: str, base: float) -> None:
     notes, rows = np.zeros(layout.NOTES), np.full((MOST + 3, ONE_MASS.width), np.nan)
-    notes[:] = ONE_MASS.width, 1, 0, MOST + 3, 0
+    notes[:] = ONE_MASS.width, 1, 0, 0, MOST + 3, 0
     samples = np.zeros((written.SAMPLE, SAMPLES + 1))
     events = np.zeros((MOST + 1, written.EVENT))
     start = np.array([0.0, 0.0, 0.1, 1.5, 0.0, 0.0, 0.0, 0.0])

@@ -46,5 +46,5 @@ their links' deformations, which are differences of displacements.
 Modules: `layout` (plan and state), `plan` (numpy description to a rig's vector, and to a plan),
 `mode`, `series`, `vectors`, `roots`, `tables`, `events`, `advance` (stretch), `channels` (what is
 observed), `measures` (extremes), `tangent`, `section` (states at a section), `free_motion` (in
-closed form), `table`, `entries` (for Python, by sections).
+closed form), `table`, `stretches` (measured), `record` (written down).
 """

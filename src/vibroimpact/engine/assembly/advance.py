@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.events import pack_fresh, speeds, switch_mode, unpack_fresh
@@ -311,17 +312,25 @@ def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int
     return event
 
 
-@kernel
-def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
-    """See `flow.advance`; a step ends a stretch, too, which is kept in the plan."""
-    clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
-    load_motion(plan, before, before[clock], before[clock + 1])
-    event = next_stretch(plan, limit)
-    ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
-    store_motion(plan, after)
-    if event == LIMIT and plan[at.LENGTH] < limit:
-        return PASSED
-    return event
+def advancing(next_stretch: Any) -> Any:
+    """Make `flow.advance` of what goes on to the next event."""
+
+    def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
+        """See `flow.advance`; a step ends a stretch, too, which is kept in the plan."""
+        clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
+        load_motion(plan, before, before[clock], before[clock + 1])
+        plan[at.ORDERED_BEFORE] = plan[at.ORDERED]
+        event = next_stretch(plan, limit)
+        ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
+        store_motion(plan, after)
+        if event == LIMIT and plan[at.LENGTH] < limit:
+            return PASSED
+        return int(event)
+
+    return kernel(advance)
+
+
+advance = advancing(next_stretch)
 
 
 @kernel

@@ -144,3 +144,51 @@ def value(plan: Vector, channel: int, index: int, tau: float) -> float:
     out = beyond(plan, int(plan[at.ROOM]))
     order = series(plan, channel, index, out)
     return evaluate(out, order, tau)
+
+
+@kernel
+def _force_on_base(plan: Vector, a: Vector, b: Vector) -> int:
+    """Write the series of ι · (f + p − M a) with absolute accelerations; returns its order."""
+    n, w, carried = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.CARRIED])
+    push, waves = int(plan[at.PUSH]), int(plan[at.WAVE_SERIES])
+    order = int(plan[at.ORDER]) - 1
+    for j in range(order + 1):
+        b[j] = 0.0
+    for i in range(n):
+        series(plan, ACCELERATION, i, a)
+        for j in range(order + 1):
+            value = -a[j]
+            for q in range(w):
+                value += plan[push + i * w + q] * plan[waves + j * w + q]
+            b[j] += plan[carried + i] * value
+    b[0] += plan[at.LOAD] * plan[at.MOVED]
+    return order
+
+
+@kernel
+def drift_ends(plan: Vector, k: int) -> tuple[int, int]:
+    """The bodies of a drift; n is the ground."""
+    one = int(plan[at.DRIFT]) + k * at.DRIFT_WIDTH
+    return int(plan[one + at.DRIFT_LEFT]), int(plan[one + at.DRIFT_RIGHT])
+
+
+@kernel
+def observed(plan: Vector, c: int, a: Vector, b: Vector) -> int:
+    """Write the series of what is observed whether anything is touched or not; its order.
+
+    Of 2 n + 1 + drifts channels: the displacements, the absolute accelerations, the force on the
+    base, the drifts. `a` is room.
+    """
+    n = int(plan[at.MASSES])
+    if c < n:
+        order: int = series(plan, DISPLACEMENT, c, b)
+    elif c < 2 * n:
+        order = series(plan, ABSOLUTE_ACCELERATION, c - n, b)
+    elif c == 2 * n:
+        order = _force_on_base(plan, a, b)
+    else:
+        left, right = drift_ends(plan, c - 2 * n - 1)
+        row, states, order = 2 * (n + 1), int(plan[at.SERIES]), int(plan[at.ORDER])
+        for j in range(order + 1):
+            b[j] = plan[states + j * row + right] - plan[states + j * row + left]
+    return order

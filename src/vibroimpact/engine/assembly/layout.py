@@ -109,8 +109,13 @@ from __future__ import annotations
     POINT,
     KEPT_Y,
     SHORT,
-) = range(87)
-HEADER = 87
+    # What is observed of pairs of bodies.
+    DRIFTS,
+    DRIFT,
+    SEEN,
+    ORDERED_BEFORE,
+) = range(91)
+HEADER = 96
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)
 FIRST, BEHIND, PARTNER = range(8, 11)
@@ -118,6 +123,11 @@ FIRST, BEHIND, PARTNER = range(8, 11)
 dashpot), the range of masses on which it acts at once, and the stop that is its mirror image (−1 if
 none is)."""
 STOP_WIDTH = 11
+
+DRIFT_LEFT, DRIFT_RIGHT, DRIFT_DAMPING = range(3)
+"""Of a drift u_right − u_left: its bodies (n for the ground), and the dashpot between them (N s/m)
+that is part of the damping."""
+DRIFT_WIDTH = 3
 
 KELVIN_VOIGT, RIGID, PUSHING, LINK = range(4)
 """Kinds of stops. A stop of a curved law pushes; curved links stand behind the stops, as rows that

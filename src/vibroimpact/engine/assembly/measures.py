@@ -8,17 +8,17 @@ from typing import Any
 from vibroimpact.engine.assembly import channels
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.channels import (
-    ABSOLUTE_ACCELERATION,
-    ACCELERATION,
-    DISPLACEMENT,
     FORCE,
     SERIES,
     close_stretch,
+    observed,
+    piece_length,
     pieces,
-    series,
 )
 from vibroimpact.engine.assembly.events import closing
 from vibroimpact.engine.assembly.series import to_bernstein
+from vibroimpact.engine.assembly.tables import table_of_flight, travel_by_tables
+from vibroimpact.engine.assembly.vectors import combine
 from vibroimpact.engine.event import IMPACT, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
@@ -42,6 +42,7 @@ _ROUNDING = 1e-15
 """Of a series: an extreme that stands out by less is rounding."""
 
 _range_room = stack(2)
+_bernstein_room = stack(_DEGREE + 1)
 _series_room = stack(SERIES)
 _parts_room = stack((_DEEPEST + 2) * (_DEGREE + 4))
 
@@ -162,22 +163,49 @@ def extend_range(plan: Vector, a: Vector, order: int, room: Vector) -> None:
 
 
 @kernel
-def _force_on_base(plan: Vector, a: Vector, b: Vector) -> int:
-    """Write the series of ι · (f + p − M a) with absolute accelerations; returns its order."""
-    n, w, carried = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.CARRIED])
-    push, waves = int(plan[at.PUSH]), int(plan[at.WAVE_SERIES])
-    order = int(plan[at.ORDER]) - 1
-    for j in range(order + 1):
-        b[j] = 0.0
-    for i in range(n):
-        series(plan, ACCELERATION, i, a)
-        for j in range(order + 1):
-            value = -a[j]
-            for q in range(w):
-                value += plan[push + i * w + q] * plan[waves + j * w + q]
-            b[j] += plan[carried + i] * value
-    b[0] += plan[at.LOAD]
-    return order
+def _range_of(plan: Vector, c: int) -> int:
+    """Where in the notes the range of an observed channel stands."""
+    n = int(plan[at.MASSES])
+    if c < n:
+        return OF_MASS * c + U_LEAST
+    return OF_MASS * (c - n) + A_LEAST if c < 2 * n else OF_MASS * n
+
+
+def staying(range_of: Any) -> Any:
+    """Make what tells whether the last stretch stays within ranges, by tables alone.
+
+    `range_of(plan, c)` is where in the notes the range of an observed channel stands. Nothing is
+    touched on such a stretch; by less than rounding a channel may leave its range.
+    """
+
+    def stays(plan: Vector, count: int, notes: Vector) -> bool:
+        if plan[at.STRETCH_MODE] != 0.0 or not plan[at.SLOTS] > 0.0 or not plan[at.LENGTH] > 0.0:
+            return False
+        size = 2 * int(plan[at.MASSES]) + int(plan[at.WAVES]) + 1
+        b, x = _bernstein_room(), beyond(plan, int(plan[at.PIECE_Y]))
+        room = beyond(plan, int(plan[at.SCRATCH]))
+        for i in range(size):
+            x[i] = plan[int(plan[at.START]) + i]
+        for piece in range(pieces(plan)):
+            if piece > 0:
+                travel_by_tables(plan, table_of_flight(plan), piece_length(plan), x, room)
+            for c in range(count):
+                rows = int(plan[at.SEEN]) + c * 16 * size
+                combine(beyond(plan, rows), 8, x, size, b)
+                combine(beyond(plan, rows + 8 * size), 8, x, size, beyond(b, 8))
+                least, most = b[0], b[0]
+                for r in range(1, _DEGREE + 1):
+                    least, most = min(least, b[r]), max(most, b[r])
+                slack = _ROUNDING * max(abs(least), abs(most))
+                known = beyond(notes, range_of(plan, c))
+                if not (known[0] - slack <= least and most <= known[1] + slack):
+                    return False
+        return True
+
+    return apart(stays)
+
+
+_stays = staying(_range_of)
 
 
 def observing(channels: Any) -> Any:
@@ -190,23 +218,22 @@ def observing(channels: Any) -> Any:
         a, b = _series_room(), _series_room()
         of_stops = beyond(notes, OF_MASS * n + OF_BASE)
         range_ = _range_room()
-        open_stretch(plan)
-        for piece in range(pieces(plan)):
+        left = 0 if _stays(plan, 2 * n + 1, notes) else pieces(plan)
+        if left > 0:
+            open_stretch(plan)
+        for piece in range(left):
             open_piece(plan, piece)
-            for i in range(n):
-                order = series(plan, DISPLACEMENT, i, a)
-                extend_range(plan, a, order, beyond(notes, OF_MASS * i + U_LEAST))
-                order = series(plan, ABSOLUTE_ACCELERATION, i, a)
-                extend_range(plan, a, order, beyond(notes, OF_MASS * i + A_LEAST))
-            order = _force_on_base(plan, a, b)
-            extend_range(plan, b, order, beyond(notes, OF_MASS * n))
+            for c in range(2 * n + 1):
+                order = observed(plan, c, a, b)
+                extend_range(plan, b, order, beyond(notes, _range_of(plan, c)))
             for f in range(stops):
                 if mode >> f & 1:
                     order = series(plan, FORCE, f, a)
                     range_[0], range_[1] = -math.inf, of_stops[OF_STOP * f + PUSHED]
                     extend_range(plan, a, order, range_)
                     of_stops[OF_STOP * f + PUSHED] = range_[1]
-        close_stretch(plan)
+        if left > 0:
+            close_stretch(plan)
         event = int(plan[at.EVENT])
         if not begins_contact(event):
             return

@@ -66,6 +66,23 @@ class Stop(NamedTuple):
         return at.KELVIN_VOIGT if self.restitution is None else at.RIGID
 
 
+class Drift(NamedTuple):
+    """A pair of bodies whose drift u_right − u_left is observed.
+
+    Parameters
+    ----------
+    left, right
+        Indices of masses; GROUND for the base.
+    damping
+        Of the dashpot between them that is part of the damping matrix (N s/m): what it loses is
+        told apart.
+    """
+
+    left: int
+    right: int
+    damping: float = 0.0
+
+
 class Forcing(NamedTuple):
     """What drives the masses.
 
@@ -112,6 +129,7 @@ def make_vector(
     constant: Vector | None = None,
     tables: bool = True,
     influence: Vector | None = None,
+    drifts: Sequence[Drift] = (),
 ) -> Vector:
     """Write a rig's vector, with which its plan begins.
 
@@ -128,6 +146,8 @@ def make_vector(
     influence : ndarray, shape (n,)
         By how much a mass moves with the base, of which the force on the base is the sum. Default:
         1 for each.
+    drifts
+        What is observed besides.
     """
     n, count = len(mass), len(stops)
     curved = any(stop.behaviour for stop in stops)
@@ -180,6 +200,9 @@ def make_vector(
     of_stops = zip(stops, _ranges(response != 0.0), images, strict=True)
     block(at.STOP, np.array([_stop(stop, n, acts, other) for stop, acts, other in of_stops]))
     rigid = inverse @ closing.T @ np.diag([initial_stiffness(stop) for stop in stops]) @ closing
+    header[at.DRIFTS] = len(drifts)
+    ends = [[n if end == GROUND else end for end in one[:2]] + [one.damping] for one in drifts]
+    block(at.DRIFT, np.array(ends, dtype=float))
     block(at.ROW_SUMS, np.stack([abs(k + rigid).sum(1), abs(c).sum(1)]))
     header[at.SYMMETRIC] = -1.0 not in images and not constant.any()
     header[[at.CURVED, at.LINKS]] = curved, sum(stop.kind == at.LINK for stop in stops)
@@ -229,6 +252,7 @@ def make_vector(
     room(at.SLOT_OF, 2 * max(modes, 1))
     room(at.TABLE_ROOM, (8 * 16 + 4) * (width + count + 8) if modes else 0)
     room(at.TABLE, modes * size)
+    room(at.SEEN, (2 * n + 1 + len(drifts)) * 16 * width if modes else 0)
     header[at.LENGTH_OF_PLAN] = end
 
     vector = np.zeros(int(header[at.NUMBERS]))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import hold
@@ -138,60 +138,80 @@ def accelerate(
     restrain(plan, of, beyond(deformation, of.pressed), row)
 
 
-@apart
-def expand_state(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
-    """Write the series of u, v, w and of the forces in t / length, of an order that suffices.
+def expanding(begin: Any = None, push: Any = None, alike: Any = None, grow: Any = None) -> Any:
+    """Make what writes the series of a state, with what curved laws add to it, or None.
+
+    That is `begin(plan, deformation)`, for their memories; `push(plan, of, here, j, after)`, which
+    takes what they do off the accelerations of order j; `alike(plan, values)`, behind what holds;
+    and `grow(plan, factor, j)`, which writes coefficient j + 1 of the memories.
+    """
+
+    def expand(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
+        of = places(plan)
+        n, w = of.masses, of.waves
+        plan[at.MOVED] = y[2 * n + w]
+        row, v = 2 * (n + 1), n + 1
+        plan[at.ORDER], plan[at.PIECE_LENGTH] = float(order), length
+        series, waves = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES])
+        forces, count = int(plan[at.FORCE_SERIES]), int(plan[at.STOPS])
+        for i in range(n):
+            plan[series + i], plan[series + v + i] = y[i], y[n + i]
+        plan[series + n], plan[series + v + n] = 0.0, 0.0
+        for q in range(w):
+            plan[waves + q] = y[2 * n + q]
+        if begin is not None:
+            begin(plan, deformation)
+        for j in range(order + 1):
+            a, now = series + j * row, waves + j * w
+            # Beyond the order a row is used as room; it is never read.
+            after = int(plan[at.SCRATCH]) if j == order else a + row + v
+            here, held = beyond(plan, a), beyond(plan, forces + j * count)
+            for p in range(of.pressed):
+                f = int(plan[of.pressed_list + p])
+                if j == 0:
+                    held[p] = deformation[f]
+                else:
+                    one = of.stops + f * at.STOP_WIDTH
+                    held[p] = here[int(plan[one + at.LEFT])] - here[int(plan[one + at.RIGHT])]
+            constant = plan[at.MOVED] if j == 0 else 0.0
+            drive(plan, of, here, beyond(plan, now), held, constant, after)
+            if push is not None:
+                push(plan, of, here, j, after)
+            restrain(plan, of, beyond(held, of.pressed), after)
+            if alike is not None:
+                alike(plan, beyond(plan, after))
+            if j == order:
+                break
+            factor = length / (j + 1)
+            for i in range(n):
+                plan[a + row + i] = factor * here[v + i]
+                plan[after + i] *= factor
+            plan[a + row + n], plan[after + n] = 0.0, 0.0
+            if grow is not None:
+                grow(plan, factor, j)
+            if plan[at.RECORD] != 0.0:
+                plan[now + w] = factor * plan[now + 1]
+                plan[now + w + 1] = 0.0
+            else:
+                for q in range(w // 2):
+                    turn = factor * plan[at.OMEGA] * (q + 1)
+                    plan[now + w + 2 * q] = turn * plan[now + 2 * q + 1]
+                    plan[now + w + 2 * q + 1] = -turn * plan[now + 2 * q]
+
+    expand.__doc__ = """Write the series of u, v, w and of all forces in t / length.
 
     y is u, v, w, 1; for a disturbance, its w and its last number are 0.
     """
-    of = places(plan)
-    n, w = of.masses, of.waves
-    plan[at.MOVED] = y[2 * n + w]
-    row, v = 2 * (n + 1), n + 1
-    order = terms(plan[at.RATE] * length)
-    plan[at.ORDER], plan[at.PIECE_LENGTH] = float(order), length
-    series, waves = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES])
-    forces, count = int(plan[at.FORCE_SERIES]), int(plan[at.STOPS])
-    stops, listed = int(plan[at.STOP]), int(plan[at.PRESSED_LIST])
-    pressed = int(plan[at.PRESSED])
-    for i in range(n):
-        plan[series + i], plan[series + v + i] = y[i], y[n + i]
-    plan[series + n], plan[series + v + n] = 0.0, 0.0
-    for q in range(w):
-        plan[waves + q] = y[2 * n + q]
-    record = plan[at.RECORD] != 0.0
-    for j in range(order + 1):
-        a = series + j * row
-        now = waves + j * w
-        force = forces + j * count
-        for p in range(pressed):
-            f = int(plan[listed + p])
-            if j == 0:
-                plan[force + p] = deformation[f]
-            else:
-                one = stops + f * at.STOP_WIDTH
-                left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
-                plan[force + p] = plan[a + left] - plan[a + right]
-        # Beyond the order a row is used as room; it is never read.
-        after = int(plan[at.SCRATCH]) if j == order else a + row + v
-        here = beyond(plan, a)
-        constant = plan[at.MOVED] if j == 0 else 0.0
-        accelerate(plan, of, here, beyond(plan, now), beyond(plan, force), constant, after)
-        if j == order:
-            break
-        factor = length / (j + 1)
-        for i in range(n):
-            plan[a + row + i] = factor * here[v + i]
-            plan[after + i] *= factor
-        plan[a + row + n], plan[after + n] = 0.0, 0.0
-        if record:
-            plan[now + w] = factor * plan[now + 1]
-            plan[now + w + 1] = 0.0
-        else:
-            for q in range(w // 2):
-                turn = factor * plan[at.OMEGA] * (q + 1)
-                plan[now + w + 2 * q] = turn * plan[now + 2 * q + 1]
-                plan[now + w + 2 * q + 1] = -turn * plan[now + 2 * q]
+    return apart(expand)
+
+
+_expand = expanding()
+
+
+@kernel
+def expand_state(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
+    """Write the series of a state with linear laws, of an order that suffices."""
+    _expand(plan, y, deformation, length, terms(plan[at.RATE] * length))
 
 
 @kernel

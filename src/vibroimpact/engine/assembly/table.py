@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.assembly import advance as motion
+from vibroimpact.engine.assembly import channels, measures, section, stretches
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly import measures, section
 from vibroimpact.engine.assembly import tangent as disturbances
 from vibroimpact.engine.assembly.free_motion import stays_free as in_closed_form
+from vibroimpact.engine.assembly.record import recording
 from vibroimpact.engine.jit import Vector, kernel
 
 begin, build, advance, cycle = motion.begin, motion.build, motion.advance, motion.cycle
@@ -21,6 +22,10 @@ disturb, place, point, at_point = (
     section.at_point,
 )
 mirror = section.mirror
+start_demand = stretches.start_demand
+_measure = stretches.measuring(channels)
+_write_down, write = recording(motion.next_stretch, channels)
+_demand, _integrate = stretches.demanding(_measure), stretches.integrating(channels)
 
 
 @kernel
@@ -108,3 +113,43 @@ def tangent(
 def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """See `flow.margin`; it is not known."""
     notes[0] = math.nan
+
+
+@kernel
+def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
+    """See `flow.measure`."""
+    _measure(plan, before, True, row)
+
+
+@kernel
+def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `flow.demand`."""
+    _demand(plan, before, notes)
+
+
+@kernel
+def integrate(
+    plan: Vector,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
+    lines: Vector,
+    out: Vector,
+) -> None:
+    """See `flow.integrate`."""
+    _integrate(plan, ended, notes, lines, out)
+
+
+@kernel
+def record(
+    plan: Vector,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
+    samples: Vector,
+    events: Vector,
+) -> None:
+    """See `flow.record`."""
+    _write_down(plan, before, ended, notes, samples, events)

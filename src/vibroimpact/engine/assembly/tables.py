@@ -7,6 +7,7 @@ no digits are lost. Each column is made from the Taylor series of a unit vector.
 - leaps of 1, 2, 4, 8 steps; propagators of j/32 and j/1024 of a step; four derivatives of v: any
   time is three products;
 - of each watched function on a step, the 16 Bernstein coefficients;
+- in flight, of each observed channel on a step, 16 Bernstein coefficients (`SEEN`);
 - of each on a leap, 8 coefficients of an approximation of degree 7, and a row of bounds: on each
   step of the leap, approximation less function has coefficients of at most Σ bound_i |x_i|. If all
   8 are above that, there is no root.
@@ -21,6 +22,7 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.channels import observed
 from vibroimpact.engine.assembly.series import expand_state, gain, to_bernstein, watched_series
 from vibroimpact.engine.assembly.vectors import combine
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -101,6 +103,16 @@ def table_of_mode(plan: Vector) -> int:
         place = int(plan[at.TABLE]) + int(plan[slots + k]) * int(plan[at.TABLE_SIZE])
     plan[at.TABLE_NOW] = float(place)
     return place
+
+
+@kernel
+def table_of_flight(plan: Vector) -> int:
+    """Where the tables of flight begin, which were made."""
+    mode, known = plan[at.MODE], plan[at.TABLE_NOW]
+    plan[at.MODE], plan[at.TABLE_NOW] = 0.0, -1.0
+    found: int = table_of_mode(plan)
+    plan[at.MODE], plan[at.TABLE_NOW] = mode, known
+    return found
 
 
 @kernel
@@ -186,6 +198,14 @@ def make_tables(plan: Vector, place: int) -> None:
             to_bernstein(plan, a, b)
             for r in range(16):
                 plan[full + ((2 * f + r // 8) * width + column) * 8 + r % 8] = b[r]
+        for c in range(2 * n + 1 + int(plan[at.DRIFTS]) if mode == 0 else 0):
+            order = observed(plan, c, beyond(plan, int(plan[at.ROOM])), a)
+            for j in range(order + 1, int(plan[at.ORDER]) + 1):
+                a[j] = 0.0
+            to_bernstein(plan, a, b)
+            for r in range(16):
+                seen = int(plan[at.SEEN]) + (2 * c + r // 8) * width * 8
+                plan[seen + column * 8 + r % 8] = b[r]
     for level in range(1, LEVELS):
         _compose(plan, leaps + (level - 1) * square, leaps + level * square, width)
     _screen(plan, place)

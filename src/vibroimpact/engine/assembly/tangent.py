@@ -123,10 +123,10 @@ def contraction(plan: Vector, mode: int) -> float:
 
 
 @kernel
-def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
-    """Carry a disturbance of each part through the last stretch, and note what `flow.tangent` does.
+def note(plan: Vector, notes: Vector) -> None:
+    """Note what the last stretch and its event take of a volume of (u, v), and the contact.
 
-    An impact multiplies what is left of a volume of (u, v) by e², a rest leaves nothing.
+    An impact multiplies what is left of it by e², a rest leaves nothing.
     """
     event, length = int(plan[at.EVENT]), plan[at.LENGTH]
     f = stop_of(event)
@@ -137,6 +137,12 @@ def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
         e = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RESTITUTION]
         left = e > 0.0 and not int(plan[at.MODE]) >> f & 1
         notes[DAMPING] += -2.0 * math.log(e) if left else math.inf
+
+
+@kernel
+def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
+    """Carry a disturbance of each part through the last stretch; see `flow.tangent`."""
+    note(plan, notes)
     carry_disturbances(plan, q, 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]))
 
 

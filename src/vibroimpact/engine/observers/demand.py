@@ -1,6 +1,11 @@
-"""What engineers ask of an earthquake: peaks, contact forces, and where the energy went."""
+"""What engineers ask of an earthquake: peaks, contact forces, and where the energy went.
+
+Of one mass; several have a row of a phase for the whole motion (`assembly.stretches`).
+"""
 
 from __future__ import annotations
+
+import math
 
 from vibroimpact.engine import flow
 from vibroimpact.engine.jit import Vector, kernel
@@ -15,10 +20,7 @@ from vibroimpact.engine.state import MODE
 # work of the shaking and what is lost in the isolator and in the stops, per unit mass.
 WORK, LOST, LOST_STOPS, EVERYTHING = range(NOTES, NOTES + 4)
 
-note_room = stack(NOTES + 4)
-"""Room for them."""
-
-_MASSES, _ROW = ONE_MASS.masses, ONE_MASS.width
+_MASSES, _DRIFTS, _ROW = ONE_MASS.masses, ONE_MASS.drifts, ONE_MASS.width
 _row = stack(_ROW)
 _PUSHED = tuple(ONE_MASS.stop(phases.IMPULSE, stop) for stop in range(ONE_MASS.stops))
 _LOST = tuple(
@@ -33,7 +35,7 @@ def start_notes(notes: Vector, everything: int) -> None:
     """Before anything has been seen."""
     nothing(notes)
     for i in range(WORK, EVERYTHING):
-        notes[i] = 0.0
+        notes[i] = 0.0 if everything else math.nan
     notes[EVERYTHING] = everything
 
 
@@ -45,7 +47,7 @@ def add(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vecto
     flow.extremes(plan, before, ended, after, notes)
     if before[MODE] != FLIGHT or notes[EVERYTHING] != 0.0:
         row = _row()
-        begin_row(row, _MASSES, _ROW)
+        begin_row(row, _MASSES, _DRIFTS, _ROW)
         flow.measure(plan, before, ended, after, row)
         right, left = right + row[_PUSHED[0]], left + row[_PUSHED[1]]
         if notes[EVERYTHING] != 0.0:

@@ -19,7 +19,7 @@ from vibroimpact.engine.memory import workspace
 from vibroimpact.engine.motion import Stretch, direction
 from vibroimpact.engine.observers.measure import ABSCISSAE, WEIGHTS
 
-_TURN = 8.0
+TURN = 8.0
 """What a line may turn (rad) over the points of one quadrature, for 12 points to be exact to
 rounding."""
 
@@ -29,7 +29,7 @@ time between sections (s)."""
 NOTES = 3
 
 # Rows of what is found, a row a real number for each line: the integrals of u, u̇ and the absolute
-# acceleration times cos and −sin νt.
+# acceleration times cos and −sin νt. Of several masses, a row is one for each mass.
 QUANTITIES = 6
 
 
@@ -50,7 +50,7 @@ def integrate_stretch(
         for n in range(ORDER):
             forces[n] = series[n]
         unit = accelerated(plan, cursor, s, c, forces)
-        parts = 1 + int(fastest * h / _TURN)
+        parts = 1 + int(fastest * h / TURN)
         width = (high + 0.5) / parts
         for part in range(parts):
             for n in range(len(WEIGHTS)):

@@ -43,6 +43,7 @@ from vibroimpact.engine.motion import (
     facing,
     main_stop,
 )
+from vibroimpact.engine.observers import record
 from vibroimpact.engine.observers.extremes import Part, pushed, series_extremes
 from vibroimpact.engine.observers.margin import leading_sign
 from vibroimpact.engine.observers.phases import (
@@ -65,12 +66,12 @@ from vibroimpact.engine.observers.phases import (
     MASS,
     PARTING,
     STOP,
+    STRUCK,
     SYSTEM,
     TOUCHED,
     U_LEAST,
     WORK,
 )
-from vibroimpact.engine.observers.record import recorded_kind
 from vibroimpact.engine.stops.kelvin_voigt import closing_speed, relaxed_loss
 from vibroimpact.engine.stops.places import total_gap
 from vibroimpact.engine.stops.rigid import rigid
@@ -242,8 +243,10 @@ def measure_settling(plan: Vector, before: Motion, step: float, after: Motion, r
 def measure_event(plan: Vector, stretch: Stretch, row: Vector) -> None:
     """Write what the event is that ends a phase, and what the stop that it is at loses."""
     before, _, event, _, arrival, after = stretch
-    stop = stop_of(event)
-    row[KIND], row[AT_STOP] = recorded_kind(event, after), stop
+    stop, kind = stop_of(event), record.recorded_kind(event, after)
+    row[KIND], row[AT_STOP] = kind, stop
+    if kind == record.IMPACT:
+        row[STRUCK] = abs(arrival - after.v)
     behind = acceleration(plan, after)
     sharp = acceleration(plan, arrived(before.mode, arrival, after))
     row[SYSTEM + A_EVENT] = max(abs(sharp), abs(behind))

@@ -18,14 +18,15 @@ from vibroimpact.engine.state import EVENT, STEP, T, copy
 # Columns of a phase: what ends it (of `record`, or NOTHING) and the number of that stop, when (the
 # section's number and the time since it), how long it lasts, which stops are touched (a bit each),
 # the work that the shaking takes from the masses, what the links lose, and the range of what all
-# forces but the shaking give as an acceleration.
+# forces but the shaking give as an acceleration, of several masses the force on the base (N), and
+# the impulse of an impact that ends it.
 KIND, AT_STOP, SECTION, SINCE, LENGTH, TOUCHED, WORK, LOST = range(8)
-CARRIED_LEAST, CARRIED_MOST = 8, 9
-SYSTEM = 10
+CARRIED_LEAST, CARRIED_MOST, STRUCK = 8, 9, 10
+SYSTEM = 11
 
 # Then columns for each mass: ranges of the displacement and of the absolute acceleration, when the
 # acceleration is largest (since the phase begins), the velocity at its end, that behind the event
-# which ends it, and the largest acceleration there.
+# which ends it, and the largest acceleration there. The times and accelerations of one mass only.
 U_LEAST, U_MOST, A_LEAST, A_MOST, A_TIME, ARRIVAL, PARTING, A_EVENT = range(8)
 MASS = 8
 
@@ -35,20 +36,25 @@ MASS = 8
 FORCE, IMPULSE, DEPTH, LOSES, HIT, CLOSING = range(6)
 STOP = 6
 
+# And for each drift of several masses: its range, and what the dashpot between its ends loses.
+D_LEAST, D_MOST, D_LOST = range(3)
+DRIFT = 3
+
 NOTHING = -1.0
 """The column KIND of a phase that the motion's end cuts off."""
 
 
 class Layout(NamedTuple):
-    """Where in a row the columns are, of so many masses and stops."""
+    """Where in a row the columns are, of so many masses, stops and drifts."""
 
     masses: int
     stops: int
+    drifts: int = 0
 
     @property
     def width(self) -> int:
         """Length of a row."""
-        return SYSTEM + MASS * self.masses + STOP * self.stops
+        return SYSTEM + MASS * self.masses + STOP * self.stops + DRIFT * self.drifts
 
     def mass(self, column: int, number: int = 0) -> int:
         """Column of a mass."""
@@ -58,18 +64,22 @@ class Layout(NamedTuple):
         """Column of a stop."""
         return SYSTEM + MASS * self.masses + STOP * number + column
 
+    def drift(self, column: int, number: int) -> int:
+        """Column of a drift."""
+        return SYSTEM + MASS * self.masses + STOP * self.stops + DRIFT * number + column
+
 
 ONE_MASS = Layout(1, 2)
 """The right stop has the number 0, the left one 1."""
 
 # What is kept of the rows between calls: their width, how many are complete, how many there may
 # be, and the number of the section.
-WIDTH, MASSES, WRITTEN, CAPACITY, NUMBER = range(5)
-NOTES = 5
+WIDTH, MASSES, DRIFTS, WRITTEN, CAPACITY, NUMBER = range(6)
+NOTES = 6
 
 
 @kernel
-def begin_row(row: Vector, masses: int, width: int) -> None:
+def begin_row(row: Vector, masses: int, drifts: int, width: int) -> None:
     """Begin a phase: nothing has been seen of it."""
     for i in range(width):
         row[i] = 0.0
@@ -79,6 +89,9 @@ def begin_row(row: Vector, masses: int, width: int) -> None:
         at = SYSTEM + MASS * i
         row[at + U_LEAST], row[at + U_MOST] = math.inf, -math.inf
         row[at + A_LEAST], row[at + A_MOST] = math.inf, -math.inf
+    for i in range(drifts):
+        at = width - DRIFT * (drifts - i)
+        row[at + D_LEAST], row[at + D_MOST] = math.inf, -math.inf
 
 
 @kernel
@@ -99,7 +112,7 @@ def note(
         return
     row[SECTION], row[SINCE] = notes[NUMBER], ended[T] + ended[STEP]
     notes[WRITTEN] += 1.0
-    begin_row(beyond(row, width), int(notes[MASSES]), width)
+    begin_row(beyond(row, width), int(notes[MASSES]), int(notes[DRIFTS]), width)
 
 
 @kernel

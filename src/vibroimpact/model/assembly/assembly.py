@@ -402,6 +402,13 @@ class Assembly(Model):
         """Return the row w for which u_left − u_right = w u."""
         return _closing(link.left, link.right, list(self.names))
 
+    def ends(self, link: Link) -> tuple[int, int]:
+        """Return the indices of the masses of a link, left and right; -1 for the ground."""
+        left, right = (
+            -1 if end == GROUND else self.names.index(end) for end in (link.left, link.right)
+        )
+        return left, right
+
     def meeting_mass(self, link: Link) -> float:
         """Return the mass (kg) that meets at a stop: m₁ m₂/(m₁ + m₂), or m at the ground.
 

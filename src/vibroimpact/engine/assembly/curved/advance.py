@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from vibroimpact.engine.assembly import advance as linear
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.advance import load_motion, relax, remember, store_motion
+from vibroimpact.engine.assembly.advance import relax, remember
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.happen import decide, switch
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
@@ -12,10 +12,9 @@ from vibroimpact.engine.assembly.curved.step import take_step, travel
 from vibroimpact.engine.assembly.curved.terms import expand_all, move_alike
 from vibroimpact.engine.assembly.curved.watch import first_of
 from vibroimpact.engine.assembly.mode import enter_mode
-from vibroimpact.engine.event import GIVEN_UP, LIMIT, PASSED, TURN, event_of
+from vibroimpact.engine.event import GIVEN_UP, LIMIT, TURN, event_of
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.state import ARRIVAL, STEP
 
 _SAME = 1e-12
 """Share of a step within which events are simultaneous, so that the row's number decides."""
@@ -128,17 +127,5 @@ def reopen(plan: Vector) -> None:
     expand_all(plan, y, deformation, unit, of.ORDER)
 
 
-@kernel
-def advance(plan: Vector, before: Vector, limit: float, ended: Vector, after: Vector) -> int:
-    """See `flow.advance`; a step ends a stretch, too, which is kept in the plan."""
-    clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
-    load_motion(plan, before, before[clock], before[clock + 1])
-    event = next_curved_stretch(plan, limit)
-    ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
-    store_motion(plan, after)
-    if event == LIMIT and plan[at.LENGTH] < limit:
-        return PASSED
-    return event
-
-
 next_stretch = next_curved_stretch
+advance = linear.advancing(next_stretch)

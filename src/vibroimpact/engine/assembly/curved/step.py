@@ -14,6 +14,7 @@ from vibroimpact.engine.assembly.curved.terms import (
     row_of,
     shorten,
 )
+from vibroimpact.engine.assembly.series import travel_by_series
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.series.step import BALANCED, TOLERANCE
@@ -28,30 +29,8 @@ _LEAST_SHARE = 2.0**-10
 @kernel
 def travel(plan: Vector, y: Vector, deformation: Vector, tau: float) -> None:
     """Carry the state, of which the series was made, on in place; what is free stays."""
-    n, w, order = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.ORDER])
-    row = 2 * (n + 1)
-    series, waves, base = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES]), int(plan[at.NODES])
-    stops, listed = int(plan[at.STOP]), int(plan[at.PRESSED_LIST])
-    for p in range(int(plan[at.PRESSED])):
-        f = int(plan[listed + p])
-        one = stops + f * at.STOP_WIDTH
-        left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
-        gained = 0.0
-        for j in range(order, 0, -1):
-            a = series + j * row
-            gained = (gained + plan[a + left] - plan[a + right]) * tau
-        deformation[f] += gained
-    for i in range(n):
-        for part in range(2):
-            place, gained = series + part * (n + 1) + i, 0.0
-            for j in range(order, 0, -1):
-                gained = (gained + plan[place + j * row]) * tau
-            y[part * n + i] += gained
-    for q in range(w):
-        gained = 0.0
-        for j in range(order, 0, -1):
-            gained = (gained + plan[waves + j * w + q]) * tau
-        y[2 * n + q] += gained
+    travel_by_series(plan, y, deformation, tau)
+    order, base = int(plan[at.ORDER]), int(plan[at.NODES])
     for f in range(int(plan[at.STOPS])):
         law = row_of(plan, f)
         if remembers(plan, law):

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly import measures, section, table
+from vibroimpact.engine.assembly import measures, section, stretches, table
 from vibroimpact.engine.assembly.curved import advance as motion
 from vibroimpact.engine.assembly.curved import channels
 from vibroimpact.engine.assembly.curved import section as curved
 from vibroimpact.engine.assembly.curved import tangent as disturbances
+from vibroimpact.engine.assembly.record import recording
 from vibroimpact.engine.event_loop import unobserved
 from vibroimpact.engine.jit import Vector, kernel
 
@@ -18,7 +19,11 @@ coordinates, numbers, look_again = table.coordinates, table.numbers, table.look_
 margin, mirror = table.margin, curved.mirror
 nothing, measured = table.nothing, table.measured
 units, disturb, place, at_point = curved.units, curved.disturb, curved.place, curved.at_point
+start_demand = stretches.start_demand
 _observed = measures.observing(channels)
+_measure = stretches.measuring(channels)
+_write_down, write = recording(motion.next_stretch, channels)
+_demand, _integrate = stretches.demanding(_measure), stretches.integrating(channels)
 
 
 @kernel
@@ -66,3 +71,43 @@ def tangent(
 ) -> None:
     """See `flow.tangent`."""
     disturbances.carry_all(plan, notes, q)
+
+
+@kernel
+def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
+    """See `flow.measure`."""
+    _measure(plan, before, True, row)
+
+
+@kernel
+def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+    """See `flow.demand`."""
+    _demand(plan, before, notes)
+
+
+@kernel
+def integrate(
+    plan: Vector,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
+    lines: Vector,
+    out: Vector,
+) -> None:
+    """See `flow.integrate`."""
+    _integrate(plan, ended, notes, lines, out)
+
+
+@kernel
+def record(
+    plan: Vector,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
+    samples: Vector,
+    events: Vector,
+) -> None:
+    """See `flow.record`."""
+    _write_down(plan, before, ended, notes, samples, events)

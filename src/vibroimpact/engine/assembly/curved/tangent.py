@@ -30,20 +30,19 @@ from vibroimpact.engine.assembly.curved.terms import (
 from vibroimpact.engine.assembly.events import closing, halt
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.assembly.series import drive, places, restrain
-from vibroimpact.engine.assembly.tangent import contraction, meet, reflect
+from vibroimpact.engine.assembly.tangent import meet, note, reflect
 from vibroimpact.engine.event import (
     CONTACT,
     DETACHMENT,
     GIVEN_UP,
     IMPACT,
     LIMIT,
-    begins_contact,
     kind_of,
     stop_of,
 )
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
-from vibroimpact.engine.state import DAMPING, HITS
+from vibroimpact.engine.state import DAMPING
 
 _LAST = 2.0**-47
 """What the last term of the slopes may be."""
@@ -320,14 +319,6 @@ def _jump(plan: Vector, row: Vector, before: int, here: int, there: int, rates: 
 @kernel
 def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
     """Carry a disturbance of each part through the last stretch; see `assembly.tangent`."""
-    event, length = int(plan[at.EVENT]), plan[at.LENGTH]
-    f = stop_of(event)
-    notes[DAMPING] += length * contraction(plan, int(plan[at.STRETCH_MODE]))
-    if begins_contact(event):
-        notes[HITS + f] += 1.0
-    if kind_of(event) == IMPACT:
-        e = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RESTITUTION]
-        left = e > 0.0 and not int(plan[at.MODE]) >> f & 1
-        notes[DAMPING] += -2.0 * math.log(e) if left else math.inf
+    note(plan, notes)
     lost = carry_along_series(plan, q, 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]))
     notes[DAMPING] += lost

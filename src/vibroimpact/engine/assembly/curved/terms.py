@@ -9,7 +9,7 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved import tape as op
 from vibroimpact.engine.assembly.curved.branches import way_of_slide
-from vibroimpact.engine.assembly.series import Places, drive, places, restrain
+from vibroimpact.engine.assembly.series import Places, drive, expanding, places, restrain
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -212,69 +212,30 @@ def move_alike(plan: Vector, values: Vector) -> None:
                 values[second], changed = values[first], True
 
 
-@apart
-def expand_all(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
-    """Write the series of u, v, w, the memories and all forces in t / length.
-
-    y is u, v, w, 1. The mode and the numbers of its laws are those that were entered.
-    """
-    of_ = places(plan)
-    n, w = of_.masses, of_.waves
-    plan[at.MOVED] = 1.0
-    row, v = 2 * (n + 1), n + 1
-    plan[at.ORDER], plan[at.PIECE_LENGTH] = float(order), length
-    series, waves = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES])
-    forces, count = int(plan[at.FORCE_SERIES]), int(plan[at.STOPS])
-    base, pressed = int(plan[at.NODES]), of_.pressed
-    for i in range(n):
-        plan[series + i], plan[series + v + i] = y[i], y[n + i]
-    plan[series + n], plan[series + v + n] = 0.0, 0.0
-    for q in range(w):
-        plan[waves + q] = y[2 * n + q]
-    for f in range(count):
+@kernel
+def _begin(plan: Vector, deformation: Vector) -> None:
+    for f in range(int(plan[at.STOPS])):
         law = row_of(plan, f)
         if remembers(plan, law):
-            plan[node(plan, law, of.Z_NODE, base)] = deformation[f]
-    record = plan[at.RECORD] != 0.0
-    for j in range(order + 1):
-        a = series + j * row
-        now = waves + j * w
-        force = forces + j * count
-        for p in range(pressed):
-            f = int(plan[of_.pressed_list + p])
-            if j == 0:
-                plan[force + p] = deformation[f]
-            else:
-                one = of_.stops + f * at.STOP_WIDTH
-                left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
-                plan[force + p] = plan[a + left] - plan[a + right]
-        after = int(plan[at.SCRATCH]) if j == order else a + row + v
-        here = beyond(plan, a)
-        held = beyond(plan, force)
-        drive(plan, of_, here, beyond(plan, now), held, 1.0 if j == 0 else 0.0, after)
-        push(plan, of_, here, j, base, after)
-        restrain(plan, of_, beyond(held, pressed), after)
-        move_alike(plan, beyond(plan, after))
-        if j == order:
-            break
-        factor = length / (j + 1)
-        for i in range(n):
-            plan[a + row + i] = factor * here[v + i]
-            plan[after + i] *= factor
-        plan[a + row + n], plan[after + n] = 0.0, 0.0
-        for f in range(count):
-            law = row_of(plan, f)
-            if remembers(plan, law):
-                grown = plan[node(plan, law, of.FLOW_NODE, base) + j]
-                plan[node(plan, law, of.Z_NODE, base) + j + 1] = factor * grown
-        if record:
-            plan[now + w] = factor * plan[now + 1]
-            plan[now + w + 1] = 0.0
-        else:
-            for q in range(w // 2):
-                turn = factor * plan[at.OMEGA] * (q + 1)
-                plan[now + w + 2 * q] = turn * plan[now + 2 * q + 1]
-                plan[now + w + 2 * q + 1] = -turn * plan[now + 2 * q]
+            plan[node(plan, law, of.Z_NODE, int(plan[at.NODES]))] = deformation[f]
+
+
+@kernel
+def _push(plan: Vector, of_: Places, here: Vector, j: int, after: int) -> None:
+    push(plan, of_, here, j, int(plan[at.NODES]), after)
+
+
+@kernel
+def _grow(plan: Vector, factor: float, j: int) -> None:
+    base = int(plan[at.NODES])
+    for f in range(int(plan[at.STOPS])):
+        law = row_of(plan, f)
+        if remembers(plan, law):
+            grown = plan[node(plan, law, of.FLOW_NODE, base) + j]
+            plan[node(plan, law, of.Z_NODE, base) + j + 1] = factor * grown
+
+
+expand_all = expanding(_begin, _push, move_alike, _grow)
 
 
 @apart
