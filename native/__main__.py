@@ -75,9 +75,8 @@ def functions() -> Iterator[tuple[Compiled, Any]]:
             if isinstance(value, Entry | Single) and value.function.__module__ == name:
                 yield value, np.empty(8) if isinstance(value, Entry) else Alone()
     for flow in flow_dispatch.FLOWS:
-        for name, group in flow_tables.GROUPS.items():
-            if name not in flow_tables.LACKING.get(flow, ()):
-                yield group, flow(np.empty(8))
+        for group in flow_tables.GROUPS.values():
+            yield group, flow(np.empty(8))
 
 
 def lowered(index: int) -> tuple[str, bytes]:

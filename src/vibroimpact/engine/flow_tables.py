@@ -60,16 +60,6 @@ GROUPS = {
     for function in (_motion, _recorded, _disturbed, _measured)
 }
 """What fills a part of a table with the addresses of compiled functions."""
-LACKING = {
-    kind: {
-        group
-        for group, names in flow.GROUPS.items()
-        if not any(hasattr(_module(kind), name) for name in names)
-    }
-    for kind in SEVERAL_MASSES
-}
-"""Groups of functions that a flow lacks: an entry that needs one of them refuses its rigs."""
-
 _tables: dict[type, NDArray[np.int64]] = {}
 _filled: set[tuple[type, str]] = set()
 
@@ -79,8 +69,6 @@ def plan_of(rig: Vector, groups: tuple[str, ...]) -> Vector:
     given = flow_of(rig)
     memory: Vector = given.memory
     kind = type(given)
-    if lacking := set(groups).intersection(LACKING.get(kind, set())):
-        raise NotImplementedError(f"{kind.__name__} has no functions {sorted(lacking)}")
     if PLAIN:
         return memory
     table = _tables.setdefault(kind, np.zeros(len(flow.SIGNATURES), np.int64))

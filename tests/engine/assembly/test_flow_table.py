@@ -13,14 +13,12 @@ from vibroimpact.engine import (
     batch,
     event_loop,
     flow,
-    flow_dispatch,
-    flow_tables,
     lyapunov,
     orbit,
     section_map,
 )
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly import measures, table
+from vibroimpact.engine.assembly import measures
 from vibroimpact.engine.assembly.plan import GROUND, Stop, base_motion, make_vector
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
@@ -162,13 +160,10 @@ def test_one_mass_has_the_same_orbit_and_multipliers(rigid: bool) -> None:
 
 
 def test_every_function_of_the_table_is_there() -> None:
-    for name in flow.GROUPS["motion"] + flow.GROUPS["disturbed"]:
-        assert callable(getattr(table, name)), name
+    for module in flow.FLOWS:
+        for name in flow.SIGNATURES:
+            assert callable(getattr(module, name)), name
     assert at.FLOW == FORCING
-    vector = vector_of(neighbours())
-    assert flow_tables.LACKING[type(flow_dispatch.flow_of(vector))] == {"recorded", "measured"}
-    with pytest.raises(NotImplementedError, match="recorded"):
-        flow_tables.plan_of(vector, ("motion", "recorded"))
 
 
 CYCLE, EXTREMES, TANGENT, MIRRORED = range(4)
