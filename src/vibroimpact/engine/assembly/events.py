@@ -163,6 +163,7 @@ def impacts(settle: Any) -> Any:
         pressed = zeros[f] >= 2.0
         if pressed or settle(plan, f, max(e * speed, 0.0), e, y, deformation):
             mode |= 1 << f
+            zeros[f] = 0.0
             enter_mode(plan, mode)
             halt(plan, y)
             return mode
@@ -207,7 +208,8 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
     if rigid:
         return impact(plan, mode, f, y, deformation), IMPACT
     # A dashpot's force begins with a jump, a spring's with zero.
-    zeros[f] = 0.0 if dashpot else 1.0
+    late = 1.0 if zeros[f] >= 2.0 else 0.0
+    zeros[f] = late if dashpot else 1.0 + late
     if not dashpot:
         deformation[f] = 0.0
     else:
