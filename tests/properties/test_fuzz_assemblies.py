@@ -1,0 +1,207 @@
+"""Random assemblies: no hang, no NaN, no stop passed, and what must not change the motion.
+
+`python tests/properties/test_fuzz_assemblies.py 20000 1` looks at as many, from a seed.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import sys
+import time
+import warnings
+from collections import Counter
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+
+if __name__ == "__main__":
+    from pathlib import Path
+
+    sys.path.insert(0, str(Path(__file__).parents[1]))
+
+import vibroimpact as vi
+from properties.random_assemblies import mirrored, random_assembly, reordered
+from reference.stored_by_assembly import stored
+from samples import sample
+
+CYCLES = 4
+LONGEST = 400.0
+"""s; one that hangs ends the process, with its place."""
+EXACT = 1e-9
+"""Of the size of the motion, and of the energy that goes through it."""
+ROUNDING = 1e-13
+"""Of the largest kinetic energy: the rounding of a balance in which hardly any energy is left."""
+NOTHING = 1e-30
+"""J."""
+SENSITIVE = 1e-12
+"""A change of the amplitude by this share shows how far two roundings may lead apart."""
+GROWTH = 1e4
+
+
+def survey(count: int, seed: int, first: int = 0, tell: bool = False) -> tuple[Counter[str], list]:
+    """Outcomes and faults of the assemblies `first`, … of a seed."""
+    outcomes: Counter[str] = Counter()
+    wrong: list[str] = []
+    begin = time.monotonic()
+    for i in range(first, first + count):
+        faulthandler.dump_traceback_later(LONGEST, exit=True)
+        status, found = looked_at(seed, i)
+        faulthandler.cancel_dump_traceback_later()
+        outcomes[status] += 1
+        found = [f"assembly {i} of seed {seed}: {one}" for one in found]
+        wrong += found
+        if tell:
+            for one in found:
+                print(one, flush=True)
+            if (i + 1 - first) % 100 == 0:
+                rate = 60.0 * (i + 1 - first) / (time.monotonic() - begin)
+                print(f"{i + 1 - first}, {rate:.0f} a minute: {dict(outcomes)}", flush=True)
+    return outcomes, wrong
+
+
+def drawn(seed: int, which: int) -> tuple[np.random.Generator, vi.Assembly, vi.Harmonic] | str:
+    """One assembly, or why there is none: a random one may have no equilibrium."""
+    rng = np.random.default_rng([seed, which])
+    try:
+        return rng, *random_assembly(rng)
+    except vi.InputError as error:
+        return f"refused, {str(error).split(':')[0]}"
+
+
+def looked_at(seed: int, which: int) -> tuple[str, list[str]]:
+    """The outcome of a motion, and what is wrong with it."""
+    found = drawn(seed, which)
+    if isinstance(found, str):
+        return found, []
+    rng, assembly, shaken = found
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        warnings.simplefilter("ignore", UserWarning)
+        data = followed(assembly, shaken, CYCLES, samples=8)
+        status = data.attrs["message"].split(":")[0]
+        wrong = faults(assembly, data, status)
+        if not wrong and status == "done":
+            wrong = imbalance(assembly, data) + unlike(rng, assembly, shaken)
+    return status, wrong
+
+
+def followed(
+    assembly: vi.Assembly, shaken: vi.Harmonic, cycles: float, samples: int = 0, start: Any = None
+) -> xr.Dataset:
+    rig = vi.Rig(assembly, shaken)
+    return vi.simulate(rig, cycles, start, samples=samples, max_events=3000)
+
+
+def faults(assembly: vi.Assembly, data: xr.Dataset, status: str) -> list[str]:
+    """What no motion may have."""
+    wrong = [status] if "range of floating-point numbers" in status else []
+    names = ("displacement", "velocity", "acceleration", "contact_force", "final_state")
+    wrong += [f"{name} is not finite" for name in names if not np.isfinite(data[name]).all()]
+    if wrong or not data.sizes["time"]:
+        return wrong
+    gap = max(abs(stop.law.gap) for stop in assembly.stops.values())
+    size = float(abs(data["displacement"]).max()) + gap
+    for name, stop in assembly.stops.items():
+        w = assembly.closing(stop)
+        pulled = float(data["contact_force"].sel(stop=name).min())
+        if pulled < -EXACT * float(data["contact_force"].max()):
+            wrong.append(f"stop {name} pulls with {-pulled:g} N")
+        if float(data["deformation"].sel(stop=name).min()) < -1e-12 * size:
+            wrong.append(f"stop {name} is stretched")
+        if isinstance(stop.law, vi.RigidStop | vi.Bumper):
+            depth = w @ data["displacement"].values - stop.law.gap
+            if isinstance(stop.law, vi.Bumper):
+                depth = depth - data["deformation"].sel(stop=name).values
+            if depth.max() > EXACT * size:
+                wrong.append(f"stop {name} is passed by {depth.max():g} of {size:g} m")
+    return wrong
+
+
+def imbalance(assembly: vi.Assembly, data: xr.Dataset) -> list[str]:
+    """Energy that is created or missing."""
+    found = vi.totals(data)
+    if not np.isfinite(found["total_stored"]) or _holds(assembly, data):
+        return []
+    supplied = float(found["total_supplied"])
+    links, stops = (found[f"total_{one}"] for one in ("links", "stops"))
+    damped = float(found["total_damping"]) if "total_damping" in found else 0.0
+    change = stored(assembly, data["final_state"]) - stored(assembly, data["initial_state"])
+    lost = float(links.sum()) + float(stops.sum()) + damped
+    through = abs(supplied) + float(abs(links).sum()) + float(abs(stops).sum()) + abs(change)
+    masses = np.array(list(assembly.masses.values()))
+    kinetic = 0.5 * float((masses @ data["velocity"].values ** 2).max())
+    wrong = [
+        f"{name} created {-float(one):g} of {through:g} J"
+        for kind in (links, stops)
+        for name, one in zip(kind.values.size * [kind.name], kind.values, strict=True)
+        if one < -EXACT * through - ROUNDING * kinetic - NOTHING
+    ]
+    missing = supplied - lost - change
+    if abs(missing) > EXACT * through + ROUNDING * kinetic + NOTHING:
+        wrong.append(f"{missing:g} of {through:g} J are missing")
+    return wrong
+
+
+def _holds(assembly: vi.Assembly, data: xr.Dataset) -> bool:
+    """Whether a curved stop is pressed at the end: what it holds there counts as lost."""
+    pressed = data["final_state"].to_series()
+    return any(
+        pressed[f"touching.{name}"] and not isinstance(stop.law, vi.RigidStop | vi.Bumper)
+        for name, stop in assembly.stops.items()
+    )
+
+
+def unlike(rng: np.random.Generator, assembly: vi.Assembly, shaken: vi.Harmonic) -> list[str]:
+    """What changes the motion and must not: a restart, a mirror, another order of the masses."""
+    cycles, cut = 2.0, float(rng.uniform(0.05, 1.95))
+    plain = followed(assembly, shaken, cycles)
+    whole = _ends(plain, assembly)
+    first = followed(assembly, shaken, cut)
+    try:
+        resumed = _ends(followed(assembly, shaken, cycles - cut, start=first), assembly)
+    except vi.InputError as error:
+        return [f"not resumed after {cut!r} cycles: {error}"]
+    image = _ends(followed(*mirrored(assembly, shaken), cycles), assembly)
+    turned = _ends(followed(reordered(rng, assembly), shaken, cycles), assembly)
+    speed = shaken.angular_frequency
+    size = max(float(np.abs(whole[0]).max()), float(np.abs(whole[1]).max()) / speed, 1e-3)
+
+    def off(other: Any, sign: float = 1.0) -> float:
+        u, v = (float(np.abs(sign * a - b).max()) for a, b in zip(other, whole, strict=True))
+        return max(u, v / speed) / size
+
+    apart = {
+        f"resumed after {cut:g} cycles": off(resumed),
+        "the mirror image": off(image, -1.0),
+        "another order of the masses": off(turned),
+    }
+    if max(apart.values()) <= EXACT or plain["simultaneous_impacts"]:
+        return []
+    other = shaken.replace(amplitude=shaken.amplitude * (1.0 + SENSITIVE))
+    allowed = EXACT + GROWTH * off(_ends(followed(assembly, other, cycles), assembly))
+    return [f"{what}: {one:.1e} apart" for what, one in apart.items() if one > allowed]
+
+
+def _ends(data: xr.Dataset, assembly: vi.Assembly) -> tuple[Any, Any]:
+    end, names = data["final_state"], list(assembly.names)
+    u, v = (
+        end.sel(component=[f"{part}.{name}" for name in names]).values
+        for part in ("displacement", "velocity")
+    )
+    return u, v
+
+
+@pytest.mark.parametrize("seed", range(sample(20, 1)))
+def test_random_assemblies(seed: int) -> None:
+    outcomes, wrong = survey(sample(1000, 25), seed)
+    assert not wrong, "\n".join(wrong)
+    assert outcomes["done"] > 0.9 * sum(outcomes.values())
+
+
+if __name__ == "__main__":
+    given = [int(word) for word in sys.argv[1:]]
+    totals, bad = survey(given[0], *(given[1:] or [1]), tell=True)
+    print(dict(totals))
+    print("\n".join(bad) or "no faults")
