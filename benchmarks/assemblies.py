@@ -138,9 +138,7 @@ def assemblies() -> list[Table]:
         if scipy is not None:
             slow = _bound(scipy.run, problem, SCIPY_PERIODS)
             fast = {name: calls[name] for name in mine}
-            pair = interleave(
-                {**fast, _SCIPY: slow}, _SCIPY_ROUNDS, clock=time.thread_time
-            )
+            pair = interleave({**fast, _SCIPY: slow}, _SCIPY_ROUNDS, clock=time.thread_time)
             share = SCIPY_PERIODS / PERIODS
             behind = {
                 name: ratio(pair[_SCIPY], [share * one for one in pair[name]]) for name in mine
@@ -335,9 +333,14 @@ def first_use() -> Table:
             compiled = fresh.compiled(environment)
         for shape, seconds in zip(_SHAPES, ended.output.split(), strict=True):
             table.add(
-                f"{name}: {shape}, s", f"{float(seconds):.2f}", "under 15 s", met(float(seconds) < 15)
+                f"{name}: {shape}, s",
+                f"{float(seconds):.2f}",
+                "under 15 s",
+                met(float(seconds) < 15),
             )
-        table.add(f"{name}: functions compiled", str(compiled), "0 with the library", met(not compiled))
+        table.add(
+            f"{name}: functions compiled", str(compiled), "0 with the library", met(not compiled)
+        )
     return table
 
 

@@ -302,6 +302,26 @@ def test_motions_are_resumed(what: str, samples: int) -> None:
             assert joined == whole.sizes["event"] > 20
 
 
+@pytest.mark.parametrize("masses", [1, 2])
+def test_a_motion_that_rests_at_zero_is_resumed(masses: int) -> None:
+    """Rest keeps the rounding with which it began, beside which a mass at zero has no size."""
+    names = ["a", "b"][:masses]
+    assembly = vi.Assembly(
+        dict.fromkeys(names, 1.3),
+        links={name: vi.Link("ground", name, vi.Isolator(2.0, 0.1)) for name in names},
+        stops={"s": vi.Link("a", "ground", vi.RigidStop(0.3, 0.0))},
+    )
+    rig = vi.Rig(assembly, vi.Harmonic(0.7, 0.2, 3.5))
+    whole, rests = vi.simulate(rig, 2, samples=0), 0
+    for cut in np.linspace(0.1, 1.9, 19):
+        first = vi.simulate(rig, cut, samples=0)
+        end = first["final_state"].to_series()
+        rests += bool(end["touching.s"] and (end["velocity.a"] or end["displacement.a"]))
+        rest = vi.simulate(rig, 2.0 - cut, first, samples=0)
+        near(rest["final_state"], whole["final_state"], 1e-11)
+    assert rests > 1
+
+
 def test_samples_do_not_change_the_motion() -> None:
     rig = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9))
     ends = [vi.simulate(rig, 30.3, samples=samples)["final_state"] for samples in (0, 1, 50)]

@@ -277,6 +277,7 @@ class _Run:
         resting = {f for f in range(self.stops) if rigid[f] and mode >> f & 1}
         slack = _SAME * self.sections.interval
         row = 0
+        begins: _Array | None = None  # computed once, if a rest asks for it
         for i, (_, time, stop, what) in enumerate(log):
             while row < len(rows) - 1 and rows[row, 1] < time - slack:
                 row += 1
@@ -299,21 +300,21 @@ class _Run:
                     yield _Event(section, time, f, _HIT, u, v)
                 if f in held:
                     # The impact after which the bodies rest is followed by the rest.
-                    yield _Event(
-                        section, time, f, _START, u, self._velocity_after(after, section, before)
-                    )
+                    if begins is None:
+                        lines = self.sections.lines[section : section + 1]
+                        begins = _Seen.of(
+                            self._rows_at_begin(lines, before), self.n, self.stops
+                        ).velocity
+                    rests = begins[after] if after < len(begins) else self._velocity()
+                    yield _Event(section, time, f, _START, u, rests)
                     resting.add(f)
             else:
                 yield _Event(section, time, f, _START if what == _CONTACT else _END, u, v)
                 resting.discard(f)
             row = after
 
-    def _velocity_after(self, row: int, section: int, before: _Array) -> _Array:
-        """Return the velocities at the beginning of a stretch of a section."""
-        rows = self._rows_at_begin(self.sections.lines[section : section + 1], before)
-        if row < len(rows):
-            found: _Array = _Seen.of(rows, self.n, self.stops).velocity[row]
-            return found
+    def _velocity(self) -> _Array:
+        """Return the velocities at the end of what was followed."""
         now: _Array = self.state[layout.PARTS + self.n : layout.PARTS + 2 * self.n].copy()
         return now
 
