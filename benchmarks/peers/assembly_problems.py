@@ -104,6 +104,6 @@ def _cubic(problem: Masses, which: int, cubic: float, reference: dict[int, tuple
 
 
 CUBIC_NEIGHBOURS = _cubic(NEIGHBOURS, 1, 2e5, {})
-CUBIC_FRAME = _cubic(FRAME, 0, 1e5, {})
+CUBIC_FRAME = replace(_cubic(FRAME, 0, 1e5, {}), hertz=1.0)
 
 ASSEMBLIES = (NEIGHBOURS, FRAME, CUBIC_NEIGHBOURS, CUBIC_FRAME)

@@ -35,6 +35,7 @@ ROUNDING = 1e-13
 """Of the largest kinetic energy: the rounding of a balance in which hardly any energy is left."""
 NOTHING = 1e-30
 """J."""
+GIVEN_UP = "given up"
 BALANCED = 4
 """Of so many the energy balance of one is drawn up, which takes longer than all else."""
 SENSITIVE = 1e-12
@@ -52,6 +53,8 @@ def survey(count: int, seed: int, first: int = 0, tell: bool = False) -> tuple[C
         status, found = looked_at(seed, i)
         faulthandler.cancel_dump_traceback_later()
         outcomes[status] += 1
+        if status == GIVEN_UP and tell:
+            print(f"assembly {i} of seed {seed} {status}", flush=True)
         found = [f"assembly {i} of seed {seed}: {one}" for one in found]
         wrong += found
         if tell:
@@ -82,7 +85,8 @@ def looked_at(seed: int, which: int) -> tuple[str, list[str]]:
         warnings.simplefilter("ignore", RuntimeWarning)
         warnings.simplefilter("ignore", UserWarning)
         data = followed(assembly, shaken, CYCLES, samples=8)
-        status = data.attrs["message"].split(":")[0]
+        told = data.attrs["message"]
+        status = GIVEN_UP if "max_events" in told else told.split(":")[0]
         wrong = faults(assembly, data, status)
         if not wrong and status == "done":
             wrong = unlike(rng, assembly, shaken)
