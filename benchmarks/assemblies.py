@@ -16,6 +16,8 @@ from benchmarks.peers.assembly_problems import (
     FRAME,
     GROUND,
     NEIGHBOURS,
+    Bumper,
+    Link,
     Masses,
 )
 from benchmarks.records import record
@@ -325,7 +327,7 @@ _SHAPES = (
 
 
 def first_use() -> Table:
-    """Time first uses in a new process that has an empty cache, with the library of machine code."""
+    """Time first uses in a new process that has an empty cache."""
     table = targets("First use of an assembly, in a new process with an empty cache")
     for name, call in _CALLS.items():
         with fresh.empty_cache() as environment:
