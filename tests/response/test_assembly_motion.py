@@ -322,6 +322,24 @@ def test_a_motion_that_rests_at_zero_is_resumed(masses: int) -> None:
     assert rests > 1
 
 
+def test_a_bumper_pressed_by_rounding_is_resumed() -> None:
+    """Held at zero between a spring and a rigid stop, a mass presses the spring by 1e-17 m."""
+    assembly = vi.Assembly(
+        {"m": 1.6477785153718099},
+        links={"l": vi.Link("ground", "m", vi.Isolator(0.3318077766539548, 0.0))},
+        stops={
+            "s": vi.Link("m", "ground", vi.Bumper(229.4763320202555, 0.0, 0.0)),
+            "r": vi.Link("ground", "m", vi.RigidStop(0.32361277611579126, 0.0)),
+        },
+        forces={"m": 0.7059008956238293},
+    )
+    shaken = vi.Harmonic(1.488077922033719, 0.07191951046172541, 3.5980615733337427)
+    first = vi.simulate(vi.Rig(assembly, shaken), 0.7724221865305544, samples=0)
+    whole = vi.simulate(vi.Rig(assembly, shaken), 2, samples=0)
+    rest = vi.simulate(vi.Rig(assembly, shaken), 2 - 0.7724221865305544, first, samples=0)
+    near(rest["final_state"], whole["final_state"], 1e-9)
+
+
 def test_samples_do_not_change_the_motion() -> None:
     rig = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9))
     ends = [vi.simulate(rig, 30.3, samples=samples)["final_state"] for samples in (0, 1, 50)]

@@ -212,9 +212,11 @@ def _on_bumper(
             f"start.deformation.{name}: {d:g} m, but the displacements compress this bumper by "
             f"{reach:g} m; pass at least {reach:g} m, or leave it out"
         )
-    touches = d - reach <= slack
+    touches = d - reach <= (max(slack, NEAR_ZERO) if said else slack)
     force = stiffness * d + damping * closing
-    rounding = TOUCHING * (stiffness * d + damping * speeds)
+    rounding = stiffness * max(TOUCHING * d, NEAR_ZERO) + damping * max(
+        TOUCHING * speeds, NEAR_ZERO
+    )
     if damping == 0.0 and not touches:
         d = 0.0  # without a dashpot a free bumper is at rest at once
     if said is not None:
@@ -235,7 +237,7 @@ def _on_curved(
 
     At its face bodies that close are about to meet it, unless the state says that they have.
     """
-    touches = reach > slack or (bool(said) and reach >= -slack)
+    touches = reach > slack or (bool(said) and reach >= -max(slack, NEAR_ZERO))
     met = given if given is not None else closing if abs(reach) <= slack else 0.0
     return touches, max(met, 0.0) if touches else 0.0
 
