@@ -78,7 +78,11 @@ CASES = {
     ),
     "three, bilinear base between hunt-crossley stops": case(
         {"base": 1.2, "mid": 1.0, "top": 0.8},
-        {"i": ("ground", "base", BILINEAR), "m": ("base", "mid", STOREY), "t": ("mid", "top", STOREY)},
+        {
+            "i": ("ground", "base", BILINEAR),
+            "m": ("base", "mid", STOREY),
+            "t": ("mid", "top", STOREY),
+        },
         {"r": ("base", "ground", HUNT), "l": ("ground", "base", HUNT)},
         3.0,
         1.1,

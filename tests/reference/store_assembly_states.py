@@ -31,7 +31,10 @@ def difference(one: Motion, other: Motion) -> mpf:
     """The largest over all cycles, of displacements (m), and velocities over 2 pi / s."""
     n = len(one.peaks)
     return max(
-        max(abs(a - b) / (1 if i < n else 2 * mp.pi) for i, (a, b) in enumerate(zip(*pair)))
+        max(
+            abs(a - b) / (1 if i < n else 2 * mp.pi)
+            for i, (a, b) in enumerate(zip(*pair, strict=True))
+        )
         for pair in zip(one.states, other.states, strict=True)
     )
 

@@ -40,7 +40,9 @@ def test_one_mass_moves_as_by_the_reference_of_one_mass(name: str) -> None:
     with mp.workdps(60):
         for one, other in zip(found.states, expected.states, strict=True):
             assert max(abs(a - b) for a, b in zip(one, other, strict=True)) < mpf("1e-28")
-        kinds = [event for event in expected.events if event.kind[:5] in ("conta", "detac", "impac")]
+        kinds = [
+            event for event in expected.events if event.kind[:5] in ("conta", "detac", "impac")
+        ]
         assert len(found.events) == len(kinds) > 3
         for one, other in zip(found.events, kinds, strict=True):
             assert abs(one.time - other.time) < mpf("1e-28")
@@ -62,7 +64,9 @@ def test_momentum_is_kept_between_free_masses() -> None:
     assert {event.kind for event in motion.events} == {"impact", "contact", "detach"}
     with mp.workdps(60):
         masses = [mpf(1.0), mpf(0.6)]
-        first, *_, last = (sum(m * v for m, v in zip(masses, s[2:])) for s in motion.states)
+        first, *_, last = (
+            sum(m * v for m, v in zip(masses, s[2:], strict=True)) for s in motion.states
+        )
         assert abs(first - last) < mpf("1e-35")
 
 
