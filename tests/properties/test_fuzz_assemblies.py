@@ -171,6 +171,8 @@ def unlike(rng: np.random.Generator, assembly: vi.Assembly, shaken: vi.Harmonic)
         resumed = _ends(followed(assembly, shaken, cycles - cut, start=first), assembly)
     except vi.InputError as error:
         return [f"not resumed after {cut!r} cycles: {error}"]
+    if plain.attrs["message"] != "done" or first.attrs["message"] != "done":
+        return []
     image = _ends(followed(*mirrored(assembly, shaken), cycles), assembly)
     turned = _ends(followed(reordered(rng, assembly), shaken, cycles), assembly)
     speed = shaken.angular_frequency
