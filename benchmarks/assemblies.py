@@ -86,13 +86,18 @@ def engine(problem: Masses, periods: int, tables: bool = False) -> Callable[[], 
     return call
 
 
-def events(problem: Masses, periods: int) -> int:
-    """Count contacts and detachments from rest."""
-    masses = assembly(problem)
+def counts(problem: Masses, periods: int) -> tuple[float, float]:
+    """Count contacts and detachments a period, and the series that are written, from rest."""
+    masses, n = assembly(problem), len(problem.masses)
     plan = plan_of(assembly_numbers(masses, rig(problem).periodic))
-    width = state_width(len(problem.masses), len(masses.stops) + len(link_parts(masses)))
+    parts = len(masses.stops) + len(link_parts(masses))
     lines = sections(problem.phase, problem.period, periods)
-    return follow_sections(plan, problem.amplitude, problem.omega, np.zeros(width), lines)
+    rows = np.full((1000 * periods, 2 + 4 * n + 3 * parts), -1.0)
+    events = follow_sections(
+        *(plan, problem.amplitude, problem.omega, np.zeros(state_width(n, parts)), lines),
+        samples=rows,
+    )
+    return events / periods, float((rows[:, 0] >= 0.0).sum()) / periods
 
 
 def simulate(problem: Masses, periods: int) -> Callable[[], tuple[float, ...]]:
@@ -116,6 +121,7 @@ def assemblies() -> list[Table]:
         ("Solver", "µs a period", "Times the engine's", "State error"),
     )
     verdicts = targets("Targets of several masses")
+    told = []
     for problem in ASSEMBLIES:
         calls: dict[str, Callable[[], Any]] = {_ENGINE: engine(problem, PERIODS)}
         if not problem.curved:
@@ -125,10 +131,15 @@ def assemblies() -> list[Table]:
         if heyoka is not None:
             built = heyoka.build(problem, _TOLERANCE[problem.name])
             calls[_HEYOKA] = _bound(heyoka.run, built, PERIODS)
+        of_events, of_series = counts(problem, SCIPY_PERIODS)
+        said = f"{problem.name}, {of_events:.1f} and {of_series:.0f}"
+        if heyoka is not None:
+            said += f" (heyoka: {heyoka.steps(built, SCIPY_PERIODS) / SCIPY_PERIODS:.0f} steps)"
+        told.append(said)
         seconds = interleave(calls, _ROUNDS, clock=time.thread_time)
         for name, values in seconds.items():
             table.add(
-                f"{problem.name}: {name}" if name == _ENGINE else name,
+                f"{problem.name}: {name}",
                 Spread.of(values).text(1e6 / PERIODS),
                 "1" if name == _ENGINE else ratio(values, seconds[_ENGINE]).text(),
                 f"{problem.error(PERIODS, calls[name]()):.1e}",
@@ -146,7 +157,7 @@ def assemblies() -> list[Table]:
                 name: ratio(pair[_SCIPY], [share * one for one in pair[name]]) for name in mine
             }
             table.add(
-                _SCIPY,
+                f"{problem.name}: {_SCIPY}",
                 Spread.of(pair[_SCIPY]).text(1e6 / SCIPY_PERIODS),
                 behind[_ENGINE].text(),
                 f"{problem.error(SCIPY_PERIODS, slow()):.1e}",
@@ -161,12 +172,9 @@ def assemblies() -> list[Table]:
             "at most 1e-11",
             met(error <= 1e-11),
         )
-    counts = ", ".join(
-        f"{events(problem, PERIODS) / PERIODS:.2f} ({problem.name})" for problem in ASSEMBLIES
-    )
     table.notes.append(
-        f"Contacts and detachments a period: {counts}. scipy runs {SCIPY_PERIODS} periods at a "
-        "relative tolerance of 1e-10. The state error is relative to the largest displacement and "
+        f"Contacts and detachments, and power series, a period: {'; '.join(told)}. scipy runs "
+        f"{SCIPY_PERIODS} periods at a relative tolerance of 1e-10. The state error is relative to the largest displacement and "
         "velocity. Sweeps use tables of each contact mode; vi.simulate does without, so that a "
         "motion computed in parts has the same digits."
     )

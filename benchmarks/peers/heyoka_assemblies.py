@@ -112,6 +112,16 @@ def run(built: Built, periods: int) -> tuple[float, ...]:
     RuntimeError
         If heyoka stops early.
     """
+    _propagate(built, periods)
+    return tuple(built.integrator.state[: 2 * len(built.problem.masses)].tolist())
+
+
+def steps(built: Built, periods: int) -> int:
+    """Count the steps of such a run."""
+    return _propagate(built, periods)
+
+
+def _propagate(built: Built, periods: int) -> int:
     integrator = built.integrator
     integrator.state[:] = built.start
     integrator.pars[:] = 0.0
@@ -119,9 +129,9 @@ def run(built: Built, periods: int) -> tuple[float, ...]:
     integrator.reset_cooldowns()
     built.flags[0] = memoryview(integrator.pars)
     try:
-        outcome = integrator.propagate_until(periods * built.problem.period)[0]
+        outcome, _, _, count, *_ = integrator.propagate_until(periods * built.problem.period)
     finally:
         built.flags[0] = None
     if outcome != hy.taylor_outcome.time_limit:
         raise RuntimeError(f"heyoka stopped with {outcome}")
-    return tuple(integrator.state[: 2 * len(built.problem.masses)].tolist())
+    return int(count)

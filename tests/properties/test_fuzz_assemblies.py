@@ -167,14 +167,19 @@ def unlike(rng: np.random.Generator, assembly: vi.Assembly, shaken: vi.Harmonic)
     plain = followed(assembly, shaken, cycles)
     whole = _ends(plain, assembly)
     first = followed(assembly, shaken, cut)
-    try:
-        resumed = _ends(followed(assembly, shaken, cycles - cut, start=first), assembly)
-    except vi.InputError as error:
-        return [f"not resumed after {cut!r} cycles: {error}"]
     if plain.attrs["message"] != "done" or first.attrs["message"] != "done":
         return []
-    image = _ends(followed(*mirrored(assembly, shaken), cycles), assembly)
-    turned = _ends(followed(reordered(rng, assembly), shaken, cycles), assembly)
+    try:
+        resumed = followed(assembly, shaken, cycles - cut, start=first)
+    except vi.InputError as error:
+        return [f"not resumed after {cut!r} cycles: {error}"]
+    others = {
+        f"resumed after {cut:g} cycles": resumed,
+        "the mirror image": followed(*mirrored(assembly, shaken), cycles),
+        "another order of the masses": followed(reordered(rng, assembly), shaken, cycles),
+    }
+    if given_up := [what for what, one in others.items() if one.attrs["message"] != "done"]:
+        return [f"{what}: given up" for what in given_up]
     speed = shaken.angular_frequency
     size = max(float(np.abs(whole[0]).max()), float(np.abs(whole[1]).max()) / speed, 1e-3)
 
@@ -183,9 +188,8 @@ def unlike(rng: np.random.Generator, assembly: vi.Assembly, shaken: vi.Harmonic)
         return max(u, v / speed) / size
 
     apart = {
-        f"resumed after {cut:g} cycles": off(resumed),
-        "the mirror image": off(image, -1.0),
-        "another order of the masses": off(turned),
+        what: off(_ends(one, assembly), -1.0 if "mirror" in what else 1.0)
+        for what, one in others.items()
     }
     if max(apart.values()) <= EXACT or plain["simultaneous_impacts"]:
         return []
