@@ -174,9 +174,9 @@ def assemblies() -> list[Table]:
         )
     table.notes.append(
         f"Contacts and detachments, and power series, a period: {'; '.join(told)}. scipy runs "
-        f"{SCIPY_PERIODS} periods at a relative tolerance of 1e-10. The state error is relative to the largest displacement and "
-        "velocity. Sweeps use tables of each contact mode; vi.simulate does without, so that a "
-        "motion computed in parts has the same digits."
+        f"{SCIPY_PERIODS} periods at a relative tolerance of 1e-10. The state error is relative "
+        "to the largest displacement and velocity. Sweeps use tables of each contact mode; "
+        "vi.simulate does without, so that a motion computed in parts has the same digits."
     )
     table.notes += [f"{name} is not installed and was left out." for name in missing]
     return [table, verdicts]
