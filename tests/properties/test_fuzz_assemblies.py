@@ -33,8 +33,8 @@ EXACT = 1e-9
 """Of the size of the motion, and of the energy that goes through it."""
 ROUNDING = 1e-13
 """Of the largest kinetic energy: the rounding of a balance in which hardly any energy is left."""
-NOTHING = 1e-30
-"""J."""
+NOTHING = 1e-14
+"""m, by which a mass that is held at zero may move; times the forces, in J."""
 GIVEN_UP = "given up"
 BALANCED = 4
 """Of so many the energy balance of one is drawn up, which takes longer than all else."""
@@ -139,15 +139,17 @@ def imbalance(assembly: vi.Assembly, data: xr.Dataset) -> list[str]:
     lost = float(links.sum()) + float(stops.sum()) + damped
     through = abs(supplied) + float(abs(links).sum()) + float(abs(stops).sum()) + abs(change)
     masses = np.array(list(assembly.masses.values()))
+    force = float(masses.sum() * abs(data["base_acceleration"]).max())
+    nothing = NOTHING * (force + sum(map(abs, assembly.forces.values())))
     kinetic = 0.5 * float((masses @ data["velocity"].values ** 2).max())
     wrong = [
         f"{name} created {-float(one):g} of {through:g} J"
         for kind in (links, stops)
         for name, one in zip(kind.values.size * [kind.name], kind.values, strict=True)
-        if one < -EXACT * through - ROUNDING * kinetic - NOTHING
+        if one < -EXACT * through - ROUNDING * kinetic - nothing
     ]
     missing = supplied - lost - change
-    if abs(missing) > EXACT * through + ROUNDING * kinetic + NOTHING:
+    if abs(missing) > EXACT * through + ROUNDING * kinetic + nothing:
         wrong.append(f"{missing:g} of {through:g} J are missing")
     return wrong
 
@@ -212,6 +214,45 @@ def test_random_assemblies(seed: int) -> None:
     outcomes, wrong = survey(sample(1000, 25), seed)
     assert not wrong, "\n".join(wrong)
     assert outcomes["done"] > 0.9 * sum(outcomes.values())
+
+
+def one_mass(mass: float, law: Any, shaken: vi.Harmonic, **stops: Any) -> tuple[vi.Rig, vi.Rig]:
+    """The same rig as an oscillator and as an assembly."""
+    ends = {"right": ("m", "ground"), "left": ("ground", "m")}
+    assembly = vi.Assembly(
+        {"m": mass},
+        links={"i": vi.Link("ground", "m", law)},
+        stops={side: vi.Link(*ends[side], stop) for side, stop in stops.items()},
+    )
+    return vi.Rig(vi.Oscillator(mass, law, **stops), shaken), vi.Rig(assembly, shaken)
+
+
+@pytest.mark.xfail(strict=True, reason="the zeros of a clearance are taken for those of a force")
+@pytest.mark.parametrize(
+    ("mass", "law", "shaken", "stops"),
+    [
+        pytest.param(
+            0.6215301427674088,
+            vi.Isolator(2.5160483640856763, 0.0665112483536042),
+            vi.Harmonic(2.1142372501208317, 0.3307965805051976, 1.3055261982352593),
+            {"right": vi.RigidStop(0.0, 0.46607906358386764)},
+            id="rest after an impact without return, which ends too early",
+        ),
+        pytest.param(
+            1.0,
+            vi.Isolator(1.0, 0.1),
+            vi.Harmonic(4.76, 0.729, 2.975876887320248),
+            {"left": vi.Bumper(6603.0, 8.1, 0.0)},
+            id="a bumper that is met without speed, at the beginning",
+        ),
+    ],
+)
+def test_motions_on_which_it_fails(mass: float, law: Any, shaken: vi.Harmonic, stops: Any) -> None:
+    rigs = one_mass(mass, law, shaken, **stops)
+    expected, found = (vi.simulate(rig, 2, samples=0) for rig in rigs)
+    assert found.attrs["message"] == "done"
+    ends = [one["final_state"].values[:2] for one in (expected, found)]
+    assert ends[1] == pytest.approx(ends[0], abs=1e-10)
 
 
 if __name__ == "__main__":
