@@ -255,6 +255,22 @@ def test_motions_on_which_it_fails(mass: float, law: Any, shaken: vi.Harmonic, s
     assert ends[1] == pytest.approx(ends[0], abs=1e-10)
 
 
+@pytest.mark.xfail(strict=True, reason="friction before a bilinear link of the same bodies")
+def test_the_order_of_links_beside_each_other() -> None:
+    """With the other order it is the limit of friction that rises steeply with the velocity."""
+    laws = {
+        "ground": ("ground", "a", vi.Isolator(6.0, 0.5)),
+        "friction": ("a", "b", vi.FrictionIsolator(1.0, 0.01, 0.787592966167701)),
+        "yields": ("b", "a", vi.BilinearIsolator(8.345, 0.03627, 2.4186, 0.11965)),
+    }
+    shaken, ends = vi.Harmonic(1.96, 0.0477, 2.419), []
+    for names in (list(laws), list(laws)[::-1]):
+        links = {name: vi.Link(*laws[name]) for name in names}
+        assembly = vi.Assembly({"a": 1.5, "b": 1.75}, links=links)
+        ends.append(vi.simulate(vi.Rig(assembly, shaken), 2, samples=0)["final_state"].values[:4])
+    assert ends[0] == pytest.approx(ends[1], abs=1e-9)
+
+
 if __name__ == "__main__":
     given = [int(word) for word in sys.argv[1:]]
     totals, bad = survey(given[0], *(given[1:] or [1]), tell=True)

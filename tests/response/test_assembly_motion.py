@@ -340,6 +340,21 @@ def test_a_bumper_pressed_by_rounding_is_resumed() -> None:
     near(rest["final_state"], whole["final_state"], 1e-9)
 
 
+def test_the_first_sample_is_that_after_what_happens_at_once() -> None:
+    """Bodies that rest at the beginning and are let go by rounding later than at zero."""
+    wall = vi.RigidStop(0.5, 0.0)
+    assembly = vi.Assembly(
+        {"a": 2.663, "b": 2.4345, "c": 0.5758, "d": 1.0231},
+        links={
+            "c": vi.Link("ground", "c", vi.Isolator(0.92694, 0.02)),
+            "d": vi.Link("a", "d", vi.Isolator(29.977, 0.0)),
+        },
+        stops={"s": vi.Link("a", "c", wall), "w": vi.Link("b", "ground", wall)},
+    )
+    motion = vi.simulate(vi.Rig(assembly, vi.Harmonic(0.281, 0.53297, 0.94506)), 1, samples=8)
+    assert float(motion["contact_force"].min()) >= 0.0
+
+
 def test_samples_do_not_change_the_motion() -> None:
     rig = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9))
     ends = [vi.simulate(rig, 30.3, samples=samples)["final_state"] for samples in (0, 1, 50)]

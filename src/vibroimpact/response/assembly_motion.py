@@ -256,7 +256,7 @@ class _Run:
     def _sampled(self, parts: _Array, start: _Array) -> _Array:
         """Return all channels where each part begins, just after what happens there."""
         rows = self._rows_at_begin(parts, start)
-        rows = rows[rows[:, 1] == 0.0]
+        rows = rows[rows[:, 1] <= _SAME * self.sections.interval]  # events at once, by rounding
         # A stretch without length, which ends in an event at once, has no series: take the last.
         found: _Array = rows[np.searchsorted(rows[:, 0], np.arange(len(parts)), side="right") - 1]
         return found

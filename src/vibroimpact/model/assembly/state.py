@@ -20,7 +20,7 @@ from vibroimpact.model.validation import Accepts, Model, constructor
 if TYPE_CHECKING:
     from vibroimpact.model.assembly.assembly import Assembly
 
-NEAR_ZERO = 1e-14
+NEAR_ZERO = 1e-12
 """A distance (m) and a speed (m/s) that are rounding, even of bodies that are held at zero."""
 
 _ACCEPTS = {
