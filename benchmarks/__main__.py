@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 
 from rich.console import Console
 
+from benchmarks.assemblies import assemblies, first_use, masses, moat
 from benchmarks.basins import basins
 from benchmarks.branches import branches
 from benchmarks.campaign import campaign
@@ -36,6 +37,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "trajectory": lambda: (*trajectory(peers(), compiling().text()), many(peers())),
         "short": lambda: (short_runs(peers()),),
         "laws": lambda: (laws(), yielding(), sampling(), *smooth()),
+        "assemblies": lambda: (*assemblies(), masses(), moat(), first_use()),
         "records": lambda: (records(), spectra()),
         "earthquakes": lambda: (earthquakes(),),
         "campaign": lambda: (campaign(),),

@@ -3,12 +3,15 @@
 import os
 import subprocess
 import sys
+import tempfile
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
+_CACHE = "VIBROIMPACT_CACHE_DIR"
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,3 +63,15 @@ def python(code: str, environment: Mapping[str, str] | None = None) -> Ended:
 def vibroimpact(*words: str, environment: Mapping[str, str] | None = None) -> Ended:
     """Run the command line."""
     return execute([str(Path(sys.executable).with_name("vibroimpact")), *words], environment)
+
+
+@contextmanager
+def empty_cache() -> Iterator[dict[str, str]]:
+    """Make the environment of processes that have a new cache of compiled code."""
+    with tempfile.TemporaryDirectory() as folder:
+        yield {_CACHE: folder}
+
+
+def compiled(environment: Mapping[str, str]) -> int:
+    """Count the functions in a cache, one for each flow that asked for it."""
+    return len(list(Path(environment[_CACHE]).rglob("*.nbi")))

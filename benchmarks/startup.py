@@ -1,10 +1,7 @@
 """Time to the first result: importing, compiling, loading what was compiled."""
 
 import tempfile
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
 
 from benchmarks import fresh
 from benchmarks.fresh import Ended
@@ -12,7 +9,6 @@ from benchmarks.report import Table, met, targets
 from benchmarks.rounds import Spread, digits
 
 _PROCESSES = 7
-_CACHE = "VIBROIMPACT_CACHE_DIR"
 
 _IMPORT = "import time; t = time.perf_counter(); import vibroimpact as vi"
 _PRINT = "print(time.perf_counter() - t)"
@@ -79,7 +75,7 @@ def compiling() -> Compiling:
     """Compile the engine into an empty cache, then load it."""
     cold: dict[str, float] = {}
     cached: dict[str, float] = {}
-    with _empty_cache() as environment:
+    with fresh.empty_cache() as environment:
         for entry in ("sweep", "trajectory"):
             for times in (cold, cached):
                 code = _PREPARE.format(entry=entry)
@@ -97,7 +93,7 @@ def startup(compiled: Compiling) -> Table:
         spread = _repeat(code)
         table.add(what, spread.text(), "under 0.5 s", met(spread.median < 0.5))
 
-    with _empty_cache() as environment, tempfile.TemporaryDirectory() as out:
+    with fresh.empty_cache() as environment, tempfile.TemporaryDirectory() as out:
         first = fresh.python(_SWEEP, environment)
         table.add(
             "first vi.sweep after installing, whole process, s",
@@ -105,7 +101,7 @@ def startup(compiled: Compiling) -> Table:
             "under 15 s",
             met(first.seconds < 15.0),
         )
-        parts = _compiled(environment)
+        parts = fresh.compiled(environment)
         said = "compiling" in first.errors
         table.add("it says that it compiles", "yes" if said else "no", "yes", met(said))
         again = [fresh.python(_SWEEP, environment) for _ in range(_PROCESSES)]
@@ -128,7 +124,7 @@ def startup(compiled: Compiling) -> Table:
             "under 2 s",
             met(spread.median < 2.0),
         )
-    with _empty_cache() as environment, tempfile.TemporaryDirectory() as out:
+    with fresh.empty_cache() as environment, tempfile.TemporaryDirectory() as out:
         words = ("sweep", "B2-G1-A3", "--output", out)
         first = fresh.vibroimpact(*words, environment=environment)
         table.add(
@@ -137,11 +133,11 @@ def startup(compiled: Compiling) -> Table:
             "under 15 s",
             met(first.seconds < 15.0),
         )
-    with _empty_cache() as environment:
+    with fresh.empty_cache() as environment:
         rigid = fresh.python(_RIGID, environment)
-        before = _compiled(environment)
+        before = fresh.compiled(environment)
         again = fresh.python(_SWEEP, environment)
-        more = _compiled(environment) - before
+        more = fresh.compiled(environment) - before
     table.add("first vi.sweep of a rig with a rigid stop, whole process, s", _once(rigid), "", "")
     table.add(
         "first vi.sweep of a rig with bumpers after it, s, and functions compiled",
@@ -149,7 +145,7 @@ def startup(compiled: Compiling) -> Table:
         f"{parts} compiled, as without",
         met(more == parts),
     )
-    with _empty_cache() as environment:
+    with fresh.empty_cache() as environment:
         everything = fresh.python(_EVERYTHING, environment)
         warm = fresh.python(_EVERYTHING, environment)
     table.add(
@@ -172,11 +168,6 @@ def startup(compiled: Compiling) -> Table:
     return table
 
 
-def _compiled(environment: dict[str, str]) -> int:
-    """Count the functions in a cache, one for each flow that asked for it."""
-    return len(list(Path(environment[_CACHE]).rglob("*.nbi")))
-
-
 def _once(process: Ended) -> str:
     return f"{process.seconds:.1f}; processor {process.work:.1f}"
 
@@ -190,9 +181,3 @@ def _often(processes: list[Ended]) -> tuple[Spread, str]:
 def _repeat(code: str) -> Spread:
     fresh.python(code)  # the disk's cache
     return Spread.of([float(fresh.python(code).output) for _ in range(_PROCESSES)])
-
-
-@contextmanager
-def _empty_cache() -> Iterator[dict[str, str]]:
-    with tempfile.TemporaryDirectory() as folder:
-        yield {_CACHE: folder}

@@ -59,18 +59,27 @@ def build(rig: Oscillator, record: Record) -> None:
     ops.mass(2, rig.mass)
     isolate(rig)
     for i, (sign, stop) in enumerate(((1, rig.right), (-1, rig.left)), start=1):
-        if stop is None:
-            continue
-        assert isinstance(stop, Bumper)
-        node, law, contact = 2 + i, 10 * i, 10 * i + 1
-        ops.node(node, 0.0)
-        ops.uniaxialMaterial("Elastic", law, stop.stiffness, stop.damping)
-        ops.element("zeroLength", law, 1, node, "-mat", law, "-dir", 1)
-        # From the mass to the bumper's face: the element shortens as the mass goes right.
-        stiff = _PENALTY * stop.stiffness
-        ops.uniaxialMaterial("ElasticPPGap", contact, stiff, -1e30, -stop.gap)
-        ends = (2, node) if sign == 1 else (node, 2)
-        ops.element("zeroLength", contact, *ends, "-mat", contact, "-dir", 1)
+        if stop is not None:
+            assert isinstance(stop, Bumper)
+            add_bumper(stop, 2, sign, 2 + i)
+    shake(record)
+
+
+def add_bumper(stop: Bumper, mass: int, sign: int, node: int) -> None:
+    """Put a bumper, with a face of its own, between the base and the right or left of a mass."""
+    law, contact = 10 * node, 10 * node + 1
+    ops.node(node, 0.0)
+    ops.uniaxialMaterial("Elastic", law, stop.stiffness, stop.damping)
+    ops.element("zeroLength", law, 1, node, "-mat", law, "-dir", 1)
+    # From the mass to the bumper's face: the element shortens as the mass goes right.
+    stiff = _PENALTY * stop.stiffness
+    ops.uniaxialMaterial("ElasticPPGap", contact, stiff, -1e30, -stop.gap)
+    ends = (mass, node) if sign == 1 else (node, mass)
+    ops.element("zeroLength", contact, *ends, "-mat", contact, "-dir", 1)
+
+
+def shake(record: Record) -> None:
+    """Put the record under the model, and choose the method."""
     # One value more, or a last step that ends a rounding too late would find no load.
     values = [*record.acceleration.tolist(), float(record.acceleration[-1])]
     ops.timeSeries("Path", 1, "-dt", record.step, "-values", *values)
@@ -87,12 +96,17 @@ def build(rig: Oscillator, record: Record) -> None:
 def follow(rig: Oscillator, record: Record, divisions: int) -> NDArray[np.float64]:
     """Displacements at the record's samples, with so many steps between two of them."""
     build(rig, record)
+    return stepped(2, record, divisions)
+
+
+def stepped(node: int, record: Record, divisions: int) -> NDArray[np.float64]:
+    """Displacements of a node at the record's samples."""
     count = len(record.acceleration)
     found = np.zeros(count)
     for k in range(1, count):
         if ops.analyze(divisions, record.step / divisions):
             raise ArithmeticError(f"OpenSees gave up at sample {k}")
-        found[k] = ops.nodeDisp(2, 1)
+        found[k] = ops.nodeDisp(node, 1)
     return found
 
 

@@ -302,6 +302,59 @@ def test_motions_are_resumed(what: str, samples: int) -> None:
             assert joined == whole.sizes["event"] > 20
 
 
+@pytest.mark.parametrize("masses", [1, 2])
+def test_a_motion_that_rests_at_zero_is_resumed(masses: int) -> None:
+    """Rest keeps the rounding with which it began, beside which a mass at zero has no size."""
+    names = ["a", "b"][:masses]
+    assembly = vi.Assembly(
+        dict.fromkeys(names, 1.3),
+        links={name: vi.Link("ground", name, vi.Isolator(2.0, 0.1)) for name in names},
+        stops={"s": vi.Link("a", "ground", vi.RigidStop(0.3, 0.0))},
+    )
+    rig = vi.Rig(assembly, vi.Harmonic(0.7, 0.2, 3.5))
+    whole, rests = vi.simulate(rig, 2, samples=0), 0
+    for cut in np.linspace(0.1, 1.9, 19):
+        first = vi.simulate(rig, cut, samples=0)
+        end = first["final_state"].to_series()
+        rests += bool(end["touching.s"] and (end["velocity.a"] or end["displacement.a"]))
+        rest = vi.simulate(rig, 2.0 - cut, first, samples=0)
+        near(rest["final_state"], whole["final_state"], 1e-11)
+    assert rests > 1
+
+
+def test_a_bumper_pressed_by_rounding_is_resumed() -> None:
+    """Held at zero between a spring and a rigid stop, a mass presses the spring by 1e-17 m."""
+    assembly = vi.Assembly(
+        {"m": 1.6477785153718099},
+        links={"l": vi.Link("ground", "m", vi.Isolator(0.3318077766539548, 0.0))},
+        stops={
+            "s": vi.Link("m", "ground", vi.Bumper(229.4763320202555, 0.0, 0.0)),
+            "r": vi.Link("ground", "m", vi.RigidStop(0.32361277611579126, 0.0)),
+        },
+        forces={"m": 0.7059008956238293},
+    )
+    shaken = vi.Harmonic(1.488077922033719, 0.07191951046172541, 3.5980615733337427)
+    first = vi.simulate(vi.Rig(assembly, shaken), 0.7724221865305544, samples=0)
+    whole = vi.simulate(vi.Rig(assembly, shaken), 2, samples=0)
+    rest = vi.simulate(vi.Rig(assembly, shaken), 2 - 0.7724221865305544, first, samples=0)
+    near(rest["final_state"], whole["final_state"], 1e-9)
+
+
+def test_the_first_sample_is_that_after_what_happens_at_once() -> None:
+    """Bodies that rest at the beginning and are let go by rounding later than at zero."""
+    wall = vi.RigidStop(0.5, 0.0)
+    assembly = vi.Assembly(
+        {"a": 2.663, "b": 2.4345, "c": 0.5758, "d": 1.0231},
+        links={
+            "c": vi.Link("ground", "c", vi.Isolator(0.92694, 0.02)),
+            "d": vi.Link("a", "d", vi.Isolator(29.977, 0.0)),
+        },
+        stops={"s": vi.Link("a", "c", wall), "w": vi.Link("b", "ground", wall)},
+    )
+    motion = vi.simulate(vi.Rig(assembly, vi.Harmonic(0.281, 0.53297, 0.94506)), 1, samples=8)
+    assert float(motion["contact_force"].min()) >= 0.0
+
+
 def test_samples_do_not_change_the_motion() -> None:
     rig = vi.Rig(neighbours(), vi.Harmonic(3.0, 1.9))
     ends = [vi.simulate(rig, 30.3, samples=samples)["final_state"] for samples in (0, 1, 50)]

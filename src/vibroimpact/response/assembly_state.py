@@ -15,6 +15,7 @@ from vibroimpact.engine.assembly.events import KEPT, LEVELS
 from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, AssemblyState, RigidStop, State
+from vibroimpact.model.assembly.state import NEAR_ZERO
 from vibroimpact.model.stops import Stop
 from vibroimpact.response.assembly_rig import link_parts
 from vibroimpact.response.engine_input import TOUCHING
@@ -138,6 +139,9 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
     v = np.array([state.velocity.get(name, 0.0) for name in assembly.names])
     deformations = np.zeros(len(assembly.stops))
     mode, zeros = 0, {}
+    frequency = assembly.angular_frequency
+    fastest = max(float(np.abs(v).max()), frequency * float(np.abs(u).max()))
+    farthest = max(float(np.abs(u).max()), fastest / (frequency or math.inf))
     for f, (name, stop) in enumerate(assembly.stops.items()):
         w, law = assembly.closing(stop), stop.stop
         reach, closing = float(w @ u) - law.gap, float(w @ v)
@@ -156,6 +160,9 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
                 )
             still = abs(closing) <= _AT_REST * speeds
             touches = reach >= -slack and still and said is not False
+            if said:  # what the engine holds at rest has the rounding of the whole motion
+                still = abs(closing) <= max(_AT_REST * speeds, TOUCHING * fastest, NEAR_ZERO)
+                touches = reach >= -max(slack, TOUCHING * farthest, NEAR_ZERO) and still
             why = f"are {-reach:g} m apart and close at {closing:g} m/s"
         elif (pair := law.spring_and_dashpot) is None:
             touches, d = _on_curved(state.deformation.get(name), reach, slack, said, closing)
@@ -205,9 +212,11 @@ def _on_bumper(
             f"start.deformation.{name}: {d:g} m, but the displacements compress this bumper by "
             f"{reach:g} m; pass at least {reach:g} m, or leave it out"
         )
-    touches = d - reach <= slack
+    touches = d - reach <= (max(slack, NEAR_ZERO) if said else slack)
     force = stiffness * d + damping * closing
-    rounding = TOUCHING * (stiffness * d + damping * speeds)
+    rounding = stiffness * max(TOUCHING * d, NEAR_ZERO) + damping * max(
+        TOUCHING * speeds, NEAR_ZERO
+    )
     if damping == 0.0 and not touches:
         d = 0.0  # without a dashpot a free bumper is at rest at once
     if said is not None:
@@ -228,7 +237,7 @@ def _on_curved(
 
     At its face bodies that close are about to meet it, unless the state says that they have.
     """
-    touches = reach > slack or (bool(said) and reach >= -slack)
+    touches = reach > slack or (bool(said) and reach >= -max(slack, NEAR_ZERO))
     met = given if given is not None else closing if abs(reach) <= slack else 0.0
     return touches, max(met, 0.0) if touches else 0.0
 

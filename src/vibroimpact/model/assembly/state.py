@@ -20,6 +20,9 @@ from vibroimpact.model.validation import Accepts, Model, constructor
 if TYPE_CHECKING:
     from vibroimpact.model.assembly.assembly import Assembly
 
+NEAR_ZERO = 1e-12
+"""A distance (m) and a speed (m/s) that are rounding, even of bodies that are held at zero."""
+
 _ACCEPTS = {
     "displacement": Accepts(LENGTH),
     "velocity": Accepts(VELOCITY),
@@ -139,9 +142,8 @@ class AssemblyState(Model):
         u = np.array([self.displacement.get(name, 0.0) for name in assembly.names])
         for name, stop in assembly.stops.items():
             depth = float(assembly.closing(stop) @ u) - stop.stop.gap
-            if isinstance(stop.law, RigidStop) and depth > 1e-12 * (
-                float(np.abs(u).max()) + abs(stop.stop.gap)
-            ):
+            size = float(np.abs(u).max()) + abs(stop.stop.gap)
+            if isinstance(stop.law, RigidStop) and depth > max(1e-12 * size, NEAR_ZERO):
                 raise InputError(
                     f"{where}.displacement: {stop.left} and {stop.right} overlap by "
                     f"{pretty(depth, LENGTH)} at the rigid stop {name!r}; pass displacements that "
