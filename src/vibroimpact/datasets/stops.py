@@ -70,9 +70,10 @@ def each_by_stop(oscillators: Sequence[Oscillator], both: NDArray[Any]) -> NDArr
 
 
 def plain_values(values: xr.DataArray) -> Any:
-    """Return a number or a text as Python has it; of stops a mapping from their names."""
-    if values.dims == ("stop",):
-        return dict(zip(values["stop"].values.tolist(), values.values.tolist(), strict=True))
+    """Return a number or a text as Python has it; of stops or masses a mapping from their names."""
+    if values.dims in (("stop",), ("mass",)):
+        names = values[values.dims[0]].values.tolist()
+        return dict(zip(names, values.values.tolist(), strict=True))
     return values.item()
 
 
