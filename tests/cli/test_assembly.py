@@ -282,7 +282,7 @@ def test_earthquake(run, tmp_path):
     code, told, _ = run("earthquake", "neighbours", "quake.csv", "--peak", "0.3g", "--json")
     assert code == 0
     stem = "neighbours-quake.csv-earthquake"
-    pictures = ("displacements", "accelerations", "forces", "envelopes")
+    pictures = ("displacements", "accelerations", "forces", "envelopes", "spectra")
     assert files(tmp_path) == {
         "neighbours-earthquake.csv",
         f"{stem}.nc",
@@ -300,7 +300,14 @@ def test_earthquake(run, tmp_path):
         shown = one["largest"]["masses"][mass]["peak_displacement"]
         assert shown == pytest.approx(exact, rel=1e-9)
     assert float(row["peak_force_pounding"]) == float(response["peak_force"].sel(stop="pounding"))
-    saved = {name: vi.load(tmp_path / f"out/{stem}.nc", name) for name in ("response", "motion")}
+    groups = ("response", "motion", "floor")
+    saved = {name: vi.load(tmp_path / f"out/{stem}.nc", name) for name in groups}
+    for mass in ("west", "east"):
+        floor = saved["floor"].sel(mass=mass)["spectral_acceleration"]
+        periods = floor["natural_period"].values
+        exact = vi.response_spectrum(vi.floor_record(saved["motion"], mass), periods)
+        np.testing.assert_array_equal(floor, exact["spectral_acceleration"])
+        assert one["floor_spectra"][mass]["spectral_acceleration"] == float(floor.max())
     assert saved["response"]["peak_drift"].equals(response["peak_drift"])
     assert saved["motion"].sizes["mass"] == 2
 
