@@ -223,7 +223,12 @@ def test_motion(run, tmp_path):
     assert facts["largest"]["masses"]["west"]["displacement_max"] == pytest.approx(
         float(steady["displacement_max"].sel(mass="west")), rel=1e-12
     )
-    assert "neighbours-no-stop-wall-1.9Hz-motion-envelopes.png" in files(tmp_path)
+    stem = "neighbours-no-stop-wall-1.9Hz-motion"
+    assert {f"{stem}-envelopes.png", f"{stem}-spectrum.png"} <= files(tmp_path)
+    saved = vi.load(tmp_path / f"out/{stem}.nc")
+    assert saved["section_displacement"].sizes == {"section_point": 1, "mass": 2}
+    lines = vi.fourier_spectrum(steady)["acceleration_amplitude"]
+    np.testing.assert_allclose(saved["acceleration_amplitude"], lines, atol=1e-9 * lines.max())
     code, _, errors = run("motion", "neighbours", "--frequency", "1Hz,2Hz")
     assert code == 2
     assert "2 frequencies, but 'neighbours' has several masses" in errors

@@ -156,11 +156,14 @@ def _of_masses(
             drawn = figures.mass_histories(motion, title=title)
             written.draw(f"displacements of {name}", f"{ending}-displacements", drawn)
             draw_motion(written, motion, ending, title, None, of=f" of {name}")
-            shown = what.system.names[:: -(-len(what.system.names) // _FLOORS)]
+            masses = groups["floor"]["mass"].values.tolist()
+            shown = masses[:: -(-len(masses) // _FLOORS)]
             floors = {mass: groups["floor"].sel(mass=mass) for mass in shown}
             spectra = {"ground": groups["ground"], **floors}
-            drawn = figures.response_spectra(spectra, quantity="spectral_acceleration", title=title)
-            written.draw(f"spectra of {name}", f"{ending}-spectra", drawn)
+            curves = figures.response_spectra(
+                spectra, quantity="spectral_acceleration", title=title
+            )
+            written.draw(f"spectra of {name}", f"{ending}-spectra", curves)
             found = {
                 "record": name,
                 "peak": record.peak,

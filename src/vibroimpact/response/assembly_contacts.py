@@ -16,8 +16,8 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_result
 from vibroimpact.model import Assembly, Record, Repeated, validate
 from vibroimpact.response.assembly_motion import Sections, sections_of
-from vibroimpact.response.assembly_phases import AssemblyParts, Measured, Measurer
-from vibroimpact.response.assembly_pieces import final_mode
+from vibroimpact.response.assembly_phases import MAX_EVENTS, AssemblyParts, Measured, Measurer
+from vibroimpact.response.assembly_pieces import Follower, final_mode, fourier_transforms
 from vibroimpact.response.assembly_rows import range_variables
 from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
 from vibroimpact.response.motion_phases import shaken_by
@@ -64,6 +64,35 @@ def assembly_origin(motion: xr.Dataset) -> Origin:
     first, last = (float(motion["cycle"].values[end]) for end in (0, -1))
     periodic = "period" in motion and first == 0.0 and last == int(motion["period"])
     return Origin(assembly, excitation_from(given), periodic)
+
+
+def fourier_integrals_by_mass(motion: xr.Dataset, rates: _Array) -> NDArray[np.complex128]:
+    """Return the integrals of an assembly's motion over one period times exp(−iνt).
+
+    Parameters
+    ----------
+    motion
+        A periodic motion.
+    rates
+        ν (1/s).
+
+    Returns
+    -------
+    ndarray, shape (3, rate, mass)
+        Of displacement, velocity and absolute acceleration, impulses left out.
+    """
+    assembly, shaking, _ = assembly_origin(motion)
+    assert not isinstance(shaking, Record)
+    vector = assembly_vector(assembly, as_assembly_state(motion["initial_state"], assembly))
+    cycles = float(motion["cycle"].values[-1])
+    follower = Follower(assembly, shaking, MAX_EVENTS)
+    found = np.zeros((len(rates), 3 * len(assembly.names)), dtype=complex)
+    for number, line in enumerate(sections_of(shaking, cycles, shaking.phase).lines):
+        seen = follower.over(vector, line[np.newaxis])
+        begin, length = number * shaking.period + seen.begin, seen.end - seen.begin
+        shown = np.concatenate([seen.displacement, seen.velocity, seen.acceleration], axis=1)
+        found += fourier_transforms(shown, begin, length, rates)
+    return np.moveaxis(found.reshape(len(rates), 3, -1), 1, 0)
 
 
 def _measured(motion: xr.Dataset, origin: Origin) -> tuple[Measured, list[str]]:

@@ -13,7 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
+from scipy.special import spherical_jn
 
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.assembly.entries import follow_sections
@@ -23,6 +25,7 @@ from vibroimpact.model import Assembly, Record, Repeated
 from vibroimpact.response.assembly_rig import assembly_numbers, link_parts
 
 _Array = NDArray[np.float64]
+_Complex = NDArray[np.complex128]
 
 NODES = 22
 """For integrals of products: their coefficient of order 22 is at most 1.25²²/22! = 1e-19."""
@@ -46,6 +49,8 @@ class _Rule(NamedTuple):
     """From values to those of the polynomial."""
     weights: _Array
     """Of the integral over [0, 1]."""
+    legendre: _Array
+    """From values to the coefficients of a Legendre series."""
     grid: _Array
     """Places in [−1, 1]."""
     on_grid: _Array
@@ -61,12 +66,43 @@ def _rule(count: int) -> _Rule:
     weights: _Array = 0.5 * (whole.sum(axis=0) - (-1.0) ** np.arange(count + 1) @ whole)
     grid = -np.cos(np.pi * np.arange(_GRID * count) / (_GRID * count - 1))
     on_grid: _Array = chebyshev.chebvander(grid, count - 2) @ slope
-    return _Rule(0.5 + 0.5 * x, slope, coefficients, weights, grid, on_grid)
+    legendre: _Array = np.linalg.inv(legvander(x, count - 1)).astype(np.float64)
+    return _Rule(0.5 + 0.5 * x, slope, coefficients, weights, legendre, grid, on_grid)
 
 
 def integrals(values: _Array) -> _Array:
     """Return the means of functions over pieces, from their values at the nodes (last axis)."""
     found: _Array = values @ _rule(values.shape[-1]).weights
+    return found
+
+
+def fourier_transforms(values: _Array, begin: _Array, length: _Array, rates: _Array) -> _Complex:
+    """Return the integrals of functions times exp(−iνt) over all pieces.
+
+    With x from −1 to 1, a Legendre polynomial has ∫ P_k exp(−iax) dx = 2 (−i)^k j_k(a), where j_k
+    is a spherical Bessel function.
+
+    Parameters
+    ----------
+    values : ndarray, shape (piece, function, node)
+        Their values at the nodes.
+    begin, length : ndarray, shape (piece,)
+        Of the pieces (s).
+    rates : ndarray, shape (rate,)
+        ν (1/s).
+
+    Returns
+    -------
+    ndarray, shape (rate, function)
+    """
+    series = values @ _rule(values.shape[-1]).legendre.T
+    order = np.arange(values.shape[-1])
+    lengths, which = np.unique(length, return_inverse=True)
+    found = np.empty((len(rates), values.shape[1]), dtype=complex)
+    for i, rate in enumerate(rates):
+        means = (-1j) ** order * spherical_jn(order, 0.5 * rate * lengths[:, np.newaxis])
+        turned = length * np.exp(-1j * rate * (begin + 0.5 * length))
+        found[i] = np.einsum("p,pk,pfk->f", turned, means[which], series, optimize=True)
     return found
 
 

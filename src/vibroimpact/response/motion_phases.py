@@ -126,14 +126,25 @@ def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
         If it is not the dataset of such a motion with samples and events.
     """
     origin = any_recorded(motion)
-    shaken = origin.excitation
-    if isinstance(shaken, Record):
+    shaken = check_repeated(origin.excitation)
+    return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
+
+
+def check_repeated(shaking: Repeated | Record) -> Repeated:
+    """Return what shakes a motion, if it is repeated.
+
+    Raises
+    ------
+    InputError
+        If it is a record.
+    """
+    if isinstance(shaking, Record):
         raise InputError(
             "motion: this is the response to a Record, which has no cycles; pass a motion under a "
             "Harmonic or a Periodic, or use contacts, totals, record_history, phase_portrait or "
             "hysteresis_cycle"
         )
-    return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
+    return shaking
 
 
 def shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
