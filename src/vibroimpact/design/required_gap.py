@@ -25,7 +25,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Harmonic, Oscillator, Record, equilibrium
 from vibroimpact.model.argument_types import Share
 from vibroimpact.model.public import public
-from vibroimpact.model.read_rig import AnyRig, one_system
+from vibroimpact.model.read_rig import RigOrSystem, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
 from vibroimpact.response.assembly_rig import check_laws
@@ -35,7 +35,7 @@ from vibroimpact.tasks.threads import Progress, Workers
 
 @public
 def required_gap(
-    rig: AnyRig | Oscillator,
+    rig: RigOrSystem,
     *,
     records: AnyRecords | None = None,
     fractile: float = 1.0,
