@@ -99,6 +99,16 @@ def over_stops(values: xr.DataArray) -> xr.DataArray:
     return values.max("stop", keep_attrs=True)
 
 
+def over_parts(values: xr.DataArray) -> xr.DataArray:
+    """Return `over_stops`; of masses and links the largest value, of a lowest one the lowest."""
+    found = over_stops(values)
+    for dim in ("mass", "link"):
+        if dim in found.dims:
+            lowest = str(values.name).endswith("_min")
+            found = (found.min if lowest else found.max)(dim, keep_attrs=True)
+    return found
+
+
 def quantities(data: xr.Dataset) -> list[str]:
     """Return the names that `quantity` accepts: of variables, and of each of their parts."""
     found = []

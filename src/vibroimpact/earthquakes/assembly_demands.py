@@ -141,29 +141,41 @@ def demands_of_assemblies(
         ``stop``.
     """
     first = check_alike(rigs)
-    places = list(np.ndindex(*rigs.shape))
-    systems = [rigs.system(at) for at in places]
-    items = [
+    systems = [rigs.system(at) for at in np.ndindex(*rigs.shape)]
+    every = [
         AssemblyRun(system, record, float(factor))  # type: ignore[arg-type]
         for record, row in zip(records, factors, strict=True)
         for factor in row
         for system in systems
     ]
+    found = peaks_of_assemblies(every, tail, max_events, workers, progress)
+    shape, dims = (*factors.shape, *rigs.shape), ("record", "scale", *rigs.dims)
+    variables: dict[str, Any] = {}
+    for name, values in found.items():
+        dim = PEAKS.get(name, "")
+        whole = values.reshape(*shape, *values.shape[1:])
+        variables[name] = ((*dims, dim) if dim else dims, whole)
+    return variables, coordinates(first)
+
+
+def peaks_of_assemblies(
+    every: Sequence[AssemblyRun],
+    tail: float | None,
+    max_events: int,
+    workers: Workers,
+    progress: Progress | None,
+) -> dict[str, NDArray[Any]]:
+    """Return `PEAKS` and ``status`` of runs of assemblies with the same parts, by run and part.
+
+    All values of a run that was given up are NaN but for its status.
+    """
 
     def task(item: AssemblyRun, tally: Tally) -> tuple[Status, dict[str, Any]]:
         return response(item, tail, max_events)
 
-    found = each(task, items, threads=workers, progress=progress)
-    shape = (*factors.shape, *rigs.shape)
-    dims = ("record", "scale", *rigs.dims)
-    variables: dict[str, Any] = {}
-    for name, dim in PEAKS.items():
-        columns = [values[name][1] for _, values in found]
-        whole = np.array(columns).reshape(*shape, *np.shape(columns[0]))
-        variables[name] = ((*dims, dim) if dim else dims, whole)
-    statuses = [int(status) for status, _ in found]
-    variables["status"] = (dims, np.array(statuses, dtype=np.int64).reshape(shape))
-    return variables, coordinates(first)
+    found = each(task, list(every), threads=workers, progress=progress)
+    values = {name: np.array([one[name][1] for _, one in found]) for name in PEAKS}
+    return {**values, "status": np.array([int(one) for one, _ in found], dtype=np.int64)}
 
 
 def seismic_response_of_assembly(

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.stops import over_stops
+from vibroimpact.datasets.stops import over_parts
 from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.design.limits import excesses
 from vibroimpact.errors import InputError
@@ -215,7 +215,7 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
     (dim,) = parameters_of(data)
     factor, label = quantity_label(data, name)
     x = _axis(ax.xaxis, data[dim])
-    y = factor * _finite(over_stops(data[name]).values)
+    y = factor * _finite(over_parts(data[name]).values)
     ax.plot(x, y, color="black", linewidth=1.4, zorder=3)
     best = data["pareto"].values.astype(bool)
     ax.plot(x[best], y[best], "o", color="black", markersize=4.0, label=best_label(data))
@@ -252,7 +252,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Li
     x, y = _axis(ax.xaxis, data[first]), _axis(ax.yaxis, data[second])
     # Contours between nodes are straight lines, whatever the axes' scales.
     points = finer_axis(ax.xaxis, x), finer_axis(ax.yaxis, y)
-    known = _finite(over_stops(data[name]).values)
+    known = _finite(over_parts(data[name]).values)
     values = np.ma.masked_invalid(finer(factor * known))
     ax.set_title(label, fontsize="medium")
     levels: list[tuple[float, Any]] = []

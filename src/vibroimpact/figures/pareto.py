@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.stops import over_parts
 from vibroimpact.errors import InputError
 from vibroimpact.figures.design import (
     PRESENT,
@@ -61,7 +62,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     """
     dims = parameters_of(data)
     u, a = (
-        quantity_label(data, name)[0] * data[name].values.ravel()
+        quantity_label(data, name)[0] * over_parts(data[name]).values.ravel()
         for name in ("peak_displacement", "peak_acceleration")
     )
     best = data["pareto"].values.ravel().astype(bool)
