@@ -255,6 +255,19 @@ def test_bifurcation(run, tmp_path):
     assert len(folds) == 2
 
 
+def test_curve(run, tmp_path):
+    vary = ("--vary", "frequency=2.3Hz:2.5Hz", "--vary", "stops.pounding.gap=18mm:22mm")
+    code, told, _ = run("curve", "neighbours", *vary, "--set", "stops.wall=none", "--json")
+    assert code == 0
+    stem = "neighbours-no-stop-wall-fold-frequency-stops-pounding-gap"
+    assert files(tmp_path) == {f"{stem}.nc", f"{stem}.png"}
+    (one,) = json.loads(told)["curves"]  # both folds of the branch lie on one curve
+    assert one["points"] > 3
+    assert {one["ended_low"], one["ended_high"]} & {
+        f"the range of stops.pounding.gap ends at {end} mm" for end in (18, 22)
+    }
+
+
 def test_basins(run, tmp_path):
     words = ("--frequency", "2.4Hz", "--set", "stops.wall=none", "--start", "velocity.east=0.1m/s")
     code, told, _ = run(*BASINS, *words, "--nodes", "9")
