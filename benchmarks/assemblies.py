@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from vibroimpact.engine.assembly.entries import follow_sections, sections
 
 import vibroimpact as vi
 from benchmarks import fresh
@@ -24,7 +25,6 @@ from benchmarks.records import record
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import Spread, interleave, ratio
 from benchmarks.trajectory import optional
-from vibroimpact.engine.assembly.entries import follow_sections, sections
 from vibroimpact.engine.assembly.plan import plan_of, state_width
 from vibroimpact.response.assembly_rig import assembly_numbers, link_parts
 

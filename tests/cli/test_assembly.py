@@ -55,6 +55,12 @@ cycles = 5
 """
 
 
+BASINS = (
+    *("basins", "neighbours"),
+    *("--plane", "displacement.west=-4cm:4cm", "--plane", "velocity.west=0:0.6"),
+)
+
+
 @pytest.fixture
 def run(tmp_path):
     """Run a command in a folder with the study file of the neighbours."""
@@ -217,10 +223,72 @@ def test_motion(run, tmp_path):
     assert facts["largest"]["masses"]["west"]["displacement_max"] == pytest.approx(
         float(steady["displacement_max"].sel(mass="west")), rel=1e-12
     )
-    assert "neighbours-no-stop-wall-1.9Hz-motion-envelopes.png" in files(tmp_path)
+    stem = "neighbours-no-stop-wall-1.9Hz-motion"
+    assert {f"{stem}-envelopes.png", f"{stem}-spectrum.png"} <= files(tmp_path)
+    saved = vi.load(tmp_path / f"out/{stem}.nc")
+    assert saved["section_displacement"].sizes == {"section_point": 1, "mass": 2}
+    lines = vi.fourier_spectrum(steady)["acceleration_amplitude"]
+    np.testing.assert_allclose(saved["acceleration_amplitude"], lines, atol=1e-9 * lines.max())
     code, _, errors = run("motion", "neighbours", "--frequency", "1Hz,2Hz")
     assert code == 2
     assert "2 frequencies, but 'neighbours' has several masses" in errors
+
+
+def test_bifurcation(run, tmp_path):
+    words = ("--vary", "frequency=2.3Hz:2.5Hz:5", "--set", "stops.wall=none", "--branches")
+    code, told, _ = run("bifurcation", "neighbours", *words)
+    assert code == 0
+    stem = "neighbours-no-stop-wall-frequency-diagram"
+    assert files(tmp_path) == {f"{stem}.nc", f"{stem}.png"}
+    data = vi.load(tmp_path / f"out/{stem}.nc")
+    stops = {"pounding": rig().system.stops["pounding"]}
+    alone = vi.Rig(rig().system.replace(stops=stops), "0.1 g")
+    direct = vi.bifurcation_diagram(alone, {"frequency": (2.3, 2.5)}, 5)
+    np.testing.assert_array_equal(data["section_displacement"], direct["section_displacement"])
+    # Two motions coexist, so the sweeps differ between the folds.
+    assert not np.array_equal(*data["displacement_max"].sel(mass="west").values)
+    rows = [line.split() for line in told.splitlines()]
+    folds = [float(row[1]) for row in rows if row[:1] == ["fold"]]
+    branch = vi.branch(alone, vary={"frequency": (2.3, 2.5)}, frequency=2.3)
+    found = branch["bifurcation_value"].values[branch["bifurcation_kind"].values == "fold"]
+    np.testing.assert_allclose(folds, np.sort(found), rtol=1e-9)
+    assert len(folds) == 2
+
+
+def test_curve(run, tmp_path):
+    vary = ("--vary", "frequency=2.3Hz:2.5Hz", "--vary", "stops.pounding.gap=18mm:22mm")
+    code, told, _ = run("curve", "neighbours", *vary, "--set", "stops.wall=none", "--json")
+    assert code == 0
+    stem = "neighbours-no-stop-wall-fold-frequency-stops-pounding-gap"
+    assert files(tmp_path) == {f"{stem}.nc", f"{stem}.png"}
+    (one,) = json.loads(told)["curves"]  # both folds of the branch lie on one curve
+    assert one["points"] > 3
+    assert {one["ended_low"], one["ended_high"]} & {
+        f"the range of stops.pounding.gap ends at {end} mm" for end in (18, 22)
+    }
+
+
+def test_basins(run, tmp_path):
+    words = ("--frequency", "2.4Hz", "--set", "stops.wall=none", "--start", "velocity.east=0.1m/s")
+    code, told, _ = run(*BASINS, *words, "--nodes", "9")
+    assert code == 0
+    stem = "neighbours-no-stop-wall-2.4Hz-basins"
+    assert files(tmp_path) == {f"{stem}.nc", f"{stem}.png"}
+    data = vi.load(tmp_path / f"out/{stem}.nc")
+    stops = {"pounding": rig().system.stops["pounding"]}
+    direct = vi.basins(
+        vi.Rig(rig().system.replace(stops=stops), "0.1 g"),
+        plane={"displacement.west": (-0.04, 0.04), "velocity.west": (0.0, 0.6)},
+        start=vi.State(velocity={"east": 0.1}),
+        frequency=2.4,
+        nodes=9,
+    )
+    np.testing.assert_array_equal(data["basin"], direct["basin"])
+    shares = [line.split()[4] for line in told.splitlines() if line[:2] in ("1 ", "2 ")]
+    assert shares == [f"{one:.1%}" for one in direct["share"].values]
+    largest = direct["displacement_excursion"].max("mass").values
+    excursions = [float(line.split()[3]) for line in told.splitlines() if line[:2] in ("1 ", "2 ")]
+    np.testing.assert_allclose(excursions, 1e3 * largest, rtol=1e-3)
 
 
 def test_earthquake(run, tmp_path):
@@ -232,7 +300,7 @@ def test_earthquake(run, tmp_path):
     code, told, _ = run("earthquake", "neighbours", "quake.csv", "--peak", "0.3g", "--json")
     assert code == 0
     stem = "neighbours-quake.csv-earthquake"
-    pictures = ("displacements", "accelerations", "forces", "envelopes")
+    pictures = ("displacements", "accelerations", "forces", "envelopes", "spectra")
     assert files(tmp_path) == {
         "neighbours-earthquake.csv",
         f"{stem}.nc",
@@ -250,7 +318,14 @@ def test_earthquake(run, tmp_path):
         shown = one["largest"]["masses"][mass]["peak_displacement"]
         assert shown == pytest.approx(exact, rel=1e-9)
     assert float(row["peak_force_pounding"]) == float(response["peak_force"].sel(stop="pounding"))
-    saved = {name: vi.load(tmp_path / f"out/{stem}.nc", name) for name in ("response", "motion")}
+    groups = ("response", "motion", "floor")
+    saved = {name: vi.load(tmp_path / f"out/{stem}.nc", name) for name in groups}
+    for mass in ("west", "east"):
+        floor = saved["floor"].sel(mass=mass)["spectral_acceleration"]
+        periods = floor["natural_period"].values
+        exact = vi.response_spectrum(vi.floor_record(saved["motion"], mass), periods)
+        np.testing.assert_array_equal(floor, exact["spectral_acceleration"])
+        assert one["floor_spectra"][mass]["spectral_acceleration"] == float(floor.max())
     assert saved["response"]["peak_drift"].equals(response["peak_drift"])
     assert saved["motion"].sizes["mass"] == 2
 
@@ -258,7 +333,27 @@ def test_earthquake(run, tmp_path):
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (("basins", "neighbours"), "assembly: this command computes one mass"),
+        (("classify", "neighbours"), "assembly: this command computes one mass"),
+        (("basins", "neighbours"), "--plane: missing; pass two coordinates"),
+        (
+            (
+                "basins",
+                "neighbours",
+                "--plane",
+                "displacement.wes=0:1",
+                "--plane",
+                "velocity.east=0:1",
+            ),
+            "--plane: 'displacement.wes'; one of displacement.west, ",
+        ),
+        (
+            ("basins", "neighbours", "--plane", "velocity.east=1"),
+            "--plane: velocity.east: '1' is not",
+        ),
+        ((*BASINS, "--start", "west=1mm"), "--start: 'west'; pass a part and a name"),
+        ((*BASINS, "--start", "velocity.west=1mm"), "--start: velocity.west: '1mm'"),
+        ((*BASINS, "--start", "velocity.wes=1"), "start.velocity: 'wes' is not"),
+        (("basins", "neighbours", "--velocity", "0:1"), "--velocity: '0:1', but"),
         (("simulate", "neighbours", "--displacement", "2mm"), "--displacement: '2mm', but"),
         (("sweep", "neighbours", "--compute", "p = mean(velocity)"), "--compute: "),
         (("sweep", "neighbours", "--normalised"), "--normalised: set, but"),

@@ -75,3 +75,31 @@ def test_wrong_input() -> None:
         vi.floor_record(vi.simulate(vi.Rig(rig, RECORD.cut(0.0, 0.04))))
     with pytest.raises(vi.InputError, match=r"^motion: this is not a recorded motion"):
         vi.floor_record(vi.simulate(vi.Rig(rig, RECORD), samples=0))
+
+
+def test_light_equipment_on_each_storey_moves_as_its_floor_spectrum_says() -> None:
+    """A mass that is 1e-9 of its floor does not move it: its drift is that of the spectrum."""
+    period, zeta, light = 0.4, 0.05, 1e-6
+    stiffness = light * (2.0 * np.pi / period) ** 2
+    spring = vi.Isolator(stiffness, 2.0 * zeta * np.sqrt(stiffness * light))
+    wall = vi.Bumper(4e5, 2e3, 0.01)
+    links = {
+        "isolator": vi.Link("ground", "base", vi.Isolator(2e4, 800.0)),
+        "storey": vi.Link("base", "roof", vi.Isolator(3e5, 900.0)),
+    }
+    stops = {
+        "right": vi.Link("base", "ground", wall),
+        "left": vi.Link("ground", "base", vi.RigidStop(0.6, 0.012)),
+    }
+    frame = vi.Assembly({"base": 1e3, "roof": 1e3}, links, stops)
+    motion = vi.simulate(vi.Rig(frame, RECORD), tail=2.0, samples=32)
+    assert {"right", "left"} == {*motion["event_stop"].values}
+    for floor in ("base", "roof"):
+        carried = frame.replace(
+            masses={**frame.masses, "box": light},
+            links={**links, "feet": vi.Link(floor, "box", spring)},
+        )
+        drift = vi.seismic_response(vi.Rig(carried, RECORD), tail=2.0)["peak_drift"]
+        spectrum = vi.response_spectrum(vi.floor_record(motion, floor), period, zeta)
+        expected = float(drift.sel(link="feet"))
+        assert float(spectrum["spectral_displacement"]) == pytest.approx(expected, rel=2e-4)

@@ -272,6 +272,11 @@ EVERY: dict[str, Drawn] = {
     "mass_resonance, forces": Drawn(
         _over(masses.swept, figures.mass_resonance, quantity="peak_force"), 3
     ),
+    "spectrum_lines, masses": Drawn(
+        lambda **how: figures.spectrum_lines(vi.fourier_spectrum(masses.motion()), **how)
+    ),
+    "section_diagram, masses": Drawn(_over(masses.diagram, figures.section_diagram), 4),
+    "basin_portrait, masses": Drawn(_over(masses.plane, figures.basin_portrait)),
     "mass_branches": Drawn(_over(masses.branch, figures.mass_branches), 2),
     "accelerogram": Drawn(
         lambda **how: figures.accelerogram(

@@ -93,6 +93,19 @@ def branch() -> xr.Dataset:
     return vi.branch(vi.Rig(PAIR, vi.Harmonic("0.2 g", "1.5 Hz")), vary={"frequency": (1.5, 3.0)})
 
 
+@cache
+def diagram() -> xr.Dataset:
+    rig = vi.Rig(PAIR, vi.Harmonic("0.2 g", "1.5 Hz"))
+    return vi.bifurcation_diagram(rig, {"gap": ("1 cm", "4 cm")}, 5, points=30, exponent_cycles=64)
+
+
+@cache
+def plane() -> xr.Dataset:
+    rig = vi.Rig(PAIR, vi.Harmonic("0.2 g", "2.8 Hz"))
+    window = {"displacement.north": (-0.1, 0.1), "velocity.north": (-1.5, 1.5)}
+    return vi.basins(rig, plane=window, nodes=12)
+
+
 @pytest.mark.parametrize("quantity", ["displacement", "velocity", "acceleration"])
 def test_histories_are_the_samples_of_each_mass(quantity) -> None:
     factor = {"displacement": 1e3, "velocity": 1.0, "acceleration": 1 / 9.80665}[quantity]

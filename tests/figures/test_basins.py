@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.colors import to_rgb
 
 import vibroimpact as vi
+from figures import test_assembly_figures as masses
 from vibroimpact.figures import basin_portrait, save_figure
 from vibroimpact.figures.basins import COLOURS
 
@@ -102,3 +103,20 @@ def test_curves_of_saddles_are_drawn_over_basins():
     np.testing.assert_allclose(drawn[0].get_ydata(), curves["curve_velocity"].values[mine])
     with pytest.raises(vi.InputError, match="no curves"):
         basin_portrait(made(), manifolds=made())
+
+
+def test_motions_of_several_masses_are_named_inside_their_basins():
+    data = masses.plane()
+    ax = basin_portrait(data)
+    assert ax.get_xlabel() == "relative displacement of north (mm)"
+    assert ax.get_ylabel() == "relative velocity of north (m/s)"
+    assert ax.get_xlim() == pytest.approx(1e3 * data["displacement.north"].values[[0, -1]])
+    numbers = {int(text.get_text()) - 1: text.get_position() for text in ax.texts}
+    assert set(numbers) == {*data["attractor"].values} == {0, 1}
+    for number, (u, v) in numbers.items():
+        here = data["basin"].sel({"displacement.north": 1e-3 * u, "velocity.north": v}, "nearest")
+        assert int(here) == number
+    largest = 1e3 * data["displacement_excursion"].max("mass").values
+    legend = [text.get_text() for text in ax.get_legend().get_texts()]
+    for text, size in zip(legend, largest, strict=False):
+        assert f"largest excursion {size:.3g} mm" in text

@@ -10,6 +10,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
+from figures import test_assembly_figures as masses
 from vibroimpact.figures import section_diagram
 
 CASE = vi.laboratory.case("B3-10mm-A3")
@@ -125,3 +126,23 @@ def test_a_logarithmic_axis():
 def test_refused(data, options, told):
     with pytest.raises(vi.InputError, match=told):
         section_diagram(data(), **options)
+
+
+def test_each_mass_has_a_panel_of_its_section():
+    data = masses.diagram()
+    panels = section_diagram(data)
+    assert len(panels) == 4
+    for ax, mass in zip(panels, ("north", "south"), strict=False):
+        assert ax.get_ylabel().startswith(f"{mass}: displacement")
+        values = 1e3 * data["section_displacement"].sel(mass=mass).values
+        known = np.sort(values[np.isfinite(values)])
+        np.testing.assert_allclose(np.sort(points(ax)[:, 1]), known)
+    south, *_ = section_diagram(data, quantity="section_velocity", names=["south"])
+    velocity = data["section_velocity"].sel(mass="south").values
+    np.testing.assert_allclose(
+        np.sort(points(south)[:, 1]), np.sort(1e3 * velocity[np.isfinite(velocity)])
+    )
+    with pytest.raises(vi.InputError, match=r"^names: 'east' is not"):
+        section_diagram(data, names=["east"])
+    with pytest.raises(vi.InputError, match=r"^names: .* but the points are not by mass"):
+        section_diagram(diagram(), names=["south"])

@@ -75,6 +75,9 @@ def designed() -> None:
     chart = vi.design_chart(vi.Rig(rig, "0.05 g"), {"gap": ["5 mm", "8 mm"]})
     assert_type(chart, xr.Dataset)
     assert_type(vi.required_gap(rig, records=[record]), xr.Dataset)
+    frame = vi.chain(["250 t"] * 3, ["200 MN/m"] * 3, damping_ratio=0.02)
+    assert_type(vi.required_gap(frame, records=record), xr.Dataset)
+    assert_type(vi.demands([frame, rig], record, vary={"gap": [0.1]}), xr.Dataset)
     drawn = vi.ensemble("B2-G1-A3", {"gap": "normal:5%"}, lambda rigs: vi.sweeps(rigs, grid))
     assert_type(drawn, xr.Dataset)
     try:

@@ -61,6 +61,9 @@ def bifurcation(
     - NAME-PARAMETER-diagram.nc: the section points, periods and exponents
     - NAME-PARAMETER-diagram.png: the bifurcation diagram
 
+    For a rig of several masses (table [assembly] of a study file), the figure shows the section of
+    each mass.
+
     For example:
 
         vibroimpact bifurcation B3-10mm-A3 --vary frequency=0.9Hz:1.3Hz
@@ -83,16 +86,17 @@ def bifurcation(
         Phase of the forcing at which displacement and velocity are recorded, such as 90deg.
         Default: the phase in the study file, or 0.
     branches
-        Also follow the branches of stable and unstable periodic orbits, as vibroimpact branch does,
-        and print their bifurcations and mark them in the figure.
+        Also follow the branches of stable and unstable periodic orbits, as vibroimpact branch does
+        (of several masses, one branch), and print their bifurcations and mark them in the figure.
     """
+    from vibroimpact.cli.assembly import is_assembly
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import bifurcation_diagram as facts
     from vibroimpact.facts import branch
 
-    what = subject(rig, changes, output.name)
+    what = subject(rig, changes, output.name, masses=True)
     varied = read_one(what, vary)
     along, span = varied.name, varied.span
     shaken = rig_at(what, frequency, phase, along)
@@ -116,7 +120,11 @@ def bifurcation(
         orbits = None
         if branches:
             start_phase = shaken.harmonic.phase
-            orbits = vi.resonance_diagram(shaken, {along: span}, phase=start_phase)
+            if is_assembly(what):
+                begin = shaken.at(span[0]) if along == "frequency" else shaken
+                orbits = vi.branch(begin, vary={along: span})
+            else:
+                orbits = vi.resonance_diagram(shaken, {along: span}, phase=start_phase)
         written.write(
             data,
             f"{varied.ending}-diagram",

@@ -54,6 +54,9 @@ def curve(
     - NAME-BIFURCATION-FIRST-SECOND.nc: the curves, with one NetCDF group per curve
     - NAME-BIFURCATION-FIRST-SECOND.png: the curves in the plane of the two parameters
 
+    For a rig of several masses (table [assembly] of a study file), the bifurcations are those of
+    the branch of the motion that is reached from the equilibrium. Grazings are not followed.
+
     For example:
 
         vibroimpact curve B2-G1-A3 --bifurcation fold --vary frequency --vary gap=1mm:20mm
@@ -75,7 +78,7 @@ def curve(
     from vibroimpact.facts import bifurcation_curves as facts
     from vibroimpact.stability.curves_of_kind import curves_of_kind
 
-    what = subject(rig, changes, output.name)
+    what = subject(rig, changes, output.name, masses=True)
     found = read_vary(what, vary)
     if len(found) != 2:
         raise InputError(

@@ -23,6 +23,9 @@ from vibroimpact.cli.records import (
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
 
+_FLOORS = 24
+"""Largest number of floor spectra in a figure. Of more masses, every second or third is drawn."""
+
 
 @calls("seismic_response", "Motion")
 def earthquake(
@@ -49,7 +52,8 @@ def earthquake(
 
     For a rig of several masses (table [assembly] of a study file), the figures of each record show
     displacements, accelerations and contact forces, and the largest values over the order of the
-    masses. The NetCDF file contains the groups response, motion and ground.
+    masses, and the response spectra of the ground and of each mass, which are those of the group
+    floor.
 
     For example:
 
@@ -130,7 +134,7 @@ def _of_masses(
     from vibroimpact.cli.assembly import draw_motion, response_table
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
-    from vibroimpact.earthquakes.earthquake_response import assembly_response
+    from vibroimpact.earthquakes.earthquake_response import earthquake_response
     from vibroimpact.facts import assembly as facts
     from vibroimpact.model.names import file_stem, literal
     from vibroimpact.model.quantities import ACCELERATION
@@ -142,7 +146,7 @@ def _of_masses(
     with results(what, output) as written:
         for name, record in shaking.items():
             with progress_bar("simulating") as progress:
-                groups = assembly_response(
+                groups = earthquake_response(
                     vi.Rig(what.system, record), tail=tail, samples=samples, progress=progress
                 )
             ending = f"{file_stem(name)}-earthquake"
@@ -152,11 +156,25 @@ def _of_masses(
             drawn = figures.mass_histories(motion, title=title)
             written.draw(f"displacements of {name}", f"{ending}-displacements", drawn)
             draw_motion(written, motion, ending, title, None, of=f" of {name}")
-            found = {"record": name, "peak": record.peak, **facts.motion_facts(motion)}
+            masses = groups["floor"]["mass"].values.tolist()
+            shown = masses[:: -(-len(masses) // _FLOORS)]
+            floors = {mass: groups["floor"].sel(mass=mass) for mass in shown}
+            spectra = {"ground": groups["ground"], **floors}
+            curves = figures.response_spectra(
+                spectra, quantity="spectral_acceleration", title=title
+            )
+            written.draw(f"spectra of {name}", f"{ending}-spectra", curves)
+            found = {
+                "record": name,
+                "peak": record.peak,
+                **facts.motion_facts(motion),
+                "floor_spectra": facts.floor_facts(groups["floor"]),
+            }
             told.append(found)
             responses[name] = groups["response"]
             peak = pretty(record.peak, ACCELERATION, 4)
             text += [Line(), Line(f"{name}, peak {peak}", style="bold"), facts.motion_text(found)]
+            text += [Line(), facts.floor_text(found["floor_spectra"])]
         path = vi.save(response_table(responses), written.path("earthquake", "csv"))
         written.files = {"table": path, **written.files}
     return written.tell({"records": told}, *text, shaking=False)

@@ -44,7 +44,7 @@ def motion(
 
     For a rig of several masses (table [assembly] of a study file), the command finds the steady
     motion that is reached from the equilibrium, at one frequency, and draws histories, contact
-    forces and the largest values over the order of the masses.
+    forces, the largest values over the order of the masses, and the spectra of their accelerations.
 
     For example:
 
@@ -117,6 +117,7 @@ def _of_masses(
     from vibroimpact.cli.results import results
     from vibroimpact.facts import assembly as facts
     from vibroimpact.model.frequency_text import forcing, forcing_slug
+    from vibroimpact.stability.named_motions import with_spectrum
 
     if len(shaken) > 1:
         raise InputError(
@@ -126,9 +127,11 @@ def _of_masses(
     ((hertz, one),) = shaken.items()
     with results(what, output) as written:
         with progress_bar("finding motions") as progress:
-            data = vi.steady(one, samples=samples, progress=progress)
-        title = f"{what.title}, {forcing(hertz, 10)}"
-        write_motion(written, data, f"{forcing_slug(hertz)}-motion", title, None)
+            data = with_spectrum(vi.steady(one, samples=samples, progress=progress))
+        title, ending = f"{what.title}, {forcing(hertz, 10)}", f"{forcing_slug(hertz)}-motion"
+        write_motion(written, data, ending, title, None)
+        lines = figures.spectrum_lines(data, title=title)
+        written.draw("spectrum", f"{ending}-spectrum", lines)
         found = facts.steady_facts(data)
     return written.tell(found, facts.steady_text(found))
 

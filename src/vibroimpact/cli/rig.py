@@ -164,7 +164,8 @@ def subject(
     if isinstance(found.system, Assembly) and not masses:
         raise InputError(
             f"study {text!r}: assembly: this command computes one mass, not an assembly of several "
-            "masses; use vibroimpact simulate, sweep, branch, motion or earthquake"
+            "masses; use vibroimpact simulate, sweep, branch, bifurcation, curve, motion, basins "
+            "or earthquake"
         )
     if shaken is not None:
         found = found._replace(shaking=shaken)

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 from cyclopts import Group, Parameter
 
+from vibroimpact.cli.options import by_path
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
-    from vibroimpact.model import State
+    from vibroimpact.model import AssemblyState, State
     from vibroimpact.model.rig import Rig
 
 _OfStates: TypeAlias = Annotated[
     str | None,
     Parameter(group=Group("Initial states", sort_key=1), allow_leading_hyphen=True),
+]
+Texts: TypeAlias = Annotated[
+    tuple[str, ...],
+    Parameter(group=Group("Initial states", sort_key=1), negative="", consume_multiple=False),
 ]
 Range: TypeAlias = tuple[str, str] | None
 
@@ -106,12 +112,62 @@ def state(option: str, text: str, phase: float | None = None) -> State:
     return State(u, v, phase=phase)
 
 
+def plane(what: Subject, texts: Sequence[str]) -> dict[str, tuple[str, str]] | None:
+    """Read the options --plane of several masses, COORDINATE=LOW:HIGH; None without an option.
+
+    Raises
+    ------
+    InputError
+        If several masses have not two of them, if one is not a range, or if a coordinate occurs
+        twice.
+    """
+    from vibroimpact.model import Assembly
+
+    found = by_path("--plane", texts)
+    spans = {name: _read_range(f"--plane: {name}", text) for name, text in found.items()}
+    if isinstance(what.system, Assembly) and len(spans) != 2:
+        first = what.system.names[0]
+        raise InputError(
+            f"--plane: {', '.join(map(repr, texts)) or 'missing'}; pass two coordinates with their "
+            f"ranges, such as --plane displacement.{first}=-2cm:2cm --plane velocity.{first}=-1:1"
+        )
+    return spans or None
+
+
+def named_state(option: str, texts: Sequence[str]) -> AssemblyState | None:
+    """Read a state of several masses, COORDINATE=VALUE such as ``velocity.roof=0.1m/s`` each.
+
+    Raises
+    ------
+    InputError
+        If a value is invalid, or if a coordinate occurs twice or does not exist.
+    """
+    from vibroimpact.model import AssemblyState
+
+    parts: dict[str, Any] = {}
+    for path, value in by_path(option, texts).items():
+        part, _, name = path.partition(".")
+        if part not in ("displacement", "velocity", "deformation", "memory") or not name:
+            raise InputError(
+                f"{option}: {path!r}; pass a part and a name, such as displacement.roof=2cm, "
+                "velocity.roof=0.1m/s, deformation.STOP=1mm or memory.LINK=1mm"
+            )
+        parts.setdefault(part, {})[name] = value
+    try:
+        return AssemblyState(**parts) if parts else None
+    except InputError as error:
+        raise InputError(f"{option}: {error}") from None
+
+
 def _range(option: str, text: str | None) -> Range:
+    """Split ``LOW:HIGH``; None without an option."""
+    return None if text is None else _read_range(option, text)
+
+
+def _read_range(option: str, text: str) -> tuple[str, str]:
     """Split ``LOW:HIGH``. The library function reads the two values."""
-    if text is None:
-        return None
     low, colon, high = (part.strip() for part in text.partition(":"))
     if not (low and colon and high) or ":" in high:
-        example = "-20mm:20mm" if option == "--displacement" else "-100mm/s:100mm/s"
+        example = "-20mm:20mm" if "displacement" in option else "-100mm/s:100mm/s"
         raise InputError(f"{option}: {text!r} is not a range; pass LOW:HIGH, such as {example}")
     return low, high

@@ -15,6 +15,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
 from vibroimpact.model.parameters import written_units
+from vibroimpact.model.rig import System
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
 COMPONENTS = [
@@ -176,9 +177,12 @@ def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
         numbers["amplitude"] = list(rig.amplitudes)
     if rig.published:
         numbers["published"] = True
-    if isinstance(rig.system, Assembly):
-        return {"assembly": rig.system.model_dump(), **numbers}
-    return {"oscillator": oscillator_parameters(rig.oscillator), **numbers}
+    return {**system_parameters(rig.system), **numbers}
+
+
+def system_parameters(system: System) -> dict[str, Any]:
+    """Return an oscillator or an assembly by its kind, for the attributes of a dataset."""
+    return {"assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump()}
 
 
 def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:

@@ -70,9 +70,10 @@ def each_by_stop(oscillators: Sequence[Oscillator], both: NDArray[Any]) -> NDArr
 
 
 def plain_values(values: xr.DataArray) -> Any:
-    """Return a number or a text as Python has it; of stops a mapping from their names."""
-    if values.dims == ("stop",):
-        return dict(zip(values["stop"].values.tolist(), values.values.tolist(), strict=True))
+    """Return a number or a text as Python has it; of stops or masses a mapping from their names."""
+    if values.dims in (("stop",), ("mass",)):
+        names = values[values.dims[0]].values.tolist()
+        return dict(zip(names, values.values.tolist(), strict=True))
     return values.item()
 
 
@@ -96,6 +97,16 @@ def over_stops(values: xr.DataArray) -> xr.DataArray:
     if str(values.name).removeprefix("contact_") in _SUMS:
         return values.sum("stop", min_count=1, keep_attrs=True)
     return values.max("stop", keep_attrs=True)
+
+
+def over_parts(values: xr.DataArray) -> xr.DataArray:
+    """Return `over_stops`; of masses and links the largest value, of a lowest one the lowest."""
+    found = over_stops(values)
+    for dim in ("mass", "link"):
+        if dim in found.dims:
+            lowest = str(values.name).endswith("_min")
+            found = (found.min if lowest else found.max)(dim, keep_attrs=True)
+    return found
 
 
 def quantities(data: xr.Dataset) -> list[str]:

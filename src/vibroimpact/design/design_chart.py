@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Mapping
 from typing import Any
 
@@ -10,19 +9,28 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import each_by_stop, stops_of
-from vibroimpact.design.design_shaking import OF_STOPS, AnyRecords, design_rig
+from vibroimpact.design.design_shaking import (
+    DIMS,
+    OF_STOPS,
+    PEAKS,
+    AnyRecords,
+    ByRecords,
+    design_system,
+)
 from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.demands import warn_given_up
 from vibroimpact.earthquakes.run_plan import Runs, runs
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.argument_types import Share
 from vibroimpact.model.public import public
-from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model.read_rig import RigOrSystem
+from vibroimpact.model.rig import System
 from vibroimpact.model.varied import Values
+from vibroimpact.response.assembly_contacts import coordinates
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress
 
@@ -36,7 +44,7 @@ _STIFFNESSES = {
 
 @public
 def design_chart(
-    rig: AnyRig | Oscillator,
+    rig: RigOrSystem,
     vary: Values,
     *,
     records: AnyRecords | None = None,
@@ -68,13 +76,15 @@ def design_chart(
         coefficient of restitution stays constant.
     records
         One record, or several as a list or as a mapping from names to records. They replace the
-        shaking of the rig, and the rig may then be an `Oscillator` alone. The motion through each
+        shaking of the rig, and the rig may then be an `Oscillator` or an `Assembly` alone. The
+        motion through each
         record starts from rest, and the records are not scaled. The result is a fractile over the
         records; see ``fractile``.
     limits
         Largest accepted values, by name: ``"peak_force"`` (N) of each stop, ``"penetration"``,
         ``"peak_displacement"`` and ``"displacement_max"`` (m). ``"displacement_min"`` (m) is the
-        lowest accepted value, at most 0.
+        lowest accepted value, at most 0. Of an assembly, a limit holds for each mass, stop or link;
+        ``"peak_drift"`` is accepted for records, and ``"penetration"`` is not.
         A design that exceeds a limit is reported like the others, but it cannot be in the Pareto
         front ``pareto``.
     fractile
@@ -83,10 +93,10 @@ def design_chart(
         interpolation between the records. These fractiles are compared with the limits.
     frequency_span
         Lowest and highest forcing frequency (Hz). Default: a range around the primary resonance of
-        each design.
+        each design. An assembly, which has several resonances, has no default range.
     step
-        Frequency step of the sweeps, as a share of the natural frequency. The step is smaller if
-        the damping is light. Near the largest responses the steps are 64 times as fine.
+        Frequency step of the sweeps, as a share of the lowest natural frequency. The step is
+        smaller if the damping is light. Near the largest responses the steps are 64 times as fine.
     tail
         Duration of free vibration after the record, in s; see `seismic_response`.
     threads
@@ -120,7 +130,10 @@ def design_chart(
           values are NaN. If a motion is unbounded, the values are infinite.
 
         For sines there are also ``displacement_frequency`` and ``acceleration_frequency``, the
-        frequencies of the largest values. ``unsettled_count`` is the number of frequency steps at
+        frequencies of the largest values. Of an assembly, displacements, accelerations and these
+        frequencies have the dim ``mass``, and forces the dim ``stop``. For records, ``peak_drift``
+        has the dim ``link``. ``pareto`` compares the largest values of all masses, and there is no
+        ``penetration``. ``unsettled_count`` is the number of frequency steps at
         which no periodic motion was reached. At such a step the peaks are those of 100 forcing
         cycles.
 
@@ -129,19 +142,22 @@ def design_chart(
     InputError
         If a value is invalid.
     """
-    oscillator, what = design_rig(
+    system, what = design_system(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
-    plan = runs(oscillator, vary, least=1)
-    most = limits_of(limits)
+    plan = runs(system, vary, least=1, any_masses=True)
     workers = placed(threads, where)
-    places = list(itertools.product(*(range(n) for n in plan.shape)))
-    rigs = [plan.oscillator(at) for at in places]
+    rigs = [plan.system(at) for at in np.ndindex(*plan.shape)]
+    known = [name for name in PEAKS if isinstance(system, Oscillator) or name in DIMS]
+    if isinstance(system, Assembly) and isinstance(what, ByRecords):
+        known.append("peak_drift")
+    most = limits_of(limits, known)
     found = what.peaks(rigs, workers, progress)
-    data = _dataset(plan, rigs, {**found, **_dampings(plan, rigs)}, most)
+    oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
+    data = _dataset(plan, rigs, {**found, **_dampings(plan, oscillators)}, most)
     warn_given_up(data["status"].values, "design", "designs")
     parameters = {
-        "oscillator": oscillator_parameters(oscillator),
+        **system_parameters(system),
         "varied": {one.name: one.values.tolist() for one in plan.varied},
         "limits": most,
         **what.parameters(),
@@ -162,7 +178,7 @@ def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
 
 def _dataset(
     plan: Runs,
-    rigs: list[Oscillator],
+    rigs: list[System],
     found: Mapping[str, NDArray[Any]],
     limits: Mapping[str, float],
 ) -> xr.Dataset:
@@ -171,16 +187,22 @@ def _dataset(
     for name, limit in limits.items():
         within &= severity(name, found[name]) <= severity(name, limit)
     u, a = (
-        np.where(within, found[name], np.nan) for name in ("peak_displacement", "peak_acceleration")
+        np.where(within, severity(name, found[name]), np.nan)
+        for name in ("peak_displacement", "peak_acceleration")
     )
     own = {"pareto": non_dominated(u, a), **({"within_limits": within} if limits else {})}
-    shaped = {
-        name: (plan.dims, values.reshape(plan.shape))
-        for name, values in {**found, **own}.items()
-        if name not in OF_STOPS
-    }
-    for name in OF_STOPS:
-        values = each_by_stop(rigs, found[name])
-        shaped[name] = ((*plan.dims, "stop"), values.reshape(*plan.shape, -1))
+    oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
+    shaped = {}
+    for name, values in {**found, **own}.items():
+        dims = plan.dims
+        if isinstance(rigs[0], Assembly):
+            dims += (DIMS[name],) if name in DIMS else ()
+        elif name in OF_STOPS:
+            dims, values = (*dims, "stop"), each_by_stop(oscillators, values)
+        shaped[name] = (dims, values.reshape(*plan.shape, *values.shape[1:]))
     varied = {one.name: one.values for one in plan.varied}
-    return xr.Dataset(shaped, {"stop": stops_of(*rigs), **varied})
+    if isinstance(rigs[0], Assembly):
+        names = coordinates(rigs[0])
+        used = {dim for dims, _ in shaped.values() for dim in dims}
+        return xr.Dataset(shaped, {**{k: v for k, v in names.items() if k in used}, **varied})
+    return xr.Dataset(shaped, {"stop": stops_of(*oscillators), **varied})

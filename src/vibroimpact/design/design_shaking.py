@@ -13,18 +13,19 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.worst_sine import Sines
-from vibroimpact.earthquakes.peak_demands import PEAKS as PEAKS_OF_RUNS
-from vibroimpact.earthquakes.peak_demands import Shaken, peaks
+from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, peaks_of_assemblies
+from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
 from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator, Record, to_si
+from vibroimpact.model import Assembly, Oscillator, Record, to_si
 from vibroimpact.model.argument_types import MOST_TAIL
 from vibroimpact.model.quantities import DIMENSIONLESS, FREQUENCY, TIME
 from vibroimpact.model.quantity_lists import read_span
-from vibroimpact.model.read_rig import as_rig
-from vibroimpact.model.rig import with_stated_units
+from vibroimpact.model.read_rig import as_rig, as_rig_of_any_masses, one_system
+from vibroimpact.model.rig import System, with_stated_units
+from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.scenarios.axes import one_sine
 from vibroimpact.tasks.threads import Progress, Workers
@@ -44,13 +45,24 @@ PEAKS = (
     "penetration",
 )
 """Results of each rig, in m, m/s² and N; those of stops have both sides as a further axis."""
+DIMS = {
+    "peak_displacement": "mass",
+    "displacement_max": "mass",
+    "displacement_min": "mass",
+    "peak_acceleration": "mass",
+    "displacement_frequency": "mass",
+    "acceleration_frequency": "mass",
+    "peak_drift": "link",
+    "peak_force": "stop",
+}
+"""Dims of the results of an assembly."""
 
 
 class Asked(Protocol):
     """What a rig is sized for."""
 
     def peaks(
-        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
+        self, rigs: Sequence[System], workers: Workers, progress: Progress | None
     ) -> dict[str, NDArray[Any]]:
         """`PEAKS` of each rig, ``hitting``, ``status`` and what else is known of it."""
 
@@ -64,7 +76,7 @@ class BySines(NamedTuple):
     sines: Sines
 
     def peaks(
-        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
+        self, rigs: Sequence[System], workers: Workers, progress: Progress | None
     ) -> dict[str, NDArray[Any]]:
         """Of each rig the largest over all frequencies."""
         worst = self.sines.worst(rigs, workers, progress)
@@ -75,7 +87,7 @@ class BySines(NamedTuple):
             "displacement_min": 0.0 - left,
             "peak_acceleration": np.array([one.acceleration for one in worst]),
             "peak_force": np.array([one.force for one in worst]),
-            "penetration": _penetration(rigs, right, left),
+            **_penetration(rigs, right, left),
             "hitting": np.array([float(one.hits) for one in worst]),
             "displacement_frequency": np.array([one.displacement_frequency for one in worst]),
             "acceleration_frequency": np.array([one.acceleration_frequency for one in worst]),
@@ -109,26 +121,38 @@ class ByRecords(NamedTuple):
         return record_notes(self.records)
 
     def runs(
-        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
+        self, rigs: Sequence[System], workers: Workers, progress: Progress | None
     ) -> dict[str, NDArray[Any]]:
         """Of each record and rig, as arrays (record, rig)."""
-        one = np.ones(1)
-        found = peaks(
-            [Shaken(rig, record, one) for record in self.records.values() for rig in rigs],
-            tail=self.tail,
-            threads=workers,
-            progress=progress,
-        )
+        records = list(self.records.values())
+        oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
+        if len(oscillators) < len(rigs):
+            every = [
+                AssemblyRuns(rig, record, np.ones(1))  # type: ignore[arg-type]
+                for record in records
+                for rig in rigs
+            ]
+            of_runs = peaks_of_assemblies(every, self.tail, MAX_EVENTS, workers, progress)
+            kept = {*DIMS, "status"}
+            found = {name: values for name, values in of_runs.items() if name in kept}
+        else:
+            one = np.ones(1)
+            found = peaks(
+                [Shaken(rig, record, one) for record in records for rig in oscillators],
+                tail=self.tail,
+                threads=workers,
+                progress=progress,
+            )
         values: dict[str, NDArray[Any]] = {
-            name: v.reshape(len(self.records), len(rigs), *v.shape[2:]) for name, v in found.items()
+            name: v.reshape(len(records), len(rigs), *v.shape[2:]) for name, v in found.items()
         }
         beyond = np.isin(values["status"], UNSTABLE)
-        for name in PEAKS_OF_RUNS:
+        for name in set(values) - {"status"}:
             values[name][beyond] = -np.inf if name == "displacement_min" else np.inf
         return values
 
     def peaks(
-        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
+        self, rigs: Sequence[System], workers: Workers, progress: Progress | None
     ) -> dict[str, NDArray[Any]]:
         """Of each rig the fractile over the records."""
         runs = self.runs(rigs, workers, progress)
@@ -140,7 +164,8 @@ class ByRecords(NamedTuple):
             "displacement_min": left,
             "peak_acceleration": runs["peak_acceleration"],
             "peak_force": force,
-            "penetration": _penetration(rigs, right, left),
+            **_penetration(rigs, right, left),
+            **({"peak_drift": runs["peak_drift"]} if "peak_drift" in runs else {}),
         }
         status = runs["status"]
         bad = (status != Status.DONE) & ~np.isin(status, UNSTABLE)
@@ -174,14 +199,20 @@ def fractile_of(data: xr.Dataset) -> float | None:
     return share if share < 1.0 and len(about["records"]) > 1 else None
 
 
-def _penetration(rigs: Sequence[Oscillator], right: _Array, left: _Array) -> _Array:
-    """How far the mass goes beyond a gap (m), 0 where it does not."""
+def _penetration(rigs: Sequence[System], right: _Array, left: _Array) -> dict[str, _Array]:
+    """How far the mass goes beyond a gap (m), 0 where it does not; nothing of an assembly."""
+    oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
+    if len(oscillators) < len(rigs):
+        return {}
     gaps = np.array(
-        [[np.inf if stop is None else stop.gap for stop in (rig.right, rig.left)] for rig in rigs]
+        [
+            [np.inf if stop is None else stop.gap for stop in (rig.right, rig.left)]
+            for rig in oscillators
+        ]
     ).reshape(-1, 2)
     with np.errstate(invalid="ignore"):
         found: _Array = np.maximum(np.maximum(right - gaps[:, 0], left - gaps[:, 1]), 0.0)
-    return found
+    return {"penetration": found}
 
 
 def design_rig(
@@ -200,15 +231,35 @@ def design_rig(
     InputError
         If it cannot be used.
     """
-    found = as_rig(rig, oscillator_alone=records is not None)
+    as_rig(rig, oscillator_alone=records is not None)
+    found, what = design_system(
+        rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
+    )
+    assert isinstance(found, Oscillator)
+    return found, what
+
+
+def design_system(
+    rig: Any,
+    records: Any,
+    *,
+    fractile: float,
+    frequency_span: tuple[float | str, float | str] | None,
+    step: float,
+    tail: float | str | None,
+) -> tuple[System, BySines | ByRecords]:
+    """Do what `design_rig` does, also for an assembly."""
+    found = as_rig_of_any_masses(rig) if records is None else one_system(rig)
+    if isinstance(found.system, Assembly):
+        check_size(found.system)
     if records is None and isinstance(found.shaking, Record):
         records = found.shaking
     if records is not None:
         by_records = read_records(records, fractile, frequency_span, tail)
-        return with_stated_units(found.oscillator, in_words(by_records.records)), by_records
-    shaken = one_sine(found)
+        return with_stated_units(found.system, in_words(by_records.records)), by_records
+    shaken = found if isinstance(found.system, Assembly) else one_sine(found)
     low, high = read_frequencies(frequency_span)
-    return found.oscillator, BySines(Sines(shaken.sine, low, high, step))
+    return found.system, BySines(Sines(shaken.sine, low, high, step))
 
 
 def read_records(

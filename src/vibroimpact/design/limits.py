@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_mapping
-from vibroimpact.datasets.stops import over_stops
+from vibroimpact.datasets.stops import over_parts
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import OF_STOPS, PEAKS
 from vibroimpact.errors import InputError, unknown
@@ -20,15 +21,15 @@ _LEFT = "displacement_min"
 _EXAMPLE = 'a dict of limits by name, such as {"peak_force": "2 MN"}'
 
 
-def limits_of(limits: Any) -> dict[str, float]:
-    """Read limits by name, in SI units.
+def limits_of(limits: Any, known: Sequence[str] = PEAKS) -> dict[str, float]:
+    """Read limits by name, in SI units. `known` are the names of results.
 
     Raises
     ------
     InputError
         If one is of nothing that is known of a design, or has a wrong unit.
     """
-    accepted = [name for name in PEAKS if name != "peak_acceleration"]
+    accepted = [name for name in known if name != "peak_acceleration"]
     found = {}
     given = check_mapping({} if limits is None else limits, "limits", _EXAMPLE)
     for name, value in given.items():
@@ -41,16 +42,20 @@ def limits_of(limits: Any) -> dict[str, float]:
 
 
 def severity(name: str, values: Any) -> Any:
-    """Return what a limit bounds from above: minus the end on the left, the largest of both stops.
+    """Return what a limit bounds from above: minus the end on the left, the largest of all parts.
 
     Parameters
     ----------
     name
-        Name of one of `PEAKS`.
+        Name of a result.
     values
-        Its value, or its limit; if it is of stops, with the stops along the last axis.
+        Its value, or its limit; of designs along the first axis. Stops, masses and links are along
+        the last one.
     """
-    return values.max(axis=-1) if name in OF_STOPS and np.ndim(values) else _sense(name) * values
+    found = _sense(name) * values
+    if np.ndim(found) > 1 or (name in OF_STOPS and np.ndim(found)):
+        found = found.max(axis=-1)
+    return found
 
 
 def _sense(name: str) -> float:
@@ -65,7 +70,7 @@ def excesses(data: xr.Dataset) -> list[xr.DataArray]:
     """
     limits = json.loads(data.attrs.get("parameters", "{}")).get("limits", {})
     return [
-        (_sense(name) * (over_stops(data[name]) - most)) / (abs(most) or 1.0)
+        (_sense(name) * (over_parts(data[name]) - most)) / (abs(most) or 1.0)
         for name, most in limits.items()
         if name in data
     ]

@@ -14,28 +14,25 @@ from vibroimpact.design.design_shaking import (
     AnyRecords,
     ByRecords,
     BySines,
-    design_rig,
-    read_frequencies,
-    read_records,
+    design_system,
 )
 from vibroimpact.design.worst_sine import STEP, Sines
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly, Harmonic, Oscillator, Record, equilibrium
+from vibroimpact.model import Assembly, Oscillator, equilibrium
 from vibroimpact.model.argument_types import Share
 from vibroimpact.model.public import public
-from vibroimpact.model.read_rig import AnyRig, one_system
+from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
-from vibroimpact.response.assembly_rig import check_laws
 from vibroimpact.tasks.executors import THREADS, placed
 from vibroimpact.tasks.threads import Progress, Workers
 
 
 @public
 def required_gap(
-    rig: AnyRig | Oscillator,
+    rig: RigOrSystem,
     *,
     records: AnyRecords | None = None,
     fractile: float = 1.0,
@@ -83,14 +80,11 @@ def required_gap(
         was given up.
     """
     workers = placed(threads, where)
-    system = one_system(rig)
-    if isinstance(system.system, Assembly):
-        return _of_assembly(
-            system, records, fractile, frequency_span, tail, workers=workers, progress=progress
-        )
-    oscillator, what = design_rig(
+    oscillator, what = design_system(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
+    if isinstance(oscillator, Assembly):
+        return _of_assembly(oscillator, what, workers, progress)
     free = oscillator.without_bumpers()
     if isinstance(what, ByRecords):
         found = _of_records(free, what, workers, progress)
@@ -108,37 +102,20 @@ def required_gap(
 
 
 def _of_assembly(
-    rig: Rig,
-    records: AnyRecords | None,
-    fractile: float,
-    frequency_span: tuple[float | str, float | str] | None,
-    tail: float | str | None,
-    *,
-    workers: Workers,
-    progress: Progress | None,
+    assembly: Assembly, what: BySines | ByRecords, workers: Workers, progress: Progress | None
 ) -> xr.Dataset:
     """Return the gap of each stop of an assembly."""
-    assembly = rig.system
-    assert isinstance(assembly, Assembly)
-    check_laws(assembly)
-    if records is None and isinstance(rig.shaking, Record):
-        records = rig.shaking
-    what: ByRecords | BySines
-    if records is not None:
-        what = read_records(records, fractile, frequency_span, tail)
+    if isinstance(what, ByRecords):
         found = gaps_for_records(
             assembly, what.records, what.fractile, what.tail, workers, progress
         )
     else:
-        if not isinstance(rig.periodic, Harmonic):
-            raise InputError("shaking: a Periodic is not accepted; pass a Harmonic or records")
         if not assembly.linear:
             raise InputError(
                 "links: the gaps for sines require linear links; pass records, or use sweep"
             )
-        low, high = read_frequencies(frequency_span)
-        what = BySines(Sines(rig.periodic, low, high, STEP))
-        found = gaps_for_sines(assembly, rig.periodic, (low, high))
+        sines = what.sines
+        found = gaps_for_sines(assembly, sines.shaken, (sines.low, sines.high))
     parameters = {"assembly": assembly.model_dump(), **what.parameters()}
     return describe(found, "vibroimpact.required_gap", parameters, what.notes())
 
@@ -162,7 +139,11 @@ def _swept(
 ) -> xr.Dataset:
     (worst,) = sines.worst([free], workers, progress)
     _refuse(worst.status)
-    return _sides(worst.right, worst.left, displacement_frequency=worst.displacement_frequency)
+    return _sides(
+        float(worst.right),
+        float(worst.left),
+        displacement_frequency=float(worst.displacement_frequency),
+    )
 
 
 def _of_records(

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from operator import attrgetter
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -13,10 +12,12 @@ from numpy.typing import NDArray
 from vibroimpact.engine import batch
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Harmonic, Oscillator, equilibrium
-from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.model import Assembly, Harmonic, Oscillator
+from vibroimpact.model.rig import Rig, System
+from vibroimpact.response.assembly_rows import measured_variables
+from vibroimpact.response.engine_input import engine_rig
 from vibroimpact.response.hold_rows import HoldRows, Settling, sweep_holds
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.scenarios.map_node import RIG
 from vibroimpact.scenarios.sweep_frequencies import LOW, MOST, cycles, highest
@@ -35,30 +36,30 @@ _ALIKE = 1e-6
 """Difference of two largest holds that are one motion."""
 _FAR = 0.8
 """A sweep whose largest hold is smaller than this share of the other's is not refined."""
-_SIZES: tuple[Callable[[HoldRows], _Array], ...] = (
-    attrgetter("peak_displacement"),
-    attrgetter("peak_acceleration"),
-)
-"""By which the largest response is sought."""
 _TOLERANCE = 1e-9
 _LEAST_CYCLES, _WINDOW = 300, 100
+_CYCLES_OF_ASSEMBLIES = 2000
 _SOUND = (int(Status.DONE), int(Status.NOT_SETTLED))
 _UNBOUNDED = (int(Status.NOT_FINITE), int(Status.REVERSED))
 
 
 class Worst(NamedTuple):
-    """What is the largest over all frequencies and both directions, in SI units."""
+    """What is the largest over all frequencies and both directions, in SI units.
 
-    right: float
+    Values of a mass are plain numbers of an oscillator, and have a value for each mass of an
+    assembly.
+    """
+
+    right: _Array
     """Displacement, to the right."""
-    left: float
-    acceleration: float
+    left: _Array
+    acceleration: _Array
     force: _Array
-    """Of the right and the left stop."""
+    """Of each stop; of an oscillator of the right and the left one."""
     hits: bool
-    displacement_frequency: float
+    displacement_frequency: _Array
     """Where the displacement is largest, to either side (Hz)."""
-    acceleration_frequency: float
+    acceleration_frequency: _Array
     unsettled: int
     """Holds at which no periodic motion was reached."""
     status: int
@@ -72,6 +73,54 @@ class _Holds(NamedTuple):
     states: _Array
 
 
+class _Measured(NamedTuple):
+    """What was measured of holds, in SI units, shape (hold,) or (hold, part)."""
+
+    most: _Array
+    """Largest displacement."""
+    least: _Array
+    acceleration: _Array
+    force: _Array
+    touched: NDArray[np.bool_]
+
+    @property
+    def displacement(self) -> _Array:
+        """To either side."""
+        return np.maximum(np.abs(self.most), np.abs(self.least))
+
+    @property
+    def sizes(self) -> _Array:
+        """By which the largest response is sought, shape (size, hold)."""
+        count = len(self.touched)
+        both = [one.reshape(count, -1).T for one in (self.displacement, self.acceleration)]
+        return np.concatenate(both)
+
+
+def _measured(system: System, rows: HoldRows) -> _Measured:
+    if isinstance(system, Assembly):
+        found = {name: v for name, (_, v) in measured_variables(system, rows.array, ()).items()}
+        force = found["peak_force"]
+        return _Measured(
+            found["displacement_max"],
+            found["displacement_min"],
+            found["peak_acceleration"],
+            force,
+            np.asarray((force > 0.0).any(axis=-1)),
+        )
+    touched = np.asarray((rows.impacts > 0.0).any(axis=-1))
+    # What stays pressed all the time begins no contact.
+    for stop, reached in (
+        (system.right, rows.displacement_max),
+        (system.left, -rows.displacement_min),
+    ):
+        if stop is not None:
+            touched |= reached > stop.gap
+    force = rows.peak_force * system.mass
+    return _Measured(
+        rows.displacement_max, rows.displacement_min, rows.peak_acceleration, force, touched
+    )
+
+
 class Sines(NamedTuple):
     """Sines of one size over a range of frequencies."""
 
@@ -82,14 +131,31 @@ class Sines(NamedTuple):
     """Highest frequency (Hz); None for one that is beyond the primary resonance of each rig."""
     step: float = STEP
 
-    def frequencies(self, rig: Oscillator) -> _Array:
-        """The frequencies of the coarse sweep (Hz)."""
-        natural = rig.natural_frequency
-        low = LOW * natural if self.low is None else self.low
-        high = highest(Rig(rig, self.shaken)) * natural if self.high is None else self.high
+    def frequencies(self, rig: System) -> _Array:
+        """The frequencies of the coarse sweep (Hz).
+
+        Raises
+        ------
+        InputError
+            If they are too many, or if the range for an assembly is missing.
+        """
+        natural = rig.angular_frequency / math.tau
         step = self.step
-        if rig.isolator.linear and rig.damping_ratio > 0.0:
-            step = min(step, max(_PEAK * rig.damping_ratio, 0.1 * step))
+        if isinstance(rig, Assembly):
+            if self.low is None or self.high is None:
+                raise InputError(
+                    "frequency_span: missing; an Assembly has several resonances, so pass the "
+                    "lowest and the highest forcing frequency"
+                )
+            low, high, natural = self.low, self.high, natural or self.low
+            ratios = rig.damping_ratios
+            damping = float(np.min(ratios[ratios > 0.0], initial=1.0))
+        else:
+            low = LOW * natural if self.low is None else self.low
+            high = highest(Rig(rig, self.shaken)) * natural if self.high is None else self.high
+            damping = rig.damping_ratio if rig.isolator.linear else 0.0
+        if damping > 0.0:
+            step = min(step, max(_PEAK * damping, 0.1 * step))
         count = max(2, math.ceil((max(high, low) - low) / (step * natural) - 1e-9) + 1)
         if count > MOST:
             raise InputError(
@@ -101,16 +167,17 @@ class Sines(NamedTuple):
         return found
 
     def worst(
-        self, rigs: Sequence[Oscillator], workers: Workers, progress: Progress | None
+        self, rigs: Sequence[System], workers: Workers, progress: Progress | None
     ) -> list[Worst]:
         """The worst that each rig does."""
         vectors = [engine_rig(Rig(rig, self.shaken)) for rig in rigs]
-        starts = [engine_state(rig, equilibrium(rig)) for rig in rigs]
+        states = [SectionStates(rig) for rig in rigs]
+        starts = [one.vector_of(one.read(None)) for one in states]
         batch.sweep.prepare(*vectors)
         for rig in rigs:
             self.frequencies(rig)  # refused before anything is computed
 
-        def task(one: tuple[Oscillator, _Array, _Array], tally: Tally) -> Worst:
+        def task(one: tuple[System, _Array, _Array], tally: Tally) -> Worst:
             found = _Search(self, *one, tally).worst()
             tally[0] = RIG
             return found
@@ -128,23 +195,25 @@ class _Search:
     """One rig swept coarsely, then finely about its largest displacement and acceleration."""
 
     def __init__(
-        self, sines: Sines, rig: Oscillator, vector: _Array, start: _Array, tally: Tally
+        self, sines: Sines, rig: System, vector: _Array, start: _Array, tally: Tally
     ) -> None:
         self.tally = tally
         self.rig, self.vector, self.start = rig, vector, start
         self.amplitude = sines.shaken.amplitude
         self.phase = sines.shaken.phase
         self.grid = sines.frequencies(rig)
-        high = float(self.grid[-1]) / rig.natural_frequency
-        self.max_cycles = cycles(Rig(rig, sines.shaken), high, _LEAST_CYCLES)
+        self.max_cycles = _CYCLES_OF_ASSEMBLIES
+        if isinstance(rig, Oscillator):
+            high = float(self.grid[-1]) / rig.natural_frequency
+            self.max_cycles = cycles(Rig(rig, sines.shaken), high, _LEAST_CYCLES)
 
     def worst(self) -> Worst:
         swept = [self._held(np.ascontiguousarray(self.grid[::way]), self.start) for way in (1, -1)]
         every = list(swept)
-        for size in _SIZES:
-            for about in _to_be_refined(swept, size):
+        for k in range(len(self._sizes(swept[0]))):
+            for about in _to_be_refined(swept, [self._sizes(one)[k] for one in swept]):
                 for _ in range(_LEVELS):
-                    at = _top(size(about.rows))
+                    at = _top(self._sizes(about)[k])
                     if not about.rows.period[at]:
                         break  # no smooth curve goes through a motion that is not periodic
                     about = self._finer(about, at)
@@ -155,6 +224,9 @@ class _Search:
             np.concatenate([one.states for one in every]),
         )
         return self._seen(whole)
+
+    def _sizes(self, held: _Holds) -> _Array:
+        return _measured(self.rig, held.rows).sizes
 
     def _held(self, frequency: _Array, start: _Array) -> _Holds:
         levels = np.full(len(frequency), self.amplitude)
@@ -177,41 +249,37 @@ class _Search:
         return self._held(places, held.states[first] if sound else self.start)
 
     def _seen(self, held: _Holds) -> Worst:
-        rows = held.rows
-        size = rows.peak_displacement
-        codes = judged(self.rig, rows.status, size)
-        if np.isin(codes, _UNBOUNDED).any():
-            beyond = (math.inf, math.inf, math.inf, np.full(2, math.inf))
-            status = int(codes[np.isin(codes, _UNBOUNDED)][0])
-            return Worst(*beyond, bool(self.rig.stops), math.nan, math.nan, 0, status)
+        rows, found = held.rows, _measured(self.rig, held.rows)
+        codes = rows.status.astype(np.int64)
+        if isinstance(self.rig, Oscillator):
+            codes = judged(self.rig, codes, found.displacement)
+        bad = codes[np.isin(codes, _UNBOUNDED)]
         sound = np.isin(codes, _SOUND)
-        if not sound.all():
-            unknown = (math.nan, math.nan, math.nan, np.full(2, math.nan))
-            return Worst(*unknown, False, math.nan, math.nan, 0, int(codes[~sound][0]))
-        touching = (rows.impacts > 0.0).any(axis=-1)
-        # What stays pressed all the time begins no contact.
-        right, left = rows.displacement_max, -rows.displacement_min
-        for stop, reached in ((self.rig.right, right), (self.rig.left, left)):
-            if stop is not None:
-                touching |= reached > stop.gap
-        acceleration = rows.peak_acceleration
+        if len(bad) or not sound.all():
+            status = int(bad[0] if len(bad) else codes[~sound][0])
+            value = math.inf if len(bad) else math.nan
+            of_mass = np.full_like(found.acceleration[0], value)
+            nowhere = np.full_like(of_mass, math.nan)
+            force = np.full_like(found.force[0], value)
+            hits = bool(len(bad) and self.rig.stops)
+            return Worst(of_mass, of_mass, of_mass, force, hits, nowhere, nowhere, 0, status)
         return Worst(
-            float(right.max()),
-            float(left.max()),
-            float(acceleration.max()),
-            rows.peak_force.max(axis=0) * self.rig.mass,
-            bool(touching.any()),
-            float(held.frequency[size.argmax()]),
-            float(held.frequency[acceleration.argmax()]),
+            found.most.max(axis=0),
+            (-found.least).max(axis=0),
+            found.acceleration.max(axis=0),
+            found.force.max(axis=0),
+            bool(found.touched.any()),
+            held.frequency[found.displacement.argmax(axis=0)],
+            held.frequency[found.acceleration.argmax(axis=0)],
             int((codes != Status.DONE).sum()),
             int(Status.DONE),
         )
 
 
-def _to_be_refined(swept: list[_Holds], size: Callable[[HoldRows], _Array]) -> list[_Holds]:
+def _to_be_refined(swept: list[_Holds], sizes: list[_Array]) -> list[_Holds]:
     """The sweeps whose largest may be that of both; of two that are at one motion, one."""
-    tops = [_top(size(one.rows)) for one in swept]
-    values = [float(size(one.rows)[k]) for one, k in zip(swept, tops, strict=True)]
+    tops = [_top(one) for one in sizes]
+    values = [float(one[k]) for one, k in zip(sizes, tops, strict=True)]
     places = [float(one.frequency[k]) for one, k in zip(swept, tops, strict=True)]
     if places[0] == places[1] and math.isclose(*values, rel_tol=_ALIKE):
         return swept[:1]

@@ -228,26 +228,40 @@ def demands_of_assemblies(
         ``stop``.
     """
     first = check_alike(rigs)
-    places = list(np.ndindex(*rigs.shape))
-    systems = [rigs.system(at) for at in places]
-    items = [
+    systems = [rigs.system(at) for at in np.ndindex(*rigs.shape)]
+    runs = [
         AssemblyRuns(system, record, row)  # type: ignore[arg-type]
         for record, row in zip(records, factors, strict=True)
         for system in systems
     ]
-    found = follow_all(items, tail, max_events, workers, progress)
     shape = (len(records), *rigs.shape, factors.shape[1])
-    scale = len(shape) - 1
-    dims = ("record", "scale", *rigs.dims)
-    columns = [_variables(one) for one in found]
+    scale, dims = len(shape) - 1, ("record", "scale", *rigs.dims)
     variables: dict[str, Any] = {}
-    for name, dim in PEAKS.items():
-        whole = np.array([one[name] for one in columns])
-        whole = np.moveaxis(whole.reshape(*shape, *whole.shape[2:]), scale, 1)
+    for name, values in peaks_of_assemblies(runs, tail, max_events, workers, progress).items():
+        dim = PEAKS.get(name, "")
+        whole = np.moveaxis(values.reshape(*shape, *values.shape[2:]), scale, 1)
         variables[name] = ((*dims, dim) if dim else dims, whole)
-    statuses = np.array([[int(code) for code in one.status] for one in found], dtype=np.int64)
-    variables["status"] = (dims, np.moveaxis(statuses.reshape(shape), scale, 1))
     return variables, coordinates(first)
+
+
+def peaks_of_assemblies(
+    runs: Sequence[AssemblyRuns],
+    tail: float | None,
+    max_events: int,
+    workers: Workers,
+    progress: Progress | None,
+) -> dict[str, NDArray[Any]]:
+    """Return `PEAKS` and ``status`` of assemblies with the same parts, by run, factor and part.
+
+    All values of a run that was given up are NaN but for its status.
+    """
+    found = follow_all(runs, tail, max_events, workers, progress)
+    columns = [_variables(one) for one in found]
+    values: dict[str, NDArray[Any]] = {
+        name: np.array([one[name] for one in columns]) for name in PEAKS
+    }
+    status = np.array([[int(code) for code in one.status] for one in found], dtype=np.int64)
+    return {**values, "status": status}
 
 
 def seismic_response_of_assembly(

@@ -47,7 +47,7 @@ from vibroimpact.model.argument_types import (
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.quantity_lists import read_rising
-from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import Rig, System
 from vibroimpact.model.varied import Values
 from vibroimpact.model.written_units import has_no_units
@@ -71,7 +71,7 @@ _PENDING = -1
 
 @public
 def demands(
-    rig: Oscillator | AnyRig | Mapping[str, Oscillator | AnyRig] | list[Oscillator | AnyRig],
+    rig: RigOrSystem | Mapping[str, RigOrSystem] | list[RigOrSystem],
     records: Record | Sequence[Record] | Mapping[str, Record],
     scales: ArrayLike | Sequence[str] = (1.0,),
     *,
@@ -93,9 +93,9 @@ def demands(
     Parameters
     ----------
     rig
-        One rig: an `Oscillator`, a `Rig`, a published laboratory case or its code, or the path of a
-        study file. Several rigs are passed as a list, or as a mapping from names to rigs. The
-        records replace the shaking of the rigs.
+        One rig: an `Oscillator`, an `Assembly`, a `Rig`, a published laboratory case or its code,
+        or the path of a study file. Several rigs are passed as a list, or as a mapping from names
+        to rigs. The records replace the shaking of the rigs.
     records
         One record, or several as a list or as a mapping from names to records. The records of a
         list are named after their files.

@@ -1,11 +1,11 @@
-"""The response of a rig to a record with its motion, and the spectra of the ground and the mass."""
+"""The response of a rig to a record with its motion, and spectra of the ground and the masses."""
 
 from __future__ import annotations
 
 import numpy as np
 import xarray as xr
 
-from vibroimpact.datasets.description import remove_units
+from vibroimpact.datasets.description import describe, motion_parameters, noted, remove_units
 from vibroimpact.earthquakes.floor_record import floor_record
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.seismic_response import seismic_response
@@ -34,7 +34,8 @@ def earthquake_response(
     rig
         The rig, shaken by a record.
     tail
-        Duration of free vibration after the record (s, or text). None for two natural periods.
+        Duration of free vibration after the record (s, or text). None for two natural periods,
+        the longest ones of an assembly.
     samples
         Samples of the motion in each step of the record.
     progress
@@ -44,7 +45,7 @@ def earthquake_response(
     -------
     dict of xarray.Dataset
         ``response``: that of `seismic_response`; ``motion``: that of `simulate`; ``ground`` and
-        ``floor``: spectra of the record and of the acceleration of the mass.
+        ``floor``: spectra of the record and of the acceleration of the mass, or of each mass.
 
     Raises
     ------
@@ -54,7 +55,7 @@ def earthquake_response(
     after, motion = _motion(rig, tail, samples, progress)
     spectra = {
         "ground": response_spectrum(rig.record, _PERIODS, _DAMPING),
-        "floor": response_spectrum(floor_record(motion), _PERIODS, _DAMPING),
+        "floor": _floor(motion),
     }
     if has_no_units(rig):
         spectra = {name: remove_units(one) for name, one in spectra.items()}
@@ -78,39 +79,18 @@ def response_without_stops(
         return None
 
 
-def assembly_response(
-    rig: Rig, *, tail: float | str | None = None, samples: int = 1, progress: Progress | None = None
-) -> dict[str, xr.Dataset]:
-    """Compute the extremes of an assembly through its record, the motion, and the ground spectrum.
-
-    Parameters
-    ----------
-    rig
-        The rig with an assembly, shaken by a record.
-    tail
-        Duration of free vibration after the record (s, or text). None for two of the longest
-        natural periods.
-    samples, progress
-        As in `earthquake_response`.
-
-    Returns
-    -------
-    dict of xarray.Dataset
-        ``response``: that of `seismic_response`; ``motion``: that of `simulate`; ``ground``: the
-        spectrum of the record.
-
-    Raises
-    ------
-    InputError
-        If a value cannot be used, or the motion was given up.
-    """
-    after, motion = _motion(rig, tail, samples, progress)
-    ground = response_spectrum(rig.record, _PERIODS, _DAMPING)
-    return {
-        "response": seismic_response(rig, tail=after, progress=progress),
-        "motion": motion,
-        "ground": remove_units(ground) if has_no_units(rig) else ground,
-    }
+def _floor(motion: xr.Dataset) -> xr.Dataset:
+    """Return the spectrum of the acceleration of the mass, or of each mass of an assembly."""
+    if "mass" not in motion.dims:
+        return response_spectrum(floor_record(motion), _PERIODS, _DAMPING)
+    names = motion["mass"]
+    every = [
+        response_spectrum(floor_record(motion, name), _PERIODS, _DAMPING)
+        for name in names.values.tolist()
+    ]
+    data = xr.concat(every, names, combine_attrs="drop")
+    parameters = motion_parameters(motion)
+    return describe(data, "vibroimpact.response_spectrum", parameters, noted(motion))
 
 
 def _motion(

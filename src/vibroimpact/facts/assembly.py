@@ -7,6 +7,7 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+import numpy as np
 import xarray as xr
 from rich.console import Group, RenderableType
 from rich.table import Table
@@ -205,6 +206,28 @@ def motion_text(found: Mapping[str, Any]) -> RenderableType:
             )
         )
     return Group(*parts)
+
+
+def floor_facts(floor: xr.Dataset) -> dict[str, dict[str, float]]:
+    """Return the largest value of the floor spectrum of each mass, and its natural period."""
+    found = {}
+    for mass in floor["mass"].values.tolist():
+        curve = floor["spectral_acceleration"].sel(mass=mass)
+        largest = curve.isel(natural_period=int(np.argmax(curve.values)))
+        found[mass] = {
+            "spectral_acceleration": float(largest),
+            "natural_period": float(largest["natural_period"]),
+        }
+    return found
+
+
+def floor_text(found: Mapping[str, Mapping[str, float]]) -> RenderableType:
+    """Return the largest values of floor spectra as a table."""
+    columns = {
+        "spectral_acceleration": ("acceleration", "m s-2", 1.0),
+        "natural_period": ("at period", "s", 1.0),
+    }
+    return by_name("Largest of the floor spectrum, ζ = 0.05", "mass", found, columns)
 
 
 def _size(force: float, quantity: Quantity = FORCE) -> str:

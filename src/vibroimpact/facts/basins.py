@@ -38,21 +38,23 @@ _COLUMNS = (
     Column("excursion", "displacement_excursion"),
     Column("share", "share", "{:.1%}"),
     Column("95% interval", ("share_low", "share_high"), "{:.1%}"),
-    Column(
-        "distance to border",
-        lambda one: one["border_distance"] if math.isfinite(one["border_distance"]) else None,
-        3,
-        "m",
-        like="displacement_excursion",
-    ),
+)
+_EXCURSION = 3
+_BORDER = Column(
+    "distance to border",
+    lambda one: one["border_distance"] if math.isfinite(one["border_distance"]) else None,
+    3,
+    "m",
+    like="displacement_excursion",
 )
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
     """Return the motions with the shares of their states, and how the basins are mixed."""
     labels = data["basin"].values
+    known = [name for name in _OF_A_MOTION if name in data]
     return {
-        "motions": values_along(data, "attractor", _OF_A_MOTION),
+        "motions": values_along(data, "attractor", known),
         "states": int(labels.size),
         "given_up": int((labels == -1).sum()),
         "lattice": data.attrs["lattice"],
@@ -64,7 +66,12 @@ def text(data: xr.Dataset) -> RenderableType:
     """Return the same as a table and a line about the borders."""
     found = facts(data)
     motions = [{"number": i, **one} for i, one in enumerate(found["motions"], 1)]
-    table = table_of(motions, _COLUMNS)
+    columns = [*_COLUMNS, *([_BORDER] if "border_distance" in data else [])]
+    if "mass" in data.dims:
+        for one in motions:
+            one["displacement_excursion"] = max(one["displacement_excursion"].values())
+        columns[_EXCURSION] = columns[_EXCURSION]._replace(name="largest excursion")
+    table = table_of(motions, columns)
     lines = [f"{found['lattice']}; states without a result: {found['given_up']}"]
     if math.isfinite(found["uncertainty_exponent"]):
         lines += [

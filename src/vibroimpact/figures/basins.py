@@ -9,7 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.transforms import Transform
 from numpy.typing import NDArray
+from scipy.ndimage import distance_transform_edt
 
 from vibroimpact.attraction.adaptive_curve import CONTINUES
 from vibroimpact.errors import InputError
@@ -17,6 +19,7 @@ from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units, in_unit
+from vibroimpact.model.names import literal
 from vibroimpact.model.written_units import unit
 
 COLOURS = (
@@ -53,6 +56,9 @@ def basin_portrait(
 ) -> Axes:
     """Draw basins of attraction as areas, and the section points of each motion with its number.
 
+    The motions of an assembly do not lie in the plane of the initial states. Their numbers stand
+    where their basins are widest.
+
     Parameters
     ----------
     data
@@ -77,7 +83,8 @@ def basin_portrait(
     if "basin" not in data or data["basin"].ndim != 2:
         raise InputError("data: it has no basins; pass the result of basins")
     ax = axes_or_new(ax, (6.6, 6.4), title)
-    u, v = in_unit(1e3) * data["displacement"].values, data["velocity"].values
+    up, across = map(str, data["basin"].dims)
+    u, v = _factor(across) * data[across].values, _factor(up) * data[up].values
     half = 0.5 * (u[1] - u[0]), 0.5 * (v[1] - v[0])
     ax.imshow(
         _image(data, shade),
@@ -111,17 +118,22 @@ def basin_portrait(
     ):
         if (labels == code).any():
             handles.append(Patch(facecolor=colour, edgecolor="0.4", linewidth=0.5, label=text))
-    for number, one in enumerate(_motions(data)):
-        _mark(ax, one, number)
+    in_plane = "section_attractor" in data
+    if in_plane:
+        for number, one in enumerate(_motions(data)):
+            _mark(ax, one, number)
     ax.set(
         xlim=(u[0], u[-1]),
         ylim=(v[0], v[-1]),
-        xlabel=base_label("relative displacement $u$ (mm)", [data]),
-        ylabel=base_label("relative velocity $\\dot u$ (m/s)", [data]),
+        xlabel=base_label(_axis(across), [data]),
+        ylabel=base_label(_axis(up), [data]),
     )
     if manifolds is not None:
         handles += _curves(ax, manifolds)
-    _name(ax, _motions(data))
+    if in_plane:
+        _name(ax, _motions(data))
+    else:
+        _name_basins(ax, labels, u, v)
     add_legend(
         ax,
         handles,
@@ -166,12 +178,25 @@ def _lateness(data: xr.Dataset) -> NDArray[np.float64] | None:
     return share
 
 
+def _factor(coordinate: str) -> float:
+    """Return the factor of a coordinate of the plane: displacements are drawn in mm."""
+    return in_unit(1e3) if coordinate.startswith("displacement") else 1.0
+
+
+def _axis(coordinate: str) -> str:
+    """Return the label of a coordinate, such as ``"velocity"`` or ``"velocity.roof"``."""
+    part, _, mass = coordinate.partition(".")
+    symbol, units = ("$u$", "mm") if part == "displacement" else ("$\\dot u$", "m/s")
+    return f"relative {part} {f'of {literal(mass)}' if mass else symbol} ({units})"
+
+
 def _motions(data: xr.Dataset) -> list[xr.Dataset]:
-    """Return the motions, each with its points."""
-    return [
-        data.isel(attractor=number, point=data["section_attractor"].values == number)
-        for number in range(data.sizes["attractor"])
-    ]
+    """Return the motions, each with its points if they lie in the plane."""
+    every = [data.isel(attractor=number) for number in range(data.sizes["attractor"])]
+    if "section_attractor" not in data:
+        return every
+    points = data["section_attractor"].values
+    return [one.isel(point=points == number) for number, one in enumerate(every)]
 
 
 def _label(one: xr.Dataset) -> str:
@@ -179,11 +204,12 @@ def _label(one: xr.Dataset) -> str:
     what = str(one["motion"].values)
     if period:
         what = f"period {period}"
-    size = in_unit(1e3) * float(one["displacement_excursion"])
+    size = in_unit(1e3) * float(one["displacement_excursion"].max())
     wide = f"{size:.3g}" if size < 1000.0 else f"{size:.0f}"
     low, high = 100.0 * float(one["share_low"]), 100.0 * float(one["share_high"])
     return (
-        f"{int(one['attractor']) + 1}: {what}, excursion {wide}{unit(' mm')}, "
+        f"{int(one['attractor']) + 1}: {what}, "
+        f"{'largest ' if one['displacement_excursion'].ndim else ''}excursion {wide}{unit(' mm')}, "
         f"{100.0 * float(one['share']):.1f} % ({low:.1f}–{high:.1f})"
     )
 
@@ -279,17 +305,33 @@ def _name(ax: Axes, motions: list[xr.Dataset]) -> None:
         away = np.linalg.norm(text[:, None] - every[None], axis=2).min(axis=1)
         edge = np.minimum(text, 1.0 - text).min(axis=1)
         best = int(np.argmax(np.minimum(away, edge)))
-        made = ax.text(
-            float(text[best, 0]),
-            float(text[best, 1]),
-            str(number + 1),
-            transform=ax.transAxes,
-            ha="center",
-            va="center",
-            fontsize="medium",
-            fontweight="bold",
-            clip_on=True,
-            zorder=7,
-        )
-        made.set_path_effects([patheffects.withStroke(linewidth=2.4, foreground="white")])
+        _write_number(ax, number, text[best], ax.transAxes)
         every = np.vstack([every, text[best]])
+
+
+def _name_basins(
+    ax: Axes, labels: NDArray[np.integer], u: NDArray[np.float64], v: NDArray[np.float64]
+) -> None:
+    """Write the number of each motion where its basin is widest."""
+    for number in range(int(labels.max(initial=-1)) + 1):
+        inside = np.pad(labels == number, 1)
+        if inside.any():
+            depth = distance_transform_edt(inside)[1:-1, 1:-1]
+            i, j = np.unravel_index(np.argmax(depth), depth.shape)
+            _write_number(ax, number, np.array([u[j], v[i]]), ax.transData)
+
+
+def _write_number(ax: Axes, number: int, at: NDArray[np.float64], transform: Transform) -> None:
+    made = ax.text(
+        float(at[0]),
+        float(at[1]),
+        str(number + 1),
+        transform=transform,
+        ha="center",
+        va="center",
+        fontsize="medium",
+        fontweight="bold",
+        clip_on=True,
+        zorder=7,
+    )
+    made.set_path_effects([patheffects.withStroke(linewidth=2.4, foreground="white")])

@@ -16,7 +16,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.stops import over_stops
+from vibroimpact.datasets.stops import over_parts
 from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.design.limits import excesses
 from vibroimpact.errors import InputError
@@ -26,9 +26,9 @@ from vibroimpact.figures.levels import number_lines
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit, without_unit
 from vibroimpact.figures.style import panels
-from vibroimpact.model import GRAVITY, Oscillator, Rig
-from vibroimpact.model.parameters import parameter, usual
-from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model import GRAVITY, Assembly, Oscillator, Rig
+from vibroimpact.model.parameters import PARAMETERS, in_units, parameter, usual
+from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, Quantity
 from vibroimpact.model.written_units import unitless
 from vibroimpact.scenarios.axes import logarithmic
 
@@ -136,20 +136,32 @@ def quantity_label(data: xr.Dataset, name: str) -> tuple[float, str]:
     """Return factor and label of a quantity, with its fractile if some records exceed it."""
     factor, label = QUANTITIES[name]
     factor, label = in_unit(factor), without_unit(label) if unitless() else label
+    label += "\nof any mass" if "mass" in data[name].dims else ""
     share = fractile_of(data)
     return factor, label if share is None else (
         f"{label}\n{100.0 * share:g} % fractile over the records"
     )
 
 
-def _unit(name: str, values: _Array) -> tuple[float, str]:
+def quantity_of(values: xr.DataArray) -> Quantity:
+    """Return the quantity of the values of a parameter."""
+    name = str(values.name)
+    if name in PARAMETERS:
+        return usual(name).quantity
+    try:
+        return in_units(str(values.attrs.get("units", "1")))
+    except StopIteration:  # of a law with another exponent
+        return DIMENSIONLESS
+
+
+def _unit(values: xr.DataArray) -> tuple[float, str]:
     """Return factor and unit of a parameter: mm for lengths, a unit of fitting size for others."""
-    quantity = usual(name).quantity
+    quantity = quantity_of(values)
     if unitless():
         return 1.0, ""
     if quantity is LENGTH:
         return 1e3, "mm"
-    largest = float(np.abs(values).max())
+    largest = float(np.abs(values.values).max())
     for smallest, unit, symbol in quantity.scales:
         if largest >= smallest:
             return 1.0 / unit, symbol or "–"
@@ -158,8 +170,7 @@ def _unit(name: str, values: _Array) -> tuple[float, str]:
 
 def _axis(axis: Any, values: xr.DataArray) -> _Array:
     """Set scale, limits and label of an axis, and return the values in its unit."""
-    name = str(values.name)
-    factor, unit = _unit(name, values.values)
+    factor, unit = _unit(values)
     which = axis.axis_name
     if logarithmic(values.values):
         axis.axes.set(**{f"{which}scale": "log"})
@@ -180,9 +191,12 @@ def present_values(data: xr.Dataset, dims: list[str]) -> list[float]:
     A value is NaN if the rig has none, for example a common gap if the gaps of its stops differ.
     """
     about = json.loads(data.attrs["parameters"])
-    if "oscillator" not in about:
+    if "assembly" in about:
+        rig = Rig(Assembly.model_validate(about["assembly"]))
+    elif "oscillator" in about:
+        rig = Rig(Oscillator.model_validate(about["oscillator"]))
+    else:
         return [math.nan for _ in dims]
-    rig = Rig(Oscillator.model_validate(about["oscillator"]))
     found = []
     for dim in dims:
         try:
@@ -196,7 +210,7 @@ def present_values(data: xr.Dataset, dims: list[str]) -> list[float]:
 def _present_on_axes(data: xr.Dataset, dims: list[str]) -> list[float]:
     """Return the values of `present_values` in the units of the axes."""
     return [
-        _unit(dim, data[dim].values)[0] * value
+        _unit(data[dim])[0] * value
         for dim, value in zip(dims, present_values(data, dims), strict=True)
     ]
 
@@ -215,7 +229,7 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
     (dim,) = parameters_of(data)
     factor, label = quantity_label(data, name)
     x = _axis(ax.xaxis, data[dim])
-    y = factor * _finite(over_stops(data[name]).values)
+    y = factor * _finite(over_parts(data[name]).values)
     ax.plot(x, y, color="black", linewidth=1.4, zorder=3)
     best = data["pareto"].values.astype(bool)
     ax.plot(x[best], y[best], "o", color="black", markersize=4.0, label=best_label(data))
@@ -252,7 +266,7 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Li
     x, y = _axis(ax.xaxis, data[first]), _axis(ax.yaxis, data[second])
     # Contours between nodes are straight lines, whatever the axes' scales.
     points = finer_axis(ax.xaxis, x), finer_axis(ax.yaxis, y)
-    known = _finite(over_stops(data[name]).values)
+    known = _finite(over_parts(data[name]).values)
     values = np.ma.masked_invalid(finer(factor * known))
     ax.set_title(label, fontsize="medium")
     levels: list[tuple[float, Any]] = []

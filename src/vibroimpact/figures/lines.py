@@ -40,6 +40,7 @@ def spectrum_lines(
     ----------
     spectra
         Dataset of `fourier_spectrum`. For several spectra, pass a mapping from names to datasets.
+        Of an assembly, the lines of all masses are drawn; pass ``spectra.sel(mass=…)`` for one.
     ax
         Axes to draw on. Default: a new figure.
     quantity
@@ -64,6 +65,8 @@ def spectrum_lines(
         given = dict(spectra)
     else:
         given = {"motion": spectra}
+        if isinstance(spectra, xr.Dataset) and "mass" in spectra.dims:
+            given = {name: spectra.sel(mass=name) for name in spectra["mass"].values.tolist()}
     if not given:
         raise InputError("spectra: empty; pass at least one result of fourier_spectrum")
     for name, data in given.items():
@@ -81,7 +84,7 @@ def spectrum_lines(
         order = data["order"].values[kept]
         height = factor * data[f"{quantity}_amplitude"].values[kept]
         # Side by side, so that the lines of one do not hide those of the other.
-        shift = (i - 0.5 * (len(given) - 1)) * 0.12
+        shift = (i - 0.5 * (len(given) - 1)) * min(0.12, 0.8 / len(given))
         frequency = motion_parameters(data)["frequency"] * (math.tau if unitless() else 1.0)
         if len(order) > 30 * highest:  # nearly continuous
             ax.plot(order, height, color=look.colour, linewidth=0.8, label=look.label)

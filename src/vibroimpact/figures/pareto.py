@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.stops import over_parts
 from vibroimpact.errors import InputError
 from vibroimpact.figures.design import (
     PRESENT,
@@ -19,11 +20,11 @@ from vibroimpact.figures.design import (
     parameters_of,
     present_values,
     quantity_label,
+    quantity_of,
 )
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.model.parameters import usual
 from vibroimpact.model.units import pretty
 
 _Array = NDArray[np.float64]
@@ -61,7 +62,7 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     """
     dims = parameters_of(data)
     u, a = (
-        quantity_label(data, name)[0] * data[name].values.ravel()
+        quantity_label(data, name)[0] * over_parts(data[name]).values.ravel()
         for name in ("peak_displacement", "peak_acceleration")
     )
     best = data["pareto"].values.ravel().astype(bool)
@@ -152,7 +153,7 @@ def _name_points(
     lines = []
     for number, k in enumerate(chosen, start=1):
         at = np.unravel_index(order[k], data["pareto"].shape)
-        told = [_told(dim, float(data[dim].values[i])) for dim, i in zip(dims, at, strict=True)]
+        told = [_told(data[dim][i]) for dim, i in zip(dims, at, strict=True)]
         lines.append(f"{number}  {', '.join(told)}")
         ax.annotate(
             str(number),
@@ -181,5 +182,5 @@ def _name_points(
     )
 
 
-def _told(name: str, value: float) -> str:
-    return pretty(float(f"{value:.3g}"), usual(name).quantity)
+def _told(value: xr.DataArray) -> str:
+    return pretty(float(f"{float(value):.3g}"), quantity_of(value))

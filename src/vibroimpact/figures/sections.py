@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,13 +13,15 @@ from matplotlib.ticker import NullFormatter, NullLocator
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import own_outputs
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, shown
+from vibroimpact.figures.assembly_motion import chosen
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.branches import MARKS, axis_unit
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import SWEEPS, Look, fit_x_axis, panels
+from vibroimpact.model.names import literal
 
 _Array = NDArray[np.float64]
 
@@ -38,6 +41,7 @@ _ELSE = Look("from other initial states", "0.35", "-.", 0.8, "x", 4.0, True)
 
 _HEIGHTS = (3.2, 1.0, 1.4)
 _OF_AN_OUTPUT = 1.4
+_OF_A_MASS = 2.2
 _NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")
 """Types of motions that have their own row on the axis of periods, below the period 1."""
 
@@ -48,24 +52,28 @@ def section_diagram(
     axes: Any = None,
     *,
     quantity: str | None = None,
+    names: Sequence[str] | None = None,
     branches: xr.Dataset | None = None,
     title: str | None = None,
 ) -> Panels:
     """Draw a bifurcation diagram: section, period and largest Lyapunov exponent over a parameter.
 
-    Own outputs have further panels below the section.
+    Own outputs have further panels below the section. Of an assembly, each mass has a panel of its
+    section.
 
     Parameters
     ----------
     data
         Dataset of `bifurcation_diagram`.
     axes
-        Three Axes to draw on, from top to bottom, and one for each own output. Default: a new
-        figure.
+        Three Axes to draw on, from top to bottom, and one for each own output and each further
+        mass. Default: a new figure.
     quantity
         Quantity of the section. For a stroboscopic section: ``"section_displacement"`` or
         ``"section_velocity"``. For a section at impacts: ``"contact_start_velocity"`` or
         ``"contact_start_phase"``. Default: the first of the two.
+    names
+        Names of the masses of an assembly that are drawn. Default: all.
     branches
         Dataset of `branch` or `resonance_diagram` over the same parameter. Its bifurcations are
         drawn as vertical lines. Default: no lines.
@@ -97,12 +105,15 @@ def section_diagram(
             f"is {name!r}; pass branches along {name!r}"
         )
     own = own_outputs(data)
-    what = " and ".join([", ".join(["section", *own, "periods"]), "exponents"])
+    sections = _sections(data[quantity], names)
+    what = " and ".join([", ".join([*sections, *own, "periods"]), "exponents"])
     first, *others = _HEIGHTS
-    heights = (first, *[_OF_AN_OUTPUT] * len(own), *others)
-    size = (7.2, 6.4 + 1.6 * len(own))
+    each = first if len(sections) == 1 else _OF_A_MASS
+    heights = (*[each] * len(sections), *[_OF_AN_OUTPUT] * len(own), *others)
+    size = (7.2, 1.15 * sum(heights))
     drawn = panels(axes, len(heights), what, size, title, heights)
-    top, *between, middle, bottom = drawn
+    *upper, middle, bottom = drawn
+    tops, between = upper[: len(sections)], upper[len(sections) :]
     scale, unit = axis_unit(data[name])
     x = scale * data[name].values
     factor, label = _LABELS[quantity]
@@ -111,7 +122,8 @@ def section_diagram(
     rows = _rows(data["motion"].values, data["period"].values)
     for start in reversed(data["start"].values):
         one, look = data.sel(start=start), _WAYS.get(str(start), _ELSE)
-        _points(top, x, factor * one[quantity].values, look)
+        for ax, section in zip(tops, sections.values(), strict=True):
+            _points(ax, x, factor * section.sel(start=start).values, look)
         levels = [
             rows.get(str(motion), float(period))
             for motion, period in zip(one["motion"].values, one["period"].values, strict=True)
@@ -132,17 +144,28 @@ def section_diagram(
     if branches is not None:
         handles += _lines(drawn, branches, scale)
     # Above the marks of bifurcations, half of which stand above the panel.
-    add_legend(top, handles, apart=6.0)
-    top.set_ylabel(label)
+    add_legend(tops[0], handles, apart=6.0)
+    for ax, mass in zip(tops, sections, strict=True):
+        ax.set_ylabel(label if len(sections) == 1 else f"{literal(mass)}: {label}")
     for ax, output in zip(between, own, strict=True):
         ax.set_ylabel(axis_label(data[output], output)[1])
     _periods(middle, data["period"].values, rows)
     bottom.axhline(0.0, color="0.3", linewidth=0.7, zorder=1)
     bottom.set_ylabel("largest\nexponent (1/s)")
     bottom.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
-    top.figure.align_ylabels()
+    bottom.figure.align_ylabels()
     fit_labels(*drawn)
     return drawn
+
+
+def _sections(values: xr.DataArray, names: Sequence[str] | None) -> dict[str, xr.DataArray]:
+    """Return the values of each panel by its name: those of the section, or of each mass."""
+    if "mass" not in values.dims:
+        if names is not None:
+            raise InputError(f"names: {shown(names)}, but the points are not by mass; remove names")
+        return {"section": values}
+    every = tuple(values["mass"].values.tolist())
+    return {name: values.sel(mass=name) for name in chosen(names, every, "mass", "names")}
 
 
 def _points(ax: Axes, x: _Array, points: _Array, look: Look) -> None:

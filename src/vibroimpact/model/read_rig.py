@@ -73,6 +73,8 @@ def as_rig_of_any_masses(
 
 AnyRig: TypeAlias = Annotated[Rig | Case | str | Path, as_rig_of_any_masses]
 """A `Rig`, a laboratory case, its code such as ``"B2-G1-A3"``, or the path of a study file."""
+RigOrSystem: TypeAlias = AnyRig | Oscillator | Assembly
+"""The same, or what vibrates alone, if another argument states the shaking."""
 
 
 def as_assembly(value: Any, where: str = "rig") -> Assembly:

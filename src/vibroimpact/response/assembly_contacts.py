@@ -67,6 +67,31 @@ def assembly_origin(motion: xr.Dataset) -> Origin:
     return Origin(assembly, excitation_from(given), periodic)
 
 
+def fourier_integrals_by_mass(motion: xr.Dataset, rates: _Array) -> NDArray[np.complex128]:
+    """Return the integrals of an assembly's periodic motion over one period times exp(−iνt).
+
+    Parameters
+    ----------
+    motion
+        A periodic motion.
+    rates
+        ν (1/s).
+
+    Returns
+    -------
+    ndarray, shape (3, rate, mass)
+        Of displacement, velocity and absolute acceleration, impulses left out.
+    """
+    assembly, shaking, _ = assembly_origin(motion)
+    assert not isinstance(shaking, Record)
+    begin = assembly_vector(assembly, as_assembly_state(motion["initial_state"], assembly))
+    cycles, rig = float(motion["cycle"].values[-1]), assembly_numbers(assembly, shaking)
+    course = repeated_course(shaking, cycles, rig, begin, phases_layout(assembly))
+    found = course.integrated(rates).reshape(3, 2, len(assembly.names), len(rates))
+    integrals: NDArray[np.complex128] = found[:, 0] + 1j * found[:, 1]
+    return integrals.swapaxes(1, 2)
+
+
 def _measured(motion: xr.Dataset, origin: Origin) -> tuple[AssemblyPhases, list[str]]:
     """Follow a recorded motion again, and measure its phases; with notes of doubt."""
     assembly, shaking = origin.assembly, origin.shaking

@@ -127,14 +127,25 @@ def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
         If it is not the dataset of such a motion with samples and events.
     """
     origin = any_recorded(motion)
-    shaken = origin.excitation
-    if isinstance(shaken, Record):
+    shaken = check_repeated(origin.excitation)
+    return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
+
+
+def check_repeated(shaking: Repeated | Record) -> Repeated:
+    """Return what shakes a motion, if it is repeated.
+
+    Raises
+    ------
+    InputError
+        If it is a record.
+    """
+    if isinstance(shaking, Record):
         raise InputError(
             "motion: this is the response to a Record, which has no cycles; pass a motion under a "
             "Harmonic or a Periodic, or use contacts, totals, record_history, phase_portrait or "
             "hysteresis_cycle"
         )
-    return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
+    return shaking
 
 
 def shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
@@ -225,6 +236,21 @@ class Course(NamedTuple):
         seen = np.isfinite(rows[count, of.mass(layout.U_LEAST)])
         return outcome, rows[: count + int(seen)]
 
+    def integrated(self, lines: _Array) -> _Array:
+        """Return its integrals times exp(−iνt), as `observers.fourier` writes them, ν in 1/s."""
+        rows = fourier.QUANTITIES * self.layout.masses
+        notes, out = np.zeros(fourier.NOTES), np.zeros((rows, len(lines)))
+        notes[fourier.COUNT], notes[fourier.INTERVAL] = len(lines), self.sections[0, sections.LASTS]
+
+        def call(at: int, end: float) -> tuple[int, int]:
+            reached: tuple[int, int] = measure_motion(
+                *self[:5], int(self.changes), self.state, at, end, MOST_EVENTS, notes, lines, out
+            )
+            return reached
+
+        self.follow(call)
+        return out
+
     def again(self, motion: xr.Dataset) -> Followed:
         """Follow the motion of a dataset again, which may have lost its first samples."""
         course, begins = self, float(motion["time"].values[0])
@@ -304,18 +330,7 @@ def phases(motion: xr.Dataset, origin: Recorded[Any]) -> Phases:
 
 def fourier_integrals(motion: xr.Dataset, origin: Recorded[Repeated], lines: _Array) -> _Array:
     """Return the integrals of a motion times exp(−iνt), as `observers.fourier` writes them."""
-    course = _course(motion, origin)
-    notes, out = np.zeros(fourier.NOTES), np.zeros((fourier.QUANTITIES, len(lines)))
-    notes[fourier.COUNT], notes[fourier.INTERVAL] = len(lines), origin.excitation.period
-
-    def call(at: int, end: float) -> tuple[int, int]:
-        reached: tuple[int, int] = measure_motion(
-            *course[:5], int(course.changes), course.state, at, end, MOST_EVENTS, notes, lines, out
-        )
-        return reached
-
-    course.follow(call)
-    return out
+    return _course(motion, origin).integrated(lines)
 
 
 def doubts(motion: xr.Dataset, outcome: Status, apart: float) -> list[str]:

@@ -14,18 +14,19 @@ from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import Oscillator, to_si
+from vibroimpact.model import Assembly, Oscillator, to_si
 from vibroimpact.model.argument_types import PositiveInt, check_samples
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, System
+from vibroimpact.response.assembly_contacts import coordinates
+from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.contacts import contacts
-from vibroimpact.response.motion_phases import beginning, recorded
+from vibroimpact.response.cyclic_motion import cyclic_motion
 from vibroimpact.response.prepared_rig import prepare
+from vibroimpact.response.section_states import SectionStates
 
 _MAX_EVENTS = 10_000
-_COLUMNS = 4
-"""Displacement, velocity, and the deformations of both sides, the left one < 0 if compressed."""
 
 
 @public
@@ -48,7 +49,8 @@ def stroboscopic_section(
     -------
     xarray.Dataset
         The dim ``section_point`` counts the points. The variables are ``section_displacement``,
-        ``section_velocity``, and the deformations of the stops, ``section_deformation``. If one
+        ``section_velocity``, and the deformations of the stops, ``section_deformation``; of an
+        assembly, the first two have the last dim ``mass``. If one
         forcing cycle has too many contacts, the simulation stops. In that case there are fewer
         points than requested, and a warning is issued.
 
@@ -57,31 +59,30 @@ def stroboscopic_section(
     InputError
         If the dataset does not hold a motion with samples, or if a value is invalid.
     """
-    origin = recorded(motion)
+    origin = cyclic_motion(motion)
+    if isinstance(origin.system, Assembly):
+        check_size(origin.system)
     angle = to_si(phase, ANGLE, "phase")
     count = max(1, math.floor(origin.cycles)) if cycles is None else cycles
     check_samples(count, 1, "cycles")
-    start = beginning(motion)
-    engine = prepare(Rig(origin.oscillator, origin.excitation))
-    state = engine.state(start)
-    shaken = origin.excitation
-    ahead = ((angle - shaken.phase) / (2.0 * math.pi)) % 1.0
-    first = np.array([*state[2:5], -state[5]])
+    engine = prepare(Rig(origin.system, origin.shaking))
+    states = engine.states
+    state = engine.state(states.read(motion["initial_state"]))
+    ahead = ((angle - origin.shaking.phase) / (2.0 * math.pi)) % 1.0
     status = Status.DONE
     if ahead > 0.0:
         status, state = engine.propagate(state, ahead, _MAX_EVENTS)
-        first = np.array([*state[2:5], -state[5]])
-    points = np.empty((0, _COLUMNS))
+    first = states.point(state)
+    points = np.empty((0, states.parts))
     if status is Status.DONE:
         status, rows = engine.at_phase(angle).sections(state, count, _MAX_EVENTS)
-        known = rows[:, lyapunov.SECTION :][:, :_COLUMNS]
-        points = np.vstack([first, known])[:count]
+        points = np.vstack([first, rows[:, lyapunov.SECTION :]])[:count]
     if len(points) < count:
         warn_of_result(
             f"stroboscopic_section stopped after {len(points)} of {count} points: {status.advice}"
         )
-    data = xr.Dataset(section_variables(origin.oscillator, points, ("section_point",)))
-    data = data.assign_coords(stop=stops_of(origin.oscillator))
+    data = xr.Dataset(section_variables(origin.system, points, ("section_point",)))
+    data = data.assign_coords(names_of_parts(origin.system))
     return describe(
         data,
         "vibroimpact.stroboscopic_section",
@@ -91,26 +92,42 @@ def stroboscopic_section(
 
 
 def section_variables(
-    oscillator: Oscillator, points: NDArray[np.float64], dims: tuple[str, ...]
+    system: System, points: NDArray[np.float64], dims: tuple[str, ...]
 ) -> dict[str, Any]:
-    """Return points of a section of an oscillator as variables.
+    """Return points of a section as variables.
 
     Parameters
     ----------
-    oscillator
-        The oscillator.
-    points : ndarray, shape (..., 4)
-        As the engine writes them: displacement, velocity and the deformations of both sides, the
-        left one negative when compressed.
+    system
+        The oscillator or the assembly.
+    points : ndarray, shape (..., part)
+        As `SectionStates` has them. Of an oscillator, the deformation of the left stop is negative
+        if it is compressed.
     dims
         Names of the dims of the points.
     """
-    deformation = by_stop(oscillator, points[..., 2:4] * [1.0, -1.0] + 0.0)
+    states = SectionStates(system)
+    n, stops = states.masses, states.stops
+    u, v, d = points[..., :n], points[..., n : 2 * n], points[..., 2 * n : 2 * n + stops]
+    by_mass, of_stops = (*dims, "mass"), (*dims, "stop")
+    if isinstance(system, Oscillator):
+        by_mass, u, v = dims, u[..., 0], v[..., 0]
+        d = by_stop(system, d * [1.0, -1.0] + 0.0)
+    else:
+        d = np.maximum(d, 0.0)
     return {
-        "section_displacement": (dims, points[..., 0]),
-        "section_velocity": (dims, points[..., 1]),
-        "section_deformation": ((*dims, "stop"), deformation),
+        "section_displacement": (by_mass, u),
+        "section_velocity": (by_mass, v),
+        "section_deformation": (of_stops, d),
     }
+
+
+def names_of_parts(system: System) -> dict[str, Any]:
+    """Return the names of masses and stops as coordinates of a dataset."""
+    if isinstance(system, Oscillator):
+        return {"stop": stops_of(system)}
+    names = coordinates(system)
+    return {"mass": names["mass"], "stop": names["stop"]}
 
 
 def impact_section(motion: xr.Dataset) -> xr.Dataset:
@@ -132,7 +149,7 @@ def impact_section(motion: xr.Dataset) -> xr.Dataset:
     InputError
         If the dataset does not hold a motion with samples.
     """
-    recorded(motion)  # its phases are asked for
+    cyclic_motion(motion)  # its phases are asked for
     log = contacts(motion)
     chosen = log[["contact_stop", "contact_start", "contact_start_phase", "contact_start_velocity"]]
     chosen.attrs["created_by"] = "vibroimpact.impact_section"

@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_variables
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.errors import InputError
-from vibroimpact.model import Repeated, to_si
+from vibroimpact.model import Assembly, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.response.motion_phases import Recorded, fourier_integrals, recorded
+from vibroimpact.response.assembly_contacts import fourier_integrals_by_mass
+from vibroimpact.response.cyclic_motion import CyclicMotion, cyclic_motion
+from vibroimpact.response.motion_phases import fourier_integrals, recorded
 from vibroimpact.response.sine_fit import forcing_sine
 
 _Complex = NDArray[np.complex128]
@@ -47,8 +49,9 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     xarray.Dataset
         The dim ``order`` is the frequency divided by the forcing frequency. Order 0 is the mean.
         ``line_frequency`` is the frequency in Hz. The variables are the amplitudes and the phases
-        of cosines whose sum is the motion. The phases refer to the start of the motion. The
-        attribute ``method`` describes how the spectrum was computed.
+        of cosines whose sum is the motion; of an assembly, they have the last dim ``mass``. The
+        phases refer to the start of the motion. The attribute ``method`` describes how the spectrum
+        was computed.
 
     Raises
     ------
@@ -59,7 +62,7 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     check_variables(motion, (), "motion", "the result of simulate or steady")
     if motion.attrs.get("kind") == "history" and "event_time" not in motion:
         return _of_measured(motion, limit)
-    origin = recorded(motion)
+    origin = cyclic_motion(motion)
     if origin.periodic:
         n = int(motion["period"])
         if limit * n > MOST_LINES:
@@ -72,25 +75,30 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
         order, lines, cycles = _windowed(motion, origin, limit)
         method = f"Hann window over {cycles} forcing cycles"
     data = xr.Dataset(coords={"order": order})
-    data.coords["line_frequency"] = ("order", order * origin.excitation.frequency)
+    data.coords["line_frequency"] = ("order", order * origin.shaking.frequency)
+    dims = ("order", "mass") if "mass" in motion.dims else ("order",)
     for name, values in zip(_QUANTITIES, lines, strict=True):
-        data[f"{name}_amplitude"] = ("order", np.abs(values))
-        data[f"{name}_phase"] = ("order", np.angle(values))
+        data[f"{name}_amplitude"] = (dims, np.abs(values))
+        data[f"{name}_phase"] = (dims, np.angle(values))
+    if "mass" in dims:
+        data.coords["mass"] = motion["mass"]
     data.attrs["method"] = method
     return describe(data, "vibroimpact.fourier_spectrum", motion_parameters(motion), noted(motion))
 
 
-def _exact(
-    motion: xr.Dataset, origin: Recorded[Repeated], order: NDArray[np.float64]
-) -> list[_Complex]:
+def _exact(motion: xr.Dataset, origin: CyclicMotion, order: NDArray[np.float64]) -> list[_Complex]:
     """Compute complex amplitudes of u, u̇ and ü + A_t at the given orders."""
-    found = fourier_integrals(motion, origin, order * origin.excitation.angular_frequency)
-    scale = np.where(order == 0.0, 1.0, 2.0) / (origin.cycles * origin.excitation.period)
+    rates = order * origin.shaking.angular_frequency
+    scale = np.where(order == 0.0, 1.0, 2.0) / (origin.cycles * origin.shaking.period)
+    if isinstance(origin.system, Assembly):
+        several = fourier_integrals_by_mass(motion, rates)
+        return [(part.T * scale).T for part in several]
+    found = fourier_integrals(motion, recorded(motion), rates)
     return [(real + 1j * imaginary) * scale for real, imaginary in found.reshape(3, 2, -1)]
 
 
 def _windowed(
-    motion: xr.Dataset, origin: Recorded[Repeated], highest: float
+    motion: xr.Dataset, origin: CyclicMotion, highest: float
 ) -> tuple[NDArray[np.float64], list[_Complex], int]:
     """Compute orders, complex amplitudes, and the number of cycles used (the first whole ones)."""
     samples = int(np.searchsorted(motion["cycle"].values, 1.0 - 1e-9))
@@ -104,16 +112,21 @@ def _windowed(
         )
     order = np.arange(count // 2 + 1) / cycles
     kept = order <= highest
-    lines = [_lines(motion[name].values[:count])[kept] for name in _QUANTITIES]
+    lines = [
+        _lines(motion[name].transpose("time", ...).values[:count])[kept] for name in _QUANTITIES
+    ]
     return order[kept], lines, cycles
 
 
 def _lines(values: NDArray[np.float64]) -> _Complex:
-    """Compute complex amplitudes of even samples over whole cycles, with a Hann window."""
+    """Compute complex amplitudes of even samples over whole cycles, with a Hann window.
+
+    The samples are along the first axis.
+    """
     count = len(values)
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(count) / count)
-    mean = values.mean()
-    line: _Complex = 2.0 * np.fft.rfft(window * (values - mean)) / window.sum()
+    mean = values.mean(axis=0)
+    line: _Complex = 2.0 * np.fft.rfft((window * (values - mean).T).T, axis=0) / window.sum()
     line[0] = mean
     return line
 

@@ -16,9 +16,9 @@ from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, AssemblyState, RigidStop
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_contacts import coordinates
 from vibroimpact.response.assembly_rows import measured_variables, notes_on
 from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.sections import names_of_parts, section_variables
 from vibroimpact.stability.settle import reach_at_rest
 
 if TYPE_CHECKING:
@@ -109,7 +109,6 @@ def assembly_diagram(
 ) -> tuple[xr.Dataset, list[str]]:
     """Return a diagram with its names, and what was doubted of it."""
     states = SectionStates(assembly)
-    n, stops = states.masses, states.stops
     seen = list(itertools.chain.from_iterable(found.values()))
     shape, dims = (len(found), len(values)), ("start", name)
     most = max((len(one.points) for one in seen), default=0)
@@ -132,27 +131,20 @@ def assembly_diagram(
         "status": np.array([int(one.status) for one in seen], dtype=np.int64),
     }
     ends = np.array([states.components(one.held.found.state, phase) for one in seen])
-    parts = {
-        "section_displacement": ("mass", points[..., :n]),
-        "section_velocity": ("mass", points[..., n : 2 * n]),
-        "section_deformation": ("stop", np.maximum(points[..., 2 * n : 2 * n + stops], 0.0)),
-    }
     variables: dict[str, Any] = {
         **measured_variables(assembly, measured, dims),
         **{key: (dims, value.reshape(shape)) for key, value in scalars.items()},
         **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
-        **{key: ((*dims, "section_point", dim), value) for key, (dim, value) in parts.items()},
+        **section_variables(assembly, points, (*dims, "section_point")),
         "section": ((*dims, "component"), ends.reshape(*shape, -1)),
     }
-    of_parts = coordinates(assembly)
     data = xr.Dataset(
         variables,
         {
             "start": list(found),
             name: values,
             "component": states.names,
-            "mass": of_parts["mass"],
-            "stop": of_parts["stop"],
+            **names_of_parts(assembly),
         },
     )
     return data, notes_on(assembly, measured, "motions")

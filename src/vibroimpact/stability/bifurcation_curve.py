@@ -26,24 +26,22 @@ from numpy.typing import NDArray
 from vibroimpact.continuation import arclength
 from vibroimpact.continuation.arclength import unit_tangent
 from vibroimpact.datasets.description import (
-    COMPONENTS,
     describe,
     excitation_parameters,
-    oscillator_parameters,
+    system_parameters,
 )
-from vibroimpact.engine.observers import record
-from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.errors import InputError
+from vibroimpact.model import Assembly
 from vibroimpact.model.argument_types import PositiveInt
 from vibroimpact.model.public import public
-from vibroimpact.model.read_rig import AnyRig, as_rig
+from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.stability.bifurcation_locus import Locus, Place
-from vibroimpact.stability.bifurcations import BREAKING
+from vibroimpact.stability.bifurcations import BREAKING, GRAZING
 from vibroimpact.stability.branch_dataset import state_of
-from vibroimpact.stability.defining_system import SEEN, Defining, Spot, solve
+from vibroimpact.stability.defining_system import Defining, Spot, solve
 from vibroimpact.stability.initial_orbit import scales
 from vibroimpact.stability.orbit_curve import CLOSED
 from vibroimpact.stability.two_parameters import Plane, plane
@@ -94,11 +92,12 @@ def bifurcation_curve(
     Raises
     ------
     InputError
-        If a value is invalid, or if the start is not a bifurcation of this rig.
+        If a value is invalid, or if the start is not a bifurcation of this rig. Also if it is a
+        grazing of an assembly.
     """
-    rig = as_rig(rig, frequency)
+    rig = as_rig_of_any_masses(rig, frequency=frequency)
     ranges = read_ranges(vary, rig, 2)
-    oscillator, excitation = rig.oscillator, rig.harmonic
+    excitation = rig.harmonic
     if not isinstance(start, xr.Dataset) or (
         "bifurcation_kind" not in start or start["bifurcation_kind"].ndim
     ):
@@ -114,8 +113,13 @@ def bifurcation_curve(
             f"computed; pass {start.attrs.get('parameter')!r} and another one"
         )
     kind = start["bifurcation_kind"].item()
+    if kind == GRAZING and isinstance(rig.system, Assembly):
+        raise InputError(
+            "start: a grazing, of which no curve is followed for an Assembly of several masses; "
+            "pass a fold, a symmetry breaking, a period doubling or a Neimark-Sacker bifurcation"
+        )
     phase = float(start["bifurcation_section"].sel(component="phase"))
-    over = plane(Rig(oscillator, excitation.replace(phase=phase)), (first, second))
+    over = plane(Rig(rig.system, excitation.replace(phase=phase)), (first, second))
     ranges[1].check_contains(over.value)
     ends = [one.ends for one in ranges]
     if kind == BREAKING and not over.symmetric:
@@ -125,9 +129,7 @@ def bifurcation_curve(
             "equally, such as 'gap'"
         )
     system, y = _start(over, kind, start, ends)
-    spot = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))
-    if first is None:
-        spot = solve(system, y, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]))
+    spot = solve(system, y, np.eye(len(y))[-1])
     if spot is None:
         own = pretty(float(start["bifurcation_value"]), over.family.parameter.quantity, 9)
         raise InputError(
@@ -136,8 +138,8 @@ def bifurcation_curve(
         )
     traces, told = [], counted(progress)
     for sense in (-1.0, 1.0):
-        along = sense * np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.3, 1.0])
-        begin = Place(system, spot, unit_tangent(spot.jacobian, along, SEEN), 0.0)
+        along = np.append(np.zeros(len(y) - 2), [0.3 * sense, sense])
+        begin = Place(system, spot, unit_tangent(spot.jacobian, along, system.seen), 0.0)
         locus = Locus(begin, ends)
         traces.append(arclength.follow(locus, begin, most_points, told))
         if traces[0].ended == CLOSED:
@@ -160,13 +162,12 @@ def bifurcation_curve(
 def _start(
     over: Plane, kind: str, start: xr.Dataset, spans: list[tuple[float, float]]
 ) -> tuple[Defining, _Array]:
-    state = start["bifurcation_section"].values
-    p = float(start["bifurcation_value"])
-    point = np.array([*state[:4], state[6], p])
+    layout, p = over.family.layout, float(start["bifurcation_value"])
+    parts, mode = layout.near(layout.read(start["bifurcation_section"]))
+    point = np.append(parts, p)
     scale = np.append(scales(over.family, spans[0], point), spans[1][1] - spans[1][0])
     # Its own mirror image it stays only where the second parameter keeps the symmetry.
     own = kind == BREAKING or bool(int(start["bifurcation_antisymmetric"]))
-    mode = float(record.TOUCHING.index(state[5]))
     period = int(start["bifurcation_period"])
     return Defining(over, kind, period, own and over.symmetric, mode, scale), np.append(
         point, over.value
@@ -182,7 +183,7 @@ def _dataset(
     ended: tuple[str, str],
 ) -> xr.Dataset:
     names = (over.family.parameter.name, over.other.name)
-    values = np.array([spot.y[PARAMETER:] for spot in spots])
+    values = np.array([spot.y[-2:] for spot in spots])
     multipliers = np.array([spot.orbit.multipliers for spot in spots])
     sections = np.array([state_of(spot.orbit) for spot in spots])
     data = xr.Dataset(
@@ -190,16 +191,16 @@ def _dataset(
             "section": (("point", "component"), sections),
             "multiplier_real": (("point", "multiplier"), multipliers.real),
             "multiplier_imag": (("point", "multiplier"), multipliers.imag),
-            "cusp_first": ("cusp_number", np.array([c.y[PARAMETER] for c in cusps], dtype=float)),
+            "cusp_first": ("cusp_number", np.array([c.y[-2] for c in cusps], dtype=float)),
             "cusp_second": (
                 "cusp_number",
-                np.array([c.y[PARAMETER + 1] for c in cusps], dtype=float),
+                np.array([c.y[-1] for c in cusps], dtype=float),
             ),
         },
         coords={
             names[0]: ("point", values[:, 0]),
             names[1]: ("point", values[:, 1]),
-            "component": COMPONENTS,
+            "component": over.family.layout.names,
         },
     )
     data.attrs |= {
@@ -210,7 +211,7 @@ def _dataset(
         "ended_high": ended[1],
     }
     parameters: dict[str, Any] = {
-        "oscillator": oscillator_parameters(over.family.oscillator),
+        **system_parameters(over.family.rig.system),
         **excitation_parameters(over.family.excitation),
         "frequency": over.family.excitation.frequency,
         "phase": over.family.phase,

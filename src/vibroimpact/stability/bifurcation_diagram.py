@@ -22,6 +22,7 @@ from vibroimpact.datasets.description import (
     COMPONENTS,
     describe,
     excitation_parameters,
+    system_parameters,
 )
 from vibroimpact.datasets.stops import stop_names, stops_of
 from vibroimpact.engine import batch, lyapunov
@@ -228,7 +229,7 @@ def bifurcation_diagram(
         drawn = {f"random {i}": state for i, state in enumerate(states, start=1)}
         found |= done(_parts(drawn, steps), steps * len(ways))
     about_motions = {
-        "assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump(),
+        **system_parameters(system),
         **excitation_parameters(excitation),
         "parameter": varied.name,
         "low": ends[0],

@@ -11,11 +11,10 @@ from numpy.typing import NDArray
 from vibroimpact.continuation.arclength import TURN, distance, predicted, strays, unit_tangent
 from vibroimpact.continuation.closing import SAME, returned
 from vibroimpact.continuation.zero import zero_within
-from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.model.units import pretty
 from vibroimpact.model.written_units import written_for
 from vibroimpact.stability.bifurcations import GRAZING
-from vibroimpact.stability.defining_system import SEEN, Defining, Spot, solve
+from vibroimpact.stability.defining_system import Defining, Spot, solve
 from vibroimpact.stability.fixed_points import Orbit, beyond, images, margin_of, seen_at
 from vibroimpact.stability.orbit_curve import CLOSED, PHASES
 
@@ -25,7 +24,6 @@ _BISECTIONS = 20
 _JOINED = 3.0  # of a bisected step, by which its ends may differ on one curve
 _BEHIND = 1e-6  # scaled; so far behind a point the curve's tangent is taken to another section
 _TOUCHED = 1e-4  # scaled; by so much rounding may move a motion that grazes a rigid stop
-_PARAMETERS = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +57,11 @@ class Locus:
     """Ranges of both parameters."""
     marks: dict[float, list[tuple[_Array, _Array]]] = field(default_factory=dict)
     """Sections of the first orbit, and the curve's tangents there, by the forcing's phase."""
-    seen = SEEN
+
+    @property
+    def seen(self) -> _Array:
+        """See `Path`."""
+        return self.first.system.seen
 
     @property
     def scale(self) -> _Array:
@@ -80,7 +82,7 @@ class Locus:
         return self._after(here, spot), False
 
     def _after(self, here: Place, spot: Spot) -> Place:
-        tangent = unit_tangent(spot.jacobian, here.tangent, SEEN)
+        tangent = unit_tangent(spot.jacobian, here.tangent, self.seen)
         return Place(here.system, spot, tangent, here.arclength + distance(self, spot.y, here.y))
 
     def _passes(self, here: Place, there: Spot, length: float) -> bool:
@@ -112,13 +114,13 @@ class Locus:
         """See `Path`."""
         over = here.system.plane
         for i, (low, high) in enumerate(self.spans):
-            value = there.y[PARAMETER + i]
+            value = there.y[i - 2]
             if not low <= value <= high:
                 bound = low if value < low else high
                 varied = (over.family.parameter, over.other)[i]
                 with written_for(over.family.rig):
                     text = pretty(bound, varied.quantity, 9)
-                return self._on_bound(here, there, PARAMETER + i, bound), (
+                return self._on_bound(here, there, i - 2, bound), (
                     f"the range of {varied.name} ends at {text}"
                 )
         return ([there], CLOSED) if self._returned(here, there) else None
@@ -128,7 +130,7 @@ class Locus:
         share = (bound - here.y[which]) / (there.y[which] - here.y[which])
         y = here.y + share * (there.y - here.y)
         y[which] = bound
-        spot = solve(here.system, y, np.eye(PARAMETER + 2)[which])
+        spot = solve(here.system, y, np.eye(len(y))[which])
         return [] if spot is None else [self._after(here, spot)]
 
     def _returned(self, here: Place, there: Place) -> bool:
@@ -150,16 +152,18 @@ class Locus:
         if start is None:
             return []
         point, mode = start
-        parameters = self.first.y[PARAMETER:]
-        here = system._replace(mode=mode).value(np.append(point[:PARAMETER], parameters))
+        parameters = self.first.y[-2:]
+        here = system._replace(mode=mode).value(np.append(point[:-1], parameters))
         found: list[tuple[_Array, _Array]] = []
         for image, mode in () if here is None else images(here[0], mirrored=False):
-            y = np.append(image[:PARAMETER], parameters)
+            y = np.append(image[:-1], parameters)
             spot = system._replace(mode=mode).spot(y)
             if spot is None:
                 break
             # The parameters are the same for all of them, and so is their sense.
-            found.append((y, unit_tangent(spot.jacobian, self.first.tangent * _PARAMETERS, SEEN)))
+            found.append(
+                (y, unit_tangent(spot.jacobian, _along_parameters(self.first.tangent), self.seen))
+            )
         return found
 
     def elsewhere(self, here: Place) -> Place | None:
@@ -180,19 +184,19 @@ class Locus:
         seen, carried = seen_at(here.spot.orbit, phase), self._carried(here, phase)
         if seen is None or carried is None:
             return None
-        aim = np.append(seen[0][:PARAMETER], here.y[PARAMETER:])
+        aim = np.append(seen[0][:-1], here.y[-2:])
         system = here.system._replace(
             plane=over._replace(family=over.family.with_phase(phase)), mode=seen[1]
         )
         spot = solve(system, aim, carried)
         if spot is None or not _same(here, spot.orbit):
             return None
-        tangent = unit_tangent(spot.jacobian, carried, SEEN)
+        tangent = unit_tangent(spot.jacobian, carried, self.seen)
         moved = distance(self, spot.y, aim)
         if here.system.kind == GRAZING:
             same = moved <= _TOUCHED
         else:
-            same = moved <= SAME and float(tangent * SEEN @ carried) >= TURN
+            same = moved <= SAME and float(tangent * self.seen @ carried) >= TURN
         return Place(system, spot, tangent, here.arclength) if same else None
 
     def _carried(self, here: Place, phase: float) -> _Array | None:
@@ -202,7 +206,7 @@ class Locus:
         along both parameters.
         """
         if here.system.kind == GRAZING:
-            sense: _Array = here.tangent * _PARAMETERS
+            sense: _Array = _along_parameters(here.tangent)
             return sense
         y = here.y - _BEHIND * here.tangent * self.scale
         behind = here.system.value(y)
@@ -212,28 +216,34 @@ class Locus:
         if seen is None or earlier is None:
             return None
         change = np.append(seen[0] - earlier[0], here.y[-1] - y[-1]) / self.scale
-        carried: _Array = change / np.linalg.norm(change * SEEN)
+        carried: _Array = change / np.linalg.norm(change * self.seen)
         return carried
 
     def lost(self, here: Place) -> str:
         """See `Path`."""
-        where = ", ".join(f"{value:.9g}" for value in here.y[PARAMETER:])
+        where = ", ".join(f"{value:.9g}" for value in here.y[-2:])
         return beyond(here.spot.orbit, here.system.kind, f"({where})")
 
     def cusp(self, here: Place, there: Place) -> Spot | None:
         """The point between two at which both parameters turn back, if they do."""
-        if here.phase != there.phase or here.tangent[PARAMETER:] @ there.tangent[PARAMETER:] >= 0.0:
+        if here.phase != there.phase or here.tangent[-2:] @ there.tangent[-2:] >= 0.0:
             return None
 
         def forwards(spot: Spot) -> float:
             return float(
-                unit_tangent(spot.jacobian, here.tangent, SEEN)[PARAMETER:]
-                @ here.tangent[PARAMETER:]
+                unit_tangent(spot.jacobian, here.tangent, self.seen)[-2:] @ here.tangent[-2:]
             )
 
-        length = float((there.y - here.y) / self.scale * SEEN @ here.tangent)
+        length = float((there.y - here.y) / self.scale * self.seen @ here.tangent)
         found = zero_within(here.spot, length, partial(self.solved, here), forwards)
         return None if found is None else found[0]
+
+
+def _along_parameters(tangent: _Array) -> _Array:
+    """A tangent without its parts along the state."""
+    found = np.zeros_like(tangent)
+    found[-2:] = tangent[-2:]
+    return found
 
 
 def _same(here: Place, orbit: Orbit) -> bool:

@@ -73,6 +73,16 @@ def spiral(orbit: Orbit) -> float:
     return math.log(complex_ones.max()) if complex_ones.size else -1.0
 
 
+def nearest_pair(orbit: Orbit) -> float:
+    """Logarithm of the modulus of the complex pair nearest to the unit circle; −1 without one.
+
+    With one mass there is one pair, and it is `spiral`.
+    """
+    values = orbit.map_multipliers
+    moduli = np.log(np.abs(values[np.abs(values.imag) > 1e-9 * np.abs(values)]))
+    return float(moduli[np.abs(moduli).argmin()]) if moduli.size else -1.0
+
+
 def pair(orbit: Orbit) -> float:
     """Half the logarithm of the product of the two largest moduli.
 

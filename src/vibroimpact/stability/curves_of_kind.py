@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
+from vibroimpact.model import Assembly
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.stability.bifurcation_curve import bifurcation_curve
@@ -52,16 +53,18 @@ def curves_of_kind(
     along, beside = read_ranges(vary, rig, 2)
     first, second = names = along.parameter.name, beside.parameter.name
     shaking = rig.harmonic
+    one_branch = first != "frequency" or isinstance(rig.system, Assembly)
     if first == "frequency":
-        natural = rig.oscillator.angular_frequency / math.tau
-        rig = Rig(rig.oscillator, shaking.replace(frequency=natural or 1.0))
+        natural = rig.system.angular_frequency / math.tau
+        begin = along.low if one_branch else natural or 1.0
+        rig = Rig(rig.system, shaking.replace(frequency=begin))
     over = plane(rig, names)
     beside.check_contains(over.value)
     only = {first: along.ends}
-    if first == "frequency":
-        data = resonance_diagram(rig, only, phase=shaking.phase, progress=progress)
-    else:
+    if one_branch:
         data = branch(rig, vary=only)
+    else:
+        data = resonance_diagram(rig, only, phase=shaking.phase, progress=progress)
     found: dict[str, xr.Dataset] = {}
     for i in np.flatnonzero(data["bifurcation_kind"].values == kind):
         value = float(data["bifurcation_value"][i])

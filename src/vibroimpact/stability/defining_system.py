@@ -7,17 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine.section_map import PARAMETER
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.bifurcations import FOLD, GRAZING, NEIMARK, spiral
+from vibroimpact.stability.bifurcations import FOLD, GRAZING, NEIMARK, nearest_pair
 from vibroimpact.stability.fixed_points import Orbit, Section, evaluated, margin_of
 from vibroimpact.stability.parent_branches import half_plus
 from vibroimpact.stability.two_parameters import Plane
 
 _Array = NDArray[np.float64]
-
-SEEN = np.array([1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0])
-"""Components of (z, p, q) by which lengths and angles are measured, as in `fixed_points`."""
 
 _FAR = 1e3  # scaled; Newton's method has lost its way
 _STEEP, _WORST = 1e20, 1e100
@@ -36,9 +32,9 @@ class Spot(NamedTuple):
     """z, p, q."""
     orbit: Orbit
     residual: _Array
-    """Of the defining system in scaled components, shape (5,)."""
+    """Of the defining system in scaled components, shape (part + 1,)."""
     jacobian: _Array
-    """Of the defining system in scaled components, shape (5, 6)."""
+    """Of the defining system in scaled components, shape (part + 1, part + 2)."""
 
 
 class Defining(NamedTuple):
@@ -54,33 +50,33 @@ class Defining(NamedTuple):
 
     def section(self, q: float) -> Section:
         """The section's map at a value of q."""
-        return Section(
-            self.plane.at_vectors(q), self.cycles, self.mirror, self.scale[: PARAMETER + 1]
-        )
+        return Section(self.plane.at_vectors(q), self.cycles, self.mirror, self.scale[:-1])
+
+    @property
+    def seen(self) -> _Array:
+        """Components of (z, p, q) by which lengths and angles are measured, as in `Section`."""
+        found = np.ones(len(self.scale))
+        found[2 * self.plane.family.layout.masses : -2] = 0.0
+        return found
 
     def value(self, y: _Array) -> tuple[Orbit, _Array] | None:
         """The orbit that y stands for, and the residual in scaled components."""
-        if not (
-            np.isfinite(y).all() and np.abs(y[:PARAMETER] / self.scale[:PARAMETER]).max() < _FAR
-        ):
+        if not (np.isfinite(y).all() and np.abs(y[:-2] / self.scale[:-2]).max() < _FAR):
             return None
-        section = self.section(y[PARAMETER + 1])
-        status, orbit, image = evaluated(section, y[: PARAMETER + 1], self.mode)
+        section = self.section(y[-1])
+        status, orbit, image = evaluated(section, y[:-1], self.mode)
         if status is not Status.DONE or not np.abs(orbit.carried).max() < _STEEP:
             return None
-        residual = np.empty(PARAMETER + 1)
-        residual[:PARAMETER] = (image[:PARAMETER] - orbit.point[:PARAMETER]) / self.scale[
-            :PARAMETER
-        ]
-        residual[PARAMETER] = self.test(orbit)
+        missed = (image[:-1] - orbit.point[:-1]) / self.scale[:-2]
+        residual = np.append(missed, self.test(orbit))
         return (orbit, residual) if np.abs(residual).max() < _WORST else None
 
     def test(self, orbit: Orbit) -> float:
         """The condition φ."""
         if self.kind == FOLD:
-            return float(np.linalg.det(orbit.carried - np.eye(PARAMETER)))
+            return float(np.linalg.det(orbit.carried - np.eye(len(orbit.carried))))
         if self.kind == NEIMARK:
-            return spiral(orbit)
+            return nearest_pair(orbit)
         if self.kind == GRAZING:
             return margin_of(orbit)
         return half_plus(orbit)
@@ -91,9 +87,9 @@ class Defining(NamedTuple):
         if here is None:
             return None
         orbit, residual = here
-        jacobian = np.empty((PARAMETER + 1, PARAMETER + 2))
-        jacobian[:PARAMETER, : PARAMETER + 1] = orbit.jacobian
-        for j in range(PARAMETER + 2):
+        jacobian = np.empty((len(y) - 1, len(y)))
+        jacobian[:-1, :-1] = orbit.jacobian
+        for j in range(len(y)):
             for step in (_STEP, -_STEP):
                 beside = y.copy()
                 beside[j] += step * self.scale[j]
@@ -101,11 +97,11 @@ class Defining(NamedTuple):
                 if there is None:
                     return None
                 change = (there[1] - residual) / step
-                jacobian[PARAMETER, j] = change[PARAMETER]
-                if j == PARAMETER + 1:
-                    jacobian[:PARAMETER, PARAMETER + 1] = change[:PARAMETER]
+                jacobian[-1, j] = change[-1]
+                if j == len(y) - 1:
+                    jacobian[:-1, j] = change[:-1]
                 # The margin has a kink at grazing: its slope is that on the side of `here`.
-                if self.kind != GRAZING or there[1][PARAMETER] * residual[PARAMETER] > 0.0:
+                if self.kind != GRAZING or there[1][-1] * residual[-1] > 0.0:
                     break
         return Spot(y, orbit, residual, jacobian)
 
@@ -115,7 +111,7 @@ def solve(system: Defining, y: _Array, normal: _Array) -> Spot | None:
 
     Where differences across a kink steer it to and fro, the best that it came by is taken.
     """
-    y, aim, plane = y.copy(), y.copy(), normal * SEEN
+    y, aim, plane = y.copy(), y.copy(), normal * system.seen
     best, spot = np.inf, None
     for _ in range(_NEWTON):
         now = system.spot(y)
@@ -126,11 +122,11 @@ def solve(system: Defining, y: _Array, normal: _Array) -> Spot | None:
             best, spot = size, now
         if best <= _GOOD:
             return spot
-        across = now.jacobian[PARAMETER] * SEEN
+        across = now.jacobian[-1] * system.seen
         across = across - (across @ plane) / (plane @ plane) * plane
-        if system.kind == GRAZING and now.residual[PARAMETER] < 0.0 < across @ across:
+        if system.kind == GRAZING and now.residual[-1] < 0.0 < across @ across:
             # Behind the grazing of a rigid stop P is a square root: go on from the clear side.
-            y = y - 2.0 * now.residual[PARAMETER] * across / (across @ across) * system.scale
+            y = y - 2.0 * now.residual[-1] * across / (across @ across) * system.scale
             continue
         matrix = np.vstack([now.jacobian, plane])
         right = np.append(-now.residual, -plane @ ((y - aim) / system.scale))

@@ -62,7 +62,7 @@ def named_motions(
         motions = find_motions(
             rig, random=random, window=window, samples=samples, progress=progress
         )
-        return _named([_complete(data) for data in motions])
+        return _named([with_spectrum(data) for data in motions])
     name = f"{branch} branch"
     starts = arrivals(rig)
     if name not in starts:
@@ -73,11 +73,11 @@ def named_motions(
             "0.3 to 6 times the natural frequency, or branch='all'"
         )
     data = steady(rig, starts[name], samples, window=window, progress=progress)
-    return {name: _complete(data)}
+    return {name: with_spectrum(data)}
 
 
-def _complete(data: xr.Dataset) -> xr.Dataset:
-    """Add spectrum and section to a motion."""
+def with_spectrum(data: xr.Dataset) -> xr.Dataset:
+    """Return a motion with its spectrum and its section."""
     if not data.sizes["time"]:
         return data
     period = int(data["period"])

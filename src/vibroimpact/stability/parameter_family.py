@@ -142,7 +142,7 @@ class Family(NamedTuple):
     def system(self, value: float) -> _Array:
         """The engine's vector at a value of the parameter."""
         if not self.straight:
-            return _numbers(self.at(value), self.uneven)
+            return numbers(self.at(value), self.uneven)
         vector = self.base.copy()
         moving = self.direction != 0.0
         vector[moving] += value * self.direction[moving]
@@ -218,11 +218,11 @@ def _vector(made: Family, value: float) -> _Array:
     return vector
 
 
-def _numbers(rig: Rig, uneven: bool) -> _Array:
+def numbers(rig: Rig, uneven: bool) -> _Array:
     """Return the engine's vector, of an assembly that is its own mirror image by chance or not."""
     vector = system_vector(rig)
     if isinstance(rig.system, Assembly) and uneven:
-        _make_uneven(vector)
+        make_uneven(vector)
     return vector
 
 
@@ -230,10 +230,11 @@ def _make_plain(vector: _Array, uneven: bool) -> None:
     """Take out of an assembly's vector what follows from the rest, and moves along no line."""
     _of_stops(vector)[:, layout.RELAXATION] = np.inf
     if uneven:
-        _make_uneven(vector)
+        make_uneven(vector)
 
 
-def _make_uneven(vector: _Array) -> None:
+def make_uneven(vector: _Array) -> None:
+    """Take out of an assembly's vector that it is its own mirror image."""
     vector[layout.SYMMETRIC] = 0.0
     _of_stops(vector)[:, layout.PARTNER] = -1.0
 

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.engine_input import system_vector
-from vibroimpact.stability.parameter_family import RATES, Family, family
+from vibroimpact.stability.parameter_family import RATES, Family, family, make_uneven, numbers
 
 _Array = NDArray[np.float64]
 
@@ -58,6 +57,8 @@ def plane(rig: Rig, names: tuple[str, str]) -> Plane:
                 "parameter"
             )
     both = first.symmetric and second.symmetric
+    if second.uneven:
+        make_uneven(first.base)
     made = Plane(first, other, second.value, second.direction, both)
     p, q = first.parameter.beside(first.value, 3.0), other.beside(second.value, 6.0)
     guess = made.at_vectors(q).system(p)
@@ -67,11 +68,12 @@ def plane(rig: Rig, names: tuple[str, str]) -> Plane:
         there = rig
         for varied, value in order:
             there = varied.vary(there, value)
-        true = system_vector(there)
+        true = numbers(there, first.uneven or second.uneven)
         with np.errstate(invalid="ignore"):
             error = np.abs(guess - true)
         straight &= (guess == true) | (error <= _AGREE * np.maximum(np.abs(true), np.abs(guess)))
-    straight[RATES] = True  # they follow from stiffness and damping
+    if not first.of_several_masses:
+        straight[RATES] = True  # they follow from stiffness and damping
     if not straight.all():
         raise InputError(
             f"vary: {names[0]!r} and {names[1]!r} are not independent of each other; pass "

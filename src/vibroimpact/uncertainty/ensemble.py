@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import origin
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, Oscillator, Rig
+from vibroimpact.model import Rig
 from vibroimpact.model.argument_types import Draws, NonNegativeInt, PositiveInt
 from vibroimpact.model.public import public
-from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.tasks.threads import Progress, each
 from vibroimpact.uncertainty.distributions import Distribution
 from vibroimpact.uncertainty.random_rigs import Method, Uncertain, shares, uncertain
@@ -38,7 +38,7 @@ _GROWS = 8
 
 @public
 def ensemble(
-    rig: AnyRig | Oscillator | Assembly,
+    rig: RigOrSystem,
     distributions: Mapping[str, Distribution | str],
     response: Response,
     draws: Draws = 128,

@@ -13,7 +13,7 @@ from vibroimpact.datasets.description import rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter
-from vibroimpact.model.read_rig import AnyRig, one_system
+from vibroimpact.model.read_rig import RigOrSystem, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.varied import vary_all
 from vibroimpact.model.written_units import as_first_argument
@@ -107,7 +107,7 @@ class Uncertain(NamedTuple):
         return {**rig, "distributions": self.texts}
 
 
-def uncertain(rig: AnyRig | Oscillator | Assembly, distributions: Any) -> Uncertain:
+def uncertain(rig: RigOrSystem, distributions: Any) -> Uncertain:
     """Read a rig and the distributions of its parameters.
 
     Raises

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_name
 from vibroimpact.datasets.description import describe
-from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.argument_types import (
     MOST_RESAMPLES,
     Draws,
@@ -22,7 +21,7 @@ from vibroimpact.model.argument_types import (
     whole,
 )
 from vibroimpact.model.public import public
-from vibroimpact.model.read_rig import AnyRig
+from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.tasks.threads import Progress
 from vibroimpact.uncertainty.distributions import Distribution
 from vibroimpact.uncertainty.ensemble import Response, responded
@@ -38,7 +37,7 @@ _RESAMPLES = 100
 
 @public
 def sensitivity(
-    rig: AnyRig | Oscillator | Assembly,
+    rig: RigOrSystem,
     distributions: Mapping[str, Distribution | str],
     response: Response,
     quantity: str,
@@ -150,7 +149,7 @@ def _orders(found: _Array) -> tuple[_Array, _Array]:
 
 
 def peak_sensitivity(
-    rig: AnyRig | Oscillator | Assembly,
+    rig: RigOrSystem,
     distributions: Mapping[str, Distribution | str],
     response: Response,
     quantities: Sequence[str],
