@@ -9,8 +9,8 @@ unknown one.
 Histories are computed in `response/simulate.py`, steady motions in `sizes` of
 `response/sweep_dataset.py` (sweeps, branches, diagrams, maps) and in `_measured` of
 `stability/steady.py` (also for `coexisting_motions` and `basins`). List the variable in the
-docstring of `sweep` and in `VARIABLES` of `tests/response/test_sweep.py`. A row of `_ROWS` of
-`facts/largest.py` prints its largest value. CONTRIBUTING states what the engine needs.
+docstring of `sweep` and in `VARIABLES` of `tests/response/test_sweep.py`. An entry of `_WORDS`
+of `facts/largest.py` prints its largest value. CONTRIBUTING states what the engine needs.
 """
 
 from __future__ import annotations
