@@ -11,8 +11,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
-from vibroimpact.datasets.stops import each_by_stop, stops_of
-from vibroimpact.design.design_shaking import OF_STOPS, AnyRecords, design_rig
+from vibroimpact.datasets.stops import dims_of, each_by_stop, has_stops, stops_of
+from vibroimpact.design.design_shaking import AnyRecords, design_rig
 from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.pareto import non_dominated
 from vibroimpact.design.worst_sine import STEP
@@ -102,22 +102,13 @@ def design_chart(
     Returns
     -------
     xarray.Dataset
-        The dataset has one dim for each parameter that is varied. Its variables are:
-
-        - ``peak_displacement`` to either side (m), and the ends of the motion,
-          ``displacement_max`` and ``displacement_min``;
-        - ``peak_acceleration``, of the absolute acceleration (m/s²);
-        - ``peak_force``, the largest force of each stop (N, dim ``stop``);
-        - ``penetration``, the largest displacement beyond a gap (m);
-        - ``hitting``: for records, the share of the records with which the mass hits a stop; for
-          sines, whether the mass hits a stop at any frequency;
-        - ``pareto``: whether no other design has less displacement without more acceleration, or
-          less acceleration without more displacement. Among designs with equal responses, such as
-          designs without contact, only the first one is marked;
-        - ``within_limits``, if there are limits: whether the design keeps all of them;
-        - ``stops.damping`` (N s/m), if a stiffness of both bumpers is varied;
-        - ``status``: 0 for a completed design. If the computation of a design was given up, its
-          values are NaN. If a motion is unbounded, the values are infinite.
+        The dataset has one dim for each parameter that is varied. Its variables are
+        ``peak_displacement``, ``displacement_max``, ``displacement_min``, ``peak_acceleration``,
+        ``peak_force`` (dim ``stop``), ``penetration``, ``hitting``, ``pareto``, ``within_limits``
+        if there are limits, ``stops.damping`` if a stiffness of both bumpers is varied, and
+        ``status``. If the computation of a design was given up, its values are NaN. If a motion is
+        unbounded, the values are infinite. Among designs with equal responses, such as designs
+        without contact, ``pareto`` marks only the first one.
 
         For sines there are also ``displacement_frequency`` and ``acceleration_frequency``, the
         frequencies of the largest values. ``unsettled_count`` is the number of frequency steps at
@@ -177,10 +168,10 @@ def _dataset(
     shaped = {
         name: (plan.dims, values.reshape(plan.shape))
         for name, values in {**found, **own}.items()
-        if name not in OF_STOPS
+        if not has_stops(name)
     }
-    for name in OF_STOPS:
+    for name in filter(has_stops, found):
         values = each_by_stop(rigs, found[name])
-        shaped[name] = ((*plan.dims, "stop"), values.reshape(*plan.shape, -1))
+        shaped[name] = (dims_of(name, plan.dims), values.reshape(*plan.shape, -1))
     varied = {one.name: one.values for one in plan.varied}
     return xr.Dataset(shaped, {"stop": stops_of(*rigs), **varied})

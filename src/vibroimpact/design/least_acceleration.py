@@ -11,9 +11,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
-from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.design_shaking import OF_STOPS, AnyRecords, Asked, design_rig
+from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
 from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import runs
@@ -218,7 +218,7 @@ def least_acceleration(
         {
             **dict(zip(space.names, values.tolist(), strict=True)),
             **best,
-            **{name: ("stop", by_stop(oscillator, best[name])) for name in OF_STOPS},
+            **{name: ("stop", by_stop(oscillator, best[name])) for name in filter(has_stops, best)},
             "status": int(best["status"]),
             "evaluations": len(known.rows),
         },

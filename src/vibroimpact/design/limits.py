@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_mapping
-from vibroimpact.datasets.stops import over_stops
+from vibroimpact.datasets.stops import has_stops, over_stops
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.design_shaking import OF_STOPS, PEAKS
+from vibroimpact.design.design_shaking import PEAKS
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import to_si
 from vibroimpact.model.parameters import in_units
@@ -50,7 +50,7 @@ def severity(name: str, values: Any) -> Any:
     values
         Its value, or its limit; if it is of stops, with the stops along the last axis.
     """
-    return values.max(axis=-1) if name in OF_STOPS and np.ndim(values) else _sense(name) * values
+    return values.max(axis=-1) if has_stops(name) and np.ndim(values) else _sense(name) * values
 
 
 def _sense(name: str) -> float:

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.run_plan import Runs
 from vibroimpact.engine.status import Status
@@ -25,27 +26,14 @@ from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
 
-PEAKS = {
-    "peak_displacement": "mass",
-    "displacement_max": "mass",
-    "displacement_min": "mass",
-    "peak_acceleration": "mass",
-    "peak_drift": "link",
-    "drift_max": "link",
-    "drift_min": "link",
-    "peak_force": "stop",
-    "impulse": "stop",
-    "impact_count": "stop",
-    "peak_transmitted_force": "",
-}
-"""Results of each run, and their dim."""
-ENERGIES = {
-    "total_supplied": "",
-    "total_links": "link",
-    "total_damping": "",
-    "total_stops": "stop",
-    "total_stored": "",
-}
+PEAKS = (
+    *("peak_displacement", "displacement_max", "displacement_min", "peak_acceleration"),
+    *("peak_drift", "drift_max", "drift_min"),
+    *("peak_force", "impulse", "impact_count"),
+    "peak_transmitted_force",
+)
+"""Results of each run."""
+ENERGIES = ("total_supplied", "total_links", "total_damping", "total_stops", "total_stored")
 
 
 class AssemblyRun(NamedTuple):
@@ -83,10 +71,11 @@ def response(
 
 def _nothing(assembly: Assembly, with_energies: bool) -> dict[str, Any]:
     sizes = {name: len(found) for name, found in coordinates(assembly).items()}
-    names = PEAKS | (ENERGIES if with_energies else {})
+    names = (*PEAKS, *(ENERGIES if with_energies else ()))
     return {
         name: (dim, np.full(sizes[dim], np.nan)) if dim else ((), np.nan)
-        for name, dim in names.items()
+        for name in names
+        for dim in [VARIABLES[name].part]
     }
 
 
@@ -157,7 +146,8 @@ def demands_of_assemblies(
     shape = (*factors.shape, *rigs.shape)
     dims = ("record", "scale", *rigs.dims)
     variables: dict[str, Any] = {}
-    for name, dim in PEAKS.items():
+    for name in PEAKS:
+        dim = VARIABLES[name].part
         columns = [values[name][1] for _, values in found]
         whole = np.array(columns).reshape(*shape, *np.shape(columns[0]))
         variables[name] = ((*dims, dim) if dim else dims, whole)

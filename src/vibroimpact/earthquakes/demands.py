@@ -15,12 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe
-from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.datasets.stops import by_stop, dims_of, has_stops, stops_of
 from vibroimpact.earthquakes.assembly_demands import demands_of_assemblies
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import (
     MAX_EVENTS,
-    OF_STOPS,
     PEAKS,
     RESIDUALS,
     Shaken,
@@ -205,7 +204,7 @@ def demands(
         found = {name: read(group, _KIND.word, name) for name in (*_VALUES, "status")}
     dims = ("record", "scale", *rigs.dims)
     data = xr.Dataset(
-        {name: (_dims(name, dims), values) for name, values in found.items()},
+        {name: (dims_of(name, dims), values) for name, values in found.items()},
         {"stop": task.stops, **coordinates},
     )
     notes += _doubted(rigs.rigs, next(iter(shaking.values())), data)
@@ -270,7 +269,7 @@ class _Task(NamedTuple):
             threads=self.threads,
             progress=progress,
         )
-        for name in OF_STOPS:
+        for name in filter(has_stops, found):
             own = zip(rigs * len(chosen), found[name], strict=True)
             found[name] = np.array([by_stop(rig, both, self.stops) for rig, both in own])
         shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
@@ -311,17 +310,12 @@ def _make(group: zarr.Group, task: _Task, most: int) -> None:
     chunk = (size, levels, *further)
     dims = ("record", "scale", *task.rigs.dims)
     for name in _VALUES:
-        stops = (len(task.stops),) if name in OF_STOPS else ()
+        stops = (len(task.stops),) if has_stops(name) else ()
         sizes = (*shape, *stops), (*chunk, *(max(one, 1) for one in stops))
-        create(group, name, *sizes, "f8", np.nan, _dims(name, dims))
+        create(group, name, *sizes, "f8", np.nan, dims_of(name, dims))
     create(group, "status", shape, chunk, "i1", _PENDING, dims)
     count = sum(1 for _ in blocks(task.shape, most))
     create(group, "done", (count,), (1,), "i1", 0, ("block",))
-
-
-def _dims(name: str, dims: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the dims of a variable, from those of a run."""
-    return (*dims, "stop") if name in OF_STOPS else dims
 
 
 def _levels(scales: Any, scaled: Measure) -> _Array:

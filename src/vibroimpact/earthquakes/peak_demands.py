@@ -24,15 +24,14 @@ from vibroimpact.tasks.threads import Progress, Tally, Workers, breadth, each
 
 _Array = NDArray[np.float64]
 
-OF_STOPS = ("peak_force", "impulse", "impact_count")
-"""Results that have a value for each stop."""
-
 PEAKS = (
     "peak_displacement",
     "displacement_max",
     "displacement_min",
     "peak_acceleration",
-    *OF_STOPS,
+    "peak_force",
+    "impulse",
+    "impact_count",
 )
 """Results of each run, in m, m/s², N and N s; infinite forces are those of rigid stops."""
 
@@ -93,8 +92,8 @@ def peaks(
     -------
     dict of ndarray, shape (shaken, factor)
         `PEAKS`, further requested quantities, and ``status``: a `Status` each, 0 where the run was
-        done. All values of another run are NaN but for its status. `OF_STOPS` have the right and
-        the left side as a further axis, 0 where the rig has no stop.
+        done. All values of another run are NaN but for its status. Values of stops have the
+        right and the left side as a further axis, 0 where the rig has no stop.
     """
     count = len(shaken[0].factors) if shaken else 0
     rows = np.full((len(shaken), count, found.FOUND), np.nan)

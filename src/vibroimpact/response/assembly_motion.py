@@ -16,6 +16,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, excitation_parameters
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.assembly.entries import follow_sections
 from vibroimpact.engine.assembly.plan import plan_of
@@ -416,7 +417,7 @@ def _sampled(
         name = "base_acceleration" if shaking.moves_base else "applied_force"
         values = shaking.at(2.0 * np.pi * (cycle % 1.0) + phase) + 0.0
     found: dict[str, Any] = {
-        one: (("mass" if one in _OF_MASSES else "stop", "time"), column.T + 0.0)
+        one: ((VARIABLES[one].part, "time"), column.T + 0.0)
         for one, column in seen._asdict().items()
     }
     found[name] = ("time", values)
@@ -428,9 +429,6 @@ def _sampled(
         carried += of.influence[assembly.names.index(shaking.on or assembly.names[0])] * values
     found["transmitted_force"] = ("time", carried + 0.0)
     return found
-
-
-_OF_MASSES = ("displacement", "velocity", "acceleration")
 
 
 def _listed(assembly: Assembly, run: _Run, record: bool) -> dict[str, Any]:

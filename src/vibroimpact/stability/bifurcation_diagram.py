@@ -23,7 +23,7 @@ from vibroimpact.datasets.description import (
     describe,
     excitation_parameters,
 )
-from vibroimpact.datasets.stops import stop_names, stops_of
+from vibroimpact.datasets.stops import dims_of, stop_names, stops_of
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
@@ -47,7 +47,7 @@ from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sections import section_variables
-from vibroimpact.response.sweep_dataset import sized, sizes
+from vibroimpact.response.sweep_dataset import sizes
 from vibroimpact.stability.assembly_diagram import assembly_diagram
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
@@ -322,7 +322,7 @@ def _dataset(
     states = components(np.array([one.held.found.state for one in seen]), phase)
     variables: dict[str, Any] = {
         **{
-            key: sized(key, dims, value.reshape(*shape, *value.shape[1:]))
+            key: (dims_of(key, dims), value.reshape(*shape, *value.shape[1:]))
             for key, value in scalars.items()
         },
         **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
