@@ -22,7 +22,7 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
-from vibroimpact.model import Assembly, RigidStop
+from vibroimpact.model import Assembly
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
@@ -203,7 +203,7 @@ class _Search:
         stops = list(assembly.stops.values())
         self.closing = np.array([assembly.closing(one) for one in stops]).reshape(-1, states.masses)
         self.gaps = np.array([one.stop.gap for one in stops])
-        self.rigid = np.array([isinstance(one.stop, RigidStop) for one in stops], dtype=bool)
+        self.rigid = np.array([one.stop.rigid for one in stops], dtype=bool)
         self.known: list[_Known] = []
 
     def at(self, first: float, second: float) -> _Array | None:

@@ -14,7 +14,7 @@ from vibroimpact.datasets.description import motion_parameters, parameters_of_ri
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import Column, sheet, table_of
-from vibroimpact.model import Assembly, RigidStop
+from vibroimpact.model import Assembly
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import unit, unitless
@@ -83,7 +83,7 @@ def largest(motion: xr.Dataset) -> dict[str, Any]:
     for name, stop in assembly.stops.items():
         mine = log["contact_stop"].values == name
         of: dict[str, Any] = {"contacts": int(mine.sum())}
-        if isinstance(stop.law, RigidStop):
+        if stop.stop.rigid:
             of["peak_impulse"] = float(log["contact_impulse"].values[mine].max(initial=0.0))
         else:
             of["peak_force"] = float(found["peak_force"].sel(stop=name))

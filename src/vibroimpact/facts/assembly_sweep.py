@@ -16,7 +16,6 @@ from vibroimpact.facts.assembly import assembly_of
 from vibroimpact.facts.largest import largest, place
 from vibroimpact.facts.sweeps import ranges, steps, steps_text
 from vibroimpact.facts.tables import Column, table_of
-from vibroimpact.model import RigidStop
 from vibroimpact.model.frequency_text import forcings
 
 _PROMINENCE = 0.02
@@ -64,7 +63,7 @@ def _largest(data: xr.Dataset) -> dict[str, Any]:
     """Return the largest values by mass and stop, with frequency and direction."""
     stops = {}
     for name, stop in assembly_of(data).stops.items():
-        what = "peak_impulse" if isinstance(stop.law, RigidStop) else "peak_force"
+        what = "peak_impulse" if stop.stop.rigid else "peak_force"
         stops[name] = {what: largest(data[what].sel(stop=name))}
     return {
         "masses": {

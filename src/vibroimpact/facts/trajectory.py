@@ -15,7 +15,7 @@ from vibroimpact.datasets.stops import SIDES
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
 from vibroimpact.facts.tables import sheet
-from vibroimpact.model import RigidStop
+from vibroimpact.model import Oscillator
 from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import unit
 
@@ -56,9 +56,9 @@ def _counts(data: xr.Dataset, begins: NDArray[np.bool_]) -> dict[str, int]:
 
 def _deformable(data: xr.Dataset) -> list[str]:
     """Return the sides with a stop that has a deformation: rigid stops have none."""
-    oscillator = motion_parameters(data)["oscillator"]
-    stops = {side: oscillator[side] for side in ("right", "left")}
-    return [side for side, stop in stops.items() if stop and stop.get("kind") != RigidStop.kind]
+    oscillator = Oscillator.model_validate(motion_parameters(data)["oscillator"])
+    stops = {side: getattr(oscillator, side) for side in SIDES}
+    return [side for side, stop in stops.items() if stop is not None and not stop.rigid]
 
 
 def text(data: xr.Dataset) -> RenderableType:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, Record, Repeated, RigidStop
+from vibroimpact.model import Assembly, Record, Repeated
 from vibroimpact.model.assembly import numbers
 from vibroimpact.response.assembly_motion import Sections
 from vibroimpact.response.assembly_pieces import (
@@ -125,7 +125,7 @@ class AssemblyParts:
         pairs = [one.stop.spring_and_dashpot for one in stops]
         self.springs = np.array([0.0 if pair is None else pair[0] for pair in pairs])
         self.stop_dashpots = np.array([0.0 if pair is None else pair[1] for pair in pairs])
-        self.rigid = np.array([isinstance(one.stop, RigidStop) for one in stops], dtype=bool)
+        self.rigid = np.array([one.stop.rigid for one in stops], dtype=bool)
         self.relaxing = np.array([pair is not None for pair in pairs], dtype=bool)
         self.linear = not np.isnan(self.dashpots).any()
         response = np.linalg.solve(of.mass, self.closing.T).astype(np.float64)

@@ -13,7 +13,6 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.frozen_mapping import FrozenMapping
 from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
-from vibroimpact.model.stops import RigidStop
 from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import Accepts, Model, constructor
 
@@ -139,9 +138,7 @@ class AssemblyState(Model):
         u = np.array([self.displacement.get(name, 0.0) for name in assembly.names])
         for name, stop in assembly.stops.items():
             depth = float(assembly.closing(stop) @ u) - stop.stop.gap
-            if isinstance(stop.law, RigidStop) and depth > 1e-12 * (
-                float(np.abs(u).max()) + abs(stop.stop.gap)
-            ):
+            if stop.stop.rigid and depth > 1e-12 * (float(np.abs(u).max()) + abs(stop.stop.gap)):
                 raise InputError(
                     f"{where}.displacement: {stop.left} and {stop.right} overlap by "
                     f"{pretty(depth, LENGTH)} at the rigid stop {name!r}; pass displacements that "
