@@ -154,7 +154,7 @@ def assembly_basins(
     levels = np.full(plan.shape, -1, dtype=np.int8)
     outside = np.int8(127)
     for level in range(plan.refine + 1):
-        chosen = np.flatnonzero(plan.wanted(level, labels) & (labels == UNKNOWN))
+        chosen = np.flatnonzero(plan.nodes_to_compute(level, labels) & (labels == UNKNOWN))
         rows, columns = np.divmod(chosen, plan.shape[1])
         starts = {
             int(k): state

@@ -32,7 +32,7 @@ from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.varied import Values, read_values
 from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
@@ -127,7 +127,7 @@ def basin_stability(
     if rig.frequency is None and varied and varied.name == "frequency":
         rig = rig.at(values[0])
     rig.check_frequency()
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
     searches = []

@@ -23,7 +23,7 @@ from vibroimpact.model.argument_types import Share
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.varied import Values
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 
 _STIFFNESSES = {
@@ -125,7 +125,7 @@ def design_chart(
     )
     plan = runs(oscillator, vary, least=1)
     most = limits_of(limits)
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     places = list(itertools.product(*(range(n) for n in plan.shape)))
     rigs = [plan.oscillator(at) for at in places]
     found = what.peaks(rigs, workers, progress)

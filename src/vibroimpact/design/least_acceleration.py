@@ -28,7 +28,7 @@ from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig, with_stated_units
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.varied import Ranges, read_ranges, stated
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]
@@ -189,7 +189,7 @@ def least_acceleration(
     space = _space(oscillator, vary)
     oscillator = space.rig
     most = limits_of(limits)
-    known = _Known(what, space, placed(threads, where), progress)
+    known = _Known(what, space, workers_for(threads, where), progress)
     constraints = tuple(
         NonlinearConstraint(
             lambda x, name=name: known.of(name, x)[np.newaxis], -np.inf, severity(name, limit)

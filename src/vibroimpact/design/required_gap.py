@@ -29,7 +29,7 @@ from vibroimpact.model.read_rig import AnyRig, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
 from vibroimpact.response.assembly_rig import check_laws
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
 
 
@@ -82,7 +82,7 @@ def required_gap(
         If a value is invalid. Also if the motion without stops is unbounded, or if its computation
         was given up.
     """
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     system = one_system(rig)
     if isinstance(system.system, Assembly):
         return _of_assembly(

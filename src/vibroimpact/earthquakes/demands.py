@@ -54,7 +54,7 @@ from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
 from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read, write_block
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
 
 if TYPE_CHECKING:  # it takes long to load: only where a store is made
@@ -167,7 +167,7 @@ def demands(
         factors,
         None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
         max_events,
-        placed(threads, where),
+        workers_for(threads, where),
     )
     settings = {
         "assemblies" if several else "oscillators": {

@@ -20,7 +20,7 @@ from vibroimpact.model import Oscillator, Record, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.softening_limit import judged
-from vibroimpact.tasks.threads import Progress, Tally, Workers, breadth, each
+from vibroimpact.tasks.threads import Progress, Tally, Workers, each, worker_count
 
 _Array = NDArray[np.float64]
 
@@ -97,7 +97,7 @@ def peaks(
     """
     count = len(shaken[0].factors) if shaken else 0
     rows = np.full((len(shaken), count, found.FOUND), np.nan)
-    workers = breadth(threads)
+    workers = worker_count(threads)
     # Few rigs with many scales are dealt out, too.
     few = max(1, min(_AT_ONCE, -(-count * len(shaken) // (4 * workers))))
     parts = [(n, slice(i, i + few)) for n in range(len(shaken)) for i in range(0, count, few)]

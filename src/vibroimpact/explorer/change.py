@@ -189,7 +189,7 @@ def looked(state: State, how: Mapping[str, bool]) -> State:
     return state._replace(shown=frozenset(shown_now))
 
 
-def placed(state: State, stiffness_ratio: float, gap_ratio: float) -> State:
+def with_ratios(state: State, stiffness_ratio: float, gap_ratio: float) -> State:
     """Return the state at another point of the (λ, δ0) map.
 
     Raises

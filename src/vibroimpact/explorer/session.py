@@ -133,7 +133,7 @@ class Session:
         if do == "reset":
             return history.to(history.first)
         if do == "preset":
-            return history.anew(presets.preset(_text(message, "name")))
+            return history.restart(presets.preset(_text(message, "name")))
         if do == "open":
             opened = share.from_address(message.get("address"))
             return History(opened, opened)
@@ -154,7 +154,7 @@ class Session:
         if do == "place":
             point = (_number(message, "x"), _number(message, "y"))
             gesture = str(message.get("gesture") or "")[:40]
-            return history.to(change.placed(now, *point), gesture)
+            return history.to(change.with_ratios(now, *point), gesture)
         raise InputError(f"message: the action {shown(do)} is unknown; reload the page")
 
     def stages(self) -> Iterator[Stage]:

@@ -132,6 +132,6 @@ class History(NamedTuple):
         past = (*self.past, self.now)[-MOST_STEPS:]
         return self._replace(now=now, past=past, future=tuple(future), gesture="")
 
-    def anew(self, state: State) -> History:
+    def restart(self, state: State) -> History:
         """Start with another rig. Undo returns to the present rig."""
         return self.to(state)._replace(first=state)

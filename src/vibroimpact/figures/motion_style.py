@@ -213,7 +213,7 @@ def _measured(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
         values[name] = held
     curve = Shown(look, at, values, [], (np.empty(0), np.empty(0)), {})
     last = min(float(at[-1]), math.ceil(at[0]) + cycles)
-    return curve if math.isinf(cycles) else _cut(curve, float(math.ceil(at[0])), last)
+    return curve if math.isinf(cycles) else _clipped(curve, float(math.ceil(at[0])), last)
 
 
 def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
@@ -271,10 +271,10 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
     if math.isinf(cycles):
         return curve
     if origin.periodic:
-        return _cut(_repeated(curve, origin.cycles, cycles), 0.0, cycles)
+        return _clipped(_repeated(curve, origin.cycles, cycles), 0.0, cycles)
     if "period" in motion:  # steady, but not periodic: its record begins anywhere
-        return _cut(curve, 0.0, cycles)
-    return _cut(curve, max(float(at[0]), float(at[-1]) - cycles), float(at[-1]))
+        return _clipped(curve, 0.0, cycles)
+    return _clipped(curve, max(float(at[0]), float(at[-1]) - cycles), float(at[-1]))
 
 
 def _signed(peaks: _Array, peak_at: _Array, at: _Array, values: _Array) -> _Array:
@@ -314,7 +314,7 @@ def _joined(touching: list[tuple[str, float, float]]) -> list[tuple[str, float, 
     return joined
 
 
-def _cut(curve: Shown, first: float, last: float) -> Shown:
+def _clipped(curve: Shown, first: float, last: float) -> Shown:
     inside = (curve.at >= first) & (curve.at <= last)
     seen = (curve.peaks[0] >= first) & (curve.peaks[0] <= last)
     return curve._replace(

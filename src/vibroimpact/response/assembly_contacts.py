@@ -74,7 +74,7 @@ def _measured(motion: xr.Dataset, origin: Origin) -> tuple[Measured, list[str]]:
     measurer = Measurer(assembly, shaking)
     if isinstance(shaking, Record):
         tail = float(motion_parameters(motion)["tail"])
-        sections = _cut(sections_of(shaking, tail, 0.0), motion)
+        sections = _sections_until_end(sections_of(shaking, tail, 0.0), motion)
     else:
         first, last = (float(motion["cycle"].values[end]) for end in (0, -1))
         phase = shaking.phase
@@ -87,7 +87,7 @@ def _measured(motion: xr.Dataset, origin: Origin) -> tuple[Measured, list[str]]:
     return found._replace(begin=found.begin + begins), _doubts(motion, found)
 
 
-def _cut(sections: Sections, motion: xr.Dataset) -> Sections:
+def _sections_until_end(sections: Sections, motion: xr.Dataset) -> Sections:
     """Return the sections until the end of a motion through a record."""
     left, lines = float(motion["time"].values[-1]), sections.lines.copy()
     begins = np.append(0.0, np.cumsum(lines[:, 2]))[:-1]

@@ -52,7 +52,7 @@ from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.response.sweep_dataset import sweep_dataset
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, each
 
 DIRECTIONS = ("forward", "backward")
@@ -173,7 +173,7 @@ def _of_several_masses(
         state,
         to_si(phase, ANGLE, "phase") if state.phase is None else state.phase,
         settling,
-        placed(threads),
+        workers_for(threads),
         progress,
     )
 
@@ -260,7 +260,7 @@ def sweeps(
             starts,  # type: ignore[arg-type]
             to_si(phase, ANGLE, "phase") if begin is None else begin,
             Settling(tolerance, max_cycles, window, max_events),
-            placed(threads, where),
+            workers_for(threads, where),
             progress,
         )
     names, pairs = list(named), list(named.values())
@@ -271,7 +271,7 @@ def sweeps(
     if state is not None and state.phase is not None:
         angle = state.phase
     settling = Settling(tolerance, max_cycles, window, max_events)
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
 
     own = [read_outputs(outputs, rig) for rig in pairs]
     ready = [plan_sweep(rig, grid, state) for rig in pairs]

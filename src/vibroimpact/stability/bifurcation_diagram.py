@@ -51,7 +51,7 @@ from vibroimpact.response.sweep_dataset import sizes
 from vibroimpact.stability.assembly_diagram import assembly_diagram
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Tally, each
 
 _Array = NDArray[np.float64]
@@ -188,7 +188,7 @@ def bifurcation_diagram(
     values[0], values[-1] = ends
     settling = Settling(tolerance, max_cycles, points, max_events)
     look = Look(section, points, exponent_cycles, max_events)
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     own = () if outputs is None else read_outputs(outputs, rig)
     ways = _ways(directions, starts, random, system)
     every = rigs_along(varied, rig, values)

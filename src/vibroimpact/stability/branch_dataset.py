@@ -97,8 +97,8 @@ def as_dataset(
         coordinates["stop"] = stops_of(fam.oscillator)
     data = xr.Dataset(variables, coordinates)
     data.attrs["parameter"] = name
-    add_outputs(data, own, _own(own, orbits))
-    critical = _own(own, [b.orbit for one in followed for b in one.bifurcations])
+    add_outputs(data, own, _output_values(own, orbits))
+    critical = _output_values(own, [b.orbit for one in followed for b in one.bifurcations])
     for k, output in enumerate(own):
         data[f"bifurcation_{output.name}"] = ("bifurcation", critical[:, k])
     for i, one in enumerate(followed):
@@ -143,7 +143,7 @@ def _by_mass(
     return notes_on(assembly, rows, "orbits")
 
 
-def _own(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Array:
+def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Array:
     """Own outputs of orbits over one period each."""
     if not outputs:
         return np.empty((len(orbits), 0))

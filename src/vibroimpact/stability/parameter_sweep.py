@@ -96,11 +96,11 @@ def stepped(
         if going_on and before is not None:
             state = before.found.state
             if rig.system != before.found.rig.system:
-                state = placed(rig, state)
+                state = nearest_state(rig, state)
         elif start is None:
             state = prepare(rig).state()
         else:
-            state = placed(rig, start)
+            state = nearest_state(rig, start)
         before = _held(rig, state, settling)
         seen(before)
         tally[0] += 1
@@ -116,7 +116,7 @@ def _held(rig: Rig, state: _Array, settling: Settling) -> Held:
     return Held(found, row)
 
 
-def placed(rig: Rig, state: _Array) -> _Array:
+def nearest_state(rig: Rig, state: _Array) -> _Array:
     """The nearest state that a rig can have: no mass inside a stop, no memory beyond its bounds."""
     if isinstance(rig.system, Assembly):
         return place_assembly(rig, state)
