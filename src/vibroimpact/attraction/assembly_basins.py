@@ -31,7 +31,7 @@ from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
 from vibroimpact.stability.assembly_diagram import place_assembly
 from vibroimpact.stability.equivalence import ALIKE, SAME, distance
-from vibroimpact.stability.settle import Settled, approach, later, reach
+from vibroimpact.stability.settled_motion import Settled, approach, later, reach
 from vibroimpact.stability.steady import describe_motion
 from vibroimpact.tasks.threads import Progress, Workers, each
 

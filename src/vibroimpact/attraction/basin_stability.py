@@ -26,11 +26,11 @@ from vibroimpact.model.argument_types import (
     PositiveInt,
     whole,
 )
+from vibroimpact.model.parameter_ranges import Values, read_values
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.model.varied import Values, read_values
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress

@@ -27,7 +27,7 @@ from vibroimpact.engine.absorption import GRID, LOW_U, LOW_V, STEP_U, STEP_V
 from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError
 from vibroimpact.stability.equivalence import ALIKE, distance, same
-from vibroimpact.stability.settle import Settled, approach
+from vibroimpact.stability.settled_motion import Settled, approach
 from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]

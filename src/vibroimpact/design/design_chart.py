@@ -20,9 +20,9 @@ from vibroimpact.earthquakes.demands import warn_given_up
 from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.model import Oscillator
 from vibroimpact.model.argument_types import Share
+from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.model.varied import Values
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 

@@ -21,13 +21,13 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Oscillator
 from vibroimpact.model.argument_types import NonNegativeInt, Share
+from vibroimpact.model.parameter_ranges import Ranges, read_ranges, stated
 from vibroimpact.model.parameters import in_units, parameter
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig, with_stated_units
 from vibroimpact.model.units import pretty, to_si
-from vibroimpact.model.varied import Ranges, read_ranges, stated
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
 

@@ -43,12 +43,12 @@ from vibroimpact.model.argument_types import (
     MaxEvents,
     PositiveInt,
 )
+from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig, System
-from vibroimpact.model.varied import Values
 from vibroimpact.model.written_units import has_no_units
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.errors import InputError
+from vibroimpact.measurements.channel_attributes import known
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.names import meaning
 from vibroimpact.measurements.scaling import agreed
-from vibroimpact.measurements.stated import known
 from vibroimpact.measurements.tables import damaged, library
 from vibroimpact.tables.units import parted, spelled
 

@@ -23,7 +23,7 @@ from vibroimpact.records import (
     unam,
 )
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.doubts import of_last_line
+from vibroimpact.records.plausibility import of_last_line
 from vibroimpact.tables.decimal_mark import Decimal
 from vibroimpact.tables.file import File
 

@@ -16,9 +16,9 @@ from vibroimpact.errors import InputError
 from vibroimpact.grids.refinement import UNKNOWN, Nodes, Scenarios
 from vibroimpact.model import from_dimensionless
 from vibroimpact.model.argument_types import PositiveInt, Refinements, Share
+from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.model.varied import Values
 from vibroimpact.scenarios.axes import Axis, Base, one_sine, read_axes
 from vibroimpact.scenarios.map_node import RIG, classified
 from vibroimpact.scenarios.map_store import MapStore, chunk_slices, map_store

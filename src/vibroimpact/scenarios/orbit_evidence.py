@@ -21,7 +21,7 @@ from vibroimpact.scenarios.hidden_folds import hidden_stretches
 from vibroimpact.scenarios.resonance_curves import DIRECTIONS, Holds
 from vibroimpact.stability.branch import branch, turning_points
 from vibroimpact.stability.motion_exponents import judge_wandering
-from vibroimpact.stability.settle import Settled
+from vibroimpact.stability.settled_motion import Settled
 
 KIND_CYCLES = 5000
 """Forcing cycles over which growth tells chaotic from quasi-periodic motions."""

@@ -19,7 +19,7 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_contacts import coordinates
 from vibroimpact.response.assembly_rows import measured_variables, notes_on
 from vibroimpact.response.section_states import SectionStates
-from vibroimpact.stability.settle import reach_at_rest
+from vibroimpact.stability.settled_motion import reach_at_rest
 
 if TYPE_CHECKING:
     from vibroimpact.stability.diagram_point import Seen

@@ -36,11 +36,11 @@ from vibroimpact.model.argument_types import (
     Share,
     whole,
 )
+from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest
 from vibroimpact.model.rig import System
-from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.engine_input import components, engine_rig
 from vibroimpact.response.hold_rows import HoldRows, Settling

@@ -29,7 +29,7 @@ from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sweep_starts import arrivals
 from vibroimpact.stability.assembly_diagram import place_assembly
 from vibroimpact.stability.equivalence import image_of, mirrors, same
-from vibroimpact.stability.settle import (
+from vibroimpact.stability.settled_motion import (
     Settled,
     approach,
     later,

@@ -8,8 +8,8 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
+from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.stability.bifurcation_curve import bifurcation_curve
 from vibroimpact.stability.branch import branch
 from vibroimpact.stability.resonance_diagram import resonance_diagram

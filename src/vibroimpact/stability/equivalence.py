@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.settle import Settled, later, reach, state_distance
+from vibroimpact.stability.settled_motion import Settled, later, reach, state_distance
 
 SAME = 1e-6
 """Two orbits are one if their points agree to this share of their size."""

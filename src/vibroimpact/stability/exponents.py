@@ -21,11 +21,11 @@ from vibroimpact.model.argument_types import (
     PositiveInt,
     whole,
 )
+from vibroimpact.model.parameter_ranges import Values, Varied, read_values, vary_all
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.model.varied import Values, Varied, read_values, vary_all
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.prepared_rig import PreparedRig, prepare

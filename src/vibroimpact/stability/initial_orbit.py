@@ -23,7 +23,7 @@ from vibroimpact.stability.fixed_points import (
     vector_of,
 )
 from vibroimpact.stability.parameter_family import Family
-from vibroimpact.stability.settle import (
+from vibroimpact.stability.settled_motion import (
     Settled,
     approach,
     later,

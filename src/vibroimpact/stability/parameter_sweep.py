@@ -17,16 +17,16 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Oscillator, State
+from vibroimpact.model.parameter_ranges import field_of
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.varied import field_of
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.stability.assembly_diagram import place_assembly, random_assembly_states
-from vibroimpact.stability.settle import Settled, reach_at_rest
+from vibroimpact.stability.settled_motion import Settled, reach_at_rest
 from vibroimpact.tasks.threads import Stopped, Tally
 
 _Array = NDArray[np.float64]

@@ -23,9 +23,9 @@ from vibroimpact.model.argument_types import (
     RandomStarts,
     whole,
 )
+from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, bifurcating_orbits
 from vibroimpact.stability.branch import follow_both_ways

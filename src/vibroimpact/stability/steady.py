@@ -39,7 +39,7 @@ from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.motion_exponents import exponents, judge_orbit, judge_wandering
 from vibroimpact.stability.motion_type import Judgement
 from vibroimpact.stability.parameter_family import family
-from vibroimpact.stability.settle import (
+from vibroimpact.stability.settled_motion import (
     Settled,
     approach,
     later,

@@ -9,9 +9,9 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.assembly.names import GROUND
-from vibroimpact.model.keys import listed
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.units import pretty
+from vibroimpact.model.unknown_keys import listed
 
 if TYPE_CHECKING:
     from vibroimpact.model.assembly.assembly import Assembly

@@ -29,9 +29,9 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model.assembly.state import AssemblyState
 from vibroimpact.model.isolators import FrictionIsolator
-from vibroimpact.model.keys import listed
 from vibroimpact.model.quantities import FORCE, LENGTH
 from vibroimpact.model.units import pretty
+from vibroimpact.model.unknown_keys import listed
 
 if TYPE_CHECKING:
     from vibroimpact.model.assembly.assembly import Assembly

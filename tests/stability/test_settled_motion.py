@@ -9,7 +9,7 @@ import vibroimpact as vi
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.response.engine_input import engine_state
-from vibroimpact.stability.settle import approach, later, reach, state_distance
+from vibroimpact.stability.settled_motion import approach, later, reach, state_distance
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 1.2, 0.4)
