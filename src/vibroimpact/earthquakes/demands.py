@@ -290,7 +290,7 @@ def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | No
         size = levels * math.prod(s.stop - s.start for s in (one.records, *one.rigs))
         if not ready[one.number]:
             told = _beyond(progress, before, total)
-            write_block(group, _KIND, one.place, task.block(one, told))
+            write_block(group, one.place, task.block(one, told))
             group["done"][one.number] = 1  # type: ignore[index]
         before += size
         if progress:
