@@ -37,6 +37,7 @@ extensions = [
     "links",
     "validation",
     "variables",
+    "parameters",
 ]
 
 root_doc = "docs/index"

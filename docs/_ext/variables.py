@@ -18,6 +18,8 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
+from node_tables import table
+
 ROOT = Path(__file__).parents[2]
 HEADINGS = {"Variable": 25, "Dims": 20, "Unit": 10, "Meaning": 45}
 
@@ -29,29 +31,18 @@ class Variables(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """Return the table."""
-        data = result(self.arguments[0])
-        rows = [
-            (
-                nodes.literal(text=str(name)),
-                nodes.Text(", ".join(map(str, one.dims))),
-                nodes.Text(one.attrs["units"].removeprefix("1")),
-                nodes.Text("; ".join(_words(one))),
-            )
-            for name, one in data.variables.items()
-        ]
-        group = nodes.tgroup(cols=len(HEADINGS))
-        group += [nodes.colspec(colwidth=width) for width in HEADINGS.values()]
-        group += nodes.thead("", _row([nodes.Text(heading) for heading in HEADINGS]))
-        group += nodes.tbody("", *map(_row, rows))
-        return [nodes.table("", group, classes=["colwidths-given"])]
+        return [table(HEADINGS, map(_cells, result(self.arguments[0]).variables.items()))]
 
 
-def _words(one: xr.Variable) -> list[str]:
-    return [one.attrs[key] for key in ("long_name", "comment") if key in one.attrs]
-
-
-def _row(cells: Any) -> nodes.row:
-    return nodes.row("", *(nodes.entry("", nodes.paragraph("", "", cell)) for cell in cells))
+def _cells(variable: tuple[Any, xr.Variable]) -> tuple[str, ...]:
+    name, one = variable
+    words = [one.attrs[key] for key in ("long_name", "comment") if key in one.attrs]
+    return (
+        str(name),
+        ", ".join(map(str, one.dims)),
+        one.attrs["units"].removeprefix("1"),
+        "; ".join(words),
+    )
 
 
 @cache
