@@ -7,7 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from docutils import nodes
 
 
-def table(headings: Mapping[str, int], rows: Iterable[Sequence[str]]) -> nodes.table:
+def table(
+    headings: Mapping[str, int], rows: Iterable[Sequence[str]], title: str = ""
+) -> nodes.table:
     """Return a table with these headings and widths, whose first column has names of code."""
     group = nodes.tgroup(cols=len(headings))
     group += [nodes.colspec(colwidth=width) for width in headings.values()]
@@ -16,7 +18,8 @@ def table(headings: Mapping[str, int], rows: Iterable[Sequence[str]]) -> nodes.t
     for name, *cells in rows:
         body += _row([nodes.literal(text=name), *map(nodes.Text, cells)])
     group += body
-    return nodes.table("", group, classes=["colwidths-given"])
+    caption = [nodes.title(text=title)] if title else []
+    return nodes.table("", *caption, group, classes=["colwidths-given"])
 
 
 def _row(cells: Iterable[nodes.Node]) -> nodes.row:

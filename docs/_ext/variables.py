@@ -21,28 +21,28 @@ from sphinx.util.docutils import SphinxDirective
 from node_tables import table
 
 ROOT = Path(__file__).parents[2]
-HEADINGS = {"Variable": 25, "Dims": 20, "Unit": 10, "Meaning": 45}
+HEADINGS = {"Variable": 35, "Unit": 10, "Meaning": 55}
 
 
 class Variables(SphinxDirective):
-    """A table of the variables that a function returns."""
+    """Tables of the variables that a function returns."""
 
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
-        """Return the table."""
-        return [table(HEADINGS, map(_cells, result(self.arguments[0]).variables.items()))]
-
-
-def _cells(variable: tuple[Any, xr.Variable]) -> tuple[str, ...]:
-    name, one = variable
-    words = [one.attrs[key] for key in ("long_name", "comment") if key in one.attrs]
-    return (
-        str(name),
-        ", ".join(map(str, one.dims)),
-        one.attrs["units"].removeprefix("1"),
-        "; ".join(words),
-    )
+        """Return a table for each set of dims."""
+        groups: dict[str, list[tuple[str, ...]]] = {}
+        for name, one in result(self.arguments[0]).variables.items():
+            words = [one.attrs[key] for key in ("long_name", "comment") if key in one.attrs]
+            units = (
+                one.attrs["units"].removeprefix("1").replace(" s-2", "/s²").replace(" s-1", "/s")
+            )
+            cells = (str(name), units.replace("s-1", "1/s"), "; ".join(words))
+            groups.setdefault(", ".join(map(str, one.dims)), []).append(cells)
+        return [
+            table(HEADINGS, rows, f"Over {dims}" if dims else "Single values")
+            for dims, rows in groups.items()
+        ]
 
 
 @cache
