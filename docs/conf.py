@@ -36,6 +36,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "links",
     "validation",
+    "variables",
     "parameters",
 ]
 

@@ -1,4 +1,4 @@
-"""Results of public functions have the names, types and units of docs/reference/words.md."""
+"""Results of public functions have the names and kinds of the vocabulary."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ import xarray as xr
 
 import arguments
 import vibroimpact as vi
-from contributing import rows
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 
@@ -32,10 +31,6 @@ NO_DATASET = {
     "to_table",
 }
 """Functions that make a rig, a record, a file or a table, or print; their docstrings say which."""
-
-
-KINDS = {row[0].strip("`"): row[2] for row in rows("Words of results")}
-"""Kind of the values of a variable or attribute."""
 
 
 @pytest.fixture(scope="module")
@@ -70,10 +65,7 @@ def test_a_valid_call_is_one_and_returns_a_dataset(name: str, folder: Path) -> N
         assert variable in VARIABLES, variable
         assert "units" in result[variable].attrs, variable
         assert "long_name" in result[variable].attrs, variable
-    for word in {*result.variables, *result.attrs} & set(KINDS):
-        kinds = KINDS[str(word)].split(" or ")
-        kind = "text" if word in result.attrs else _kind(result[word])
-        assert kind in kinds, f"{word}: {kind}"
+        assert _kind(result[variable]) == VARIABLES[str(variable)].kind, variable
 
 
 def _kind(values: xr.DataArray) -> str:

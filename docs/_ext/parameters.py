@@ -11,6 +11,7 @@ from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
+from node_tables import table
 from vibroimpact.model import Law
 from vibroimpact.model.isolators import ISOLATORS
 from vibroimpact.model.parameters import PARAMETERS, Parameter
@@ -24,12 +25,7 @@ class Parameters(SphinxDirective):
 
     def run(self) -> list[nodes.Node]:
         """Return the table."""
-        group = nodes.tgroup(cols=len(HEADINGS))
-        group += [nodes.colspec(colwidth=width) for width in HEADINGS.values()]
-        group += nodes.thead("", _row([nodes.Text(heading) for heading in HEADINGS]))
-        group += nodes.tbody("", *(_row([nodes.literal(text=p), *map(nodes.Text, cells)])
-                                   for p, *cells in rows()))  # fmt: skip
-        return [nodes.table("", group, classes=["colwidths-given"])]
+        return [table(HEADINGS, rows())]
 
 
 def rows() -> list[tuple[str, str, str, str, str]]:
@@ -64,10 +60,6 @@ def laws(path: str) -> str:
     having = {one for one in classes if field in one.model_fields}
     every = f"every {owner.removesuffix('s')}"
     return every if having and having == classes else ", ".join(sorted(c.__name__ for c in having))
-
-
-def _row(cells: Any) -> nodes.row:
-    return nodes.row("", *(nodes.entry("", nodes.paragraph("", "", cell)) for cell in cells))
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.attraction.match_attractors import apart, matched
+from vibroimpact.attraction.match_attractors import matched, point_distance
 from vibroimpact.datasets.vocabulary import VARIABLES
 
 WINDOW = (-0.012, 0.012), (-0.1, 0.1)
@@ -58,8 +58,8 @@ def test_points_tell_which_motion_goes_on():
     cloud = 0.01 * rng.normal(size=(50, 2))
     single = np.array([[0.5, 0.5]])
     pair = np.array([[0.48, 0.5], [0.53, 0.5]])
-    assert apart(single, pair) == pytest.approx(0.025)
-    assert apart(cloud, cloud) == 0.0
+    assert point_distance(single, pair) == pytest.approx(0.025)
+    assert point_distance(cloud, cloud) == 0.0
     # A period doubles, another motion goes on, a third is new.
     before = {0: single, 4: cloud}
     assert matched(before, [cloud + 0.01, pair, single - 2.0], {0: 1, 4: 0}, 5) == [4, 0, 5]

@@ -13,8 +13,8 @@ from vibroimpact.continuation.arclength import (
     MOST,
     distance,
     follow,
+    is_other_curve,
     predicted,
-    strays,
     unit_tangent,
 )
 from vibroimpact.continuation.closing import crossing
@@ -57,7 +57,7 @@ class Circle:
     def step(self, here, length):
         aim = predicted(self, here, length)
         y = self.solve(aim, here.tangent)
-        if strays(self, y, aim, length) or y[0] < -self.hole:
+        if is_other_curve(self, y, aim, length) or y[0] < -self.hole:
             return None, False
         tangent = unit_tangent(self.jacobian(y), here.tangent, self.seen)
         return At(y, tangent, here.arclength + distance(self, y, here.y)), False
@@ -65,7 +65,7 @@ class Circle:
     def corner(self, here, length):
         return []
 
-    def elsewhere(self, here):
+    def in_other_coordinates(self, here):
         self.moved += 1
         return None
 

@@ -113,7 +113,8 @@ def test_a_linear_rig_without_stops_is_an_oscillator_of_the_response_spectrum(
 
 
 def test_a_scale_is_a_record_that_was_scaled() -> None:
-    from vibroimpact.earthquakes.peak_demands import OF_STOPS, Shaken, peaks
+    from vibroimpact.datasets.stops import has_stops
+    from vibroimpact.earthquakes.peak_demands import Shaken, peaks
 
     factors = np.array([0.3, 1.0, 1.7])
     for rig in RIGS.values():
@@ -122,7 +123,7 @@ def test_a_scale_is_a_record_that_was_scaled() -> None:
             alone = vi.seismic_response(vi.Rig(rig, RECORD.scaled(factor)))
             for name, values in together.items():
                 found = values[0, k]
-                if name in OF_STOPS:
+                if has_stops(name):
                     found = by_stop(rig, found)
                 np.testing.assert_allclose(found, alone[name], rtol=1e-11, atol=1e-13)
 

@@ -9,7 +9,7 @@ import xarray as xr
 from benchmarks.page import TURNED
 from samples import sample
 from vibroimpact.explorer.session import Session
-from vibroimpact.explorer.state import MOST_STEPS, State
+from vibroimpact.explorer.state import MOST_STEPS, PageState
 
 MOVES = sample(2000, 60)
 
@@ -44,4 +44,4 @@ def test_a_page_and_its_session_keep_no_more_after_many_moves(opened):
     assert abs(after - elements) < 60
     assert living(xr.Dataset) <= sweeps + 4
     assert living(Session) <= 3
-    assert living(State) < 4 * MOST_STEPS
+    assert living(PageState) < 4 * MOST_STEPS

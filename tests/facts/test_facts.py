@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.facts import largest, motions, scenario, sweeps
-from vibroimpact.facts.tables import as_text, plain_table, titled_table
+from vibroimpact.facts.tables import Column, as_text, sheet, table_of
 from vibroimpact.response.resonance import features
 from vibroimpact.scenarios.scenario import Scenario
 
@@ -90,11 +90,10 @@ def test_each_scenario_has_a_meaning():
 
 
 def test_tables_as_text_have_no_marks_of_a_terminal():
-    table = plain_table()
-    table.add_row("gap", "7.5 mm", "of both sides")
+    table = sheet([("gap", "7.5 mm", "of both sides")])
     assert as_text(table).split() == ["gap", "7.5", "mm", "of", "both", "sides"]
-    titled = titled_table("Jumps", "sweep", "η_a")
-    titled.add_row("forward", "1 → 2")
+    columns = (Column("sweep", "direction", left=True), Column("η_a", "ends", left=True))
+    titled = table_of([{"direction": "forward", "ends": "1 → 2"}], columns, "Jumps")
     lines = as_text(titled, width=40).splitlines()
     assert lines[0].strip() == "Jumps"
     assert "\x1b" not in "".join(lines)

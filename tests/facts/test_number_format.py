@@ -10,8 +10,10 @@ import pytest
 import xarray as xr
 from rich.console import Console
 
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.facts import motions as verdict
-from vibroimpact.facts.number_format import ENERGIES, FORCES, LENGTHS, fitting, plain
+from vibroimpact.facts.number_format import shown_in, written
+from vibroimpact.model.units import plain
 
 
 @pytest.mark.parametrize(
@@ -35,12 +37,26 @@ def test_without_powers(value, digits, text):
 
 
 def test_units_of_fitting_size():
-    assert fitting([1.0, -79.2e6], FORCES).symbol == "MN"
-    assert fitting([1470.0, 71.0], FORCES).symbol == "kN"
-    assert fitting([3.0, math.nan], FORCES).symbol == "N"
-    assert fitting([0.0], LENGTHS).symbol == fitting([], LENGTHS).symbol == "m"
-    assert fitting([0.0], ENERGIES).symbol == "J"
-    assert fitting([0.237, 1e-3], ENERGIES).symbol == "J"
+    for name, values, symbol in (
+        ("peak_force", [1.0, -79.2e6], "MN"),
+        ("peak_force", [1470.0, 71.0], "kN"),
+        ("peak_force", [3.0, math.nan], "N"),
+        ("displacement", [0.0], "m"),
+        ("displacement", [], "m"),
+        ("energy_supplied", [0.0], "J"),
+        ("energy_supplied", [0.237, 1e-3], "J"),
+    ):
+        assert shown_in(VARIABLES[name].units, values).symbol == symbol
+
+
+def test_values_of_a_variable_in_one_unit():
+    assert written("displacement", -0.00123, 0.0045) == "-1.23 to 4.5 mm"
+    assert written("displacement", 2.0, like=[0.00123]) == "2000 mm"
+    assert written("displacement", 1e-18, like=[-0.00123]) == "0 mm"  # rounding
+    assert written("peak_force", 999_999.9) == "1 MN"
+    assert written("peak_force", math.inf) == "infinite"
+    assert written("peak_force", math.inf, 5.0) == "infinite to 5 N"
+    assert written("transmissibility", 1.23456) == "1.235"
 
 
 def test_a_heavy_building_in_meganewtons():
@@ -51,8 +67,7 @@ def test_a_heavy_building_in_meganewtons():
     row |= {"contact_restitution": [0.6], "contact_stop": [1], "contact_grazing": [False]}
     data = xr.Dataset({name: ("contact_number", np.array(v)) for name, v in row.items()})
     console = Console(record=True, width=100, file=io.StringIO())
-    for part in verdict.contact_tables(data):
-        console.print(part)
+    console.print(verdict.contact_table(data))
     told = console.export_text()
     assert "force (MN)" in told
     assert "79.2" in told

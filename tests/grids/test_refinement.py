@@ -16,7 +16,7 @@ def refined(truth: np.ndarray, refine: int) -> tuple[np.ndarray, np.ndarray]:
     known = np.full(truth.shape, UNKNOWN, dtype=np.int8)
     computed = np.zeros(truth.shape, dtype=bool)
     for level in range(refine + 1):
-        chosen = nodes.wanted(level, known)
+        chosen = nodes.nodes_to_compute(level, known)
         assert not (chosen & (known != UNKNOWN)).any()  # none twice
         known[chosen] = truth[chosen]
         computed |= chosen

@@ -5,7 +5,7 @@ import pytest
 
 import vibroimpact as vi
 from identification.twins import EXCURSIONS, PEAKS, curves
-from vibroimpact.identification.comparison import asked_of, hertzian
+from vibroimpact.identification.comparison import asked_of, hertzian, softening
 from vibroimpact.identification.free_parameters import SENSORS, frees, size_of
 from vibroimpact.model.parameters import PARAMETERS
 
@@ -241,3 +241,11 @@ def test_what_is_asked_of_another_model_keeps_its_bounds_where_it_means_the_same
     }
     assert asked_of("softening", asked)["free"] == {**asked["free"], "isolator.cubic": None}
     assert asked_of("softening", asked)["priors"].keys() == asked["priors"].keys()
+
+
+def test_the_softening_model_replaces_no_dashpot_with_a_power():
+    """It would drop the exponent of the velocity."""
+    isolator = vi.Isolator("31.9 kN/m", 100.0, damping_exponent=0.5)
+    assert softening(UNEVEN).isolator.cubic == 0.0
+    with pytest.raises(vi.InputError, match="'softening' replaces a linear one"):
+        softening(UNEVEN.replace(isolator=isolator))

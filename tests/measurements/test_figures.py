@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 import vibroimpact as vi
 from samples import sample
 from vibroimpact import figures
-from vibroimpact.measurements.features import in_words, measured_features, noise_of, strays
+from vibroimpact.measurements.features import in_words, measured_features, noise_of, outliers
 from vibroimpact.measurements.read import as_measured
 from vibroimpact.response.curve_pair import judged
 
@@ -160,10 +160,10 @@ def test_values_of_another_motion_are_found_and_are_no_noise():
     at = {"direction": ["forward"], "frequency": np.arange(1.0, 11.0)}
     names = ("displacement_excursion", "acceleration_excursion")
     data = xr.Dataset({n: (dims, v) for n, v in zip(names, values, strict=True)}, at)
-    assert not any(one.any() for one in strays(data).values())
+    assert not any(one.any() for one in outliers(data).values())
     quiet = noise_of(data)
     data[names[1]][0, 9, 2] *= 0.1
-    assert [int(one.sum()) for one in strays(data).values()] == [0, 1]
+    assert [int(one.sum()) for one in outliers(data).values()] == [0, 1]
     assert noise_of(data) == pytest.approx(quiet, rel=0.1)
 
 

@@ -10,11 +10,11 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.errors import InputError
+from vibroimpact.model.parameter_ranges import read_ranges, vary_all
 from vibroimpact.model.parameters import PARAMETERS, parameter, set_values
 from vibroimpact.model.paths import put, walk
 from vibroimpact.model.quantities import MASS
 from vibroimpact.model.validation import Accepts, Model
-from vibroimpact.model.varied import read_ranges, vary_all
 from vibroimpact.scenarios.axes import NAMES
 
 CASE = vi.laboratory.case("B2-G1-A3")

@@ -10,7 +10,7 @@ from samples import sample
 from vibroimpact.response.curve_pair import Swept
 from vibroimpact.scenarios import map_node
 from vibroimpact.scenarios.classification import scenario
-from vibroimpact.scenarios.hidden_folds import unseen
+from vibroimpact.scenarios.hidden_folds import hidden_stretches
 from vibroimpact.scenarios.orbit_evidence import with_folds
 from vibroimpact.scenarios.resonance_curves import Holds
 from vibroimpact.scenarios.thresholds import Thresholds
@@ -32,7 +32,7 @@ def _looked_at(curve, contacts=1.0, backward=None, period=1):
         counts.any(axis=-1),
     )
     ended = Holds(FREQUENCY, periods, np.zeros((2, 101, 7)), periods < 0, counts)
-    return unseen(both, ended)
+    return hidden_stretches(both, ended)
 
 
 SMOOTH = 1.0 / np.sqrt((1.5**2 - FREQUENCY**2) ** 2 + (0.1 * FREQUENCY) ** 2)

@@ -84,11 +84,11 @@ def test_no_result_depends_on_threads_or_blocks_or_where_it_is_kept(tmp_path):
 def test_many_rigs_go_to_processes_by_themselves(monkeypatch):
     asked = []
 
-    def placed(threads, where="threads"):
+    def workers_for(threads, where="threads"):
         asked.append(where)
-        return executors.placed(threads, where)
+        return executors.workers_for(threads, where)
 
-    monkeypatch.setattr(mapping, "placed", placed)
+    monkeypatch.setattr(mapping, "workers_for", workers_for)
     for most in (20, 21):
         monkeypatch.setattr(mapping, "_MANY", most)
         data = vi.scenario_map(None, AXES, **OPTIONS, threads=2)

@@ -18,7 +18,6 @@ import zarr
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.scenarios import map_store
 from vibroimpact.stores import zarr_store
 
 # What is kept does not depend on how much it is.
@@ -262,38 +261,6 @@ def test_every_flipped_bit_of_a_chunk_is_noticed(whole, tmp_path):
             xr.testing.assert_identical(
                 vi.scenario_map(None, AXES, **OPTIONS, store=store).load(), whole[1]
             )
-
-
-@pytest.mark.parametrize("arrays", [["extent"], None])
-def test_chunks_that_were_exchanged_are_noticed(whole, tmp_path, arrays):
-    """Each passes its own checksum, at the other's place; None: all of a block, checksums too."""
-    shutil.copytree(whole[0], store := tmp_path / "map")
-    several = [path for path in store.iterdir() if len(chunks(path)) == 2]
-    for array in [store / name for name in arrays] if arrays else several:
-        first, second = chunks(array)
-        content = first.read_bytes()
-        first.write_bytes(second.read_bytes())
-        second.write_bytes(content)
-    assert {path.name for path in several} >= {"extent", "scenario", "checksum"}
-    xr.testing.assert_identical(mended(store), whole[1])
-
-
-def test_a_write_that_was_killed_in_between_is_no_damage(whole, tmp_path):
-    """The block then holds the values of before or those of after, by each array."""
-    shutil.copytree(whole[0], store := tmp_path / "map")
-    group, place = zarr.open_group(store, mode="r+"), (slice(0, 4), slice(0, 4))
-    file = store / "extent" / group["extent"].metadata.encode_chunk_key((0, 0))
-    before = file.read_bytes()
-    zarr_store.write_block(group, map_store._KIND, place, {"extent": np.full((4, 3), 7.0)})
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        after = vi.scenario_map(None, AXES, **OPTIONS, store=store).extent.values
-        assert (after[:4] == 7.0).all()
-        file.write_bytes(before)
-        again = vi.scenario_map(None, AXES, **OPTIONS, store=store)
-        xr.testing.assert_identical(again.load(), whole[1])
-    group["extent"][place] = np.full((4, 3), 8.0)
-    xr.testing.assert_identical(mended(store), whole[1])
 
 
 def test_a_link_is_the_folder_that_it_leads_to(tmp_path):

@@ -7,7 +7,7 @@ import pytest
 
 import vibroimpact as vi
 from stability.followed import values
-from vibroimpact.model.varied import read_ranges
+from vibroimpact.model.parameter_ranges import read_ranges
 from vibroimpact.stability import chatter
 from vibroimpact.stability.branch import _first_orbit
 

@@ -8,7 +8,7 @@ import pytest
 import vibroimpact as vi
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.motion_exponents import judge_orbit, judge_wandering
-from vibroimpact.stability.settle import approach
+from vibroimpact.stability.settled_motion import approach
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 

@@ -11,7 +11,7 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.hold_rows import Settling
-from vibroimpact.stability.parameter_sweep import placed, rigs_along, stepped
+from vibroimpact.stability.parameter_sweep import nearest_state, rigs_along, stepped
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 2.5)
@@ -29,26 +29,26 @@ def pressing(u: float, v: float = 0.1) -> np.ndarray:
 def test_a_state_that_can_be_stays_as_it_is():
     for u in (-9e-3, -2e-3, 0.0, 5e-3, 9e-3):
         state = pressing(u)
-        np.testing.assert_array_equal(placed(vi.Rig(CASE.oscillator, SHAKEN), state), state)
+        np.testing.assert_array_equal(nearest_state(vi.Rig(CASE.oscillator, SHAKEN), state), state)
 
 
 def test_a_narrower_gap_presses_the_bumper():
-    state = placed(vi.Rig(rig_with(vi.Bumper(5e5, 900.0, 2e-3)), SHAKEN), pressing(5e-3))
+    state = nearest_state(vi.Rig(rig_with(vi.Bumper(5e5, 900.0, 2e-3)), SHAKEN), pressing(5e-3))
     assert state[layout.RIGHT_BUMPER] == pytest.approx(3e-3)
 
 
 def test_a_wider_gap_leaves_the_bumper_relaxing():
-    state = placed(vi.Rig(rig_with(vi.Bumper(5e5, 900.0, 20e-3)), SHAKEN), pressing(9e-3))
+    state = nearest_state(vi.Rig(rig_with(vi.Bumper(5e5, 900.0, 20e-3)), SHAKEN), pressing(9e-3))
     assert state[layout.MODE] == 0
     assert state[layout.RIGHT_BUMPER] == pytest.approx(1.5e-3)
-    state = placed(vi.Rig(rig_with(vi.Bumper(5e5, 0.0, 20e-3)), SHAKEN), pressing(9e-3))
+    state = nearest_state(vi.Rig(rig_with(vi.Bumper(5e5, 0.0, 20e-3)), SHAKEN), pressing(9e-3))
     assert state[layout.RIGHT_BUMPER] == 0.0
 
 
 def test_a_wall_is_not_passed():
     walls = rig_with(vi.RigidStop(0.5, 4e-3), vi.RigidStop(0.5, 3e-3))
-    assert placed(vi.Rig(walls, SHAKEN), pressing(9e-3))[layout.U] == 4e-3
-    assert placed(vi.Rig(walls, SHAKEN), pressing(-9e-3))[layout.U] == -3e-3
+    assert nearest_state(vi.Rig(walls, SHAKEN), pressing(9e-3))[layout.U] == 4e-3
+    assert nearest_state(vi.Rig(walls, SHAKEN), pressing(-9e-3))[layout.U] == -3e-3
 
 
 def test_an_isolator_remembers_no_more_than_it_can():
@@ -56,7 +56,7 @@ def test_an_isolator_remembers_no_more_than_it_can():
     state = np.zeros(layout.STATE)
     state[layout.ISOLATOR] = -1.0
     most = engine_rig(vi.Rig(rig, SHAKEN))[par.YIELD]
-    assert placed(vi.Rig(rig, SHAKEN), state)[layout.ISOLATOR] == -most
+    assert nearest_state(vi.Rig(rig, SHAKEN), state)[layout.ISOLATOR] == -most
 
 
 def test_frequencies_in_steps_are_a_sweep():

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.stability.bifurcations import born
+from vibroimpact.stability.bifurcations import bifurcating_orbits
 from vibroimpact.stability.branch import follow_both_ways
 from vibroimpact.stability.fixed_points import Orbit
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.parameter_family import family
-from vibroimpact.stability.parent_branches import half_plus, parent, slid
+from vibroimpact.stability.parent_branches import half_plus, is_of_simpler_map, parent
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 SPAN = (1.0, 1.3)
@@ -23,7 +23,7 @@ def doubling():
     fam = family(vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 1.2)), "frequency")
     pair = follow_both_ways(first_orbit(fam, SPAN, None, 1), SPAN, 1000)
     found = next(b for b in pair.bifurcations if b.kind == "period doubling" and not b.turns)
-    (station,) = born(found)
+    (station,) = bifurcating_orbits(found)
     return found, follow_both_ways(station.orbit, SPAN, 1000)
 
 
@@ -47,7 +47,7 @@ def test_the_branch_passes_its_parent_in_its_last_step(doubling):
 
 def test_an_orbit_of_the_simpler_map_has_slid(doubling):
     found, followed = doubling
-    assert not slid(followed.stations[len(followed.stations) // 2].orbit)
+    assert not is_of_simpler_map(followed.stations[len(followed.stations) // 2].orbit)
     once = found.orbit
     twice = Orbit(once.section.times(2), once.point, once.facts, once.carried, once.slope)
-    assert slid(twice)
+    assert is_of_simpler_map(twice)

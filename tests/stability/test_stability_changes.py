@@ -8,7 +8,7 @@ import pytest
 import vibroimpact as vi
 from samples import sample
 from stability.followed import values
-from vibroimpact.model.varied import read_ranges
+from vibroimpact.model.parameter_ranges import read_ranges
 from vibroimpact.stability.bifurcations import unexplained
 from vibroimpact.stability.branch import _both_ways, _first_orbit
 

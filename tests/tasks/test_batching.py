@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from vibroimpact.tasks import batching
-from vibroimpact.tasks.batching import bundle, dealt
+from vibroimpact.tasks.batching import bundle, distribute
 
 
 class Hands:
@@ -53,7 +53,7 @@ class Hands:
 def done(seconds, items, width=2, progress=None, message=0.0, task=lambda item, _: item):
     each = seconds if callable(seconds) else lambda _: seconds
     hands = Hands(each, width, message)
-    found = dealt(hands, task, items, len(items), progress)
+    found = distribute(hands, task, items, len(items), progress)
     assert len(found) == len(items)
     for one, item in zip(found, items, strict=True):
         np.testing.assert_array_equal(one, task(item, None))
@@ -124,7 +124,7 @@ def test_those_who_come_later_are_given_something(monkeypatch):
 
     hands.take = counted
     monkeypatch.setattr(batching, "bundle", _bundle)
-    assert dealt(hands, task, range(40), 40, None) == list(range(40))
+    assert distribute(hands, task, range(40), 40, None) == list(range(40))
     assert most == 8
 
 
@@ -146,7 +146,7 @@ def test_what_goes_wrong_there_goes_wrong_here():
         raise ValueError(f"gap: {item}")
 
     with pytest.raises(ValueError, match="gap: 7"):
-        dealt(Hands(lambda _: 1.0), task, [7], 1, None)
+        distribute(Hands(lambda _: 1.0), task, [7], 1, None)
 
 
 def test_a_bundle_says_how_long_it_took():

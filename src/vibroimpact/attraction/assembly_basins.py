@@ -22,7 +22,7 @@ from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.grids.refinement import UNKNOWN, Nodes
-from vibroimpact.model import Assembly, RigidStop
+from vibroimpact.model import Assembly
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
@@ -31,7 +31,7 @@ from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
 from vibroimpact.stability.assembly_diagram import place_assembly
 from vibroimpact.stability.equivalence import ALIKE, SAME, distance
-from vibroimpact.stability.settle import Settled, approach, later, reach
+from vibroimpact.stability.settled_motion import Settled, approach, later, reach
 from vibroimpact.stability.steady import describe_motion
 from vibroimpact.tasks.threads import Progress, Workers, each
 
@@ -154,7 +154,7 @@ def assembly_basins(
     levels = np.full(plan.shape, -1, dtype=np.int8)
     outside = np.int8(127)
     for level in range(plan.refine + 1):
-        chosen = np.flatnonzero(plan.wanted(level, labels) & (labels == UNKNOWN))
+        chosen = np.flatnonzero(plan.nodes_to_compute(level, labels) & (labels == UNKNOWN))
         rows, columns = np.divmod(chosen, plan.shape[1])
         starts = {
             int(k): state
@@ -203,7 +203,7 @@ class _Search:
         stops = list(assembly.stops.values())
         self.closing = np.array([assembly.closing(one) for one in stops]).reshape(-1, states.masses)
         self.gaps = np.array([one.stop.gap for one in stops])
-        self.rigid = np.array([isinstance(one.stop, RigidStop) for one in stops], dtype=bool)
+        self.rigid = np.array([one.stop.rigid for one in stops], dtype=bool)
         self.known: list[_Known] = []
 
     def at(self, first: float, second: float) -> _Array | None:

@@ -16,7 +16,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.response.engine_input import as_state, engine_state
 from vibroimpact.response.prepared_rig import prepare
-from vibroimpact.stability.settle import Settled, later, reach
+from vibroimpact.stability.settled_motion import Settled, later, reach
 from vibroimpact.stability.steady import describe_motion
 
 _Array = NDArray[np.float64]

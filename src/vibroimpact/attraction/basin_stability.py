@@ -26,13 +26,13 @@ from vibroimpact.model.argument_types import (
     PositiveInt,
     whole,
 )
+from vibroimpact.model.parameter_ranges import Values, read_values
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH, VELOCITY
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.model.varied import Values, read_values
 from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
@@ -45,7 +45,7 @@ MOST_VALUES = 100_000
 _SIZES = ("displacement_excursion", "acceleration_excursion", "eccentricity")
 
 
-class _Found(NamedTuple):
+class _ReachedMotions(NamedTuple):
     """Motions that random states lead to, at one value of the parameter."""
 
     known: list[Attractor]
@@ -127,7 +127,7 @@ def basin_stability(
     if rig.frequency is None and varied and varied.name == "frequency":
         rig = rig.at(values[0])
     rig.check_frequency()
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     wide = span_of(displacement, LENGTH, "displacement")
     fast = span_of(velocity, VELOCITY, "velocity")
     searches = []
@@ -139,7 +139,7 @@ def basin_stability(
         every = [window(search) for search in searches]
         wide, fast = wide or _around(w[0] for w in every), fast or _around(w[1] for w in every)
     ranges = wide, fast
-    every_found: list[_Found] = []
+    every_found: list[_ReachedMotions] = []
     numbers: list[list[int]] = []
     for i, search in enumerate(searches):
         points = _drawn(search.stage, ranges, states, seed)
@@ -160,7 +160,7 @@ def basin_stability(
         free = 1 + max((n for some in numbers for n in some), default=-1)
         numbers.append(matched(former, places, going, free))
         counts = np.array([(found.owner == n).sum() for n in order], dtype=np.int64)
-        every_found.append(_Found(known, counts, int((found.owner < 0).sum())))
+        every_found.append(_ReachedMotions(known, counts, int((found.owner < 0).sum())))
         if progress is not None:
             progress(i + 1, len(searches))
     data = _dataset(every_found, numbers, states, varied, values)
@@ -216,7 +216,7 @@ def _places(one: Attractor, ranges: Window) -> _Array:
 
 
 def _dataset(
-    found: list[_Found],
+    found: list[_ReachedMotions],
     numbers: list[list[int]],
     drawn: int,
     varied: Parameter | None,

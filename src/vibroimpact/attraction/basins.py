@@ -31,7 +31,7 @@ from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.assembly_rig import check_size
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 
 _Labels = NDArray[np.int16]
@@ -148,7 +148,7 @@ def basins(
     rig.check_frequency()
     if isinstance(rig.system, Oscillator):
         check_bounded(rig)
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     first = _nodes(nodes)
     plan = Nodes((((first[1] - 1) << refine) + 1, ((first[0] - 1) << refine) + 1), refine)
     if plan.shape[0] * plan.shape[1] > MOST_NODES:
@@ -246,7 +246,7 @@ def _labelled(
     wall = np.int8(127)
     known[:, outside] = wall
     for level in range(plan.refine + 1):
-        chosen = plan.wanted(level, known)
+        chosen = plan.nodes_to_compute(level, known)
         chosen &= known == UNKNOWN
         at = slice(None) if chosen.all() else np.flatnonzero(chosen)
         del chosen

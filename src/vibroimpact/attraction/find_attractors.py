@@ -21,13 +21,13 @@ from numpy.typing import NDArray
 from vibroimpact.attraction.absorbing_cells import Cells, cells_around, closed
 from vibroimpact.attraction.attractors import Attractor, attractor
 from vibroimpact.attraction.label_states import NO_TRAPS, Points, Stage, Traps, follow
-from vibroimpact.attraction.section_coordinates import forgets
+from vibroimpact.attraction.section_coordinates import has_no_memory
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.absorption import GRID, LOW_U, LOW_V, STEP_U, STEP_V
 from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError
 from vibroimpact.stability.equivalence import ALIKE, distance, same
-from vibroimpact.stability.settle import Settled, approach
+from vibroimpact.stability.settled_motion import Settled, approach
 from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]
@@ -181,7 +181,7 @@ class Search:
         rows = np.vstack([one.traps for one in self.known])
         self.traps = NO_TRAPS._replace(rows=rows)
         wandering = [i for i, one in enumerate(self.known) if not one.found.period]
-        if not wandering or not forgets(self.stage):
+        if not wandering or not has_no_memory(self.stage):
             return
         cells = cells_around(np.vstack([self.known[i].points[:, :2] for i in wandering]))
         whose: NDArray[np.int64] | None = None

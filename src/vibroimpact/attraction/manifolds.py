@@ -45,7 +45,7 @@ from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, VELOCITY
 from vibroimpact.model.read_rig import AnyRig, as_rig
 from vibroimpact.model.units import to_si
 from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.tasks.executors import placed
+from vibroimpact.tasks.executors import workers_for
 from vibroimpact.tasks.progress import shown_by_default
 from vibroimpact.tasks.threads import DONE, Progress, Tally, Workers, each
 
@@ -144,7 +144,7 @@ def manifolds(
     rig.check_frequency()
     check_bounded(rig)
     progress = progress or shown_by_default("manifolds")
-    workers = placed(threads)
+    workers = workers_for(threads)
     longest = to_si(longest, DIMENSIONLESS, "longest", above=0.0)
     stage = Stage(rig, max_events)
     *bumpers, isolator = remembered(stage)[2:]

@@ -17,7 +17,7 @@ NEAR = 0.3
 """Of the window: motions whose points are farther apart are not one that has moved."""
 
 
-def apart(one: _Array, other: _Array) -> float:
+def point_distance(one: _Array, other: _Array) -> float:
     """The larger of the mean distances of the points of either set from the other."""
     there, _ = scipy.spatial.KDTree(other).query(one)
     back, _ = scipy.spatial.KDTree(one).query(other)
@@ -43,7 +43,7 @@ def matched(
     pairs = sorted(
         (distance, number, now)
         for number, now in leads.items()
-        if (distance := apart(before[number], here[now])) <= NEAR
+        if (distance := point_distance(before[number], here[now])) <= NEAR
     )
     given: dict[int, int] = {}
     for _, number, now in pairs:

@@ -40,6 +40,6 @@ def met(stage: Stage, point: NDArray[np.float64]) -> NDArray[np.bool_]:
     return parts
 
 
-def forgets(stage: Stage) -> bool:
+def has_no_memory(stage: Stage) -> bool:
     """Whether u and u̇ at the section determine a motion."""
     return not remembered(stage)[2:].any()

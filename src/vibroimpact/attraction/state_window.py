@@ -11,7 +11,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import State
 from vibroimpact.model.rig import Rig
-from vibroimpact.stability.settle import approach, reach, reach_at_rest
+from vibroimpact.stability.settled_motion import approach, reach, reach_at_rest
 from vibroimpact.tasks.threads import Progress
 
 Window = tuple[tuple[float, float], tuple[float, float]]

@@ -26,7 +26,7 @@ from cyclopts import App, CycloptsError
 
 from vibroimpact._version import __version__
 from vibroimpact.cli.error_text import in_words
-from vibroimpact.cli.garbage import search_no_more, search_seldom
+from vibroimpact.cli.garbage_collection import search_no_more, search_seldom
 from vibroimpact.cli.output import font_warnings_once, warnings_in_lines
 from vibroimpact.cli.terminal import (
     flush,

@@ -42,7 +42,7 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
         first, _, _ = str(error).partition(" Available commands:")
         names = ", ".join(name for name in error.app if not name.startswith("-"))
         line = f"{first} {names} are accepted"
-    elif isinstance(error, UnknownOptionError) and (advice := _elsewhere(error)):
+    elif isinstance(error, UnknownOptionError) and (advice := _replacement(error)):
         line = f"Unknown option: {advice}"
     elif pair := _PAIR.search(str(error)):
         line = _as_two_words(pair[1], words)
@@ -53,7 +53,7 @@ def in_words(error: Exception, words: Sequence[str]) -> str:
     return short_line(_as_option(line, words) + _quoting(words))
 
 
-def _elsewhere(error: UnknownOptionError) -> str:
+def _replacement(error: UnknownOptionError) -> str:
     """Return an unknown option and what to write instead, if another option replaces it."""
     option = (error.token.keyword or error.token.value).partition("=")[0]
     replacement, advice = _ELSEWHERE.get(option, ("", ""))

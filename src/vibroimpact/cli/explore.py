@@ -8,7 +8,7 @@ from cyclopts import Parameter
 
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.garbage import search_as_usual
+from vibroimpact.cli.garbage_collection import search_as_usual
 
 
 @calls(None, "Server")

@@ -157,7 +157,7 @@ def identify(
             draws=bootstrap,
             bar=progress_bar,
         )
-        reported = {"": fits.own}
+        reported = {"": fits.own_fit}
         if fits.best_name != OWN_MODEL:
             reported[fits.best_name] = fits.best
         for model, fit in reported.items():

@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from vibroimpact.cli.garbage import search_as_usual
+from vibroimpact.cli.garbage_collection import search_as_usual
 from vibroimpact.cli.terminal import in_columns
 from vibroimpact.errors import InputError, InputWarning, printable
 from vibroimpact.stderr import print_line

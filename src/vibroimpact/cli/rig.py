@@ -26,6 +26,7 @@ from vibroimpact.model.derived_parameters import DERIVED
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.names import check_name, file_stem, literal
+from vibroimpact.model.parameter_ranges import turn
 from vibroimpact.model.parameters import (
     PARAMETERS,
     canonical,
@@ -38,7 +39,6 @@ from vibroimpact.model.quantities import FORCE
 from vibroimpact.model.rig import Rig, System, with_stated_units
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.units import to_si
-from vibroimpact.model.varied import turn
 from vibroimpact.model.written_units import NONE, write_for
 from vibroimpact.response.plausibility import doubt_stops
 

@@ -68,7 +68,7 @@ class Path(Protocol[P]):
     def corner(self, here: P, length: float) -> list[P]:
         """The points at, and just after, a corner within a step; none if there is none."""
 
-    def elsewhere(self, here: P) -> P | None:
+    def in_other_coordinates(self, here: P) -> P | None:
         """The same solution in other coordinates, in which the curve may be smooth."""
 
     def end(self, here: P, there: P) -> tuple[list[P], str] | None:
@@ -137,7 +137,7 @@ def follow(
             length = AGAIN
             continue
         length *= _SHRUNK
-        if length < _SMOOTH and (same := path.elsewhere(here)) is not None:
+        if length < _SMOOTH and (same := path.in_other_coordinates(here)) is not None:
             points.append(same)
             here = same
             length = AGAIN
@@ -153,7 +153,7 @@ def predicted(path: Path[P], here: P, length: float) -> Array:
     return point
 
 
-def strays(path: Path[P], found: Array, aim: Array, length: float) -> bool:
+def is_other_curve(path: Path[P], found: Array, aim: Array, length: float) -> bool:
     """Whether a solution is so far from the prediction that it lies on another curve."""
     return distance(path, found, aim) > _MISS * length + 1e-9
 

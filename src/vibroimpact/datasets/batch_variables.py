@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from vibroimpact.datasets.variable import Variable
+from vibroimpact.datasets.variable import Variable, integer, text
 
 MANY_MOTIONS: dict[str, Variable] = {
     # basins
-    "attractor": Variable("1", "number of the steady motion", "the largest first"),
-    "basin": Variable(
-        "1",
+    "attractor": integer("number of the steady motion", "the largest first"),
+    "basin": integer(
         "steady motion that the state leads to",
         "its number; -1: the state was given up, -2: the state lies beyond a rigid stop",
     ),
-    "capture_cycles": Variable(
-        "1",
-        "forcing cycles until it was certain to which motion the state leads",
-        "-1: not simulated",
+    "capture_cycles": integer(
+        "forcing cycles until it was certain to which motion the state leads", "-1: not simulated"
     ),
-    "mirror_image": Variable("1", "number of the mirror image", "-1: not among the motions"),
-    "section_attractor": Variable("1", "number of the motion that the point belongs to"),
-    "states": Variable("1", "number of states that lead to the motion"),
-    "given_up": Variable("1", "number of states that were given up"),
+    "mirror_image": integer("number of the mirror image", "-1: not among the motions"),
+    "section_attractor": integer("number of the motion that the point belongs to"),
+    "states": integer("number of states that lead to the motion"),
+    "given_up": integer("number of states that were given up"),
     "share": Variable("1", "share of the states that lead to the motion"),
     **{
         f"share_{end}": Variable(
@@ -47,20 +44,20 @@ MANY_MOTIONS: dict[str, Variable] = {
     ),
     "uncertainty_exponent_error": Variable("1", "standard error of the uncertainty exponent"),
     # stable and unstable curves
-    "curve_number": Variable("1", "number of the curve that the point is on"),
+    "curve_number": integer("number of the curve that the point is on"),
     "curve_displacement": Variable(
         "m", "relative displacement on a curve", "NaN where the curve jumps at a rigid stop"
     ),
     "curve_velocity": Variable("m s-1", "relative velocity on a curve"),
-    "curve_kind": Variable("1", "stable or unstable"),
-    "curve_saddle": Variable("1", "number of the saddle that the curve belongs to"),
+    "curve_kind": text("stable or unstable"),
+    "curve_saddle": integer("number of the saddle that the curve belongs to"),
     "curve_length": Variable(
         "1", "length of the curve", "in units in which each side of the window has the length 1"
     ),
-    "curve_ended": Variable("1", "why the curve ends"),
+    "curve_ended": text("why the curve ends"),
     "saddle_displacement": Variable("m", "relative displacement of the saddle"),
     "saddle_velocity": Variable("m s-1", "relative velocity of the saddle"),
-    "saddle_period": Variable("1", "period of the saddle in forcing cycles"),
+    "saddle_period": integer("period of the saddle in forcing cycles"),
     "multiplier_growing": Variable(
         "1", "Floquet multiplier of the growing disturbance at the saddle"
     ),
@@ -69,18 +66,17 @@ MANY_MOTIONS: dict[str, Variable] = {
     ),
     "crossing_displacement": Variable("m", "relative displacement where two curves cross"),
     "crossing_velocity": Variable("m s-1", "relative velocity where two curves cross"),
-    "crossing_stable": Variable("1", "number of the stable curve that is crossed"),
-    "crossing_unstable": Variable("1", "number of the unstable curve that crosses it"),
+    "crossing_stable": integer("number of the stable curve that is crossed"),
+    "crossing_unstable": integer("number of the unstable curve that crosses it"),
     # maps
-    "scenario": Variable("1", "scenario", "S0 to S6, or 7 for none of them; -1: not computed yet"),
+    "scenario": integer("scenario", "S0 to S6, or 7 for none of them; -1: not computed yet"),
     "confidence": Variable(
         "1",
         "confidence in the scenario",
         "share of the variations of the thresholds (halved and doubled) that do not change the "
         "scenario",
     ),
-    "level": Variable(
-        "1",
+    "level": integer(
         "level of refinement at which the node was computed",
         "-1: not computed; the node has the scenario of the square around it",
     ),
@@ -109,11 +105,11 @@ MANY_MOTIONS: dict[str, Variable] = {
     "contact_high_ratio": Variable(
         "1", "highest frequency with contact divided by the natural frequency"
     ),
-    "left_hysteresis_count": Variable("1", "number of left hystereses"),
-    "secondary_count": Variable("1", "number of regular secondary resonances"),
-    "irregular_count": Variable("1", "number of ranges that are not regular"),
-    "chaotic_count": Variable("1", "number of ranges with chaotic motions"),
-    "quasi_periodic_count": Variable("1", "number of ranges with quasi-periodic motions"),
-    "subharmonic_count": Variable("1", "number of ranges with subharmonic motions"),
-    "mirrored_pair_count": Variable("1", "number of ranges with mirrored pairs of motions"),
+    "left_hysteresis_count": integer("number of left hystereses"),
+    "secondary_count": integer("number of regular secondary resonances"),
+    "irregular_count": integer("number of ranges that are not regular"),
+    "chaotic_count": integer("number of ranges with chaotic motions"),
+    "quasi_periodic_count": integer("number of ranges with quasi-periodic motions"),
+    "subharmonic_count": integer("number of ranges with subharmonic motions"),
+    "mirrored_pair_count": integer("number of ranges with mirrored pairs of motions"),
 }

@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-from vibroimpact.datasets.variable import Variable
+from vibroimpact.datasets.variable import Variable, integer, text
 
 _OWN = "in the SI unit of the parameter"
 
 FITS: dict[str, Variable] = {
     # measurements
-    "repeat": Variable("1", "number of the repetition, if a frequency was measured more than once"),
+    "repeat": integer("number of the repetition, if a frequency was measured more than once"),
     "mass_displacement": Variable("m", "absolute displacement of the mass"),
     "base_displacement": Variable("m", "displacement of the base"),
     # fits
-    "parameter": Variable("1", "fitted parameter"),
-    "other_parameter": Variable("1", "fitted parameter"),
-    "test": Variable("1", "name of the test"),
-    "test_kind": Variable("1", "kind of the test: curves or history"),
-    "amplitude_source": Variable("1", "source of the amplitude of the test"),
+    "parameter": text("fitted parameter"),
+    "other_parameter": text("fitted parameter"),
+    "test": text("name of the test"),
+    "test_kind": text("kind of the test: curves or history"),
+    "amplitude_source": text("source of the amplitude of the test"),
     "fitted_value": Variable("1", "fitted value", _OWN),
     "start_value": Variable("1", "starting value of the fit", _OWN),
     "standard_error": Variable("1", "standard error", _OWN),
-    "parameter_units": Variable("1", "unit of the parameter"),
+    "parameter_units": text("unit of the parameter"),
     "covariance": Variable("1", "covariance of the parameters", _OWN),
     "correlation": Variable("1", "correlation of the parameters"),
     "interval": Variable("1", "confidence interval", _OWN),
-    "interval_open": Variable("1", "whether a bound, not the data, limits the interval"),
+    "interval_open": integer("whether a bound, not the data, limits the interval"),
     "alternative_value": Variable("1", "parameters of another rig that fits equally well", _OWN),
     "alternative_rise": Variable(
         "1", "increase of the deviance for another rig that fits equally well"
@@ -36,9 +36,9 @@ FITS: dict[str, Variable] = {
     "profile_rise": Variable("1", "increase of the deviance with all other parameters fitted"),
     "bootstrap_value": Variable("1", "fitted value of a bootstrap sample", _OWN),
     "posterior_value": Variable("1", "sample of the posterior", _OWN),
-    "point_test": Variable("1", "test of the point"),
-    "point_direction": Variable("1", "sweep direction of the point"),
-    "point_variable": Variable("1", "measured variable"),
+    "point_test": text("test of the point"),
+    "point_direction": text("sweep direction of the point"),
+    "point_variable": text("measured variable"),
     "point_place": Variable("1", "frequency (Hz) or time (s) of the point"),
     "measured_value": Variable("1", "measured value", "in the SI unit of the measured variable"),
     "modelled_value": Variable("1", "value of the fit", "in the SI unit of the measured variable"),
@@ -51,9 +51,9 @@ FITS: dict[str, Variable] = {
     "residual_excess_chance": Variable("1", "probability that pure noise has at least this ratio"),
     "log_likelihood": Variable("1", "logarithm of the likelihood"),
     "akaike": Variable("1", "Akaike's criterion, corrected for few points"),
-    "model": Variable("1", "model"),
+    "model": text("model"),
     "akaike_weight": Variable("1", "Akaike weight of the model"),
-    "parameter_count": Variable("1", "number of fitted parameters"),
+    "parameter_count": integer("number of fitted parameters"),
     "bayes": Variable("1", "Bayesian information criterion"),
     "candidate_amplitude": Variable("m s-2", "peak base acceleration of the next test"),
     "information": Variable(

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from vibroimpact.datasets.variable import Variable
+from vibroimpact.datasets.variable import Variable, integer, text, truth
 
 MOTIONS: dict[str, Variable] = {
     # simulation
-    "displacement": Variable("m", "relative displacement"),
-    "velocity": Variable("m s-1", "relative velocity"),
+    "displacement": Variable("m", "relative displacement", part="mass"),
+    "velocity": Variable("m s-1", "relative velocity", part="mass"),
     "acceleration": Variable(
-        "m s-2", "absolute acceleration", "at a jump: the value just after the event"
+        "m s-2", "absolute acceleration", "at a jump: the value just after the event", part="mass"
     ),
     "base_acceleration": Variable("m s-2", "base acceleration"),
     "applied_force": Variable("N", "force on the mass"),
@@ -26,21 +26,25 @@ MOTIONS: dict[str, Variable] = {
     "event_isolator_memory": Variable("m", "memory of the isolator at the event"),
     "final_state": Variable("1", "state at the end", "components in m, m/s, m, m, rad and 1"),
     "event_time": Variable("s", "time of the event"),
-    "event_cycle": Variable("1", "forcing cycle of the event, counted from 0"),
+    "event_cycle": integer("forcing cycle of the event, counted from 0"),
     "event_cycle_time": Variable("s", "time of the event since the start of its cycle"),
-    "event_contact": Variable(
-        "1",
+    "event_contact": integer(
         "kind of event: 1 start of a contact, 0 end of a contact, 2 impact",
         "contact with a rigid stop means rest on it",
     ),
-    "event_displacement": Variable("m", "relative displacement at the event"),
+    "event_displacement": Variable("m", "relative displacement at the event", part="mass"),
     "event_velocity": Variable(
         "m s-1",
         "relative velocity at the event",
         "for an impact on a rigid stop: the value before the impact",
+        part="mass",
     ),
-    "event_acceleration_before": Variable("m s-2", "absolute acceleration just before the event"),
-    "event_acceleration_after": Variable("m s-2", "absolute acceleration just after the event"),
+    "event_acceleration_before": Variable(
+        "m s-2", "absolute acceleration just before the event", part="mass"
+    ),
+    "event_acceleration_after": Variable(
+        "m s-2", "absolute acceleration just after the event", part="mass"
+    ),
     "event_transmitted_force_before": Variable(
         "N", "force transmitted to the base just before the event"
     ),
@@ -56,8 +60,12 @@ MOTIONS: dict[str, Variable] = {
     "contact_duration_share": Variable(
         "1", "duration of the contact divided by the forcing period"
     ),
-    "contact_start_velocity": Variable("m s-1", "relative velocity at the start of the contact"),
-    "contact_end_velocity": Variable("m s-1", "relative velocity at the end of the contact"),
+    "contact_start_velocity": Variable(
+        "m s-1", "relative velocity at the start of the contact", part="mass"
+    ),
+    "contact_end_velocity": Variable(
+        "m s-1", "relative velocity at the end of the contact", part="mass"
+    ),
     "contact_peak_force": Variable("N", "largest contact force", "NaN for an impact"),
     "contact_impulse": Variable("N s", "impulse of the contact force"),
     "contact_penetration": Variable("m", "largest deformation of the bumper during the contact"),
@@ -83,10 +91,10 @@ MOTIONS: dict[str, Variable] = {
     "contact_closing_speed": Variable(
         "m s-1", "speed at which the clearance closes", "including the speed of a relaxing bumper"
     ),
-    "contact_grazing": Variable("1", "whether the contact only grazes"),
+    "contact_grazing": truth("whether the contact only grazes"),
     # sections
-    "section_displacement": Variable("m", "relative displacement at the section"),
-    "section_velocity": Variable("m s-1", "relative velocity at the section"),
+    "section_displacement": Variable("m", "relative displacement at the section", part="mass"),
+    "section_velocity": Variable("m s-1", "relative velocity at the section", part="mass"),
     # spectrum
     "order": Variable("1", "frequency divided by the excitation frequency"),
     "line_frequency": Variable("Hz", "frequency of the spectral line"),
@@ -97,7 +105,7 @@ MOTIONS: dict[str, Variable] = {
     "velocity_phase": Variable("rad", "phase of relative velocity (of a cosine)"),
     "acceleration_phase": Variable("rad", "phase of absolute acceleration (of a cosine)"),
     # steady motion
-    "antisymmetric": Variable("1", "whether u(t + T/2) = -u(t), T the period of the motion"),
+    "antisymmetric": truth("whether u(t + T/2) = -u(t), T the period of the motion"),
     "mirror_distance": Variable(
         "1",
         "distance of the motion from its mirror image half a period later",
@@ -106,17 +114,14 @@ MOTIONS: dict[str, Variable] = {
     ),
     "exponents": Variable("s-1", "largest Lyapunov exponents"),
     "exponents_uncertainty": Variable("s-1", "standard uncertainty of the Lyapunov exponents"),
-    "exponents_cycles": Variable(
-        "1", "number of forcing cycles over which the exponents were computed"
-    ),
-    "settling": Variable("1", "whether the motion was still converging to a periodic one"),
+    "exponents_cycles": integer("number of forcing cycles over which the exponents were computed"),
+    "settling": truth("whether the motion was still converging to a periodic one"),
     "effective_damping": Variable(
         "s-1",
         "mean damping per unit mass, including that of compressed bumpers",
         "minus the sum of the two exponents, if the memory of the bumpers has decayed",
     ),
-    "stable": Variable(
-        "1",
+    "stable": integer(
         "whether the motion is stable: no small disturbance grows",
         "1 yes, 0 no, -1 undecided: not an orbit, no dissipation, or exactly at a bifurcation",
     ),
@@ -125,9 +130,9 @@ MOTIONS: dict[str, Variable] = {
     ),
     # branches
     "arclength": Variable("1", "arclength along the branch, in scaled components"),
-    "branch": Variable("1", "number of the branch"),
-    "piece": Variable(
-        "1", "number of the smooth piece", "it changes where the sequence of contacts changes"
+    "branch": integer("number of the branch"),
+    "piece": integer(
+        "number of the smooth piece", "it changes where the sequence of contacts changes"
     ),
     "multiplier_real": Variable("1", "real part of the Floquet multipliers"),
     "multiplier_imag": Variable("1", "imaginary part of the Floquet multipliers"),
@@ -137,11 +142,11 @@ MOTIONS: dict[str, Variable] = {
         "of u, u', u_R, u_L, in SI units",
     ),
     "residual": Variable("1", "error of the periodicity divided by the size of the motion"),
-    "bifurcation_kind": Variable("1", "kind of bifurcation"),
+    "bifurcation_kind": text("kind of bifurcation"),
     "bifurcation_value": Variable("1", "parameter at the bifurcation", "in the parameter's units"),
     "bifurcation_arclength": Variable("1", "arclength at the bifurcation"),
-    "bifurcation_turns": Variable("1", "whether the branch turns back at the bifurcation"),
-    "bifurcation_branch": Variable("1", "number of the branch of the bifurcation"),
+    "bifurcation_turns": integer("whether the branch turns back at the bifurcation"),
+    "bifurcation_branch": integer("number of the branch of the bifurcation"),
     "bifurcation_displacement_excursion": Variable("m", "excursion of relative displacement"),
     "bifurcation_eta_d": Variable("1", "normalised excursion of relative displacement"),
     "bifurcation_eta_a": Variable("1", "normalised excursion of absolute acceleration"),
@@ -152,11 +157,11 @@ MOTIONS: dict[str, Variable] = {
         "N", "largest force transmitted to the base, without sign"
     ),
     "bifurcation_transmissibility": Variable("1", "transmissibility at the bifurcation"),
-    "bifurcation_period": Variable("1", "period of the orbit in forcing cycles"),
-    "bifurcation_contacts": Variable(
-        "1", "contacts per period", "for a grazing bifurcation: on both of its sides"
+    "bifurcation_period": integer("period of the orbit in forcing cycles"),
+    "bifurcation_contacts": text(
+        "contacts per period", "for a grazing bifurcation: on both of its sides"
     ),
-    "bifurcation_antisymmetric": Variable("1", "whether the orbit is its own mirror image"),
+    "bifurcation_antisymmetric": truth("whether the orbit is its own mirror image"),
     "cusp_first": Variable("1", "first parameter at the cusp", "in the parameter's units"),
     "cusp_second": Variable("1", "second parameter at the cusp", "in the parameter's units"),
     "bifurcation_multiplier_real": Variable("1", "real part of the Floquet multipliers"),
@@ -164,10 +169,10 @@ MOTIONS: dict[str, Variable] = {
     "bifurcation_section": Variable(
         "1", "state at the stroboscopic section", "components in m, m/s, m, m, rad and 1"
     ),
-    "evidence": Variable("1", "reason for the classification of the motion"),
-    "starts": Variable("1", "names of the initial states that led to the motion"),
-    "mirrored_starts": Variable("1", "names of the initial states that led to its mirror image"),
-    "mirror_pair": Variable("1", "whether the mirror image of the motion is a different motion"),
+    "evidence": text("reason for the classification of the motion"),
+    "starts": text("names of the initial states that led to the motion"),
+    "mirrored_starts": text("names of the initial states that led to its mirror image"),
+    "mirror_pair": truth("whether the mirror image of the motion is a different motion"),
     "energy_supplied": Variable("J", "work of the excitation on the mass per forcing cycle"),
     "energy_isolator": Variable("J", "energy lost in the isolator per forcing cycle"),
     "energy_bumpers": Variable("J", "energy lost in the stops per forcing cycle"),

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from vibroimpact.datasets.variable import Variable
+from functools import partial
+
+from vibroimpact.datasets.variable import Variable, text, truth
+
+_of_stop = partial(Variable, part="stop")
 
 _RIGID = "infinite if a rigid stop was hit"
 _CHATTER = (
@@ -11,36 +15,34 @@ _CHATTER = (
 )
 
 OF_STOPS: dict[str, Variable] = {
-    "stop": Variable(
-        "1", "name of the stop", "right or left for an oscillator; only the stops that it has"
-    ),
+    "stop": text("name of the stop", "right or left for an oscillator; only the stops that it has"),
     # one motion
-    "deformation": Variable(
+    "deformation": _of_stop(
         "m", "deformation of the stop", "positive when compressed; 0 for a rigid stop"
     ),
-    "clearance": Variable("m", "clearance between the two bodies of the stop"),
-    "touching": Variable("1", "whether the two bodies of the stop touch"),
-    "contact_force": Variable(
+    "clearance": _of_stop("m", "clearance between the two bodies of the stop"),
+    "touching": truth("whether the two bodies of the stop touch", part="stop"),
+    "contact_force": _of_stop(
         "N",
         "contact force of the stop, positive when it pushes its bodies apart",
         "without the infinite force of an impact; at a jump: the value just after the event; for a "
         "measurement: with the sign of the sensor",
     ),
-    "event_stop": Variable("1", "name of the stop of the event"),
-    "event_deformation": Variable(
+    "event_stop": text("name of the stop of the event"),
+    "event_deformation": _of_stop(
         "m", "deformation of the stop at the event", "positive when compressed"
     ),
-    "contact_stop": Variable("1", "name of the stop of the contact"),
-    "section_deformation": Variable(
+    "contact_stop": text("name of the stop of the contact"),
+    "section_deformation": _of_stop(
         "m", "deformation of the stop at the section", "positive when compressed"
     ),
     # sweeps, branches and earthquakes
-    "impacts": Variable("1", "contacts with the stop per forcing cycle", _CHATTER),
-    "peak_force": Variable("N", "largest contact force of the stop", _RIGID),
-    "peak_impulse": Variable("N s", "largest impulse of an impact on the rigid stop"),
-    "bifurcation_peak_force": Variable("N", "largest contact force of the stop", _RIGID),
-    "impulse": Variable("N s", "impulse of the stop's contact force"),
-    "impact_count": Variable("1", "number of contacts with the stop"),
+    "impacts": _of_stop("1", "contacts with the stop per forcing cycle", _CHATTER),
+    "peak_force": _of_stop("N", "largest contact force of the stop", _RIGID),
+    "peak_impulse": _of_stop("N s", "largest impulse of an impact on the rigid stop"),
+    "bifurcation_peak_force": _of_stop("N", "largest contact force of the stop", _RIGID),
+    "impulse": _of_stop("N s", "impulse of the stop's contact force"),
+    "impact_count": _of_stop("1", "number of contacts with the stop"),
     # sizing
-    "required_gap": Variable("m", "smallest gap of the side without contact"),
+    "required_gap": _of_stop("m", "smallest gap of the side without contact"),
 }

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.model import Oscillator
 
 SIDES = ("right", "left")
@@ -17,6 +18,16 @@ PARTS = ("stop", "mass", "link")
 """Dims of the parts of a rig."""
 _SUMS = ("impacts", "impact_count", "impulse")
 """Variables whose value for all stops is their sum; for others it is the largest."""
+
+
+def has_stops(name: str) -> bool:
+    """Return whether a variable has a value for each stop."""
+    return name in VARIABLES and VARIABLES[name].part == "stop"
+
+
+def dims_of(name: str, dims: tuple[str, ...]) -> tuple[str, ...]:
+    """Return these dims of a variable of oscillators and, where it has it, the dim ``stop``."""
+    return (*dims, "stop") if has_stops(name) else dims
 
 
 def stops_of(*oscillators: Oscillator) -> NDArray[np.str_]:

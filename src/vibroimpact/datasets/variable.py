@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple, Protocol
 
 
@@ -25,8 +26,17 @@ class Described(Protocol):
 
 
 class Variable(NamedTuple):
-    """The units of a variable, and its meaning."""
+    """The units of a variable, its meaning, the kind of its values, and the part that has it."""
 
     units: str
     long_name: str
     comment: str = ""
+    kind: str = "number"
+    """``number``, ``integer``, ``truth`` or ``text``."""
+    part: str = ""
+    """Dim of the values of one motion: ``stop``, or, of an assembly only, ``mass`` or ``link``."""
+
+
+integer = partial(Variable, "1", kind="integer")
+truth = partial(Variable, "1", kind="truth")
+text = partial(Variable, "1", kind="text")

@@ -6,11 +6,11 @@ ensembles), `batch_variables` (basins, manifolds, maps), `stop_variables` (dim `
 `assembly_variables`. `describe` of `datasets/description.py` raises an error if a dataset has an
 unknown one.
 
-Histories are computed in `response/simulate.py`, steady motions in `sizes` of
-`response/sweep_dataset.py` (sweeps, branches, diagrams, maps) and in `_measured` of
-`stability/steady.py` (also for `coexisting_motions` and `basins`). List the variable in the
-docstring of `sweep` and in `VARIABLES` of `tests/response/test_sweep.py`. A row of `_ROWS` of
-`facts/largest.py` prints its largest value. CONTRIBUTING states what the engine needs.
+An output is an entry, and the place that computes it: `response/simulate.py` for histories; `sizes`
+of `response/sweep_dataset.py` for steady motions (sweeps, branches, diagrams, maps), and
+`_measured` of `stability/steady.py` (also for `coexisting_motions` and `basins`). Tables of the
+reference, dims and attributes follow from the entry. An entry of `_WORDS` of `facts/largest.py`
+prints its largest value. CONTRIBUTING states what the engine needs.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from vibroimpact.datasets.design_variables import DESIGN
 from vibroimpact.datasets.fit_variables import FITS
 from vibroimpact.datasets.motion_variables import MOTIONS
 from vibroimpact.datasets.stop_variables import OF_STOPS
-from vibroimpact.datasets.variable import Variable
+from vibroimpact.datasets.variable import Variable, integer, text
 from vibroimpact.model.parameters import PARAMETERS
 
 _OVER = (
@@ -38,45 +38,40 @@ VARIABLES: dict[str, Variable] = {
     # parameters that can be varied
     **{p.name: Variable(p.units, p.long_name, p.comment) for p in PARAMETERS.values()},
     # coordinates
-    "direction": Variable("1", "sweep direction"),
-    "rig": Variable("1", "rig"),
+    "direction": text("sweep direction"),
+    "rig": text("rig"),
     "time": Variable("s", "time"),
     "cycle": Variable("1", "time in forcing cycles"),
-    "start": Variable(
-        "1", "initial state of the motions", "up, down: the final state at the previous value"
+    "start": text(
+        "initial state of the motions", "up, down: the final state at the previous value"
     ),
-    "component": Variable(
-        "1",
+    "component": text(
         "component of the state",
         "deformation.left of an oscillator is negative when compressed, unlike the variable",
     ),
     # sweep
     "displacement_excursion": Variable(
-        "m", "excursion of relative displacement", "exact maximum minus exact minimum"
+        "m", "excursion of relative displacement", "exact maximum minus exact minimum", part="mass"
     ),
     "acceleration_excursion": Variable(
         "m s-2",
         "excursion of absolute acceleration",
         "exact maximum minus exact minimum, including one-sided values at contact and detachment",
+        part="mass",
     ),
-    "eta_d": Variable(
-        "1",
-        "normalised excursion of relative displacement",
-        _OVER,
-    ),
-    "eta_a": Variable(
-        "1",
-        "normalised excursion of absolute acceleration",
-        _OVER,
-    ),
+    "eta_d": Variable("1", "normalised excursion of relative displacement", _OVER),
+    "eta_a": Variable("1", "normalised excursion of absolute acceleration", _OVER),
     "displacement_max": Variable(
-        "m", "largest relative displacement", "largest displacement to the right"
+        "m", "largest relative displacement", "largest displacement to the right", part="mass"
     ),
     "displacement_min": Variable(
-        "m", "smallest relative displacement", "minus the largest displacement to the left"
+        "m",
+        "smallest relative displacement",
+        "minus the largest displacement to the left",
+        part="mass",
     ),
-    "acceleration_max": Variable("m s-2", "largest absolute acceleration"),
-    "acceleration_min": Variable("m s-2", "smallest absolute acceleration"),
+    "acceleration_max": Variable("m s-2", "largest absolute acceleration", part="mass"),
+    "acceleration_min": Variable("m s-2", "smallest absolute acceleration", part="mass"),
     "transmitted_force_max": Variable("N", "largest force transmitted to the base", _CARRIED),
     "transmitted_force_min": Variable("N", "smallest force transmitted to the base", _CARRIED),
     "transmitted_force_excursion": Variable(
@@ -91,20 +86,20 @@ VARIABLES: dict[str, Variable] = {
         "excursion of the force transmitted to the base divided by that of the exciting force: of "
         "the force on the mass, or of M A_t if the base moves",
     ),
-    "eccentricity": Variable("m", "eccentricity", "half the sum of the displacement's extremes"),
-    "motion": Variable(
-        "1",
+    "eccentricity": Variable(
+        "m", "eccentricity", "half the sum of the displacement's extremes", part="mass"
+    ),
+    "motion": text(
         "kind of motion",
         "periodic, quasi-periodic, chaotic or undecided; a sweep distinguishes periodic and "
         "undecided only",
     ),
-    "period": Variable("1", "period in forcing cycles", "0 where the motion did not settle"),
-    "cycles": Variable(
-        "1",
+    "period": integer("period in forcing cycles", "0 where the motion did not settle"),
+    "cycles": integer(
         "number of forcing cycles simulated, including the measured ones",
         "0 where the free motion was computed in closed form",
     ),
-    "status": Variable("1", "how the computation ended"),
+    "status": integer("how the computation ended"),
     "free_displacement_excursion": Variable(
         "m", "excursion of relative displacement in steady free flight"
     ),

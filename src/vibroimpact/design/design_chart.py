@@ -10,10 +10,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, system_parameters
-from vibroimpact.datasets.stops import each_by_stop, stops_of
+from vibroimpact.datasets.stops import each_by_stop, has_stops, stops_of
 from vibroimpact.design.design_shaking import (
     DIMS,
-    OF_STOPS,
     PEAKS,
     AnyRecords,
     ByRecords,
@@ -26,12 +25,12 @@ from vibroimpact.earthquakes.demands import warn_given_up
 from vibroimpact.earthquakes.run_plan import Runs, runs
 from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.argument_types import Share
+from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import System
-from vibroimpact.model.varied import Values
 from vibroimpact.response.assembly_contacts import coordinates
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 
 _STIFFNESSES = {
@@ -112,22 +111,13 @@ def design_chart(
     Returns
     -------
     xarray.Dataset
-        The dataset has one dim for each parameter that is varied. Its variables are:
-
-        - ``peak_displacement`` to either side (m), and the ends of the motion,
-          ``displacement_max`` and ``displacement_min``;
-        - ``peak_acceleration``, of the absolute acceleration (m/s²);
-        - ``peak_force``, the largest force of each stop (N, dim ``stop``);
-        - ``penetration``, the largest displacement beyond a gap (m);
-        - ``hitting``: for records, the share of the records with which the mass hits a stop; for
-          sines, whether the mass hits a stop at any frequency;
-        - ``pareto``: whether no other design has less displacement without more acceleration, or
-          less acceleration without more displacement. Among designs with equal responses, such as
-          designs without contact, only the first one is marked;
-        - ``within_limits``, if there are limits: whether the design keeps all of them;
-        - ``stops.damping`` (N s/m), if a stiffness of both bumpers is varied;
-        - ``status``: 0 for a completed design. If the computation of a design was given up, its
-          values are NaN. If a motion is unbounded, the values are infinite.
+        The dataset has one dim for each parameter that is varied. Its variables are
+        ``peak_displacement``, ``displacement_max``, ``displacement_min``, ``peak_acceleration``,
+        ``peak_force`` (dim ``stop``), ``penetration``, ``hitting``, ``pareto``, ``within_limits``
+        if there are limits, ``stops.damping`` if a stiffness of both bumpers is varied, and
+        ``status``. If the computation of a design was given up, its values are NaN. If a motion is
+        unbounded, the values are infinite. Among designs with equal responses, such as designs
+        without contact, ``pareto`` marks only the first one.
 
         For sines there are also ``displacement_frequency`` and ``acceleration_frequency``, the
         frequencies of the largest values. Of an assembly, displacements, accelerations and these
@@ -146,7 +136,7 @@ def design_chart(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )
     plan = runs(system, vary, least=1, any_masses=True)
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     rigs = [plan.system(at) for at in np.ndindex(*plan.shape)]
     known = [name for name in PEAKS if isinstance(system, Oscillator) or name in DIMS]
     if isinstance(system, Assembly) and isinstance(what, ByRecords):
@@ -197,7 +187,7 @@ def _dataset(
         dims = plan.dims
         if isinstance(rigs[0], Assembly):
             dims += (DIMS[name],) if name in DIMS else ()
-        elif name in OF_STOPS:
+        elif has_stops(name):
             dims, values = (*dims, "stop"), each_by_stop(oscillators, values)
         shaped[name] = (dims, values.reshape(*plan.shape, *values.shape[1:]))
     varied = {one.name: one.values for one in plan.varied}

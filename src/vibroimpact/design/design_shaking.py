@@ -35,7 +35,6 @@ _Array = NDArray[np.float64]
 AnyRecords: TypeAlias = Record | Sequence[Record] | Mapping[str, Record]
 """One record or several."""
 
-OF_STOPS = ("peak_force",)
 PEAKS = (
     "peak_displacement",
     "displacement_max",

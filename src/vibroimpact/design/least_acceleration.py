@@ -11,9 +11,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
-from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.design_shaking import OF_STOPS, AnyRecords, Asked, design_rig
+from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
 from vibroimpact.design.limits import limits_of, severity
 from vibroimpact.design.worst_sine import STEP
 from vibroimpact.earthquakes.run_plan import runs
@@ -21,14 +21,14 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Oscillator
 from vibroimpact.model.argument_types import NonNegativeInt, Share
+from vibroimpact.model.parameter_ranges import Ranges, read_ranges, stated
 from vibroimpact.model.parameters import in_units, parameter
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig
 from vibroimpact.model.rig import Rig, with_stated_units
 from vibroimpact.model.units import pretty, to_si
-from vibroimpact.model.varied import Ranges, read_ranges, stated
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]
@@ -189,7 +189,7 @@ def least_acceleration(
     space = _space(oscillator, vary)
     oscillator = space.rig
     most = limits_of(limits)
-    known = _Known(what, space, placed(threads, where), progress)
+    known = _Known(what, space, workers_for(threads, where), progress)
     constraints = tuple(
         NonlinearConstraint(
             lambda x, name=name: known.of(name, x)[np.newaxis], -np.inf, severity(name, limit)
@@ -218,7 +218,7 @@ def least_acceleration(
         {
             **dict(zip(space.names, values.tolist(), strict=True)),
             **best,
-            **{name: ("stop", by_stop(oscillator, best[name])) for name in OF_STOPS},
+            **{name: ("stop", by_stop(oscillator, best[name])) for name in filter(has_stops, best)},
             "status": int(best["status"]),
             "evaluations": len(known.rows),
         },

@@ -10,9 +10,9 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_mapping
-from vibroimpact.datasets.stops import over_parts
+from vibroimpact.datasets.stops import has_stops, over_parts
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.design.design_shaking import OF_STOPS, PEAKS
+from vibroimpact.design.design_shaking import PEAKS
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.model import to_si
 from vibroimpact.model.parameters import in_units
@@ -53,7 +53,7 @@ def severity(name: str, values: Any) -> Any:
         the last one.
     """
     found = _sense(name) * values
-    if np.ndim(found) > 1 or (name in OF_STOPS and np.ndim(found)):
+    if np.ndim(found) > 1 or (has_stops(name) and np.ndim(found)):
         found = found.max(axis=-1)
     return found
 

@@ -26,7 +26,7 @@ from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, peak_ratio
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
 
 
@@ -79,7 +79,7 @@ def required_gap(
         If a value is invalid. Also if the motion without stops is unbounded, or if its computation
         was given up.
     """
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     oscillator, what = design_system(
         rig, records, fractile=fractile, frequency_span=frequency_span, step=step, tail=tail
     )

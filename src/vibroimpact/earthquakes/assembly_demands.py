@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes.free_vibration import free_tail
 from vibroimpact.earthquakes.run_plan import Runs
 from vibroimpact.engine import earthquakes, sections
@@ -29,27 +30,14 @@ from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
 
-PEAKS = {
-    "peak_displacement": "mass",
-    "displacement_max": "mass",
-    "displacement_min": "mass",
-    "peak_acceleration": "mass",
-    "peak_drift": "link",
-    "drift_max": "link",
-    "drift_min": "link",
-    "peak_force": "stop",
-    "impulse": "stop",
-    "impact_count": "stop",
-    "peak_transmitted_force": "",
-}
-"""Results of each run, and their dim."""
-ENERGIES = {
-    "total_supplied": "",
-    "total_links": "link",
-    "total_damping": "",
-    "total_stops": "stop",
-    "total_stored": "",
-}
+PEAKS = (
+    *("peak_displacement", "displacement_max", "displacement_min", "peak_acceleration"),
+    *("peak_drift", "drift_max", "drift_min"),
+    *("peak_force", "impulse", "impact_count"),
+    "peak_transmitted_force",
+)
+"""Results of each run."""
+ENERGIES = ("total_supplied", "total_links", "total_damping", "total_stops", "total_stored")
 
 
 class AssemblyRuns(NamedTuple):
@@ -170,10 +158,11 @@ def _variables(found: Found) -> dict[str, _Array]:
 
 def _nothing(assembly: Assembly) -> dict[str, Any]:
     sizes = {name: len(found) for name, found in coordinates(assembly).items()}
-    names = PEAKS | ENERGIES
+    names = (*PEAKS, *ENERGIES)
     return {
         name: (dim, np.full(sizes[dim], np.nan)) if dim else ((), np.nan)
-        for name, dim in names.items()
+        for name in names
+        for dim in [VARIABLES[name].part]
     }
 
 
@@ -238,7 +227,7 @@ def demands_of_assemblies(
     scale, dims = len(shape) - 1, ("record", "scale", *rigs.dims)
     variables: dict[str, Any] = {}
     for name, values in peaks_of_assemblies(runs, tail, max_events, workers, progress).items():
-        dim = PEAKS.get(name, "")
+        dim = VARIABLES[name].part
         whole = np.moveaxis(values.reshape(*shape, *values.shape[2:]), scale, 1)
         variables[name] = ((*dims, dim) if dim else dims, whole)
     return variables, coordinates(first)

@@ -15,12 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe
-from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.datasets.stops import by_stop, dims_of, has_stops, stops_of
 from vibroimpact.earthquakes.assembly_demands import demands_of_assemblies
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import (
     MAX_EVENTS,
-    OF_STOPS,
     PEAKS,
     RESIDUALS,
     Shaken,
@@ -44,18 +43,18 @@ from vibroimpact.model.argument_types import (
     MaxEvents,
     PositiveInt,
 )
+from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import Rig, System
-from vibroimpact.model.varied import Values
 from vibroimpact.model.written_units import has_no_units
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
 from vibroimpact.stores.zarr_store import Kind, create, finished, folder, read, write_block
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Workers
 
 if TYPE_CHECKING:  # it takes long to load: only where a store is made
@@ -168,7 +167,7 @@ def demands(
         factors,
         None if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL),
         max_events,
-        placed(threads, where),
+        workers_for(threads, where),
     )
     settings = {
         "assemblies" if several else "oscillators": {
@@ -205,7 +204,7 @@ def demands(
         found = {name: read(group, _KIND.word, name) for name in (*_VALUES, "status")}
     dims = ("record", "scale", *rigs.dims)
     data = xr.Dataset(
-        {name: (_dims(name, dims), values) for name, values in found.items()},
+        {name: (dims_of(name, dims), values) for name, values in found.items()},
         {"stop": task.stops, **coordinates},
     )
     notes += _doubted(rigs.rigs, next(iter(shaking.values())), data)
@@ -270,7 +269,7 @@ class _Task(NamedTuple):
             threads=self.threads,
             progress=progress,
         )
-        for name in OF_STOPS:
+        for name in filter(has_stops, found):
             own = zip(rigs * len(chosen), found[name], strict=True)
             found[name] = np.array([by_stop(rig, both, self.stops) for rig, both in own])
         shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
@@ -291,7 +290,7 @@ def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | No
         size = levels * math.prod(s.stop - s.start for s in (one.records, *one.rigs))
         if not ready[one.number]:
             told = _beyond(progress, before, total)
-            write_block(group, _KIND, one.place, task.block(one, told))
+            write_block(group, one.place, task.block(one, told))
             group["done"][one.number] = 1  # type: ignore[index]
         before += size
         if progress:
@@ -311,17 +310,12 @@ def _make(group: zarr.Group, task: _Task, most: int) -> None:
     chunk = (size, levels, *further)
     dims = ("record", "scale", *task.rigs.dims)
     for name in _VALUES:
-        stops = (len(task.stops),) if name in OF_STOPS else ()
+        stops = (len(task.stops),) if has_stops(name) else ()
         sizes = (*shape, *stops), (*chunk, *(max(one, 1) for one in stops))
-        create(group, name, *sizes, "f8", np.nan, _dims(name, dims))
+        create(group, name, *sizes, "f8", np.nan, dims_of(name, dims))
     create(group, "status", shape, chunk, "i1", _PENDING, dims)
     count = sum(1 for _ in blocks(task.shape, most))
     create(group, "done", (count,), (1,), "i1", 0, ("block",))
-
-
-def _dims(name: str, dims: tuple[str, ...]) -> tuple[str, ...]:
-    """Return the dims of a variable, from those of a run."""
-    return (*dims, "stop") if name in OF_STOPS else dims
 
 
 def _levels(scales: Any, scaled: Measure) -> _Array:

@@ -20,19 +20,18 @@ from vibroimpact.model import Oscillator, Record, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.softening_limit import judged
-from vibroimpact.tasks.threads import Progress, Tally, Workers, breadth, each
+from vibroimpact.tasks.threads import Progress, Tally, Workers, each, worker_count
 
 _Array = NDArray[np.float64]
-
-OF_STOPS = ("peak_force", "impulse", "impact_count")
-"""Results that have a value for each stop."""
 
 PEAKS = (
     "peak_displacement",
     "displacement_max",
     "displacement_min",
     "peak_acceleration",
-    *OF_STOPS,
+    "peak_force",
+    "impulse",
+    "impact_count",
 )
 """Results of each run, in m, m/s², N and N s; infinite forces are those of rigid stops."""
 
@@ -96,12 +95,12 @@ def peaks(
     -------
     dict of ndarray, shape (shaken, factor)
         `PEAKS`, further requested quantities, and ``status``: a `Status` each, 0 where the run was
-        done. All values of another run are NaN but for its status. `OF_STOPS` have the right and
-        the left side as a further axis, 0 where the rig has no stop.
+        done. All values of another run are NaN but for its status. Values of stops have the
+        right and the left side as a further axis, 0 where the rig has no stop.
     """
     count = len(shaken[0].factors) if shaken else 0
     rows = np.full((len(shaken), count, _FOUND), np.nan)
-    workers = breadth(threads)
+    workers = worker_count(threads)
     # Few rigs with many scales are dealt out, too.
     few = max(1, min(_AT_ONCE, -(-count * len(shaken) // (4 * workers))))
     parts = [(n, slice(i, i + few)) for n in range(len(shaken)) for i in range(0, count, few)]

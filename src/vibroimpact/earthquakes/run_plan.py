@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, Rig
+from vibroimpact.model.parameter_ranges import Values, Varied, read_values, stated, vary_all
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.read_rig import as_rigs, as_rigs_of_any_masses, is_one_rig
 from vibroimpact.model.rig import System, with_stated_units
-from vibroimpact.model.varied import Values, Varied, read_values, stated, vary_all
 
 _Array = NDArray[np.float64]
 

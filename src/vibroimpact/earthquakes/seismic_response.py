@@ -8,10 +8,10 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.datasets.description import describe, oscillator_parameters
-from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.earthquakes.assembly_demands import seismic_response_of_assembly
 from vibroimpact.earthquakes.free_vibration import free_tail
-from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, OF_STOPS, Shaken, peaks
+from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Assembly, to_si
@@ -56,17 +56,10 @@ def seismic_response(
     Returns
     -------
     xarray.Dataset
-        Its variables are:
-
-        - ``peak_displacement`` (m), the largest displacement to either side, and
-          ``displacement_max`` and ``displacement_min``, the ends of the motion;
-        - ``peak_acceleration``, of the absolute acceleration (m/s²);
-        - ``peak_force`` (N), ``impulse`` (N s) and ``impact_count`` of each stop that the rig has
-          (dim ``stop``: ``right``, ``left``);
-        - the energies of the whole motion, as in `totals`;
-        - ``residual_displacement`` (m), the position at which the mass comes to rest, and
-          ``residual_swing`` (m), explained below;
-        - ``status``, 0 if the motion was completed.
+        Its variables are ``peak_displacement``, ``displacement_max``, ``displacement_min``,
+        ``peak_acceleration``, ``peak_force``, ``impulse`` and ``impact_count`` (dim ``stop``: the
+        stops that the rig has), the energies of `totals`, ``residual_displacement``,
+        ``residual_swing`` and ``status``.
 
         At an impact on a rigid stop the force is infinite. The acceleration at the impact itself is
         left out: the values just before and just after the impact are used.
@@ -115,7 +108,7 @@ def seismic_response(
         by_line=True,
     )
     values: dict[str, Any] = {name: one[0, 0] for name, one in found.items()}
-    for name in OF_STOPS:
+    for name in filter(has_stops, [*values]):
         values[name] = ("stop", by_stop(oscillator, values[name]))
     data = xr.Dataset(values, {"stop": stops_of(oscillator)})
     notes = [*record.about.notes, *doubt_stops(Rig(oscillator, record), data["peak_displacement"])]

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer.laws import isolator_of, stop_of
-from vibroimpact.explorer.state import ON_DEMAND, State
+from vibroimpact.explorer.state import ON_DEMAND, PageState
 from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.frequency_text import forcing, forcings
@@ -26,7 +26,7 @@ _ROUNDED = 1e-6
 OF_RIG = ("isolator_period", "damping_ratio")
 
 
-def moved(state: State, path: str, value: float | str) -> State:
+def moved(state: PageState, path: str, value: float | str) -> PageState:
     """Return the state with another value of one knob.
 
     Parameters
@@ -83,7 +83,7 @@ def _shaken(shaking: Harmonic, value: float | str) -> Harmonic:
 
 
 def _stop_moved(
-    state: State, rig: Oscillator, side: str, name: str, value: float | str
+    state: PageState, rig: Oscillator, side: str, name: str, value: float | str
 ) -> Oscillator:
     """The rig with one number of one stop at another value."""
     stop = getattr(rig, side)
@@ -107,7 +107,7 @@ def one_sided(rig: Oscillator, side: str) -> Oscillator:
     return rig.replace(**{other: None})
 
 
-def with_law(state: State, part: str, kind: str) -> State:
+def with_law(state: PageState, part: str, kind: str) -> PageState:
     """Return the state with another law of the isolator or of a stop, about as strong as before.
 
     Raises
@@ -125,7 +125,7 @@ def with_law(state: State, part: str, kind: str) -> State:
     return state._replace(oscillator=rig.replace(**changed))
 
 
-def joined(state: State, together: bool) -> State:
+def joined(state: PageState, together: bool) -> PageState:
     """Return the state with one knob for both stops, or with a knob for each stop.
 
     With one knob, the left stop becomes equal to the right stop. If there is no right stop, the
@@ -138,7 +138,7 @@ def joined(state: State, together: bool) -> State:
     return state._replace(oscillator=rig.replace(right=one, left=one), together=True)
 
 
-def chosen(state: State, direction: str, frequency: float | str) -> State:
+def chosen(state: PageState, direction: str, frequency: float | str) -> PageState:
     """Return the state with another selected motion.
 
     Raises
@@ -166,7 +166,7 @@ def chosen(state: State, direction: str, frequency: float | str) -> State:
     )
 
 
-def looked(state: State, how: Mapping[str, bool]) -> State:
+def looked(state: PageState, how: Mapping[str, bool]) -> PageState:
     """Return the state with pictures shown or hidden, or with curves in other units.
 
     The key ``"physical"`` selects curves in mm and g (true) or the normalised curves η (false).
@@ -189,7 +189,7 @@ def looked(state: State, how: Mapping[str, bool]) -> State:
     return state._replace(shown=frozenset(shown_now))
 
 
-def placed(state: State, stiffness_ratio: float, gap_ratio: float) -> State:
+def with_ratios(state: PageState, stiffness_ratio: float, gap_ratio: float) -> PageState:
     """Return the state at another point of the (λ, δ0) map.
 
     Raises

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from vibroimpact.errors import InputError
 from vibroimpact.explorer.change import DIMENSIONLESS, OF_RIG, SIDES, one_sided
 from vibroimpact.explorer.laws import free_displacement
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.model import Model, Oscillator
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.parameters import PARAMETERS
@@ -86,7 +86,7 @@ class Control(NamedTuple):
     """Whether the scale of the knob is logarithmic."""
 
 
-def controls(state: State, first: State) -> list[Control]:
+def controls(state: PageState, first: PageState) -> list[Control]:
     """Return the knobs of a state. Their ranges contain the initial values of the page.
 
     Raises
@@ -103,7 +103,7 @@ def controls(state: State, first: State) -> list[Control]:
     return found
 
 
-def _physical(state: State, first: State) -> Iterator[Control]:
+def _physical(state: PageState, first: PageState) -> Iterator[Control]:
     rig, old = state.oscillator, first.oscillator
     shaken = state.shaking
     sizes = _Sizes(state)
@@ -144,7 +144,7 @@ def _fields(
 class _Sizes:
     """What is a large value of a quantity where a knob stands at 0: by the free resonance."""
 
-    def __init__(self, state: State) -> None:
+    def __init__(self, state: PageState) -> None:
         rig = state.oscillator
         u, k = free_displacement(state), rig.isolator.initial_stiffness
         self._known: dict[Quantity, float] = {
@@ -176,7 +176,7 @@ def _ends(
     return (-large if below else 0.0), large, False
 
 
-def _dimensionless(state: State) -> Iterator[Control]:
+def _dimensionless(state: PageState) -> Iterator[Control]:
     """The numbers of the paper's Section 7, where the rig has them."""
     rig, group = state.oscillator, "dimensionless"
     for name in OF_RIG:
@@ -209,7 +209,7 @@ def one_sided_or_none(rig: Oscillator, side: str) -> Oscillator | None:
         return None
 
 
-def _read(rig: Oscillator, state: State, name: str) -> float | None:
+def _read(rig: Oscillator, state: PageState, name: str) -> float | None:
     """A dimensionless number of the rig, if it has it."""
     bumpers = all(stop.spring_and_dashpot for stop in rig.stops)
     if name in ("stiffness_ratio", "relaxation_time") and not bumpers:

@@ -14,11 +14,11 @@ from vibroimpact.datasets.files import save
 from vibroimpact.datasets.tables import to_table
 from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer import share
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.model.names import file_stem
 
 
-def made(kind: str, state: State, swept: Callable[[], xr.Dataset]) -> dict[str, Any]:
+def made(kind: str, state: PageState, swept: Callable[[], xr.Dataset]) -> dict[str, Any]:
     """Return a file: its name, its media type and its bytes (as Base64 text).
 
     Parameters

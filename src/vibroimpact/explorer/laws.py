@@ -8,7 +8,7 @@ displacement without stops, or for stops at a share of it.
 from __future__ import annotations
 
 from vibroimpact.errors import InputError, shown
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.model import AnyIsolator, Stop
 from vibroimpact.model.isolators import ISOLATORS
 from vibroimpact.model.largest_free_response import largest_free_flight
@@ -32,7 +32,7 @@ def stop_laws() -> list[str]:
     return [NONE, *(kind for kind, law in STOPS.classes.items() if law.like(*[0.5] * 6))]
 
 
-def free_displacement(state: State) -> float:
+def free_displacement(state: PageState) -> float:
     """Return the displacement (m) at which laws are compared: the largest one without stops."""
     rig = state.oscillator
     omega = rig.angular_frequency
@@ -43,7 +43,7 @@ def free_displacement(state: State) -> float:
     return swing
 
 
-def isolator_of(kind: str, state: State) -> AnyIsolator:
+def isolator_of(kind: str, state: PageState) -> AnyIsolator:
     """Return an isolator of a kind, with the stiffness and damping of the present isolator.
 
     Raises
@@ -66,7 +66,7 @@ def isolator_of(kind: str, state: State) -> AnyIsolator:
     return made
 
 
-def stop_of(kind: str, state: State, side: str) -> Stop | None:
+def stop_of(kind: str, state: PageState, side: str) -> Stop | None:
     """Return a stop of a kind, with the gap of the present stop and about the same force.
 
     Raises

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from vibroimpact.errors import InputError, shown
-from vibroimpact.explorer.state import State, begin
+from vibroimpact.explorer.state import PageState, begin
 from vibroimpact.model import Bumper, Isolator, Oscillator, Rig, laboratory
 
 FIRST = "B2-G1-A3"
@@ -25,7 +25,7 @@ def names() -> list[tuple[str, list[str]]]:
     ]
 
 
-def preset(name: str) -> State:
+def preset(name: str) -> PageState:
     """Return the initial state of a preset.
 
     Raises

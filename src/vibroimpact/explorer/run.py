@@ -10,14 +10,14 @@ from collections.abc import Callable
 from vibroimpact.errors import InputError
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.share import address
-from vibroimpact.explorer.state import State, begin
+from vibroimpact.explorer.state import PageState, begin
 from vibroimpact.model.read_rig import AnyRig
 
 LOOPBACK = ("127.0.0.1", "::1", "localhost")
 
 
 def serve(
-    first: State, ready: Callable[[str], None], host: str = LOOPBACK[0], port: int = 0
+    first: PageState, ready: Callable[[str], None], host: str = LOOPBACK[0], port: int = 0
 ) -> None:
     """Serve pages until the program is interrupted.
 
@@ -42,7 +42,7 @@ def serve(
 
 
 async def serving(
-    first: State,
+    first: PageState,
     host: str,
     port: int,
     ready: Callable[[str], None],

@@ -32,7 +32,7 @@ from websockets.http11 import Request, Response
 
 from vibroimpact.errors import InputError
 from vibroimpact.explorer.session import Message, Session, Stage
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.tasks.threads import Stopped
 
 MOST_SESSIONS = 16
@@ -82,7 +82,7 @@ def _files() -> dict[str, tuple[bytes, str]]:
 class Explorer:
     """Server of pages that start with a given state."""
 
-    def __init__(self, first: State, limits: Callable[[], Limits]) -> None:
+    def __init__(self, first: PageState, limits: Callable[[], Limits]) -> None:
         self._first, self._limits, self._files = first, limits, _files()
         self._sessions = 0
         self._telling: set[asyncio.Future[None]] = set()
@@ -232,7 +232,7 @@ class Explorer:
     async def _save(
         self,
         session: Session,
-        state: State,
+        state: PageState,
         kind: str,
         send: Callable[[str], Awaitable[None]],
     ) -> None:
@@ -307,7 +307,7 @@ def _refused(status: HTTPStatus, why: str) -> Response:
     return response
 
 
-async def start(first: State, host: str, port: int, token: str = "") -> tuple[Server, str]:
+async def start(first: PageState, host: str, port: int, token: str = "") -> tuple[Server, str]:
     """Start the server.
 
     Parameters

@@ -18,7 +18,7 @@ from vibroimpact.explorer.controls import controls
 from vibroimpact.explorer.files import made
 from vibroimpact.explorer.laws import isolator_laws, stop_laws
 from vibroimpact.explorer.pictures import basins, branch, curves, motion, numbers, plane, scenario
-from vibroimpact.explorer.state import ON_DEMAND, History, State
+from vibroimpact.explorer.state import ON_DEMAND, History, PageState
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.model.frequency_text import forcing
 from vibroimpact.model.written_units import unitless, written_for
@@ -57,7 +57,7 @@ class Session:
     page, and their size is bounded.
     """
 
-    def __init__(self, first: State) -> None:
+    def __init__(self, first: PageState) -> None:
         self.history = History(first, first)
         self.asked = 0
         """Number of requests. Pictures of an older request are not computed any more."""
@@ -70,7 +70,7 @@ class Session:
         self._sweeps: dict[bool, tuple[Hashable, xr.Dataset]] = {}
 
     @property
-    def state(self) -> State:
+    def state(self) -> PageState:
         """The present state of the page."""
         return self.history.now
 
@@ -133,7 +133,7 @@ class Session:
         if do == "reset":
             return history.to(history.first)
         if do == "preset":
-            return history.anew(presets.preset(_text(message, "name")))
+            return history.restart(presets.preset(_text(message, "name")))
         if do == "open":
             opened = share.from_address(message.get("address"))
             return History(opened, opened)
@@ -154,7 +154,7 @@ class Session:
         if do == "place":
             point = (_number(message, "x"), _number(message, "y"))
             gesture = str(message.get("gesture") or "")[:40]
-            return history.to(change.placed(now, *point), gesture)
+            return history.to(change.with_ratios(now, *point), gesture)
         raise InputError(f"message: the action {shown(do)} is unknown; reload the page")
 
     def stages(self) -> Iterator[Stage]:
@@ -176,7 +176,7 @@ class Session:
         yield from self._on_demand(state, (*look, *seen), seen)
 
     def _on_demand(
-        self, state: State, branched: tuple[Hashable, ...], seen: tuple[Hashable, ...]
+        self, state: PageState, branched: tuple[Hashable, ...], seen: tuple[Hashable, ...]
     ) -> Iterator[Stage]:
         """The pictures that take seconds, where they are asked for."""
         if "branch" in state.shown:
@@ -243,7 +243,7 @@ class Session:
             raise Stopped
         return _bounded(lambda: stage.make(check))
 
-    def file(self, kind: str, state: State | None = None) -> Message:
+    def file(self, kind: str, state: PageState | None = None) -> Message:
         """Return a file that the page saves. Default of the state: the present state of the page.
 
         Raises
@@ -267,7 +267,7 @@ class Session:
         self.ended = True
         self.asked += 1
 
-    def _swept(self, state: State, fine: bool, progress: Progress | None = None) -> xr.Dataset:
+    def _swept(self, state: PageState, fine: bool, progress: Progress | None = None) -> xr.Dataset:
         """The sweep of a state; the last one of either fineness is kept."""
         key = (state.oscillator, _without_frequency(state), state.span)
         held = self._sweeps.get(fine)
@@ -275,19 +275,19 @@ class Session:
             held = self._sweeps[fine] = (key, curves.swept(state, fine, progress))
         return held[1]
 
-    def _best(self, state: State) -> xr.Dataset:
+    def _best(self, state: PageState) -> xr.Dataset:
         """The fine sweep if it is there."""
         key = (state.oscillator, _without_frequency(state), state.span)
         held = self._sweeps.get(True)
         return held[1] if held and held[0] == key else self._swept(state, False)
 
-    def _curves(self, state: State, fine: bool, progress: Progress | None = None) -> Message:
+    def _curves(self, state: PageState, fine: bool, progress: Progress | None = None) -> Message:
         return curves.curves(state, self._swept(state, fine, progress), fine)
 
-    def _quick(self, state: State) -> Message:
+    def _quick(self, state: PageState) -> Message:
         return motion.quick(state, self._best(state))
 
-    def _careful(self, state: State) -> Message:
+    def _careful(self, state: PageState) -> Message:
         return motion.careful(state, self._best(state))
 
 
@@ -330,7 +330,7 @@ def _shown_as(history: History) -> Message:
     }
 
 
-def _starts(state: State, fine: bool) -> Callable[[Progress], Message]:
+def _starts(state: PageState, fine: bool) -> Callable[[Progress], Message]:
     return lambda check: basins.starts(state, fine, check)
 
 
@@ -359,7 +359,7 @@ def _refusal(error: Exception) -> Callable[[Progress], Message]:
     return refused
 
 
-def _without_frequency(state: State) -> Hashable:
+def _without_frequency(state: PageState) -> Hashable:
     """The excitation of a sweep, without the frequency of the selected motion."""
     shaken = state.shaking
     return shaken.amplitude, shaken.of, shaken.phase

@@ -11,7 +11,7 @@ from typing import Any, get_args
 from vibroimpact.errors import InputError, shown, unknown
 from vibroimpact.explorer.change import joined, looked
 from vibroimpact.explorer.pictures.curves import FINE
-from vibroimpact.explorer.state import Direction, State
+from vibroimpact.explorer.state import Direction, PageState
 from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.frequency_text import forcings
@@ -27,7 +27,7 @@ MOST = 8000
 _LONGEST_NAME = 80
 
 
-def address(state: State) -> str:
+def address(state: PageState) -> str:
     """Return the part after ``#`` of the address of a page that shows this state."""
     table = {
         "name": state.name,
@@ -46,7 +46,7 @@ def address(state: State) -> str:
     return base64.urlsafe_b64encode(text.encode()).decode().rstrip("=")
 
 
-def from_address(text: object) -> State:
+def from_address(text: object) -> PageState:
     """Return the state that an address contains.
 
     The address contains only numbers, names of laws and names of choices. They are checked in the
@@ -71,7 +71,7 @@ def from_address(text: object) -> State:
     return _from_table(table)
 
 
-def _from_table(table: Any) -> State:
+def _from_table(table: Any) -> PageState:
     fields = {
         "name", "oscillator", "amplitude", "of", "phase", "frequency", "span", "direction",
         "together", "physical", "shown",
@@ -107,7 +107,7 @@ def _from_table(table: Any) -> State:
             )
     shaken = Harmonic(size, hertz, table["phase"], of)
     one_sine(Rig(oscillator, shaken), "amplitude")
-    state = State(name, oscillator, shaken, (low, high), direction)
+    state = PageState(name, oscillator, shaken, (low, high), direction)
     listed = table["shown"]
     if not isinstance(listed, list) or not all(isinstance(item, str) for item in listed):
         raise InputError("address: the entry 'shown' is not valid; use a list of pictures")
@@ -118,7 +118,7 @@ def _from_table(table: Any) -> State:
 
 
 @as_first_argument
-def study(state: State) -> str:
+def study(state: PageState) -> str:
     """Return the study file of a state, which all commands accept."""
     lines = [f"name = {quoted(state.name)}", "", "[oscillator]"]
     for key, value in state.oscillator.model_dump(exclude_none=True).items():
@@ -142,7 +142,7 @@ def study(state: State) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _amplitude(state: State) -> list[str]:
+def _amplitude(state: PageState) -> list[str]:
     """The lines of the amplitude: a number in SI units, with what it is one of if no unit tells."""
     size, of = state.shaking.amplitude, state.shaking.of
     if of == "acceleration":
@@ -153,7 +153,7 @@ def _amplitude(state: State) -> list[str]:
 
 
 @as_first_argument
-def program(state: State) -> str:
+def program(state: PageState) -> str:
     """Return a Python program that computes the curves and the motion of a state."""
     low, high = state.span
     oscillator, shaken = state.oscillator, state.shaking

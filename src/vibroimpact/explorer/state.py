@@ -26,7 +26,7 @@ ON_DEMAND = ("branch", "map", "basins")
 """Pictures that are computed only on request."""
 
 
-class State(NamedTuple):
+class PageState(NamedTuple):
     """The state of a page: its rig, its selected motion, and its choices."""
 
     name: str
@@ -51,7 +51,7 @@ class State(NamedTuple):
         return Rig(self.oscillator, self.shaking)
 
 
-def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) -> State:
+def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) -> PageState:
     """Return the initial state for a rig.
 
     Parameters
@@ -82,7 +82,7 @@ def begin(rig: AnyRig, name: str = "", span: tuple[float, float] | None = None) 
                 "a higher one"
             )
     chosen = min(max(_short(_CHOSEN * natural) / turn, low), high)
-    return State(
+    return PageState(
         name or given.name or "rig",
         oscillator,
         shaken.replace(frequency=chosen),
@@ -99,15 +99,15 @@ def _short(value: float) -> float:
 class History(NamedTuple):
     """The present state of a page, its first state, and the states for undo and redo."""
 
-    first: State
+    first: PageState
     """The first state, to which reset returns. The ranges of the knobs contain its values."""
-    now: State
-    past: tuple[State, ...] = ()
-    future: tuple[State, ...] = ()
+    now: PageState
+    past: tuple[PageState, ...] = ()
+    future: tuple[PageState, ...] = ()
     gesture: str = ""
     """Name of the last gesture. All states of one gesture, such as a drag, are one step of undo."""
 
-    def to(self, state: State, gesture: str = "") -> History:
+    def to(self, state: PageState, gesture: str = "") -> History:
         """Return the history with a new present state."""
         if state == self.now:
             return self._replace(gesture=gesture)
@@ -132,6 +132,6 @@ class History(NamedTuple):
         past = (*self.past, self.now)[-MOST_STEPS:]
         return self._replace(now=now, past=past, future=tuple(future), gesture="")
 
-    def anew(self, state: State) -> History:
+    def restart(self, state: PageState) -> History:
         """Start with another rig. Undo returns to the present rig."""
         return self.to(state)._replace(first=state)

@@ -2,29 +2,42 @@
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
-from vibroimpact.facts.number_format import plain, shown_in, with_unit
+from vibroimpact.datasets.description import motion_parameters, parameters_of_rigs
+from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
-from vibroimpact.facts.tables import plain_table, titled_table
-from vibroimpact.model import Assembly, RigidStop
-from vibroimpact.model.quantities import FORCE, MASS, Quantity
-from vibroimpact.model.units import pretty
-from vibroimpact.model.written_units import NONE, unit, unitless
+from vibroimpact.facts.tables import Column, sheet, table_of
+from vibroimpact.model import Assembly
+from vibroimpact.model.quantities import FORCE, MASS
+from vibroimpact.model.units import plain, pretty
+from vibroimpact.model.written_units import unit, unitless
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.totals import totals
 
-_DIGITS = 4
 _MASSES = ("peak_displacement", "displacement_max", "displacement_min", "peak_acceleration")
+_LARGEST = {
+    "masses": (
+        Column("mass", "mass", left=True),
+        Column("to the right", "displacement_max"),
+        Column("to the left", lambda one: 0.0 - one["displacement_min"], units="m"),
+        Column("acceleration", "peak_acceleration"),
+    ),
+    "links": (Column("link", "link", left=True), Column("deformation", "peak_drift")),
+    "stops": (
+        Column("stop", "stop", left=True),
+        Column("force", "peak_force"),
+        Column("impulse", "peak_impulse"),
+        Column("contacts", "contacts"),
+    ),
+}
 
 
 def rig_facts(assembly: Assembly) -> dict[str, Any]:
@@ -36,26 +49,28 @@ def rig_facts(assembly: Assembly) -> dict[str, Any]:
     }
 
 
-def rig_text(assembly: Assembly, shaking: Iterable[str] = ()) -> RenderableType:
+def rig_text(assembly: Assembly, shaking: Sequence[str] = ()) -> RenderableType:
     """Return the masses, the links and the stops of an assembly, and its natural frequencies."""
-    table = plain_table()
-    for name in assembly.names:
-        size = pretty(assembly.masses[name], MASS) if name in assembly.masses else "of the matrices"
-        force = assembly.forces.get(name, 0.0)
-        table.add_row(
-            f"mass {name}", size, f"constant force {pretty(force, FORCE)}" if force else ""
-        )
-    for word, parts in (("link", assembly.links), ("stop", assembly.stops)):
-        for name, link in parts.items():
-            table.add_row(f"{word} {name}", link.law.summary(), f"{link.left} → {link.right}")
-    if assembly.units == NONE:
-        table.add_row("units", "none; frequencies are angular, ω = 2π f", "")
-    if words := list(shaking):
-        table.add_row(*words)
     turn = math.tau if unitless() else 1.0
     found = ", ".join(plain(turn * one, 4) for one in assembly.natural_frequencies)
-    table.add_row("natural frequencies", f"{found}{unit(' Hz')}", "")
-    return table
+    rows = [
+        *(_mass(assembly, name) for name in assembly.names),
+        *(
+            (f"{word} {name}", link.law.summary(), f"{link.left} → {link.right}")
+            for word, parts in (("link", assembly.links), ("stop", assembly.stops))
+            for name, link in parts.items()
+        ),
+        *([("units", "none; frequencies are angular, ω = 2π f")] if unitless() else []),
+        *([tuple(shaking)] if shaking else []),
+        ("natural frequencies", f"{found}{unit(' Hz')}"),
+    ]
+    return sheet(rows)
+
+
+def _mass(assembly: Assembly, name: str) -> tuple[str, ...]:
+    size = pretty(assembly.masses[name], MASS) if name in assembly.masses else "of the matrices"
+    force = assembly.forces.get(name, 0.0)
+    return f"mass {name}", size, f"constant force {pretty(force, FORCE)}" if force else ""
 
 
 def largest(motion: xr.Dataset) -> dict[str, Any]:
@@ -69,7 +84,7 @@ def largest(motion: xr.Dataset) -> dict[str, Any]:
     for name, stop in assembly.stops.items():
         mine = log["contact_stop"].values == name
         of: dict[str, Any] = {"contacts": int(mine.sum())}
-        if isinstance(stop.law, RigidStop):
+        if stop.stop.rigid:
             of["peak_impulse"] = float(log["contact_impulse"].values[mine].max(initial=0.0))
         else:
             of["peak_force"] = float(found["peak_force"].sel(stop=name))
@@ -90,95 +105,31 @@ def largest(motion: xr.Dataset) -> dict[str, Any]:
 
 def assembly_of(data: xr.Dataset) -> Assembly:
     """Return the assembly of a dataset."""
-    parameters = json.loads(data.attrs["parameters"])
-    return Assembly.model_validate(parameters.get("rigs", [parameters])[0]["assembly"])
+    return Assembly.model_validate(parameters_of_rigs(data)[0]["assembly"])
 
 
-def largest_text(found: Mapping[str, Any], title: str = "Largest") -> RenderableType:
+def largest_text(found: Mapping[str, Any]) -> RenderableType:
     """Return largest values as tables: by mass, link and stop."""
-    parts: list[RenderableType] = [
-        by_name(
-            f"{title}, by mass",
-            "mass",
-            found["masses"],
-            {
-                "displacement_max": ("to the right", "m", 1.0),
-                "displacement_min": ("to the left", "m", -1.0),
-                "peak_acceleration": ("acceleration", "m s-2", 1.0),
-            },
-        )
-    ]
-    if found["links"]:
-        columns = {"peak_drift": ("deformation", "m", 1.0)}
-        parts += [Text(), by_name(f"{title}, by link", "link", found["links"], columns)]
-    if found["stops"]:
-        parts += [Text(), stops_table(f"{title}, by stop", found["stops"])]
-    return Group(*parts)
-
-
-def stops_table(
-    title: str, stops: Mapping[str, Mapping[str, Any]], contacts: str = "contacts"
-) -> Table:
-    """Return the forces, the impulses and the contacts of stops as a table."""
-    columns = {
-        "peak_force": ("force", "N", 1.0),
-        "peak_impulse": ("impulse", "N s", 1.0),
-        "contacts": (contacts, "1", 1.0),
-    }
-    some = {key for one in stops.values() for key in one}
-    return by_name(title, "stop", stops, {k: v for k, v in columns.items() if k in some})
-
-
-def by_name(
-    title: str,
-    what: str,
-    rows: Mapping[str, Mapping[str, float]],
-    columns: Mapping[str, tuple[str, str, float]],
-) -> Table:
-    """Return values as a table with a row for each name, and a column for each quantity.
-
-    Parameters
-    ----------
-    title
-        Title of the table.
-    what
-        Heading of the names.
-    rows
-        Values by name and quantity, in SI units.
-    columns
-        Heading, unit and sign of each quantity.
-    """
-    table = titled_table(title, what)
-    scales = {}
-    for key, (heading, units, _) in columns.items():
-        values = [one[key] for one in rows.values() if key in one]
-        scales[key] = shown_in(units, [abs(one) for one in values])
-        symbol = scales[key].symbol
-        table.add_column(heading if units == "1" else with_unit(heading, symbol), justify="right")
-    for name, row in rows.items():
-        cells = [
-            plain(sign * row[key] / (1.0 if units == "1" else scales[key].size), _DIGITS)
-            if key in row
-            else ""
-            for key, (_, units, sign) in columns.items()
-        ]
-        table.add_row(name, *cells)
-    return table
+    tables: list[RenderableType] = []
+    for parts, (name, *columns) in _LARGEST.items():
+        rows = [{name.name: part, **one} for part, one in found[parts].items()]
+        some = {key for row in rows for key in row}
+        chosen = [one for one in columns if callable(one.value) or one.value in some]
+        if rows:
+            tables += [Text(), table_of(rows, (name, *chosen), f"Largest, by {name.name}")]
+    return Group(*tables[1:])
 
 
 def motion_facts(motion: xr.Dataset) -> dict[str, Any]:
     """Return the end of a motion of an assembly, and its exact extremes, in SI units."""
-    parameters = _parameters(motion)
-    found: dict[str, Any] = {"time": float(motion["time"].values[-1])}
+    cycles = {}
     if "cycle" in motion:
-        found = {
-            "frequency": parameters["frequency"],
-            "cycles": float(motion["cycle"].values[-1]),
-            **found,
-        }
+        frequency = motion_parameters(motion)["frequency"]
+        cycles = {"frequency": frequency, "cycles": float(motion["cycle"].values[-1])}
     values = zip(motion["component"].values, motion["final_state"].values.tolist(), strict=True)
     return {
-        **found,
+        **cycles,
+        "time": float(motion["time"].values[-1]),
         "final_state": {str(name): value + 0.0 for name, value in values},
         "largest": largest(motion),
         "simultaneous_impacts": int(motion["simultaneous_impacts"]),
@@ -191,21 +142,24 @@ def motion_text(found: Mapping[str, Any]) -> RenderableType:
     span = f"{plain(found['time'], 6)}{unit(' s')}"
     if "cycles" in found:
         span = f"{plain(found['cycles'])} cycles ({span})"
+    force = written("peak_transmitted_force", found["largest"]["peak_transmitted_force"])
     parts: list[RenderableType] = [
         Text(f"Motion over {span}"),
         Text(),
         largest_text(found["largest"]),
         Text(),
-        Text(f"Largest force on the base: {_size(found['largest']['peak_transmitted_force'])}"),
+        Text(f"Largest force on the base: {force}"),
     ]
-    if found["simultaneous_impacts"]:
-        parts.append(
-            Text(
-                f"Note: the order of the stops decided {found['simultaneous_impacts']} "
-                "simultaneous impacts"
-            )
-        )
+    if count := found["simultaneous_impacts"]:
+        parts.append(Text(f"Note: the order of the stops decided {count} simultaneous impacts"))
     return Group(*parts)
+
+
+_FLOOR = (
+    Column("mass", "mass", left=True),
+    Column("acceleration", "spectral_acceleration"),
+    Column("at period", "natural_period"),
+)
 
 
 def floor_facts(floor: xr.Dataset) -> dict[str, dict[str, float]]:
@@ -223,27 +177,15 @@ def floor_facts(floor: xr.Dataset) -> dict[str, dict[str, float]]:
 
 def floor_text(found: Mapping[str, Mapping[str, float]]) -> RenderableType:
     """Return the largest values of floor spectra as a table."""
-    columns = {
-        "spectral_acceleration": ("acceleration", "m s-2", 1.0),
-        "natural_period": ("at period", "s", 1.0),
-    }
-    return by_name("Largest of the floor spectrum, ζ = 0.05", "mass", found, columns)
-
-
-def _size(force: float, quantity: Quantity = FORCE) -> str:
-    return pretty(float(f"{force:.4g}"), quantity) if math.isfinite(force) else "infinite"
-
-
-def _parameters(data: xr.Dataset) -> dict[str, Any]:
-    parameters: dict[str, Any] = json.loads(data.attrs["parameters"])
-    return parameters
+    rows = [{"mass": name, **one} for name, one in found.items()]
+    return table_of(rows, _FLOOR, "Largest of the floor spectrum, ζ = 0.05")
 
 
 def steady_facts(motion: xr.Dataset) -> dict[str, Any]:
     """Return the type of a steady motion of an assembly, its evidence and its extremes."""
     exponents = motion["exponents"].values.tolist()
     return {
-        "frequency": _parameters(motion)["frequency"],
+        "frequency": motion_parameters(motion)["frequency"],
         "motion": str(motion["motion"].values),
         "period": int(motion["period"]),
         "evidence": motion.attrs.get("evidence", ""),

@@ -13,28 +13,34 @@ from rich.text import Text
 
 from vibroimpact.datasets.description import noted
 from vibroimpact.facts.assembly import assembly_of
-from vibroimpact.facts.number_format import plain, shown_in, with_unit
-from vibroimpact.facts.tables import titled_table
-from vibroimpact.model import RigidStop
-from vibroimpact.model.frequency_text import forcing, forcing_heading, forcings
+from vibroimpact.facts.largest import largest, place
+from vibroimpact.facts.sweeps import ranges, steps, steps_text
+from vibroimpact.facts.tables import Column, table_of
+from vibroimpact.model.frequency_text import forcings
 
 _PROMINENCE = 0.02
 """Smallest prominence of a resonance, as a share of the largest value of its curve."""
 _APART = 1e-3
 """Difference between the sweeps, as a share of the largest value, above which they differ."""
-_DIGITS = 4
+_WORDS = {
+    "peak_displacement": "displacement",
+    "peak_acceleration": "acceleration",
+    "peak_force": "force",
+    "peak_impulse": "impulse",
+}
+_RESONANCES = (
+    Column("mass", "mass", left=True),
+    Column("sweep", "direction", left=True),
+    Column("frequency", "frequency", 6),
+    Column("displacement", "peak_displacement"),
+    Column("acceleration", "peak_acceleration"),
+)
 
 
 def facts(data: xr.Dataset, advice: list[str]) -> dict[str, Any]:
     """Return what a sweep of an assembly shows as nested plain values, in SI units."""
-    frequency = data["frequency"].values
     return {
-        "frequencies": {
-            "from": float(frequency[0]),
-            "to": float(frequency[-1]),
-            "count": len(frequency),
-        },
-        "directions": [str(direction) for direction in data["direction"].values],
+        **steps(data),
         "largest": _largest(data),
         "resonances": _resonances(data),
         "contact": [
@@ -55,28 +61,14 @@ def _hit(data: xr.Dataset) -> xr.DataArray:
 
 def _largest(data: xr.Dataset) -> dict[str, Any]:
     """Return the largest values by mass and stop, with frequency and direction."""
-
-    def most(name: str, part: str, dim: str) -> dict[str, Any] | None:
-        values = data[name].sel({dim: part}).transpose("direction", "frequency").values
-        if not np.isfinite(values).any():
-            return None
-        # Of sweeps that agree to rounding, the first one.
-        top = float(np.nanmax(values))
-        d, f = np.unravel_index(np.argmax(values >= top - 1e-9 * abs(top)), values.shape)
-        return {
-            "value": float(values[d, f]),
-            "frequency": float(data["frequency"][f]),
-            "direction": str(data["direction"].values[d]),
-        }
-
     stops = {}
     for name, stop in assembly_of(data).stops.items():
-        what = "peak_impulse" if isinstance(stop.law, RigidStop) else "peak_force"
-        stops[name] = {what: most(what, name, "stop")}
+        what = "peak_impulse" if stop.stop.rigid else "peak_force"
+        stops[name] = {what: largest(data[what].sel(stop=name))}
     return {
         "masses": {
             str(mass): {
-                what: most(what, str(mass), "mass")
+                what: largest(data[what].sel(mass=mass))
                 for what in ("peak_displacement", "peak_acceleration")
             }
             for mass in data["mass"].values
@@ -139,93 +131,44 @@ def _differing(data: xr.Dataset) -> list[dict[str, float]]:
 def text(data: xr.Dataset, advice: list[str]) -> RenderableType:
     """Return what a sweep of an assembly shows as tables."""
     found = facts(data, advice)
-    about, directions = found["frequencies"], " and ".join(found["directions"])
     parts: list[RenderableType] = [
-        Text(
-            f"{about['count']} frequencies from {forcings(about['from'], about['to'])}, "
-            f"{directions}"
-            if about["count"] > 1
-            else f"1 frequency, {forcing(about['from'])}, {directions}"
-        ),
+        steps_text(data),
         Text(),
-        _largest_table("Largest, by mass", "mass", found["largest"]["masses"]),
+        _largest_table("mass", found["largest"]["masses"]),
     ]
     if found["largest"]["stops"]:
-        stops = _largest_table("Largest, by stop", "stop", found["largest"]["stops"])
-        parts += [Text(), stops]
-    parts += [Text(), _resonance_table(found["resonances"]), Text()]
+        parts += [Text(), _largest_table("stop", found["largest"]["stops"])]
+    resonances: RenderableType = Text("Resonances: none in this range")
+    if found["resonances"]:
+        resonances = table_of(found["resonances"], _RESONANCES, "Resonances, by mass")
     differ = ", ".join(forcings(one["low"], one["high"]) for one in found["sweeps_differ"])
     if len(found["directions"]) < 2:
-        parts.append(Text("Hysteresis: not computed, because it needs both sweep directions"))
-    else:
-        parts.append(Text(f"Hysteresis: {differ or 'none'}"))
-    parts.append(_spans("Contact", found["contact"], "stop"))
-    parts.append(_spans("Motion not settled", found["unsettled"]))
-    parts += [Text(f"Note: {line}") for line in noted(data)]
-    parts += [Text(f"Advice: {line}", style="yellow") for line in advice]
-    return Group(*parts)
+        differ = "not computed, because it needs both sweep directions"
+    contact = [
+        (f"{one['stop']}, {one['direction']}", one["low"], one["high"]) for one in found["contact"]
+    ]
+    unsettled = [(one["direction"], one["low"], one["high"]) for one in found["unsettled"]]
+    lines = [
+        Text(f"Hysteresis: {differ or 'none'}"),
+        ranges("Contact", contact),
+        ranges("Motion not settled", unsettled),
+        *(Text(f"Note: {line}") for line in noted(data)),
+        *(Text(f"Advice: {line}", style="yellow") for line in advice),
+    ]
+    return Group(*parts, Text(), resonances, Text(), *lines)
 
 
-_COLUMNS = {
-    "peak_displacement": ("displacement", "m"),
-    "peak_acceleration": ("acceleration", "m s-2"),
-    "peak_force": ("force", "N"),
-    "peak_impulse": ("impulse", "N s"),
-}
-
-
-def _largest_table(title: str, what: str, rows: dict[str, Any]) -> RenderableType:
-    table = titled_table(title, what)
-    columns = list(dict.fromkeys(key for row in rows.values() for key in row))
-    scales = {}
-    for key in columns:
-        words, units = _COLUMNS[key]
-        known = [row[key]["value"] for row in rows.values() if row.get(key)]
-        scales[key] = shown_in(units, known or [0.0])
-        table.add_column(with_unit(words, scales[key].symbol), justify="right")
-        table.add_column("")
-    for name, row in rows.items():
-        cells: list[str] = []
-        for key in columns:
-            one = row.get(key)
-            if one is None:
-                cells += ["", ""]
-            else:
-                at = f"at {forcing(one['frequency'])}, {one['direction']}" if one["value"] else ""
-                cells += [plain(one["value"] / scales[key].size, _DIGITS), at]
-        table.add_row(name, *cells)
-    return table
-
-
-def _resonance_table(found: list[dict[str, Any]]) -> RenderableType:
-    if not found:
-        return Text("Resonances: none in this range")
-    turn, heading = forcing_heading()
-    table = titled_table("Resonances, by mass", "mass", "sweep")
-    keys = ("peak_displacement", "peak_acceleration")
-    scales = {key: shown_in(_COLUMNS[key][1], [one[key] for one in found]) for key in keys}
-    for words in (heading, *(with_unit(_COLUMNS[key][0], scales[key].symbol) for key in keys)):
-        table.add_column(words, justify="right")
-    for one in found:
-        table.add_row(
-            one["mass"],
-            one["direction"],
-            plain(turn * one["frequency"]),
-            *(plain(one[key] / scales[key].size, _DIGITS) for key in keys),
-        )
-    return table
-
-
-def _spans(title: str, ranges: list[dict[str, Any]], by: str = "") -> RenderableType:
-    if not ranges:
-        return Text(f"{title}: at no frequency")
-    lines = [title]
-    groups = dict.fromkeys((one.get(by, ""), one["direction"]) for one in ranges)
-    for name, direction in groups:
-        mine = [
-            forcings(one["low"], one["high"])
-            for one in ranges
-            if (one.get(by, ""), one["direction"]) == (name, direction)
-        ]
-        lines.append(f"  {f'{name}, ' if name else ''}{direction}: {', '.join(mine)}")
-    return Text("\n".join(lines))
+def _largest_table(part: str, found: dict[str, Any]) -> RenderableType:
+    """Return a table with two columns for each quantity: its largest value, and where it is."""
+    rows = [
+        {
+            part: name,
+            **{key: one["value"] for key, one in values.items() if one},
+            **{f"{key} at": place(one) for key, one in values.items() if one and one["value"]},
+        }
+        for name, values in found.items()
+    ]
+    columns = [Column(part, part, left=True)]
+    for key in dict.fromkeys(key for values in found.values() for key in values):
+        columns += [Column(_WORDS[key], key), Column("", f"{key} at", left=True)]
+    return table_of(rows, columns, f"Largest, by {part}")

@@ -45,7 +45,7 @@ _BORDER = Column(
     lambda one: one["border_distance"] if math.isfinite(one["border_distance"]) else None,
     3,
     "m",
-    like="displacement_excursion",
+    like=("displacement_excursion",),
 )
 
 

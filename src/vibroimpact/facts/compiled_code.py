@@ -5,28 +5,23 @@ from __future__ import annotations
 from typing import Any
 
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
+
+from vibroimpact.facts.tables import Column, table_of
 
 _MOST = 12
 """Folders that are listed, the most recent."""
+_COLUMNS = (
+    Column("compiled code", "folder", left=True),
+    Column("size", lambda one: _bytes(one["size"])),
+    Column("parts", lambda one: len(one["flows"])),
+    Column("compiled", lambda one: _ago(one["age"])),
+    Column("", lambda one: "of this version" if one["own"] else "", left=True),
+)
 
 
 def text(facts: dict[str, Any], cleaned: bool) -> RenderableType:
     """Return the folders with their sizes and ages, and what was removed."""
-    table = Table(box=None, pad_edge=False, padding=(0, 2), header_style="dim")
-    table.add_column("compiled code")
-    for heading in ("size", "parts", "compiled"):
-        table.add_column(heading, justify="right")
-    table.add_column("")
-    for one in facts["kept"][:_MOST]:
-        table.add_row(
-            one["folder"],
-            _bytes(one["size"]),
-            str(len(one["flows"])),
-            _ago(one["age"]),
-            "of this version" if one["own"] else "",
-        )
     count = len(facts["kept"])
     plural = "" if count == 1 else "s"
     lines = [f"{facts['folder']}: {count} folder{plural}, {_bytes(facts['size'])}"]
@@ -36,6 +31,7 @@ def text(facts: dict[str, Any], cleaned: bool) -> RenderableType:
     if cleaned:
         lines.append(f"removed: {_bytes(facts['removed'])}")
     lines += [f"kept, because another process uses it: {name}" for name in facts["in_use"]]
+    table = table_of(facts["kept"][:_MOST], _COLUMNS)
     return Group(Text(f"engine: {facts['engine']}\n"), table, Text(), Text("\n".join(lines)))
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from rich.console import RenderableType
-from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.datasets.description import noted
@@ -18,11 +18,12 @@ from vibroimpact.datasets.stops import over_stops, plain_values
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.earthquakes.suites import quantiles
-from vibroimpact.facts.number_format import plain
+from vibroimpact.facts.number_format import written
+from vibroimpact.facts.tables import Column, table_of
 from vibroimpact.model import GRAVITY, Oscillator
 from vibroimpact.model.parameters import PARAMETERS, in_units, usual
-from vibroimpact.model.quantities import FORCE, LENGTH
-from vibroimpact.model.units import pretty
+from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import unitless
 
 _HEADS = {"stiffness_at_restitution": "stops.stiffness"}
@@ -44,7 +45,7 @@ def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[s
         if least is None
         else {
             **{str(name): plain_values(value) for name, value in least.data_vars.items()},
-            "notes": _notes(least),
+            "notes": noted(least),
         },
     }
 
@@ -105,12 +106,8 @@ def text(
         yield Text()
         of = "" if share is None else f", as {_percent(share)} fractiles"
         yield Text(f"Least acceleration for {_gaps(rig)}: {best}: {_demands(least)}{of}.")
-        for note in _notes(least):
+        for note in noted(least):
             yield Text(f"Note on this design: {note}.")
-
-
-def _notes(least: xr.Dataset) -> list[str]:
-    return noted(least)
 
 
 def _records_facts(gap: xr.Dataset) -> dict[str, Any]:
@@ -234,21 +231,19 @@ def _gaps(rig: Oscillator) -> str:
     return f"the gap of {' and '.join(gaps)}"
 
 
-def _table(rows: list[xr.Dataset], names: list[str]) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 2), header_style="")
-    heads = [_HEADS.get(name, _words(name)) for name in names]
-    for head in (*heads, "displacement", "acceleration", "contact force"):
-        table.add_column(head, justify="right")
+def _table(rows: list[xr.Dataset], names: list[str]) -> RenderableType:
     picked = np.unique(np.linspace(0, len(rows) - 1, min(_ROWS, len(rows))).round().astype(int))
-    for i in picked:
-        one = rows[i]
-        table.add_row(
-            *(_value(name, float(one[name])) for name in names),
-            _length(float(one["peak_displacement"])),
-            _acceleration(float(one["peak_acceleration"])),
-            _force(float(over_stops(one["peak_force"]))),
-        )
-    return table
+    columns: dict[str, tuple[str, Callable[[float], str]]] = {
+        **{name: (_HEADS.get(name, _words(name)), partial(_value, name)) for name in names},
+        "peak_displacement": ("displacement", _length),
+        "peak_acceleration": ("acceleration", _acceleration),
+        "peak_force": ("contact force", partial(written, "peak_force")),
+    }
+    texts = [
+        {name: write(float(over_stops(rows[i][name]))) for name, (_, write) in columns.items()}
+        for i in picked
+    ]
+    return table_of(texts, [Column(head, name, units="1") for name, (head, _) in columns.items()])
 
 
 def _front(data: xr.Dataset) -> Iterator[xr.Dataset]:
@@ -264,7 +259,7 @@ def _demands(one: xr.Dataset) -> str:
     return (
         f"{_acceleration(float(one['peak_acceleration']))}, with a displacement of "
         f"{_length(float(one['peak_displacement']))} and a contact force of "
-        f"{_force(float(over_stops(one['peak_force'])))}"
+        f"{written('peak_force', float(over_stops(one['peak_force'])))}"
     )
 
 
@@ -277,12 +272,8 @@ def _value(name: str, value: float) -> str:
 
 
 def _length(value: float) -> str:
-    return pretty(float(f"{value:.4g}"), LENGTH)
+    return written("displacement", value)
 
 
 def _acceleration(value: float) -> str:
     return plain(value, 4) if unitless() else f"{plain(value / GRAVITY, 4)} g"
-
-
-def _force(value: float) -> str:
-    return pretty(float(f"{value:.4g}"), FORCE)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import xarray as xr
@@ -11,20 +12,13 @@ from rich.text import Text
 
 from vibroimpact.datasets.stops import SIDES, of_stop, over_stops, plain_values
 from vibroimpact.earthquakes.free_vibration import settles
-from vibroimpact.facts.number_format import (
-    ENERGIES,
-    FORCES,
-    IMPULSES,
-    LENGTHS,
-    Scale,
-    fitting,
-    plain,
-)
+from vibroimpact.earthquakes.peak_demands import ENERGIES
+from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
-from vibroimpact.facts.tables import plain_table
+from vibroimpact.facts.tables import sheet
 from vibroimpact.model import GRAVITY, Oscillator, Record
-from vibroimpact.model.quantities import FORCE, LENGTH
-from vibroimpact.model.units import pretty
+from vibroimpact.model.quantities import LENGTH
+from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import unit, unitless
 
 
@@ -60,37 +54,41 @@ def text(
     name: str, record: Record, response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None
 ) -> RenderableType:
     """Return a response as a table and a sentence."""
-    table = plain_table()
-    shaken = _acceleration(record.peak)
-    when = f"at {plain(record.peak_time, 6)}{unit(' s')} of {plain(record.duration, 6)}{unit(' s')}"
-    table.add_row("peak of the base", shaken, when)
-    table.add_row("displacement", _both([_reach(response, side) for side in SIDES], LENGTHS), "")
     size = float(response["peak_acceleration"])
     ratio = f"{plain(size / record.peak, 4)} times that of the base" if record.peak else ""
-    table.add_row("acceleration", _acceleration(size), ratio)
-    if response["impact_count"].any() or response["impulse"].any():
-        force = _both(_of_stops(response, "peak_force"), FORCES)
-        impulse = _both(_of_stops(response, "impulse"), IMPULSES)
-        table.add_row("contact force", force, f"impulse {impulse}")
-        counts = [int(one) for one in _of_stops(response, "impact_count")]
-        table.add_row("contacts", f"{counts[0]} right, {counts[1]} left", "")
-    names = ("total_supplied", "total_isolator", "total_bumpers")
-    supplied, isolator, stops = (float(response[key]) for key in names)
-    scale = fitting((supplied, isolator, stops), ENERGIES)
-    parts = [
-        f"{plain(value / scale.size, 4)} {scale.symbol}".rstrip()
-        for value in (supplied, isolator, stops)
-    ]
-    lost = f"lost: {parts[1]} in the isolator" + (f", {parts[2]} in the stops" if rig.stops else "")
-    table.add_row("energy supplied", parts[0], lost)
+    energies = [float(response[key]) for key in ENERGIES]
+    supplied, isolator, stops = (written(ENERGIES[0], one, like=energies) for one in energies)
+    lost = f"lost: {isolator} in the isolator" + (f", {stops} in the stops" if rig.stops else "")
     rest, swing = float(response["residual_displacement"]), float(response["residual_swing"])
     still = abs(swing) <= 1e-5 * float(response["peak_displacement"])
-    table.add_row(
-        "resting position",
-        pretty(rest, LENGTH),
-        _unsettled(rig, swing, still),
+    rows = [
+        (
+            "peak of the base",
+            _acceleration(record.peak),
+            f"at {plain(record.peak_time, 6)}{unit(' s')} of "
+            f"{plain(record.duration, 6)}{unit(' s')}",
+        ),
+        ("displacement", _both("displacement", [_reach(response, side) for side in SIDES])),
+        ("acceleration", _acceleration(size), ratio),
+        *(
+            _contacts(response)
+            if response["impact_count"].any() or response["impulse"].any()
+            else ()
+        ),
+        ("energy supplied", supplied, lost),
+        ("resting position", pretty(rest, LENGTH), _unsettled(rig, swing, still)),
+    ]
+    return Group(Text(name, style="bold"), sheet(rows), Text(sentence(response, rig, free)))
+
+
+def _contacts(response: xr.Dataset) -> Iterator[tuple[str, ...]]:
+    force, impulse, counts = (
+        [float(of_stop(response, name, side)) for side in SIDES]
+        for name in ("peak_force", "impulse", "impact_count")
     )
-    return Group(Text(name, style="bold"), table, Text(sentence(response, rig, free)))
+    impulses = f"impulse {_both('impulse', impulse)}"
+    yield "contact force", _both("peak_force", force), impulses
+    yield "contacts", _both("impact_count", counts)
 
 
 def _unsettled(rig: Oscillator, swing: float, is_still: bool) -> str:
@@ -115,9 +113,9 @@ def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> 
     times = " and ".join(f"the {side} stop {_times(n)}" for side, n in hit.items())
     force = float(over_stops(response["peak_force"]))
     hard = (
-        f"with at most {pretty(float(f'{force:.4g}'), FORCE)}"
+        f"with at most {written('peak_force', force)}"
         if math.isfinite(force)
-        else f"with a total impulse of {_value(float(over_stops(response['impulse'])), IMPULSES)}"
+        else f"with a total impulse of {written('impulse', float(over_stops(response['impulse'])))}"
     )
     said = f"The mass hits {times}, {hard}"
     if free is None:
@@ -126,7 +124,7 @@ def sentence(response: xr.Dataset, rig: Oscillator, free: xr.Dataset | None) -> 
     ratio = float(response["peak_acceleration"]) / float(free["peak_acceleration"])
     return (
         f"{said}. Its acceleration is {plain(ratio, 3)} times the acceleration without stops. "
-        f"Without stops, it would move {_value(far[0], LENGTHS)} to the {far[1]}."
+        f"Without stops, it would move {written('displacement', far[0])} to the {far[1]}."
     )
 
 
@@ -137,7 +135,7 @@ def _pressed(response: xr.Dataset) -> str:
     if not pressed:
         return ""
     told = " and ".join(
-        f"the {side} stop with at most {pretty(float(f'{force:.4g}'), FORCE)}"
+        f"the {side} stop with at most {written('peak_force', force)}"
         for side, force in pressed.items()
     )
     return f"The mass presses {told} from the start; no impact follows."
@@ -145,15 +143,12 @@ def _pressed(response: xr.Dataset) -> str:
 
 def _left(response: xr.Dataset, rig: Oscillator) -> str:
     """Return what remains of the gaps."""
-    parts = []
-    for side in SIDES:
-        stop = getattr(rig, side)
-        if stop is not None:
-            free = stop.gap - _reach(response, side)
-            parts.append(
-                f"{_value(free, LENGTHS)} of the {pretty(stop.gap, LENGTH)} gap on the {side}"
-            )
-    return " and ".join(parts)
+    gaps = {side: stop.gap for side in SIDES if (stop := getattr(rig, side)) is not None}
+    return " and ".join(
+        f"{written('displacement', gap - _reach(response, side))} of the "
+        f"{pretty(gap, LENGTH)} gap on the {side}"
+        for side, gap in gaps.items()
+    )
 
 
 def _times(count: int) -> str:
@@ -166,11 +161,6 @@ def _acceleration(value: float) -> str:
     return number if unitless() else f"{number} m/s² = {plain(value / GRAVITY, 4)} g"
 
 
-def _value(value: float, scales: tuple[Scale, ...]) -> str:
-    scale = fitting((value,), scales)
-    return f"{plain(value / scale.size, 4)} {scale.symbol}".rstrip()
-
-
 def _reach(response: xr.Dataset, side: str) -> float:
     """Return how far the mass goes to one side (m)."""
     if side == "right":
@@ -178,18 +168,9 @@ def _reach(response: xr.Dataset, side: str) -> float:
     return 0.0 - float(response["displacement_min"])
 
 
-def _of_stops(response: xr.Dataset, name: str) -> list[float]:
-    """Return the values of both sides, 0 without a stop."""
-    return [float(of_stop(response, name, side)) for side in SIDES]
-
-
-def _both(values: list[float], scales: tuple[Scale, ...]) -> str:
-    """Return the values of both sides in one unit."""
-    scale = fitting(values, scales)
+def _both(name: str, values: list[float]) -> str:
+    """Return the values of both sides in one unit; 0 without a stop."""
     parts = [
-        f"{plain(value / scale.size, 4)} {scale.symbol}".rstrip()
-        if math.isfinite(value)
-        else "infinite"
-        for value in values
+        f"{written(name, one, like=values)} {side}" for one, side in zip(values, SIDES, strict=True)
     ]
-    return ", ".join(f"{part} {side}" for part, side in zip(parts, SIDES, strict=True))
+    return ", ".join(parts)

@@ -7,21 +7,28 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.datasets.stops import over_stops
-from vibroimpact.facts.number_format import ACCELERATIONS, FORCES, LENGTHS, fitting, plain
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.facts.number_format import shown_in
+from vibroimpact.facts.tables import Column, table_of
+from vibroimpact.model.units import plain
 from vibroimpact.response.curve_pair import in_contact
 
 _SHARES = (0.05, 0.5, 0.95)
 _PEAKS = {
-    "eta_a": ("largest η_a", None),
-    "eta_d": ("largest η_d", None),
-    "peak_acceleration": ("largest absolute acceleration", ACCELERATIONS),
-    "peak_displacement": ("largest displacement", LENGTHS),
-    "peak_force": ("largest contact force", FORCES),
+    "eta_a": "largest η_a",
+    "eta_d": "largest η_d",
+    "peak_acceleration": "largest absolute acceleration",
+    "peak_displacement": "largest displacement",
+    "peak_force": "largest contact force",
 }
+_FRACTILES = (
+    Column("fractiles over the rigs", "words", left=True),
+    *(Column(f"{100 * share:g} %", f"{share}") for share in _SHARES),
+    Column("", "symbol", left=True),
+)
 
 
 def facts(
@@ -67,37 +74,28 @@ def text(data: xr.Dataset, given: dict[str, str], indices: dict[str, xr.Dataset]
         Text(f"{told['samples']} rig{'' if told['samples'] == 1 else 's'}: {spread}"),
         Text(f"{100.0 * told['touching']:.3g} % of them touch a stop at some frequency."),
         Text(),
-        _fractiles(told["peaks"]),
+        table_of([_fractiles(*one) for one in told["peaks"].items()], _FRACTILES),
     ]
     for name, orders in told["sensitivity"].items():
-        parts += [Text(), _orders(_PEAKS[name][0], orders)]
+        rows = [{"parameter": one.replace("_", " "), **shares} for one, shares in orders.items()]
+        rows.sort(key=lambda one: -one["total_order"])
+        parts += [Text(), table_of(rows, _orders(_PEAKS[name]))]
     return Group(*parts)
 
 
-def _fractiles(peaks: dict[str, list[float]]) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    table.add_column("fractiles over the rigs")
-    for share in _SHARES:
-        table.add_column(f"{100 * share:g} %", justify="right")
-    table.add_column("")
-    for name, values in peaks.items():
-        words, scales = _PEAKS[name]
-        finite = [value for value in values if np.isfinite(value)]
-        unit = None if scales is None or not finite else fitting(finite, scales)
-        size = 1.0 if unit is None else unit.size
-        table.add_row(
-            words, *(plain(v / size, 4) for v in values), "" if unit is None else unit.symbol
-        )
-    return table
+def _fractiles(name: str, values: list[float]) -> dict[str, str]:
+    scale = shown_in(VARIABLES[name].units, values)
+    texts = [plain(value / scale.size, 4) for value in values]
+    return {
+        "words": _PEAKS[name],
+        **dict(zip(map(str, _SHARES), texts, strict=True)),
+        "symbol": scale.symbol,
+    }
 
 
-def _orders(words: str, orders: dict[str, dict[str, float]]) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 2, 0, 2), header_style="dim")
-    table.add_column(f"share of the variance of the {words}")
-    for name in ("parameter alone", "with interactions"):
-        table.add_column(name, justify="right")
-    for name, one in sorted(orders.items(), key=lambda item: -item[1]["total_order"]):
-        table.add_row(
-            name.replace("_", " "), *(f"{round(value, 2) + 0.0:.2f}" for value in one.values())
-        )
-    return table
+def _orders(words: str) -> tuple[Column, ...]:
+    return (
+        Column(f"share of the variance of the {words}", "parameter", left=True),
+        Column("parameter alone", lambda one: round(one["first_order"], 2) + 0.0, "{:.2f}"),
+        Column("with interactions", lambda one: round(one["total_order"], 2) + 0.0, "{:.2f}"),
+    )

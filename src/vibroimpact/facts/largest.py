@@ -3,41 +3,58 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from rich.console import RenderableType
-from rich.table import Table
 
 from vibroimpact.datasets.description import base_at_rest, own_outputs
 from vibroimpact.datasets.stops import SIDES, quantities, quantity
+from vibroimpact.facts.number_format import written
+from vibroimpact.facts.tables import Column, table_of
 from vibroimpact.model.frequency_text import forcing
-from vibroimpact.model.quantities import (
-    ACCELERATION,
-    DIMENSIONLESS,
-    FORCE,
-    IMPULSE,
-    LENGTH,
-    Quantity,
-)
-from vibroimpact.model.units import plain, pretty
+from vibroimpact.model.units import plain
 
-_DIGITS = 4
 _SAME = 1e-9
-
-_ROWS: dict[str, tuple[str, float, Quantity]] = {
-    "displacement_max": ("displacement to the right", 1.0, LENGTH),
-    "displacement_min": ("displacement to the left", -1.0, LENGTH),
-    "peak_acceleration": ("absolute acceleration", 1.0, ACCELERATION),
-    "peak_transmitted_force": ("transmitted force", 1.0, FORCE),
-    "transmissibility": ("transmissibility", 1.0, DIMENSIONLESS),
-    **{f"peak_force.{side}": (f"force of the {side} stop", 1.0, FORCE) for side in SIDES},
-    **{f"peak_impulse.{side}": (f"impulse of the {side} stop", 1.0, IMPULSE) for side in SIDES},
+_WORDS = {
+    "displacement_max": "displacement to the right",
+    "displacement_min": "displacement to the left",
+    "peak_acceleration": "absolute acceleration",
+    "peak_transmitted_force": "transmitted force",
+    "transmissibility": "transmissibility",
+    **{f"peak_force.{side}": f"force of the {side} stop" for side in SIDES},
+    **{f"peak_impulse.{side}": f"impulse of the {side} stop" for side in SIDES},
 }
-"""In words, and with which sign in these words."""
+_SIGNS = {"displacement_min": -1.0}
+"""Signs in these words."""
 _UNDER_A_FORCE = ("peak_transmitted_force", "transmissibility")
 """If the base moves, they are in proportion to the absolute acceleration."""
+_COLUMNS = (Column("", "words", left=True), Column("", "size"), Column("", "at", left=True))
+
+
+def largest(data: xr.DataArray, sign: float = 1.0) -> dict[str, Any] | None:
+    """Return the largest value of all holds with its frequency and direction; None if all are NaN.
+
+    Of sweeps that agree to rounding, the first one is named.
+    """
+    values = sign * data.transpose("direction", "frequency").values
+    if np.isnan(values).all():
+        return None
+    most = float(np.nanmax(values))
+    least = most - _SAME * abs(most) if math.isfinite(most) else most
+    d, f = np.unravel_index(np.argmax(values >= least), values.shape)
+    return {
+        "value": sign * float(values[d, f]) + 0.0,
+        "frequency": float(data["frequency"][f]),
+        "direction": str(data["direction"].values[d]),
+    }
+
+
+def place(one: Mapping[str, Any]) -> str:
+    """Return the frequency and the direction of a largest value as text."""
+    return f"at {forcing(one['frequency'])}, {one['direction']}"
 
 
 def facts(data: xr.Dataset) -> dict[str, Any]:
@@ -47,53 +64,30 @@ def facts(data: xr.Dataset) -> dict[str, Any]:
     added. A rigid stop that is struck has an impulse, and no finite force. Own outputs have their
     names.
     """
-    found: dict[str, Any] = {}
-    still = base_at_rest(data)
-    known = quantities(data)
+    known = set(quantities(data))
+    if not base_at_rest(data):
+        known.difference_update(_UNDER_A_FORCE)
     own = own_outputs(data)
-    rows = {
-        name: row[1]
-        for name, row in _ROWS.items()
-        if name in known and (still or name not in _UNDER_A_FORCE)
-    } | dict.fromkeys(own, 1.0)
-    for name, sign in rows.items():
-        values = sign * quantity(data, name).transpose("direction", "frequency").values
-        if np.isnan(values).all():
-            continue
-        most = float(np.nanmax(values))
-        if name not in own and "." in name and not 0.0 < most < math.inf:
-            continue
-        # Of sweeps that agree to rounding the forward one is named.
-        d, f = np.unravel_index(np.argmax(values >= most - _SAME * abs(most)), values.shape)
-        found[name] = {
-            "value": sign * float(values[d, f]) + 0.0,
-            "frequency": float(data["frequency"][f]),
-            "direction": str(data["direction"].values[d]),
-        }
+    found: dict[str, Any] = {}
+    for name in [*filter(known.__contains__, _WORDS), *own]:
+        one = largest(quantity(data, name), _SIGNS.get(name, 1.0))
+        of_stop = name not in own and "." in name
+        if one and (not of_stop or 0.0 < one["value"] < math.inf):
+            found[name] = one
     return found
 
 
 def text(data: xr.Dataset) -> RenderableType:
     """The same as a table."""
-    table = Table(
-        title="Largest",
-        title_justify="left",
-        title_style="",
-        box=None,
-        show_header=False,
-        pad_edge=False,
-        padding=(0, 2, 0, 2),
-    )
-    table.add_column()
-    table.add_column(justify="right")
-    table.add_column()
-    for name, one in facts(data).items():
-        if name in _ROWS:
-            words, sign, unit = _ROWS[name]
-            size = pretty(sign * one["value"] + 0.0, unit, _DIGITS)
-        else:
-            about = data[name].attrs
-            words, units = about["long_name"], about["units"].removeprefix("1")
-            size = f"{plain(one['value'], _DIGITS)} {units}".strip()
-        table.add_row(words, size, f"at {forcing(one['frequency'])}, {one['direction']}")
-    return table
+    rows = [{**_row(data, name, one), "at": place(one)} for name, one in facts(data).items()]
+    return table_of(rows, _COLUMNS, "Largest")
+
+
+def _row(data: xr.Dataset, name: str, one: Mapping[str, Any]) -> dict[str, str]:
+    value = one["value"]
+    if name in _WORDS:
+        size = written(name.partition(".")[0], _SIGNS.get(name, 1.0) * value + 0.0)
+        return {"words": _WORDS[name], "size": size}
+    about = data[name].attrs
+    units = about["units"].removeprefix("1")
+    return {"words": about["long_name"], "size": f"{plain(value, 4)} {units}".strip()}

@@ -7,23 +7,14 @@ from typing import Any
 
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
 from vibroimpact.datasets.description import base_at_rest, noted, stop_word
 from vibroimpact.datasets.stops import SIDES, of_stop, plain_values
-from vibroimpact.facts.number_format import with_unit
+from vibroimpact.facts.number_format import written
 from vibroimpact.facts.status import status_facts
+from vibroimpact.facts.tables import Column, sheet, table_of, values_along
 from vibroimpact.model.frequency_text import forcing
-from vibroimpact.model.quantities import (
-    ACCELERATION,
-    ENERGY,
-    FORCE,
-    IMPULSE,
-    LENGTH,
-    VELOCITY,
-    fitting,
-)
 from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import unit
 from vibroimpact.response.plausibility import STIFF
@@ -55,6 +46,20 @@ _SCALARS = (
     "cycles",
     "exponents_cycles",
     "mirror_pair",
+)
+
+_SPEEDS = ("contact_start_velocity", "contact_end_velocity")
+_CONTACTS = (
+    Column("side", lambda one: _side(one), left=True),
+    Column("phase (°)", lambda one: math.degrees(one["contact_start_phase"]), "{:.1f}"),
+    Column("length/T", "contact_duration_share", "{:.4f}"),
+    Column("u̇ in", "contact_start_velocity", "{:.2f}", like=_SPEEDS),
+    Column("u̇ out", "contact_end_velocity", "{:.2f}", like=_SPEEDS),
+    Column("force", "contact_peak_force", 3),
+    Column("J", "contact_impulse", 3),
+    Column("depth", "contact_penetration", 3),
+    Column("lost", "contact_dissipated", 3),
+    Column("e (–)", "contact_restitution", "{:.3f}"),
 )
 
 _STABILITY = {1: "stable", 0: "unstable", -1: "neutral (disturbances neither grow nor decay)"}
@@ -110,14 +115,7 @@ def _facts(data: xr.Dataset) -> dict[str, Any]:
     values |= {**status_facts(data), "evidence": data.attrs["evidence"]}
     values["starts"] = data.attrs.get("starts", "")
     values["mirrored_starts"] = data.attrs.get("mirrored_starts", "")
-    rows = {
-        str(name).removeprefix("contact_"): data[name].values.tolist()
-        for name in data
-        if data[name].dims == ("contact_number",)
-    }
-    values["contacts"] = [
-        dict(zip(rows, row, strict=True)) for row in zip(*rows.values(), strict=True)
-    ]
+    values["contacts"] = values_along(data, "contact_number", prefix="contact_")
     return values
 
 
@@ -138,59 +136,39 @@ def _kind(data: xr.Dataset) -> list[str]:
 
 
 def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
-    table.add_column(style="bold")
-    table.add_column()
-    low, high = data["displacement_min"].item(), data["displacement_max"].item()
-    middle = _rounded(data["eccentricity"].item(), high - low)
-    _, size, metres = fitting((low, high), LENGTH.scales)
-    supplied, lost = data["energy_supplied"].item(), data["energy_bumpers"].item()
-    _, joule, joules = fitting((supplied, lost), ENERGY.scales)
-    floor, ceiling = data["acceleration_min"].item(), data["acceleration_max"].item()
-    _, g, gravity = fitting((floor, ceiling), ACCELERATION.scales)
+    def of(*names: str, digits: int = 5, like: tuple[str, ...] = ()) -> str:
+        ends, sizes = ([data[one].item() for one in some] for some in (names, like))
+        return written(names[0], *ends, digits=digits, like=sizes)
+
+    ends = ("displacement_min", "displacement_max")
+    energies = ("energy_supplied", "energy_bumpers")
+    supplied, lost = (of(one, digits=4, like=energies) for one in energies)
+    forces = of("transmitted_force_min", "transmitted_force_max")
+    impacts = [of_stop(data, "impacts", side).item() for side in SIDES]
     rows = [
         ("evidence", data.attrs["evidence"]),
         *(("note", line) for line in noted(data) if line.startswith(STIFF)),
         ("exponents", _exponents(data)),
-        ("displacement", f"{plain(low / size, 5)} to {plain(high / size, 5)}{_gap(metres)}"),
-        ("eccentricity", f"{plain(middle / size, 4)}{_gap(metres)}"),
-        (
-            "acceleration",
-            f"{plain(floor / g, 5)} to {plain(ceiling / g, 5)}{_gap(gravity)} (absolute)",
-        ),
-        *_transmitted(data),
+        ("displacement", of(*ends)),
+        ("eccentricity", of("eccentricity", digits=4, like=ends)),
+        ("acceleration", f"{of('acceleration_min', 'acceleration_max')} (absolute)"),
+        # If the base moves, the force on it is in proportion to the absolute acceleration.
+        ("transmitted force", f"{forces}, transmissibility {of('transmissibility', digits=4)}")
+        if base_at_rest(data)
+        else (),
         (
             "impacts",
-            ", ".join(f"{plain(of_stop(data, 'impacts', side).item(), 4)} {side}" for side in SIDES)
+            ", ".join(f"{plain(n, 4)} {side}" for n, side in zip(impacts, SIDES, strict=True))
             + f" per cycle{_pressed(data)}",
         ),
-        (
-            "energy",
-            f"{plain(supplied / joule, 4)}{_gap(joules)} per cycle, "
-            f"{plain(lost / joule, 4)}{_gap(joules)} of it lost in the {stop_word(data)}s",
-        ),
+        ("energy", f"{supplied} per cycle, {lost} of it lost in the {stop_word(data)}s"),
+        ("reached from", data.attrs["starts"]) if data.attrs.get("starts") else (),
+        ("mirror image", f"reached from {data.attrs['mirrored_starts']}")
+        if data.attrs.get("mirrored_starts")
+        else (),
     ]
-    if data.attrs.get("starts"):
-        rows.append(("reached from", data.attrs["starts"]))
-    if data.attrs.get("mirrored_starts"):
-        rows.append(("mirror image", f"reached from {data.attrs['mirrored_starts']}"))
-    for row in rows:
-        table.add_row(*row)
-    return [Text(f"{name}: {', '.join(_kind(data))}", style="bold"), table, *contact_tables(data)]
-
-
-def _transmitted(data: xr.Dataset) -> list[tuple[str, str]]:
-    """Return the force on the base under a force on the mass.
-
-    If the base moves, it is in proportion to the absolute acceleration.
-    """
-    if not base_at_rest(data):
-        return []
-    low, high = (data[f"transmitted_force_{end}"].item() for end in ("min", "max"))
-    _, size, newtons = fitting((low, high), FORCE.scales)
-    ratio = data["transmissibility"].item()
-    told = f"{plain(low / size, 5)} to {plain(high / size, 5)}{_gap(newtons)}"
-    return [("transmitted force", f"{told}, transmissibility {plain(ratio, 4)}")]
+    heading = Text(f"{name}: {', '.join(_kind(data))}", style="bold")
+    return [heading, sheet(filter(None, rows)), contact_table(data)]
 
 
 def _pressed(data: xr.Dataset) -> str:
@@ -214,59 +192,15 @@ def _exponents(data: xr.Dataset) -> str:
     return f"{first} and {second}{unit(' 1/s')}, over {int(data['exponents_cycles'])} cycles"
 
 
-def _gap(symbol: str) -> str:
-    """A unit that may be empty, after a number."""
-    return f" {symbol}" if symbol else ""
-
-
-def _rounded(value: float, scale: float) -> float:
-    """Zero for what is only rounding."""
-    return value if abs(value) > 1e-9 * scale else 0.0
-
-
-def contact_tables(data: xr.Dataset) -> list[RenderableType]:
+def contact_table(data: xr.Dataset) -> RenderableType:
     """The contacts of a motion, in units that fit the largest of each."""
     count = data.sizes["contact_number"]
     if not count:
-        return [Text("no contact")]
-    table = Table(
-        "side",
-        box=None,
-        pad_edge=False,
-        padding=(0, 1, 0, 1),
-        header_style="dim",
-        title="Contacts" if count <= _MOST_CONTACTS else f"Contacts, {_MOST_CONTACTS} of {count}",
-        title_justify="left",
-        title_style="",
-    )
-    shown = data.isel(contact_number=slice(_MOST_CONTACTS))
+        return Text("no contact")
+    title = "Contacts" if count <= _MOST_CONTACTS else f"Contacts, {_MOST_CONTACTS} of {count}"
+    rows = values_along(data.isel(contact_number=slice(_MOST_CONTACTS)), "contact_number")
+    return table_of(rows, _CONTACTS, title, padding=1)
 
-    def values(name: str) -> list[float]:
-        return [float(value) for value in shown[f"contact_{name}"].values]
 
-    columns = [
-        ("phase (°)", [f"{math.degrees(value):.1f}" for value in values("start_phase")]),
-        ("length/T", [f"{value:.4f}" for value in values("duration_share")]),
-    ]
-    speeds = fitting(values("start_velocity") + values("end_velocity"), VELOCITY.scales)
-    for heading, name in (("u̇ in", "start_velocity"), ("u̇ out", "end_velocity")):
-        texts = [f"{value / speeds.size:.2f}" for value in values(name)]
-        columns.append((with_unit(heading, speeds.symbol), texts))
-    for heading, name, scales in (
-        ("force", "peak_force", FORCE.scales),
-        ("J", "impulse", IMPULSE.scales),
-        ("depth", "penetration", LENGTH.scales),
-        ("lost", "dissipated", ENERGY.scales),
-    ):
-        found = values(name)
-        _, unit, symbol = fitting(found, scales)
-        columns.append((with_unit(heading, symbol), [plain(value / unit, 3) for value in found]))
-    columns.append(("e (–)", [f"{value:.3f}" for value in values("restitution")]))
-    for heading, _ in columns:
-        table.add_column(heading, justify="right")
-    for i in range(shown.sizes["contact_number"]):
-        side = str(data["contact_stop"].values[i])
-        if bool(data["contact_grazing"][i]):
-            side += ", grazing"
-        table.add_row(side, *(texts[i] for _, texts in columns))
-    return [table]
+def _side(one: dict[str, Any]) -> str:
+    return f"{one['contact_stop']}{', grazing' if one['contact_grazing'] else ''}"

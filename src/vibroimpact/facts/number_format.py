@@ -2,25 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
+from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.model.parameters import in_units
-from vibroimpact.model.quantities import (
-    ACCELERATION,
-    ENERGY,
-    FORCE,
-    FREQUENCY,
-    IMPULSE,
-    LENGTH,
-    VELOCITY,
-    Scale,
-    fitting,
-)
+from vibroimpact.model.quantities import FREQUENCY, Scale, fitting
 from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import unit, unitless
-
-ACCELERATIONS, LENGTHS, SPEEDS = ACCELERATION.scales, LENGTH.scales, VELOCITY.scales
-FORCES, IMPULSES, ENERGIES = FORCE.scales, IMPULSE.scales, ENERGY.scales
 
 
 def shown_in(units: str, values: Iterable[float]) -> Scale:
@@ -36,25 +25,32 @@ def heading(words: str, units: str, values: Iterable[float]) -> tuple[Scale, str
     if words == "frequency" and unitless():
         return fitting(values, FREQUENCY.scales), "ω"
     scale = shown_in(units, values)
-    return scale, with_unit(words, scale.symbol)
+    symbol = f" ({scale.symbol})" if scale.symbol else ""
+    return scale, f"{words}{unit(symbol)}"
 
 
-def with_unit(words: str, symbol: str) -> str:
-    """A heading with its unit in parentheses, unless it has none."""
-    return f"{words}{unit(f' ({symbol})')}" if symbol else words
+def written(of: str, *values: float, digits: int = 4, like: Iterable[float] = ()) -> str:
+    """Write values of a variable with one unit, such as ``"0.5 to 2 mm"``.
 
-
-__all__ = [
-    "ACCELERATIONS",
-    "ENERGIES",
-    "FORCES",
-    "IMPULSES",
-    "LENGTHS",
-    "SPEEDS",
-    "Scale",
-    "fitting",
-    "heading",
-    "plain",
-    "shown_in",
-    "with_unit",
-]
+    Parameters
+    ----------
+    of
+        Name of the variable.
+    *values
+        A value, or the ends of a range, in SI units.
+    digits
+        Number of significant digits.
+    like
+        Values that choose the unit; what is only rounding beside them is 0. Default: the values.
+    """
+    rounded = [float(f"{value:.{digits}g}") for value in like or values]
+    scale = shown_in(VARIABLES[of].units, rounded)
+    least = 1e-9 * max(map(abs, rounded)) if like else 0.0
+    texts = [
+        plain(value / scale.size if abs(value) > least else 0.0, digits)
+        if math.isfinite(value)
+        else "infinite"
+        for value in values
+    ]
+    symbol = scale.symbol if any(map(math.isfinite, values)) else ""
+    return f"{' to '.join(texts)} {symbol}".rstrip()

@@ -10,11 +10,10 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from vibroimpact._version import __version__
-from vibroimpact.facts.number_format import plain
-from vibroimpact.facts.tables import plain_table
+from vibroimpact.facts.tables import sheet
 from vibroimpact.model import GRAVITY, Record
 from vibroimpact.model.quantities import TIME
-from vibroimpact.model.units import pretty
+from vibroimpact.model.units import plain, pretty
 
 
 def facts(record: Record, spectrum: xr.Dataset) -> dict[str, Any]:
@@ -43,22 +42,24 @@ def text(record: Record, spectrum: xr.Dataset) -> RenderableType:
     """Return the same as a table."""
     found = facts(record, spectrum)
     about = record.about
-    table = plain_table()
-    table.add_row("format", f"{about.format}, values in {about.unit}", "")
-    for name in ("station", "component"):
-        table.add_row(name, getattr(about, name) or "not stated", "")
-    step = pretty(record.step, TIME)
-    lasts = f"{plain(record.duration, 7)} s"
-    table.add_row("samples", f"{found['samples']} × {step}", lasts)
     peak = f"{plain(record.peak, 6)} m/s² = {plain(record.peak / GRAVITY, 5)} g"
-    table.add_row("peak", peak, f"at {plain(record.peak_time, 7)} s")
-    for one in found["largest"]:
-        size = f"{plain(one['pseudo_acceleration'], 5)} m/s²"
-        table.add_row(
-            f"spectrum, ζ = {plain(one['damping'], 4)}",
-            f"pseudo-acceleration at most {size}",
-            f"at T = {plain(one['period'], 4)} s",
-        )
-    for i, note in enumerate(about.notes):
-        table.add_row("" if i else "note", note, "")
-    return Group(Text(about.source, style="bold"), table)
+    rows = [
+        ("format", f"{about.format}, values in {about.unit}"),
+        *((name, getattr(about, name) or "not stated") for name in ("station", "component")),
+        (
+            "samples",
+            f"{found['samples']} × {pretty(record.step, TIME)}",
+            f"{plain(record.duration, 7)} s",
+        ),
+        ("peak", peak, f"at {plain(record.peak_time, 7)} s"),
+        *(
+            (
+                f"spectrum, ζ = {plain(one['damping'], 4)}",
+                f"pseudo-acceleration at most {plain(one['pseudo_acceleration'], 5)} m/s²",
+                f"at T = {plain(one['period'], 4)} s",
+            )
+            for one in found["largest"]
+        ),
+        *(("" if i else "note", note) for i, note in enumerate(about.notes)),
+    ]
+    return Group(Text(about.source, style="bold"), sheet(rows))

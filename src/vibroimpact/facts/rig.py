@@ -10,13 +10,14 @@ from rich.text import Text
 
 from vibroimpact._version import __version__
 from vibroimpact.datasets.description import excitation_parameters
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError
 from vibroimpact.facts import assembly
-from vibroimpact.facts.number_format import plain
-from vibroimpact.facts.tables import plain_table
+from vibroimpact.facts.tables import sheet
 from vibroimpact.model import (
     Assembly,
     Dimensionless,
+    Oscillator,
     Periodic,
     Record,
     Repeated,
@@ -25,12 +26,9 @@ from vibroimpact.model import (
     to_dimensionless,
 )
 from vibroimpact.model.frequency_text import forcing
-from vibroimpact.model.quantities import (
-    FORCE,
-    MASS,
-)
-from vibroimpact.model.units import pretty
-from vibroimpact.model.written_units import NONE, unitless
+from vibroimpact.model.quantities import FORCE, MASS
+from vibroimpact.model.units import plain, pretty
+from vibroimpact.model.written_units import unitless
 
 
 def facts(rig: Rig) -> dict[str, Any]:
@@ -67,37 +65,34 @@ def text(rig: Rig, shaking: bool = True, frequency: float | None = None) -> Rend
     isolator = oscillator.isolator
     scaled, sprung = _dimensionless(rig), isolator.initial_stiffness > 0.0
     damped = sprung and isolator.damping_exponent == 1.0
-    table = plain_table()
-    table.add_row(
-        "mass",
-        pretty(oscillator.mass, MASS),
-        _natural(oscillator.natural_frequency) if sprung else "",
-    )
-    table.add_row(
-        "isolator",
-        isolator.summary(),
-        f"ξ = {plain(oscillator.damping_ratio, 4)}" if damped else "",
-    )
-    for side in ("right", "left"):
-        bumper: Stop | None = getattr(oscillator, side)
-        if bumper is None:
-            # Beside a rigid stop, no bumper is missing.
-            rigid = any(stop.rigid for stop in oscillator.stops)
-            table.add_row(f"{side} {'stop' if rigid else 'bumper'}", "none", "")
-            continue
-        group = getattr(scaled, side) if scaled else None
-        table.add_row(
-            f"{side} {'stop' if bumper.rigid else 'bumper'}",
-            bumper.summary(),
-            group.summary() if group else "",
-        )
-    if oscillator.units == NONE:
-        table.add_row("units", "none; frequencies are angular, ω = 2π f", "")
-    if oscillator.force:
-        table.add_row("constant force", pretty(oscillator.force, FORCE), "")
-    if shaken:
-        table.add_row(*shaken)
-    return Group(Text(rig.name or "", style="bold"), table)
+    rows = [
+        (
+            "mass",
+            pretty(oscillator.mass, MASS),
+            _natural(oscillator.natural_frequency) if sprung else "",
+        ),
+        (
+            "isolator",
+            isolator.summary(),
+            f"ξ = {plain(oscillator.damping_ratio, 4)}" if damped else "",
+        ),
+        *(_side(oscillator, side, scaled) for side in SIDES),
+        *([("units", "none; frequencies are angular, ω = 2π f")] if unitless() else []),
+        *([("constant force", pretty(oscillator.force, FORCE))] if oscillator.force else []),
+        *([shaken] if shaken else []),
+    ]
+    return Group(Text(rig.name or "", style="bold"), sheet(rows))
+
+
+def _side(oscillator: Oscillator, side: str, scaled: Dimensionless | None) -> tuple[str, ...]:
+    stop: Stop | None = getattr(oscillator, side)
+    if stop is None:
+        # Beside a rigid stop, no bumper is missing.
+        rigid = any(one.rigid for one in oscillator.stops)
+        return f"{side} {'stop' if rigid else 'bumper'}", "none"
+    group = getattr(scaled, side) if scaled else None
+    name = f"{side} {'stop' if stop.rigid else 'bumper'}"
+    return name, stop.summary(), group.summary() if group else ""
 
 
 def _shaking_facts(shaken: Repeated | Record | None) -> dict[str, Any]:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
+from vibroimpact.facts.tables import sheet
 from vibroimpact.scenarios.classify import Classification
 from vibroimpact.scenarios.scenario import Scenario
 
@@ -36,16 +36,14 @@ def facts(found: Classification) -> dict[str, Any]:
 
 def text(found: Classification) -> RenderableType:
     """Return the same for reading."""
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
-    for line in found.evidence.split("; "):
-        table.add_row("", line)
+    lines = sheet(("", line) for line in found.evidence.split("; "))
     others = [
         Text(f"  with --{name} {value:g}: {other}")
         for (name, value), other in found.alternatives.items()
     ]
     return Group(
         Text(f"{found.scenario}: {meaning(found.scenario)}", style="bold"),
-        table,
+        lines,
         Text(
             f"Confidence {found.confidence:.0%}: this share of the halved and doubled thresholds "
             "gives the same scenario (over the swept frequencies)"

@@ -7,9 +7,9 @@ from typing import Any
 
 import xarray as xr
 from rich.console import Group, RenderableType
-from rich.table import Table
 from rich.text import Text
 
+from vibroimpact.facts.tables import Column, table_of
 from vibroimpact.model import Rig, to_dimensionless
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.quantities import LENGTH, STIFFNESS
@@ -18,6 +18,12 @@ from vibroimpact.scenarios.axes import ONE_QUANTITY
 from vibroimpact.scenarios.scenario import Scenario
 
 _SYMBOLS = {"acceleration": "A =", "displacement": "X =", "force": "F =", "unbalance": "m e ="}
+
+_SHARES = (
+    Column("", "label", left=True),
+    Column("", "share", "{:.1%}"),
+    Column("", "meaning", left=True),
+)
 
 
 def facts(data: xr.Dataset, border: xr.Dataset | None) -> dict[str, Any]:
@@ -40,17 +46,18 @@ def facts(data: xr.Dataset, border: xr.Dataset | None) -> dict[str, Any]:
 def text(data: xr.Dataset, refine: int) -> RenderableType:
     """Return the shares as a table; the first grid was refined so often."""
     found = facts(data, None)
-    table = Table(box=None, pad_edge=False, padding=(0, 2), show_header=False)
-    for kind in Scenario:
-        if kind.label in found["shares"]:
-            table.add_row(kind.label, f"{found['shares'][kind.label]:.1%}", kind.meaning)
+    kinds = {one.label: one.meaning for one in Scenario}
+    shares = [
+        {"label": label, "share": share, "meaning": kinds[label]}
+        for label, share in found["shares"].items()
+    ]
     rows, columns = (((size - 1) >> refine) + 1 for size in data["scenario"].shape)
     refined = {0: "", 1: ", refined once"}.get(refine, f", refined {refine} times")
     line = (
         f"{columns} × {rows} nodes{refined}: {found['computed']} of {found['nodes']} computed; "
         "shares of the scenarios:"
     )
-    return Group(Text(line), table)
+    return Group(Text(line), table_of(shares, _SHARES))
 
 
 def constants(rig: Rig, x: str, y: str) -> str:

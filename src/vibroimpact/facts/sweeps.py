@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import xarray as xr
@@ -15,7 +16,7 @@ from vibroimpact.model.frequency_text import forcing, forcing_heading, forcings
 from vibroimpact.model.units import plain
 from vibroimpact.response.peaks import Peak
 from vibroimpact.response.plausibility import STIFF, UNBOUNDED
-from vibroimpact.response.resonance import Features, Range
+from vibroimpact.response.resonance import Features
 
 _CURVES = {"eta_a": "η_a", "eta_d": "η_d"}
 _PEAKS = (
@@ -30,14 +31,8 @@ _PEAKS = (
 
 def facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[str, Any]:
     """Return what a sweep shows as nested plain values, frequencies in Hz."""
-    frequency = data["frequency"].values
     return {
-        "frequencies": {
-            "from": float(frequency[0]),
-            "to": float(frequency[-1]),
-            "count": len(frequency),
-        },
-        "directions": [str(direction) for direction in data["direction"].values],
+        **steps(data),
         "peaks": [peak._asdict() for peak in found.peaks],
         "jumps": [
             {**jump._asdict(), "frequency": jump.frequency, "upward": jump.upward}
@@ -53,15 +48,12 @@ def facts(data: xr.Dataset, found: Features, advice: list[str]) -> dict[str, Any
 
 def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType:
     """Return what a sweep shows as tables."""
-    frequency = data["frequency"].values
-    directions = " and ".join(str(d) for d in data["direction"].values)
+    contact, unsettled = (
+        [(one.direction, one.low, one.high) for one in some]
+        for some in (found.contact, found.unsettled)
+    )
     parts: list[RenderableType] = [
-        Text(
-            f"{len(frequency)} frequencies from {forcings(frequency[0], frequency[-1])}, "
-            f"{directions}"
-            if len(frequency) > 1
-            else f"1 frequency, {forcing(frequency[0])}, {directions}"
-        ),
+        steps_text(data),
         Text(),
         largest.text(data),
         Text(),
@@ -70,8 +62,8 @@ def text(data: xr.Dataset, found: Features, advice: list[str]) -> RenderableType
         _jumps(found),
         Text(),
         _hysteresis(data, found),
-        _ranges(f"Contact with a {stop_word(data)}", found.contact),
-        _ranges("Motion not settled", found.unsettled),
+        ranges(f"Contact with a {stop_word(data)}", contact),
+        ranges("Motion not settled", unsettled),
     ]
     notes = noted(data)
     parts += [Text(f"Note: {line}") for line in notes if line.startswith((UNBOUNDED, STIFF))]
@@ -130,14 +122,32 @@ def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:
     return Text("\n".join(["Hysteresis", *lines]))
 
 
-def _ranges(title: str, ranges: tuple[Range, ...]) -> RenderableType:
-    if not ranges:
+def steps(data: xr.Dataset) -> dict[str, Any]:
+    """Return the frequencies of a sweep (Hz) and its directions."""
+    frequency = data["frequency"].values.tolist()
+    return {
+        "frequencies": {"from": frequency[0], "to": frequency[-1], "count": len(frequency)},
+        "directions": data["direction"].values.tolist(),
+    }
+
+
+def steps_text(data: xr.Dataset) -> RenderableType:
+    """Return the same as a line."""
+    about = steps(data)
+    low, high, count = about["frequencies"].values()
+    found = f"{count} frequencies from {forcings(low, high)}"
+    found = found if count > 1 else f"1 frequency, {forcing(low)}"
+    return Text(f"{found}, {' and '.join(about['directions'])}")
+
+
+def ranges(title: str, found: Sequence[tuple[str, float, float]]) -> RenderableType:
+    """Return ranges of frequencies (Hz), each with the name of its group, as lines of a group."""
+    if not found:
         return Text(f"{title}: at no frequency")
-    lines = []
-    for direction in dict.fromkeys(item.direction for item in ranges):
-        mine = [item for item in ranges if item.direction == direction]
-        lines.append(f"  {direction}: {_spans([(item.low, item.high) for item in mine])}")
-    return Text("\n".join([title, *lines]))
+    groups: dict[str, list[tuple[float, float]]] = {}
+    for name, low, high in found:
+        groups.setdefault(name, []).append((low, high))
+    return Text("\n".join([title, *(f"  {name}: {_spans(one)}" for name, one in groups.items())]))
 
 
 def _spans(ranges: list[tuple[float, float]]) -> str:

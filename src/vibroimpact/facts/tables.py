@@ -13,7 +13,9 @@ from rich.table import Table
 from vibroimpact.datasets.stops import plain_values
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import printable
-from vibroimpact.facts.number_format import Scale, heading, plain
+from vibroimpact.facts.number_format import heading
+from vibroimpact.model.quantities import Scale
+from vibroimpact.model.units import plain
 
 
 class Column(NamedTuple):
@@ -22,14 +24,14 @@ class Column(NamedTuple):
     name: str
     """Heading, without the unit."""
     value: str | tuple[str, str] | Callable[[Any], Any]
-    """Name of a value of each row, names of both ends of a range, or a function of a row. None is
-    written as nothing."""
+    """Name of a value of each row, names of both ends of a range, or a function of a row. None, and
+    what a row lacks, is written as nothing."""
     form: int | str = 4
     """Significant digits of a number, or a format such as ``"{:.1%}"``."""
     units: str | None = None
     """Unit of the values. Default: that of the variable with their name, if there is one."""
-    like: str = ""
-    """Name of the values that choose the size of the unit. Default: those of the column."""
+    like: tuple[str, ...] = ()
+    """Names of the values that choose the size of the unit. Default: those of the column."""
     left: bool = False
     """Whether the column is aligned to the left."""
 
@@ -39,7 +41,7 @@ class Column(NamedTuple):
         if isinstance(value, str) and units is None and value in VARIABLES:
             units = VARIABLES[value].units
         values = [self._of(row, value) for row in rows]
-        sizes = [(row[self.like],) for row in rows] if self.like else values
+        sizes = [self._of(row, self.like) for row in rows] if self.like else values
         numbers = [one for ends in sizes for one in ends if isinstance(one, float)]
         scale, words = heading(self.name, units or "1", numbers)
         return [
@@ -54,7 +56,7 @@ class Column(NamedTuple):
     def _of(row: Any, value: Any) -> tuple[Any, ...]:
         if callable(value):
             return (value(row),)
-        return tuple(row[name] for name in ((value,) if isinstance(value, str) else value))
+        return tuple(row.get(name) for name in ((value,) if isinstance(value, str) else value))
 
     def _text(self, value: Any, scale: Scale) -> str:
         if not isinstance(value, float):
@@ -63,9 +65,21 @@ class Column(NamedTuple):
         return plain(number, self.form) if isinstance(self.form, int) else self.form.format(number)
 
 
-def table_of(rows: Sequence[Any], columns: Iterable[Column], title: str | None = None) -> Table:
+def table_of(
+    rows: Sequence[Any], columns: Iterable[Column], title: str | None = None, padding: int = 2
+) -> Table:
     """Return a table of these columns with a row for each mapping from names to values."""
-    table = titled_table(title)
+    columns = list(columns)
+    table = Table(
+        title=title,
+        title_justify="left",
+        title_style="",
+        box=None,
+        show_header=any(one.name for one in columns),
+        pad_edge=False,
+        padding=(0, padding, 0, padding),
+        header_style="dim",
+    )
     texts = []
     for one in columns:
         words, *mine = one.texts(rows)
@@ -76,14 +90,34 @@ def table_of(rows: Sequence[Any], columns: Iterable[Column], title: str | None =
     return table
 
 
+def sheet(rows: Iterable[tuple[str, ...]]) -> Table:
+    """Return a table of names, values and remarks, without lines."""
+    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
+    lines = list(rows)
+    for style in ("bold", "", "dim")[: max(map(len, lines), default=0)]:
+        table.add_column(style=style)
+    for line in lines:
+        table.add_row(*line)
+    return table
+
+
 def values_along(
-    data: xr.Dataset, dim: str, names: Iterable[str], prefix: str = ""
+    data: xr.Dataset, dim: str, names: Iterable[str] | None = None, prefix: str = ""
 ) -> list[dict[str, Any]]:
-    """Return values of a dataset at each place along a dimension, by their names."""
-    return [
-        {name: plain_values(data[prefix + name].isel({dim: i})) for name in names}
-        for i in range(data.sizes[dim])
+    """Return values of a dataset at each place along a dimension, by their names.
+
+    The names are without the prefix. Default: those of all variables along this dimension alone.
+    """
+    if names is None:
+        names = [str(name).removeprefix(prefix) for name in data if data[name].dims == (dim,)]
+    columns = {name: data[prefix + name] for name in names}
+    values = [
+        one.values.tolist()
+        if one.dims == (dim,)
+        else [plain_values(one.isel({dim: i})) for i in range(one.sizes[dim])]
+        for one in columns.values()
     ]
+    return [dict(zip(columns, row, strict=True)) for row in zip(*values, strict=True)]
 
 
 def as_text(summary: RenderableType, width: int = 100) -> str:
@@ -92,26 +126,3 @@ def as_text(summary: RenderableType, width: int = 100) -> str:
     console.print(summary)
     lines = printable(console.export_text(styles=False)).splitlines()
     return "".join(f"{line.rstrip()}\n" for line in lines)
-
-
-def plain_table() -> Table:
-    """Return an empty table of names, values and remarks, without lines."""
-    table = Table(box=None, show_header=False, pad_edge=False, padding=(0, 2))
-    for style in ("bold", "", "dim"):
-        table.add_column(style=style)
-    return table
-
-
-def titled_table(title: str | None, *columns: str) -> Table:
-    """Return an empty table with a title and columns."""
-    table = Table(
-        *columns,
-        title=title,
-        title_justify="left",
-        title_style="",
-        box=None,
-        pad_edge=False,
-        padding=(0, 2, 0, 2),
-        header_style="dim",
-    )
-    return table

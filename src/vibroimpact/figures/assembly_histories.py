@@ -15,7 +15,6 @@ from vibroimpact.figures.assembly_motion import (
     contact_legend,
     draw_contacts,
     history,
-    is_rigid,
     label_values,
     rows_of_panels,
     touching,
@@ -170,7 +169,7 @@ def contact_forces(
     struck = {
         name: impulses(motion, shown.assembly, name)[shown.hits(name)]
         for name in names
-        if is_rigid(parts[name])
+        if parts[name].stop.rigid
     }
     pushed = {
         name: shown.motion["contact_force"].sel(stop=name).values

@@ -17,7 +17,7 @@ from vibroimpact.figures.notebook import Panels, new_axes
 from vibroimpact.figures.own_units import without_unit
 from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.figures.style import EDGE, panels
-from vibroimpact.model import Assembly, Link, RigidStop
+from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.names import GROUND, check_known
 from vibroimpact.model.names import literal
 from vibroimpact.model.written_units import unitless
@@ -138,11 +138,6 @@ def history(motion: Any, cycles: float | None = None) -> History:
 def touching(assembly: Assembly, mass: str) -> list[str]:
     """Return the names of the stops of a mass."""
     return [name for name, stop in assembly.stops.items() if mass in (stop.left, stop.right)]
-
-
-def is_rigid(stop: Link) -> bool:
-    """Return whether a stop is rigid, so that impacts have an impulse and no force."""
-    return isinstance(stop.law, RigidStop)
 
 
 def band_of(assembly: Assembly, stop: str) -> tuple[str, str]:

@@ -17,7 +17,6 @@ from vibroimpact.figures.assembly_motion import (
     assembly_of,
     chosen,
     grid_of_panels,
-    is_rigid,
     touching,
 )
 from vibroimpact.figures.axis_labels import axis_label
@@ -336,7 +335,7 @@ def _panels(
     shared = axis_label(values, quantity)
     for name in chosen(names, every, dim, "names"):
         of, (factor, label) = quantity, shared
-        if quantity == "peak_force" and is_rigid(assembly.stops[name]):
+        if quantity == "peak_force" and assembly.stops[name].stop.rigid:
             of = "peak_impulse"
             factor, label = axis_label(data[of], of)
         stops = touching(assembly, name) if dim == "mass" else [name]

@@ -250,7 +250,7 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
                 color=colour,
                 linestyle=dashes,
                 linewidth=width,
-                label=f"{kind} manifolds of saddles{_cut(data, kind)}",
+                label=f"{kind} manifolds of saddles{_count_continued(data, kind)}",
                 path_effects=[patheffects.withStroke(linewidth=width + 1.2, foreground="white")],
                 zorder=3,
             )
@@ -277,7 +277,7 @@ def _curves(ax: Axes, data: xr.Dataset) -> list[Line2D]:
     return handles
 
 
-def _cut(data: xr.Dataset, kind: str) -> str:
+def _count_continued(data: xr.Dataset, kind: str) -> str:
     """Count the curves of a kind that continue beyond their ends."""
     ends = data["curve_ended"].values[data["curve_kind"].values == kind]
     count = int(np.isin(ends, CONTINUES).sum())

@@ -12,7 +12,7 @@ import xarray as xr
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import add_legend, fit_labels
-from vibroimpact.figures.motion_style import Shown, cycles_shown, named, shown
+from vibroimpact.figures.motion_style import DrawnMotion, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import EDGE, SHADE, panels
@@ -98,12 +98,12 @@ def clearances(
     return given
 
 
-def _label(curve: Shown, side: str, motions: int) -> str:
+def _label(curve: DrawnMotion, side: str, motions: int) -> str:
     name = f"$G_{side[0].upper()}$"
     return f"{name}, {curve.look.label}" if motions > 1 else f"{name}, {side}"
 
 
-def _shortest_flight(curves: list[Shown]) -> tuple[float, float, float]:
+def _shortest_flight(curves: list[DrawnMotion]) -> tuple[float, float, float]:
     """Return start and end (forcing cycles) of the shortest flight, and twice its height (mm)."""
     best = None
     for curve in curves:

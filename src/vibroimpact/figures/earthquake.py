@@ -12,7 +12,7 @@ from matplotlib.lines import Line2D
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.legends import add_legend, fit_labels
-from vibroimpact.figures.motion_style import Shown, named, shown
+from vibroimpact.figures.motion_style import DrawnMotion, named, shown
 from vibroimpact.figures.notebook import Drawing, Panel, Panels
 from vibroimpact.figures.own_units import acceleration_text, in_own_units, in_unit
 from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
@@ -98,7 +98,7 @@ def earthquake_page(
 
 
 def _histories(
-    axes: tuple[Axes, ...], motion: xr.Dataset, curve: Shown, stops: dict[str, dict[str, Any]]
+    axes: tuple[Axes, ...], motion: xr.Dataset, curve: DrawnMotion, stops: dict[str, dict[str, Any]]
 ) -> None:
     base, moved, shaken = axes
     time = motion["time"].values
@@ -164,7 +164,7 @@ def _histories(
         add_legend(moved, handles, columns=5, columnspacing=1.0)
 
 
-def _force(ax: Axes, motion: xr.Dataset, curve: Shown) -> None:
+def _force(ax: Axes, motion: xr.Dataset, curve: DrawnMotion) -> None:
     """Draw the restoring force of isolator and stops. Its loops are the dissipated energy."""
     rig = any_recorded(motion).oscillator
     pull = rig.force - rig.mass * curve.values["acceleration"]

@@ -162,7 +162,7 @@ def resonance_family(
             zorder=2,
         )
     for i, name in enumerate(names):
-        look = _look((markers or {}).get(name, i), (colours or {}).get(name))
+        look = _line_style((markers or {}).get(name, i), (colours or {}).get(name))
         called = (labels or {}).get(name, literal(name))
         _curves(ax, data.isel(rig=i, drop=True), quantity, factor, look, called)
     fit_x_axis(ax, frequency)
@@ -186,7 +186,7 @@ def family_legend(ax: Axes) -> list[Artist]:
     return [*(line for line in rigs if line not in flight), *dashes, *flight]
 
 
-def _look(i: int, colour: str | None) -> dict[str, Any]:
+def _line_style(i: int, colour: str | None) -> dict[str, Any]:
     marker = _MARKERS[i % len(_MARKERS)]
     return {
         "color": colour or _COLOURS[i % len(_COLOURS)],

@@ -16,7 +16,7 @@ from vibroimpact.datasets.stops import SIDES
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import (
-    Shown,
+    DrawnMotion,
     cycles_label,
     cycles_shown,
     force_unit,
@@ -116,7 +116,7 @@ def panels_of(motions: Mapping[str, xr.Dataset]) -> list[_Panel]:
     return [panel._replace(label=base_label(panel.label, motions.values())) for panel in PANELS]
 
 
-def history_panel(ax: Axes, curves: list[Shown], panel: _Panel) -> None:
+def history_panel(ax: Axes, curves: list[DrawnMotion], panel: _Panel) -> None:
     """Draw one quantity of the motions over t/T."""
     ax.set_xlim(min(c.at[0] for c in curves), max(c.at[-1] for c in curves))
     ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
@@ -178,7 +178,7 @@ def gap_entry(stops: int) -> Line2D:
     return Line2D([], [], color="black", linestyle="--", linewidth=0.8, label=label)
 
 
-def history_legend(curves: list[Shown]) -> list[Artist]:
+def history_legend(curves: list[DrawnMotion]) -> list[Artist]:
     """Return the legend handles of the curves, gaps, bands and marks that are drawn.
 
     An impact on a rigid stop has a star, but no band: it takes no time.
@@ -218,12 +218,12 @@ def history_legend(curves: list[Shown]) -> list[Artist]:
     return entries
 
 
-def _band(curve: Shown, side: str, motions: int) -> tuple[Any, str]:
+def _band(curve: DrawnMotion, side: str, motions: int) -> tuple[Any, str]:
     colour, hatch = BANDS[side]
     return ((curve.look.colour, 0.15) if motions > 1 else colour), hatch
 
 
-def _at_event(curve: Shown, values: Any, at: Any, *, behind: bool) -> Any:
+def _at_event(curve: DrawnMotion, values: Any, at: Any, *, behind: bool) -> Any:
     """Return the value at an event. If it jumps, return the value within the contact."""
     # The last two points at the time of an event are those before it and behind it. A sample at the
     # same time precedes them.

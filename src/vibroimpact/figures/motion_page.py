@@ -15,7 +15,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.history import PANELS, history_legend, history_panel, panels_of
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.lines import spectrum_lines
-from vibroimpact.figures.motion_style import Shown, cycles_label, cycles_shown, named, shown
+from vibroimpact.figures.motion_style import DrawnMotion, cycles_label, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Grid, new_axes
 from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.portrait import SECTION, phase_portrait
@@ -153,7 +153,7 @@ def _columns(
 
 def _column(
     axes: Any, given: dict[str, xr.Dataset], cycles: float | None, highest: float
-) -> list[Shown]:
+) -> list[DrawnMotion]:
     length = cycles_shown(given, cycles, 2)
     phase_portrait(given, axes[0])
     # A motion that was given up may be too short for a spectrum.

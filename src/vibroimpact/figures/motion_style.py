@@ -38,7 +38,7 @@ MOST_CYCLES = 12
 """Largest number of forcing cycles in which neighbouring contacts can still be distinguished."""
 
 
-class Shown(NamedTuple):
+class DrawnMotion(NamedTuple):
     """One motion as it is drawn: values over t/T, with the values before and after each event."""
 
     look: Look
@@ -132,7 +132,7 @@ def looks(names: list[str]) -> list[Look]:
     return found
 
 
-def shown(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[Shown]:
+def shown(motions: dict[str, xr.Dataset], cycles: float = math.inf) -> list[DrawnMotion]:
     """Return the curves of motions: the last cycles of a simulation, the first of others.
 
     A periodic motion is repeated to fill the cycles. If `cycles` is infinite, it is drawn once.
@@ -180,7 +180,7 @@ def axes_or_new(ax: object, size: tuple[float, float], title: str | None) -> Axe
     return made
 
 
-def name_lines(ax: Axes, curves: list[Shown]) -> None:
+def name_lines(ax: Axes, curves: list[DrawnMotion]) -> None:
     """Add a legend above the axes if there is more than one motion: curves, then marks."""
     if len(curves) > 1:
         handles, _ = ax.get_legend_handles_labels()
@@ -188,7 +188,7 @@ def name_lines(ax: Axes, curves: list[Shown]) -> None:
         add_legend(ax, handles, columns=3)
 
 
-def _measured(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
+def _measured(motion: xr.Dataset, look: Look, cycles: float) -> DrawnMotion:
     """Return the curves of a measured history. A cycle starts where the sine of the base has θ = 0.
 
     If the velocity was not measured, it is the smoothed derivative of the displacement.
@@ -211,12 +211,12 @@ def _measured(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
             held = np.full(len(time), np.nan)
             held[known] = slope(time[known], moved[known], sine)
         values[name] = held
-    curve = Shown(look, at, values, [], (np.empty(0), np.empty(0)), {})
+    curve = DrawnMotion(look, at, values, [], (np.empty(0), np.empty(0)), {})
     last = min(float(at[-1]), math.ceil(at[0]) + cycles)
-    return curve if math.isinf(cycles) else _cut(curve, float(math.ceil(at[0])), last)
+    return curve if math.isinf(cycles) else _clipped(curve, float(math.ceil(at[0])), last)
 
 
-def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
+def _shown(motion: xr.Dataset, look: Look, cycles: float) -> DrawnMotion:
     if _seen(motion):
         return _measured(motion, look, cycles)
     origin = any_recorded(motion)
@@ -267,14 +267,14 @@ def _shown(motion: xr.Dataset, look: Look, cycles: float) -> Shown:
     peak = _signed(
         log["contact_peak_acceleration"].values, peak_at, times[order], values["acceleration"]
     )
-    curve = Shown(look, times[order], values, touching, (peak_at, peak), gaps)
+    curve = DrawnMotion(look, times[order], values, touching, (peak_at, peak), gaps)
     if math.isinf(cycles):
         return curve
     if origin.periodic:
-        return _cut(_repeated(curve, origin.cycles, cycles), 0.0, cycles)
+        return _clipped(_repeated(curve, origin.cycles, cycles), 0.0, cycles)
     if "period" in motion:  # steady, but not periodic: its record begins anywhere
-        return _cut(curve, 0.0, cycles)
-    return _cut(curve, max(float(at[0]), float(at[-1]) - cycles), float(at[-1]))
+        return _clipped(curve, 0.0, cycles)
+    return _clipped(curve, max(float(at[0]), float(at[-1]) - cycles), float(at[-1]))
 
 
 def _signed(peaks: _Array, peak_at: _Array, at: _Array, values: _Array) -> _Array:
@@ -290,7 +290,7 @@ def _signed(peaks: _Array, peak_at: _Array, at: _Array, values: _Array) -> _Arra
     return signed
 
 
-def _repeated(curve: Shown, period: float, cycles: float) -> Shown:
+def _repeated(curve: DrawnMotion, period: float, cycles: float) -> DrawnMotion:
     turns = np.arange(-1, math.ceil(cycles / period) + 1) * period
     return curve._replace(
         at=np.concatenate([curve.at + turn for turn in turns]),
@@ -314,7 +314,7 @@ def _joined(touching: list[tuple[str, float, float]]) -> list[tuple[str, float, 
     return joined
 
 
-def _cut(curve: Shown, first: float, last: float) -> Shown:
+def _clipped(curve: DrawnMotion, first: float, last: float) -> DrawnMotion:
     inside = (curve.at >= first) & (curve.at <= last)
     seen = (curve.peaks[0] >= first) & (curve.peaks[0] <= last)
     return curve._replace(
@@ -329,7 +329,7 @@ def _cut(curve: Shown, first: float, last: float) -> Shown:
     )
 
 
-def force_unit(curves: list[Shown]) -> Scale:
+def force_unit(curves: list[DrawnMotion]) -> Scale:
     """Return the unit in which the transmitted forces of motions under a force are drawn."""
     largest = [
         float(np.nanmax(np.abs(curve.values[name]), initial=0.0))
@@ -339,7 +339,7 @@ def force_unit(curves: list[Shown]) -> Scale:
     return FORCE.unit(*largest)
 
 
-def gap_lines(ax: Axes, curves: list[Shown], *, horizontal: bool) -> None:
+def gap_lines(ax: Axes, curves: list[DrawnMotion], *, horizontal: bool) -> None:
     """Draw dashed lines at the positions of the undeformed bumpers (mm)."""
     gaps = {
         (1 if name == "right" else -1) * gap for curve in curves for name, gap in curve.gaps.items()

@@ -30,7 +30,7 @@ class Nodes(NamedTuple):
         """Distance of a level's nodes on the finest grid."""
         return 1 << (self.refine - level)
 
-    def wanted(self, level: int, scenarios: Scenarios) -> NDArray[np.bool_]:
+    def nodes_to_compute(self, level: int, scenarios: Scenarios) -> NDArray[np.bool_]:
         """Which nodes have to be computed at a level, by the scenarios of the one before."""
         chosen = np.zeros(self.shape, dtype=bool)
         step = self.spacing(level)

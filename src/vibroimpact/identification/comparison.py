@@ -13,7 +13,7 @@ from vibroimpact.arguments import check_mapping, check_variables
 from vibroimpact.datasets.description import describe
 from vibroimpact.errors import InputError, unknown
 from vibroimpact.identification.residual_structure import CERTAIN
-from vibroimpact.model import Isolator, Oscillator, PolynomialIsolator, PowerBumper
+from vibroimpact.model import Oscillator, PolynomialIsolator, PowerBumper
 from vibroimpact.model.parameters import PARAMETERS, canonical
 
 _CLEAR = 10.0
@@ -192,11 +192,13 @@ def softening(oscillator: Oscillator) -> Oscillator:
         If its isolator is not linear.
     """
     isolator = oscillator.isolator
-    if not isinstance(isolator, Isolator):
+    if not isolator.linear:
         raise InputError(
             f"oscillator: its isolator is {isolator}, but the model 'softening' replaces a linear "
             "one; remove 'softening' from compare"
         )
     return oscillator.replace(
-        isolator=PolynomialIsolator(isolator.stiffness, isolator.damping, cubic=0.0, quintic=0.0)
+        isolator=PolynomialIsolator(
+            isolator.initial_stiffness, isolator.damping, cubic=0.0, quintic=0.0
+        )
     )

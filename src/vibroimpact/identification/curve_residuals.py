@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.identification.branch_response import Followed, SteppedRig, Way, follow
-from vibroimpact.identification.overlay import Shown
+from vibroimpact.identification.overlay import TestPoints
 from vibroimpact.identification.sensor_channel import sensed
 from vibroimpact.measurements.features import measured_features, noise_of
 from vibroimpact.measurements.names import CURVES
@@ -246,10 +246,10 @@ class CurveTest:
         floor, measured = self.floor[here], self.points.value[here]
         return np.asarray(np.arcsinh(values / floor) - np.arcsinh(measured / floor))
 
-    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> Shown:
+    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
         """Each point beside what the rig has there."""
         values, _ = self.model(rig, sensors, self.followed(rig))
-        return Shown(
+        return TestPoints(
             self.frequency,
             [self.directions[w] for w in self.points.way],
             [self.names[v] for v in self.points.variable],

@@ -9,7 +9,7 @@ import xarray as xr
 
 from vibroimpact.errors import in_one_line
 from vibroimpact.identification.fit_inputs import BASE
-from vibroimpact.identification.global_search import Found
+from vibroimpact.identification.global_search import SearchResult
 from vibroimpact.identification.least_squares import Array, Problem
 from vibroimpact.identification.repeated_dwells import stray_values
 from vibroimpact.identification.residual_structure import CERTAIN, HINT, Structure
@@ -40,7 +40,7 @@ def findings(
     data: xr.Dataset,
     problem: Problem,
     x: Array,
-    found: Found,
+    found: SearchResult,
     judged: list[Structure],
     idle: Untouched,
 ) -> list[str]:

@@ -30,7 +30,7 @@ class Ended(NamedTuple):
     evaluations: int
 
 
-class Found(NamedTuple):
+class SearchResult(NamedTuple):
     """What a search found."""
 
     x: Array
@@ -79,7 +79,7 @@ def local(problem: Problem, x: Array, most: int = 60, precise: bool = False) -> 
 
 def search(
     problem: Problem, tried: int, starts: int, seed: int, threads: int, best: Sequence[Array] = ()
-) -> Found:
+) -> SearchResult:
     """Try many places, and go on from the best ones.
 
     Parameters
@@ -125,7 +125,7 @@ def search(
             others.append(end)
     spent = sum(p.evaluations for p in problems)
     same = tuple(end.x for end in near)
-    return Found(first.x, first.cost, len(ends), len(near), same, tuple(others), spent)
+    return SearchResult(first.x, first.cost, len(ends), len(near), same, tuple(others), spent)
 
 
 def _same(end: Ended, best: Ended, count: int) -> bool:

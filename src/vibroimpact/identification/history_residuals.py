@@ -19,7 +19,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.identification.branch_response import SteppedRig
 from vibroimpact.identification.exact_motion import Joined, Moved, under_record, under_sine
 from vibroimpact.identification.free_parameters import SENSORS
-from vibroimpact.identification.overlay import Shown
+from vibroimpact.identification.overlay import TestPoints
 from vibroimpact.identification.sensor_channel import (
     corrected,
     doubt,
@@ -375,7 +375,7 @@ class HistoryTest:
             u = self.size["acceleration"] / omega**2
         return np.array([u, omega * u])
 
-    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> Shown:
+    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
         """Each point beside what the rig has there."""
         found = self.model(rig, sensors, unknowns)
         values = {} if found is None else found[0]
@@ -388,7 +388,7 @@ class HistoryTest:
             measured.append(self.measured[c][known])
             modelled.append(here)
             residual.append((here - measured[-1]) / (self.size[c] * self.doubt[c][known]))
-        return Shown(
+        return TestPoints(
             np.concatenate(place),
             [""] * len(variable),
             variable,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.identification.free_parameters import Free, written
-from vibroimpact.identification.overlay import Shown
+from vibroimpact.identification.overlay import TestPoints
 from vibroimpact.model.rig import Rig
 
 Array = NDArray[np.float64]
@@ -84,7 +84,7 @@ class Test(Protocol):
     ) -> tuple[Array, Flags]:
         """Its residuals, and which of them have a derivative."""
 
-    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> Shown:
+    def shown(self, rig: Rig, sensors: dict[str, float], unknowns: Array) -> TestPoints:
         """Each point beside what the rig has there."""
 
 

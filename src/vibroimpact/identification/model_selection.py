@@ -31,7 +31,7 @@ class ModelFits(NamedTuple):
     """Dataset of `compare_fits`; None without other models."""
 
     @property
-    def own(self) -> xr.Dataset:
+    def own_fit(self) -> xr.Dataset:
         """The fit of the rig's own laws."""
         return self.fits[OWN_MODEL]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 
-class Shown(NamedTuple):
+class TestPoints(NamedTuple):
     """All points of a test."""
 
     place: Array

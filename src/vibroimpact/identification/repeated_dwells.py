@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from vibroimpact.measurements.features import strays
+from vibroimpact.measurements.features import outliers
 
 _FEW = 3
 """Values of a hold from which on most of them tell which are the others."""
@@ -13,7 +13,7 @@ _FEW = 3
 
 def stray_values(name: str, data: xr.Dataset) -> list[str]:
     """Tell the holds of a test whose values lie far apart, a line each."""
-    off = strays(data)
+    off = outliers(data)
     if not off:
         return []
     known = np.any([np.isfinite(_held(data, one)) for one in off], axis=0)

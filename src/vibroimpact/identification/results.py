@@ -17,9 +17,9 @@ from vibroimpact.datasets.description import (
 )
 from vibroimpact.identification import finding_texts
 from vibroimpact.identification.equivalent_rigs import Rival, came_to, outside
-from vibroimpact.identification.global_search import Found
+from vibroimpact.identification.global_search import SearchResult
 from vibroimpact.identification.least_squares import Array, Problem
-from vibroimpact.identification.overlay import Shown
+from vibroimpact.identification.overlay import TestPoints
 from vibroimpact.identification.profile_likelihood import Profile
 from vibroimpact.identification.residual_structure import TOLD, Row, Structure, structure
 from vibroimpact.identification.uncertainty import Spread
@@ -36,7 +36,7 @@ class Fit(NamedTuple):
 
     problem: Problem
     x: Array
-    found: Found
+    found: SearchResult
     around: Spread
     curves: list[Profile]
     rivals: list[Rival]
@@ -189,7 +189,7 @@ def _points(data: xr.Dataset, problem: Problem, x: Array) -> list[Structure]:
     return judged
 
 
-def _rows(shown: Shown, weights: dict[str, float]) -> list[Row]:
+def _rows(shown: TestPoints, weights: dict[str, float]) -> list[Row]:
     """Residuals of each direction and quantity in the order of their places."""
     found = []
     keys = list(zip(shown.direction, shown.variable, strict=True))

@@ -58,7 +58,7 @@ def known_columns(
         said = chosen.get(i) or meaning(column.name, column.unit)
         if said is None:
             left.append(column.name)
-        elif i not in chosen and _taken(said, chosen, found):
+        elif i not in chosen and _is_repeated(said, chosen, found):
             repeated.append(column.name)
         elif said.variable != "direction" and column.values.dtype.kind not in "fiub":
             kind = " (complex numbers)" if column.values.dtype.kind == "c" else ""
@@ -162,7 +162,9 @@ def _of_unit(unit: str | None, variables: list[str]) -> list[str]:
     return [key for key in variables if unit and size_of(unit, QUANTITIES[key]) is not None]
 
 
-def _taken(said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, Meaning]) -> bool:
+def _is_repeated(
+    said: Meaning, chosen: Mapping[int, Meaning], found: Mapping[int, Meaning]
+) -> bool:
     """Return whether another column holds the same quantity."""
     others = [*chosen.values(), *found.values()]
     return any((one.variable, one.direction) == (said.variable, said.direction) for one in others)

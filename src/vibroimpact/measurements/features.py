@@ -43,7 +43,7 @@ _LOW, _OF_NORMAL = 0.3, 0.3853
 """A quantile, and its value for the absolute value of a standard normal variable."""
 
 
-def strays(data: xr.Dataset) -> dict[str, NDArray[np.bool_]]:
+def outliers(data: xr.Dataset) -> dict[str, NDArray[np.bool_]]:
     """Find repeated values that lie far from the median at their frequency.
 
     Such values belong to another motion.
@@ -106,7 +106,7 @@ def _of_repeats(data: xr.Dataset) -> float:
     """Estimate the noise from repeated values; 0 if there are few."""
     squares: list[float] = []
     spare = 0
-    far = strays(data)
+    far = outliers(data)
     for name in MEASURED:
         if name in data and "repeat" in data[name].dims:
             values = data[name].transpose("direction", "frequency", "repeat").values

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.errors import InputError
+from vibroimpact.measurements.channel_attributes import Stated, as_text, kind_of, known, stated
 from vibroimpact.measurements.columns import Columns
-from vibroimpact.measurements.stated import Stated, as_text, kind_of, known, stated
 from vibroimpact.measurements.tables import damaged, tables
 from vibroimpact.tables.limits import within
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.measurements import hdf5
+from vibroimpact.measurements.channel_attributes import Stated, stated
 from vibroimpact.measurements.columns import Columns
-from vibroimpact.measurements.stated import Stated, stated
 from vibroimpact.measurements.tables import damaged, tables
 from vibroimpact.tables.limits import MOST_BYTES, unpacked, within
 

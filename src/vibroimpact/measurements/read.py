@@ -14,11 +14,11 @@ from vibroimpact.datasets.description import describe
 from vibroimpact.datasets.files import load
 from vibroimpact.errors import InputError, printable, shown, warn_of_input
 from vibroimpact.measurements import hdf5, lvm, mat, tdms, text, uff
-from vibroimpact.measurements.beside import shaking
 from vibroimpact.measurements.column_meanings import converted, known_columns, missing_columns
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.curves import curves
 from vibroimpact.measurements.dropouts import doubt_marks
+from vibroimpact.measurements.file_entries import shaking
 from vibroimpact.measurements.histories import history
 from vibroimpact.measurements.names import AXES, CURVES, HISTORIES, meaning
 from vibroimpact.measurements.sampling import timed

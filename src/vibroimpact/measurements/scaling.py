@@ -10,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from vibroimpact.errors import shown
-from vibroimpact.measurements.beside import with_unit
+from vibroimpact.measurements.channel_attributes import Kind, kind_of, known, one, words_in
 from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.file_entries import with_unit
 from vibroimpact.measurements.names import AXES, QUANTITIES, alike, meaning
 from vibroimpact.measurements.sampling import is_rate, is_sampling
-from vibroimpact.measurements.stated import Kind, kind_of, known, one, words_in
 
 _NUMBERS = "fiub"
 

@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.measurements.beside import with_unit
+from vibroimpact.measurements.channel_attributes import Stated, as_text, kind_of, known
 from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.file_entries import with_unit
 from vibroimpact.measurements.scaling import agreed, completed, doubtful
-from vibroimpact.measurements.stated import Stated, as_text, kind_of, known
 from vibroimpact.tables.limits import few_columns
 from vibroimpact.tables.units import parted
 

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.errors import InputError
+from vibroimpact.measurements.channel_attributes import kind_of, stated
 from vibroimpact.measurements.columns import Column, Columns
-from vibroimpact.measurements.stated import kind_of, stated
 from vibroimpact.measurements.tables import damaged, described, library, told
 from vibroimpact.tables.limits import within
 from vibroimpact.tables.units import parted

@@ -10,11 +10,11 @@ import re
 import numpy as np
 
 from vibroimpact.errors import InputError
-from vibroimpact.measurements.beside import with_unit
+from vibroimpact.measurements.channel_attributes import kind_of
 from vibroimpact.measurements.columns import Column, Columns
+from vibroimpact.measurements.file_entries import with_unit
 from vibroimpact.measurements.names import QUANTITIES, meaning
 from vibroimpact.measurements.scaling import agreed, doubtful
-from vibroimpact.measurements.stated import kind_of
 from vibroimpact.model.quantities import ACCELERATION
 from vibroimpact.tables.checks import check_count, sampling
 from vibroimpact.tables.file import File

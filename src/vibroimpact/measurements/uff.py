@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from vibroimpact.errors import InputError
+from vibroimpact.measurements.channel_attributes import known
 from vibroimpact.measurements.columns import Column, Columns
 from vibroimpact.measurements.names import meaning
 from vibroimpact.measurements.scaling import agreed
-from vibroimpact.measurements.stated import known
 from vibroimpact.measurements.tables import damaged, library
 from vibroimpact.tables.units import parted, spelled
 
@@ -46,7 +46,7 @@ def read(path: Path) -> list[Columns]:
     for one in (one for one in sets if one.get("type") == 58):
         x, y = np.asarray(one["x"], dtype=float), np.asarray(one["data"])
         if len(y) != int(one.get("num_pts") or len(y)):
-            raise _cut(path)
+            raise _truncated(path)
         bare, unit = parted(_called(one))
         unit, doubt = agreed(unit, one.get("ordinate_axis_units_lab"))
         kind = int(one.get("ordinate_spec_data_type", 0))
@@ -94,14 +94,14 @@ def _whole(path: Path) -> None:
     if _BINARY.search(given):
         # The mark stands behind the last number, with no line of its own; pyuff counts the numbers.
         if not given.rstrip().endswith(b"    -1"):
-            raise _cut(path)
+            raise _truncated(path)
         return
     marks = lines.count(b"-1")
     if marks and (marks % 2 or lines[-1] != b"-1"):
-        raise _cut(path)
+        raise _truncated(path)
 
 
-def _cut(path: Path) -> InputError:
+def _truncated(path: Path) -> InputError:
     return InputError(
         f"measurement: {str(path)!r} ends within a dataset, so it is incomplete; copy or export "
         "the file again"

@@ -17,7 +17,7 @@ def at_rest(oscillator: Oscillator, force: float | None = None) -> float:
     return equilibrium(oscillator.without_bumpers().replace(force=held)).displacement
 
 
-def room(oscillator: Oscillator) -> dict[str, float]:
+def clearances_at_rest(oscillator: Oscillator) -> dict[str, float]:
     """Return the distance (m) of each stop from the equilibrium on the isolator alone.
 
     It is the gap, changed by the displacement that the constant force causes.

@@ -26,7 +26,7 @@ from vibroimpact.model.quantities import (
     UNBALANCE,
     Quantity,
 )
-from vibroimpact.model.sizes import check_size
+from vibroimpact.model.size_checks import check_size
 from vibroimpact.model.units import one_of, plain, pretty, to_si
 from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import unitless

@@ -12,7 +12,7 @@ One law of each part is the default and needs no ``kind``. A new law is a class 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar, get_args
+from typing import Any, ClassVar, Self, get_args
 
 from pydantic import (
     GetCoreSchemaHandler,
@@ -61,6 +61,15 @@ class Named(Model):
     def like(cls, *args: Any, **kwargs: Any) -> Any:
         """Return a law that is about as strong as another one, if it has an example."""
         return None
+
+    @property
+    def rigid(self) -> bool:
+        """Whether the mass cannot pass the stop."""
+        return False
+
+    def between(self, meeting_mass: float) -> Self:
+        """Return the law between two bodies of an assembly, which meet with this mass (kg)."""
+        return self
 
     def summary(self) -> str:
         """Return the law in one line: its kind and its numbers, named as in a table."""

@@ -21,7 +21,7 @@ from pydantic import (
 )
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.built_in import as_isolator, as_stop
+from vibroimpact.model.built_in_laws import as_isolator, as_stop
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, Isolator, IsolatorLaw
 from vibroimpact.model.isolators.design import designed
 from vibroimpact.model.quantities import FORCE, GRAVITY, LENGTH, MASS

@@ -326,11 +326,6 @@ class Law(Named):
         return False
 
     @property
-    def rigid(self) -> bool:
-        """Whether the mass cannot pass the stop: always false."""
-        return False
-
-    @property
     def spring_and_dashpot(self) -> None:
         """Of a stop whose face relaxes; an `Oscillator` replaces such a law by a `Bumper`."""
 

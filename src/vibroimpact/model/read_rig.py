@@ -14,10 +14,10 @@ from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.excitation import Harmonic, Periodic
 from vibroimpact.model.laboratory import Case
 from vibroimpact.model.oscillator import Oscillator
+from vibroimpact.model.parameter_ranges import Range
 from vibroimpact.model.record import Record
 from vibroimpact.model.rig import Rig, several_masses
 from vibroimpact.model.study import read_rig_study
-from vibroimpact.model.varied import Range
 
 _ACCEPTED = (
     'a Rig, a laboratory case or its code, such as "B2-G1-A3", or the path of a study file, such '

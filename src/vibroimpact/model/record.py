@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.errors import InputError, shown, warn_of_input
-from vibroimpact.model.about import About, read_values
 from vibroimpact.model.argument_types import MOST_SAMPLES
 from vibroimpact.model.html_table import table
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, TIME, Quantity
+from vibroimpact.model.record_source import About, read_values
 from vibroimpact.model.units import pretty, to_si
 from vibroimpact.model.written_units import NONE
-from vibroimpact.records.doubts import of_size
+from vibroimpact.records.plausibility import of_size
 from vibroimpact.tables.decimal_mark import checked
 
 _RESOLVED = 1.5

@@ -25,10 +25,10 @@ from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
 from vibroimpact.errors import DependentError, InputError, shown, similar
 from vibroimpact.model.html_table import table
-from vibroimpact.model.keys import LIKENESS, MOST, SHOWN, listed, unknown_key
 from vibroimpact.model.quantities import Quantity
-from vibroimpact.model.sizes import SMALLEST, check_size
+from vibroimpact.model.size_checks import SMALLEST, check_size
 from vibroimpact.model.units import accepted, pretty, read
+from vibroimpact.model.unknown_keys import LIKENESS, MOST, SHOWN, listed, unknown_key
 from vibroimpact.model.wrong_kinds import path_of, wrong_kind
 
 _FIELD = re.compile(r"[a-z_]+(\.[\w-]+)*: ")

@@ -23,7 +23,7 @@ from vibroimpact.records import (
     unam,
 )
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.doubts import of_last_line
+from vibroimpact.records.plausibility import of_last_line
 from vibroimpact.tables.decimal_mark import Decimal
 from vibroimpact.tables.file import File
 
@@ -49,7 +49,7 @@ FORMATS: tuple[Format, ...] = (
 """Formats in the order in which they are tried. The last one, columns, accepts any file."""
 
 
-class Found(NamedTuple):
+class Component(NamedTuple):
     """A component of a file."""
 
     format: str
@@ -60,7 +60,7 @@ class Found(NamedTuple):
 
 def read_channel(
     path: Path | str, component: str | int | None = None, decimal: Decimal | None = None
-) -> Found:
+) -> Component:
     """Read one component of a file.
 
     Parameters
@@ -85,7 +85,7 @@ def read_channel(
     channels = [_cleaned(one)._replace(notes=one.notes + last) for one in channels]
     names = tuple(channel.component for channel in channels)
     if component is None and len(channels) == 1:
-        return Found(form.name, _undamaged(file, channels[0]), names)
+        return Component(form.name, _undamaged(file, channels[0]), names)
     if len(set(names)) < len(names):  # of several stations
         names = tuple(f"{one.station} {one.component}".strip() for one in channels)
         channels = [
@@ -104,7 +104,7 @@ def read_channel(
     if len(chosen) != 1:
         how = "is not a component" if not chosen else f"matches {len(chosen)} components"
         raise InputError(f"component: {component!r} {how} of {file.path!r}; {numbered}")
-    return Found(form.name, _undamaged(file, chosen[0]), names)
+    return Component(form.name, _undamaged(file, chosen[0]), names)
 
 
 def _undamaged(file: File, channel: Channel) -> Channel:

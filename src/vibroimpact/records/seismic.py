@@ -111,16 +111,16 @@ def _merged(file: File, stream: Any) -> Any:
         about, end = trace.stats, ends.get(trace.id)
         # A gap is refused before parts are joined: one damaged date makes it billions of samples.
         if end is not None and (about.starttime - end) * about.sampling_rate >= _GAP:
-            raise _apart(file, trace, "gaps")
+            raise _scale_of_sac(file, trace, "gaps")
         ends[trace.id] = about.endtime if end is None else max(end, about.endtime)
     stream.merge()
     for trace in stream:
         if np.ma.is_masked(trace.data):
-            raise _apart(file, trace, "overlapping parts that differ")
+            raise _scale_of_sac(file, trace, "overlapping parts that differ")
     return stream
 
 
-def _apart(file: File, trace: Any, what: str) -> InputError:
+def _scale_of_sac(file: File, trace: Any, what: str) -> InputError:
     return InputError(f"record: {file.path!r}: {trace.id} has {what}; pass a record without {what}")
 
 

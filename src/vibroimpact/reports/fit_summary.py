@@ -17,7 +17,7 @@ from vibroimpact.reports.identification import amplitude_of, parameter_rows
 
 def fit_summary(fits: ModelFits, tests: list[xr.Dataset]) -> tuple[RenderableType, dict[str, Any]]:
     """Return the summary of fits as text, and the same facts as plain values."""
-    found, comparison = fits.own, fits.comparison
+    found, comparison = fits.own_fit, fits.comparison
     notes = [line for test in tests for line in _notes(test, many=len(tests) > 1)]
     names = [str(test) for test in found["test"].values]
     amplitudes = {name: amplitude_of(found, name) for name in names}

@@ -11,7 +11,7 @@ from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.observers import phases
 from vibroimpact.engine.observers.phases import Layout
 from vibroimpact.engine.observers.record import IMPACT
-from vibroimpact.model import Assembly, RigidStop
+from vibroimpact.model import Assembly
 from vibroimpact.model.assembly import numbers
 from vibroimpact.response.motion_phases import Followed
 
@@ -86,7 +86,7 @@ class AssemblyParts:
         self.closing = np.array(closing) if closing else np.empty((0, len(of.mass)))
         pairs = [one.stop.spring_and_dashpot for one in stops]
         self.springs = np.array([0.0 if pair is None else pair[0] for pair in pairs])
-        self.rigid = np.array([isinstance(one.stop, RigidStop) for one in stops], dtype=bool)
+        self.rigid = np.array([one.stop.rigid for one in stops], dtype=bool)
         self.curved = np.array(
             [not link.law.linear for link in assembly.links.values()], dtype=bool
         )

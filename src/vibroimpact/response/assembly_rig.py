@@ -26,12 +26,9 @@ from vibroimpact.errors import InputError
 from vibroimpact.law_numbers import OwnStop, PowerLaw
 from vibroimpact.model import (
     Assembly,
-    Bumper,
-    JankowskiBumper,
     Periodic,
     Record,
     Repeated,
-    RigidStop,
 )
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.assembly.numbers import PartNumbers
@@ -143,14 +140,9 @@ def link_parts(assembly: Assembly) -> list[tuple[str, bool]]:
 
 
 def _stop(part: PartNumbers) -> Stop:
-    law = part.law
-    if isinstance(law, Bumper):
-        return Stop(part.left, part.right, part.gap, law.stiffness, law.damping)
-    if isinstance(law, RigidStop):
-        return Stop(part.left, part.right, part.gap, restitution=law.restitution)
-    if isinstance(law, JankowskiBumper) and law.mass is None:
-        law = law.replace(mass=part.meeting_mass)
-    made = law.engine_numbers()
+    made = part.law.engine_numbers()
+    if part.law.rigid:
+        return Stop(part.left, part.right, part.gap, restitution=made[0])
     if isinstance(made, PowerLaw | OwnStop):
         behaviour, row = stop_law(made)
         return Stop(part.left, part.right, part.gap, behaviour=behaviour, law=row)

@@ -14,7 +14,7 @@ from vibroimpact.engine.assembly.curved.layout import NEW
 from vibroimpact.engine.assembly.events import KEPT, LEVELS
 from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, AssemblyState, RigidStop, State
+from vibroimpact.model import Assembly, AssemblyState, State
 from vibroimpact.model.assembly.state import NEAR_ZERO
 from vibroimpact.model.stops import Stop
 from vibroimpact.response.assembly_rig import link_parts
@@ -152,7 +152,7 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
             speeds / (assembly.angular_frequency or math.inf),
         )
         said = None if state.touching is None else name in state.touching
-        if isinstance(law, RigidStop):
+        if law.rigid:
             d = state.deformation.get(name, 0.0)
             if d:
                 raise InputError(

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.continuation.arclength import distance, follow, predicted, strays
+from vibroimpact.continuation.arclength import distance, follow, is_other_curve, predicted
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
@@ -249,7 +249,7 @@ class Curve:
         near = np.zeros(layout.STATE)
         near[_PARTS] = aim[:-1]
         held = self.flight.beside(near, float(aim[-1]))
-        if held is None or strays(self, held.y, aim, length):
+        if held is None or is_other_curve(self, held.y, aim, length):
             return None, False
         arclength = here.arclength + distance(self, held.y, here.y)
         return Station(held, self.direction(here.held, held), arclength), False
@@ -258,7 +258,7 @@ class Curve:
         """See `Path`: what lies beyond a corner, the sweep itself finds."""
         return []
 
-    def elsewhere(self, here: Station) -> Station | None:
+    def in_other_coordinates(self, here: Station) -> Station | None:
         """See `Path`."""
         return None
 

@@ -25,7 +25,7 @@ from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPA
 from vibroimpact.engine.phases import measure_motion
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_result
-from vibroimpact.model import Oscillator, Record, Repeated, RigidStop, State, validate
+from vibroimpact.model import Oscillator, Record, Repeated, State, validate
 from vibroimpact.model.argument_types import MOST_EVENTS
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
@@ -356,8 +356,9 @@ def parting_velocity(motion: xr.Dataset, oscillator: Oscillator) -> _Array:
     velocity: _Array = motion["event_velocity"].values.copy()
     for name in motion["stop"].values:
         stop = getattr(oscillator, name)
-        if isinstance(stop, RigidStop):
-            velocity[(kinds == IMPACT) & (stops == name)] *= -stop.restitution
+        if stop.rigid:
+            restitution, _ = stop.engine_numbers()
+            velocity[(kinds == IMPACT) & (stops == name)] *= -restitution
             velocity[(kinds == CONTACT_BEGINS) & (stops == name)] = 0.0
     return velocity
 

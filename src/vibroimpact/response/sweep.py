@@ -52,7 +52,7 @@ from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.response.sweep_dataset import sweep_dataset
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, each
 
 DIRECTIONS = ("forward", "backward")
@@ -95,33 +95,16 @@ def sweep(
     -------
     xarray.Dataset
         The dims are ``direction`` and ``frequency``. A hold is the motion at one frequency in one
-        direction. The variables of each hold are:
+        direction. Its variables are extremes, excursions and peaks of the displacement, of the
+        absolute acceleration and of the force transmitted to the base; ``eta_d`` and ``eta_a``;
+        ``transmissibility``; contacts, forces and impulses of each stop (dim ``stop``: the stops of
+        the rig, ``right`` and ``left``, or those of an assembly); ``section``, the state at the end
+        of the hold; the ``outputs``, by their names; ``motion`` and ``status``.
 
-        - ``displacement_excursion`` and ``acceleration_excursion``: maximum minus minimum of the
-          displacement and of the absolute acceleration;
-        - ``eta_d`` and ``eta_a``: these excursions, divided by the largest excursions without stops
-          at any frequency (the paper's Section 4). They do not depend on the swept range. If the
-          isolator has no damping, such largest excursions do not exist, and the excursions are
-          divided by 2A/ω0² and 2A;
-        - ``displacement_max`` and ``displacement_min``: the largest displacements to the right and
-          to the left of u = 0;
-        - ``peak_displacement`` and ``peak_acceleration``: the larger of the absolute values of
-          maximum and minimum;
-        - ``transmitted_force_max``, ``transmitted_force_min``, ``transmitted_force_excursion`` and
-          ``peak_transmitted_force``: the force that the isolator and the stops together exert on
-          the base, without the infinite force of an impact on a rigid stop;
-        - ``transmissibility``: the excursion of this force, divided by that of the exciting force
-          (the force F on the mass, or M A_t if the base moves);
-        - ``impacts``: the contacts with each stop per forcing cycle (dim ``stop``: the stops of the
-          rig, ``right`` and ``left``, or those of an assembly);
-        - ``peak_force``: the largest contact force of each stop, infinite for an impact on a rigid
-          stop;
-        - ``peak_impulse``: the largest impulse of an impact on each rigid stop;
-        - ``section``: the state at the end of the hold;
-        - the ``outputs``, by their names;
-        - ``status`` and ``motion``: how the hold ended, and the type of the motion. A motion that
-          does not settle is ``"undecided"``, and its status is 1. To find its type, start `steady`
-          from ``section``.
+        ``eta_d`` and ``eta_a`` do not depend on the swept range (the paper's Section 4). If the
+        isolator has no damping, the largest excursions without stops do not exist, and the
+        excursions are divided by 2A/ω0² and 2A. A motion that does not settle is ``"undecided"``,
+        and its status is 1. To find its type, start `steady` from ``section``.
 
         Values are NaN only where ``status`` reports that there is no value.
 
@@ -190,7 +173,7 @@ def _of_several_masses(
         state,
         to_si(phase, ANGLE, "phase") if state.phase is None else state.phase,
         settling,
-        placed(threads),
+        workers_for(threads),
         progress,
     )
 
@@ -277,7 +260,7 @@ def sweeps(
             starts,  # type: ignore[arg-type]
             to_si(phase, ANGLE, "phase") if begin is None else begin,
             Settling(tolerance, max_cycles, window, max_events),
-            placed(threads, where),
+            workers_for(threads, where),
             progress,
         )
     names, pairs = list(named), list(named.values())
@@ -288,7 +271,7 @@ def sweeps(
     if state is not None and state.phase is not None:
         angle = state.phase
     settling = Settling(tolerance, max_cycles, window, max_events)
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
 
     own = [read_outputs(outputs, rig) for rig in pairs]
     ready = [plan_sweep(rig, grid, state) for rig in pairs]

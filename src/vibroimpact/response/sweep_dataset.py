@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.datasets.stops import by_stop, dims_of, stops_of
 from vibroimpact.model import Oscillator
 from vibroimpact.response.engine_input import components
 from vibroimpact.response.hold_rows import HoldRows
-
-_OF_STOPS = ("impacts", "peak_force", "peak_impulse")
 
 
 def sweep_dataset(
@@ -65,7 +62,7 @@ def sweep_dataset(
         "cycles": rows.cycles,
         "status": rows.status.astype(np.int64),
     }
-    data = xr.Dataset({name: sized(name, dims, value) for name, value in values.items()})
+    data = xr.Dataset({name: (dims_of(name, dims), value) for name, value in values.items()})
     data = data.assign_coords(stop=stops)
     data["section"] = ((*dims, "component"), components(states, phase))
     data["free_displacement_excursion"] = (("rig", "frequency"), free[0])
@@ -75,11 +72,6 @@ def sweep_dataset(
     data["largest_free_displacement_excursion"] = ("rig", largest[0])
     data["largest_free_acceleration_excursion"] = ("rig", largest[1])
     return data
-
-
-def sized(name: str, dims: tuple[str, ...], values: Any) -> tuple[tuple[str, ...], Any]:
-    """Return what `sizes` found as a variable, with the dim ``stop`` where it has it."""
-    return ((*dims, "stop") if name in _OF_STOPS else dims, values)
 
 
 def sizes(

@@ -17,11 +17,11 @@ from vibroimpact.model import (
 from vibroimpact.model.derived_parameters import scale_of
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.largest_free_response import peak_displacement
+from vibroimpact.model.parameter_ranges import entries, field_of
 from vibroimpact.model.parameters import PARAMETERS, canonical, usual
 from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
 from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.varied import entries, field_of
 
 _Array = NDArray[np.float64]
 

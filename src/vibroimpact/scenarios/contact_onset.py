@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from vibroimpact.errors import InputError
-from vibroimpact.model.clearance import at_rest, room
+from vibroimpact.model.clearance import at_rest, clearances_at_rest
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.curve_pair import Flags, Swept
 from vibroimpact.response.resonance import Hysteresis, runs
@@ -62,7 +62,7 @@ def _pressed_at_rest(rig: Rig) -> bool:
         )
     except InputError:  # more than a softening one bears
         swing = math.inf
-    return any(swing >= gap for gap in room(oscillator).values())
+    return any(swing >= gap for gap in clearances_at_rest(oscillator).values())
 
 
 def within(frequency: float, spans: tuple[tuple[float, float], ...]) -> bool:

@@ -16,7 +16,7 @@ from typing import Literal, NamedTuple, TypeAlias
 import numpy as np
 import xarray as xr
 
-from vibroimpact.model.clearance import at_rest, room
+from vibroimpact.model.clearance import at_rest, clearances_at_rest
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.unbounded import has_no_bound
 from vibroimpact.response.analytic_free_response import reference_excursions, resonance_ratio
@@ -198,7 +198,7 @@ def shown(rig: Rig, curves: Curves, prominence: float) -> Evidence:
     frequency = both.frequency
     rest = at_rest(oscillator)
     reached = {"right": most - rest, "left": rest - least}
-    gaps = room(oscillator)
+    gaps = clearances_at_rest(oscillator)
     touched = np.logical_or.reduce(both.touching).nonzero()[0]
     apart = hysteresis(both)
     found = peaks(both, prominence=prominence)

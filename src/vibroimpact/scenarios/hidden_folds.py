@@ -24,7 +24,7 @@ _SAME = 1e-6
 """Of a curve's height: by more two directions do not differ that follow the same motions."""
 
 
-def unseen(both: Swept, ended: Holds) -> list[tuple[int, int]]:
+def hidden_stretches(both: Swept, ended: Holds) -> list[tuple[int, int]]:
     """The stretches in which folds may hide: numbers of the first and the last frequency."""
     contacts = ended.contacts
     touching = np.asarray(both.touching.any(axis=0))
@@ -32,7 +32,7 @@ def unseen(both: Swept, ended: Holds) -> list[tuple[int, int]]:
     plain = (ended.period == 1).all(axis=0)
     may = other | ~(plain[1:] & plain[:-1])
     for curve in (both.eta_a, both.eta_d):
-        may |= _steep(curve) | _apart(curve)
+        may |= _steep(curve) | _differing_intervals(curve)
     found: list[tuple[int, int]] = []
     for i in np.flatnonzero(may & (touching[1:] | touching[:-1])).tolist():
         if found and i <= found[-1][1] + 1:
@@ -55,7 +55,7 @@ def _steep(curve: Array) -> Flags:
     return ~gentle  # of what was given up nothing is known
 
 
-def _apart(curve: Array) -> Flags:
+def _differing_intervals(curve: Array) -> Flags:
     """Between which neighbours the two directions differ at one of them."""
     differ = np.abs(curve[0] - curve[1]) > _SAME * _height(curve)
     return np.asarray(differ[1:] | differ[:-1])

@@ -16,17 +16,17 @@ from vibroimpact.errors import InputError
 from vibroimpact.grids.refinement import UNKNOWN, Nodes, Scenarios
 from vibroimpact.model import from_dimensionless
 from vibroimpact.model.argument_types import PositiveInt, Refinements, Share
+from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.model.varied import Values
 from vibroimpact.scenarios.axes import Axis, Base, one_sine, read_axes
 from vibroimpact.scenarios.map_node import RIG, classified
 from vibroimpact.scenarios.map_store import MapStore, chunk_slices, map_store
 from vibroimpact.scenarios.sweep_frequencies import STEP
 from vibroimpact.scenarios.thresholds import Thresholds, checked
-from vibroimpact.tasks.executors import PROCESSES, THREADS, placed
+from vibroimpact.tasks.executors import PROCESSES, THREADS, workers_for
 from vibroimpact.tasks.processes import may_start
-from vibroimpact.tasks.threads import Progress, Tally, Workers, breadth, each
+from vibroimpact.tasks.threads import Progress, Tally, Workers, each, worker_count
 
 DAMPING_RATIO, RELAXATION_TIME = 0.15, 0.01
 """ξ and τ of the published rig (the paper's Section 7)."""
@@ -179,9 +179,9 @@ def scenario_map(
 def map_workers(nodes: int, threads: int | None, where: Any) -> Workers:
     """Return where to compute a map with this number of nodes in its first grid."""
     if where is None:
-        several = breadth(placed(threads)) > 1 and may_start()
+        several = worker_count(workers_for(threads)) > 1 and may_start()
         where = PROCESSES if nodes >= _MANY and several else THREADS
-    return placed(threads, where)
+    return workers_for(threads, where)
 
 
 Node: TypeAlias = dict[str, float]
@@ -220,7 +220,7 @@ def _level(
     done: int,
 ) -> int:
     """Compute the required nodes of one level; return the total number of nodes done."""
-    chosen = plan.nodes.wanted(level, _known(plan, held, level - 1))
+    chosen = plan.nodes.nodes_to_compute(level, _known(plan, held, level - 1))
     total = done + int(chosen.sum())
     for row, column, place in plan.blocks():
         mine = chosen[place]
@@ -257,9 +257,9 @@ def _parallel(
     total: int,
 ) -> dict[str, NDArray[Any]]:
     """Compute some nodes, a few at a time on each thread."""
-    few = max(1, min(_FEW, len(nodes) // (4 * breadth(workers))))
+    few = max(1, min(_FEW, len(nodes) // (4 * worker_count(workers))))
     # Smaller ones at the end, where the others wait for the last.
-    last = max(0, len(nodes) - 2 * few * breadth(workers))
+    last = max(0, len(nodes) - 2 * few * worker_count(workers))
     starts = [*range(0, last, few), *range(last, len(nodes), max(1, few // _LAST))]
     parts = [nodes[i:j] for i, j in itertools.pairwise([*starts, len(nodes)])]
 

@@ -59,14 +59,14 @@ class MapStore:
             else:
                 parts[name] = self._read(name, block)
                 parts[name][chosen] = new
-        write_block(self._group, _KIND, block, parts)
+        write_block(self._group, block, parts)
 
     def inherit(self, scenarios: NDArray[np.int8]) -> None:
         """Put the scenarios of all nodes; the levels show which were computed."""
         array = self._array("scenario")
         for rows, columns in itertools.product(*map(chunk_slices, array.shape, array.chunks)):
             part = {"scenario": scenarios[rows, columns]}
-            write_block(self._group, _KIND, (rows, columns), part)
+            write_block(self._group, (rows, columns), part)
 
     def done(self, level: int, row: int, column: int) -> bool:
         """Whether a block of a level is complete."""

@@ -17,11 +17,11 @@ from vibroimpact.response.curve_pair import Swept
 from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.scenarios.evidence import Evidence, Irregular, Kind
-from vibroimpact.scenarios.hidden_folds import unseen
+from vibroimpact.scenarios.hidden_folds import hidden_stretches
 from vibroimpact.scenarios.resonance_curves import DIRECTIONS, Holds
 from vibroimpact.stability.branch import branch, turning_points
 from vibroimpact.stability.motion_exponents import judge_wandering
-from vibroimpact.stability.settle import Settled
+from vibroimpact.stability.settled_motion import Settled
 
 KIND_CYCLES = 5000
 """Forcing cycles over which growth tells chaotic from quasi-periodic motions."""
@@ -141,7 +141,7 @@ def with_folds(
     if first is None:
         return found._replace(folds=None)
     low, high = found.swept
-    stretches = None if both is None else unseen(both, ended)
+    stretches = None if both is None else hidden_stretches(both, ended)
     begins = [None] if stretches is None else [_within(ended, shaken, *one) for one in stretches]
     parts = [one for one in begins if one is not None]
     turns = _turns(oscillator, parts) if len(parts) == len(begins) else None

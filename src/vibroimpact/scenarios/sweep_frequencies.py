@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Harmonic, Oscillator, Stop
-from vibroimpact.model.clearance import room
+from vibroimpact.model.clearance import clearances_at_rest
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import (
     beside_resonance,
@@ -66,8 +66,8 @@ def highest(rig: Rig) -> float:
     found = oscillator.stops
     if not found:
         return least
-    stiff = max(_in_contact(oscillator, side, shaken) for side in room(oscillator))
-    gaps = list(room(oscillator).values())
+    stiff = max(_in_contact(oscillator, side, shaken) for side in clearances_at_rest(oscillator))
+    gaps = list(clearances_at_rest(oscillator).values())
     apart = sum(gaps) if len(gaps) == 2 and gaps[0] == gaps[1] else min(gaps)
     viscous = oscillator.isolator.damping_exponent == 1.0
     travel = apart * oscillator.isolator.damping if viscous else 0.0
@@ -89,7 +89,7 @@ def _in_contact(oscillator: Oscillator, side: str, shaken: Harmonic) -> float:
         stiffer = math.sqrt(1.0 + stop.spring_and_dashpot[0] / spring)
     else:
         swing = 0.5 * reference_excursions(Rig(oscillator, shaken))[0]
-        depth = max(swing - room(oscillator)[side], 0.0)
+        depth = max(swing - clearances_at_rest(oscillator)[side], 0.0)
         pressed = _tangent(stop.static_force, depth)
         held = max(_tangent(oscillator.isolator.static_force, swing), spring)
         stiffer = min(math.sqrt((held + pressed) / spring), MOST_HIGH)

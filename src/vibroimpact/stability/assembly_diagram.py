@@ -14,12 +14,12 @@ from vibroimpact.engine import hold
 from vibroimpact.engine.assembly import measures
 from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, AssemblyState, RigidStop
+from vibroimpact.model import Assembly, AssemblyState
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rows import measured_variables, notes_on
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sections import names_of_parts, section_variables
-from vibroimpact.stability.settle import reach_at_rest
+from vibroimpact.stability.settled_motion import reach_at_rest
 
 if TYPE_CHECKING:
     from vibroimpact.stability.diagram_point import Seen
@@ -44,9 +44,7 @@ def place_assembly(rig: Rig, state: _Array) -> _Array:
     parts = state[FIRST:]
     u, v, d = parts[:n].copy(), parts[n : 2 * n], parts[2 * n :]
     walls = [
-        (assembly.closing(one), one.stop.gap)
-        for one in assembly.stops.values()
-        if isinstance(one.stop, RigidStop)
+        (assembly.closing(one), one.stop.gap) for one in assembly.stops.values() if one.stop.rigid
     ]
     for _ in range(_TRIES):
         apart = True
@@ -59,7 +57,7 @@ def place_assembly(rig: Rig, state: _Array) -> _Array:
     deformation = {
         name: max(float(d[f]), float(assembly.closing(one) @ u) - one.stop.gap, 0.0)
         for f, (name, one) in enumerate(assembly.stops.items())
-        if not isinstance(one.stop, RigidStop)
+        if not one.stop.rigid
     }
     made = AssemblyState(
         displacement=dict(zip(names, u.tolist(), strict=True)),

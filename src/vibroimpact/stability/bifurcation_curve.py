@@ -33,11 +33,11 @@ from vibroimpact.datasets.description import (
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly
 from vibroimpact.model.argument_types import PositiveInt
+from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
-from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.stability.bifurcation_locus import Locus, Place
 from vibroimpact.stability.bifurcations import BREAKING, GRAZING
 from vibroimpact.stability.branch_dataset import state_of

@@ -24,7 +24,7 @@ from vibroimpact.datasets.description import (
     excitation_parameters,
     system_parameters,
 )
-from vibroimpact.datasets.stops import stop_names, stops_of
+from vibroimpact.datasets.stops import dims_of, stop_names, stops_of
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
@@ -37,22 +37,22 @@ from vibroimpact.model.argument_types import (
     Share,
     whole,
 )
+from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest
 from vibroimpact.model.rig import System
-from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.engine_input import components, engine_rig
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sections import section_variables
-from vibroimpact.response.sweep_dataset import sized, sizes
+from vibroimpact.response.sweep_dataset import sizes
 from vibroimpact.stability.assembly_diagram import assembly_diagram
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, Tally, each
 
 _Array = NDArray[np.float64]
@@ -189,7 +189,7 @@ def bifurcation_diagram(
     values[0], values[-1] = ends
     settling = Settling(tolerance, max_cycles, points, max_events)
     look = Look(section, points, exponent_cycles, max_events)
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     own = () if outputs is None else read_outputs(outputs, rig)
     ways = _ways(directions, starts, random, system)
     every = rigs_along(varied, rig, values)
@@ -323,7 +323,7 @@ def _dataset(
     states = components(np.array([one.held.found.state for one in seen]), phase)
     variables: dict[str, Any] = {
         **{
-            key: sized(key, dims, value.reshape(*shape, *value.shape[1:]))
+            key: (dims_of(key, dims), value.reshape(*shape, *value.shape[1:]))
             for key, value in scalars.items()
         },
         **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},

@@ -8,7 +8,13 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.continuation.arclength import TURN, distance, predicted, strays, unit_tangent
+from vibroimpact.continuation.arclength import (
+    TURN,
+    distance,
+    is_other_curve,
+    predicted,
+    unit_tangent,
+)
 from vibroimpact.continuation.closing import SAME, returned
 from vibroimpact.continuation.zero import zero_within
 from vibroimpact.model.units import pretty
@@ -72,7 +78,7 @@ class Locus:
         """Predict and correct."""
         aim = predicted(self, here, length)
         spot = solve(here.system, aim, here.tangent)
-        return None if spot is None or strays(self, spot.y, aim, length) else spot
+        return None if spot is None or is_other_curve(self, spot.y, aim, length) else spot
 
     def step(self, here: Place, length: float) -> tuple[Place | None, bool]:
         """See `Path`."""
@@ -166,7 +172,7 @@ class Locus:
             )
         return found
 
-    def elsewhere(self, here: Place) -> Place | None:
+    def in_other_coordinates(self, here: Place) -> Place | None:
         """See `Path`: at another section, for where an event falls on it there is a corner."""
         for number in range(here.phases_tried, len(PHASES)):
             same = self._at_phase(here, here.phase + PHASES[number])

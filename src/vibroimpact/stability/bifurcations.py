@@ -30,7 +30,7 @@ from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import VALUE, Orbit, corrected, evaluated, is_fixed
 from vibroimpact.stability.orbit_curve import Station, solved
-from vibroimpact.stability.parent_branches import half_plus, parent, slid
+from vibroimpact.stability.parent_branches import half_plus, is_of_simpler_map, parent
 
 _Array = NDArray[np.float64]
 
@@ -325,7 +325,7 @@ def own_mirror(orbit: Orbit, tolerance: float) -> bool:
     return is_fixed(section.simpler(section.count, mirror=True), orbit, tolerance)
 
 
-def born(found: Bifurcation) -> Iterator[Station]:
+def bifurcating_orbits(found: Bifurcation) -> Iterator[Station]:
     """Orbits on the branches that a symmetry breaking or a period doubling gives birth to.
 
     One station of each pair: the other is its mirror image, or itself a period later.
@@ -351,7 +351,9 @@ def born(found: Bifurcation) -> Iterator[Station]:
             continue
         away = (orbit.point - found.orbit.point) / section.scale * section.seen
         # It must not have slid back to the orbit that was there before, nor to another such one.
-        if 0.3 * distance <= np.linalg.norm(away) <= 30.0 * distance and not slid(orbit):
+        if 0.3 * distance <= np.linalg.norm(away) <= 30.0 * distance and not is_of_simpler_map(
+            orbit
+        ):
             yield Station(orbit, orbit.tangent(normal), 0.0, 0)
             return
 

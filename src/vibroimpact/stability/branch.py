@@ -9,9 +9,9 @@ from vibroimpact.continuation import arclength
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Rig, State
 from vibroimpact.model.argument_types import Period, PositiveInt
+from vibroimpact.model.parameter_ranges import Range, Ranges, read_ranges
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest
-from vibroimpact.model.varied import Range, Ranges, read_ranges
 from vibroimpact.response.outputs import Outputs, read_outputs
 from vibroimpact.stability import bifurcations
 from vibroimpact.stability.branch_dataset import Followed, as_dataset

@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, rig_parameters
-from vibroimpact.datasets.stops import stops_of
+from vibroimpact.datasets.stops import dims_of, stops_of
 from vibroimpact.engine import hold, orbit
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
@@ -80,10 +80,7 @@ def as_dataset(
         "piece": np.array([s.piece for _, s in stations], dtype=np.int64),
     }
     variables: dict[str, Any] = {
-        **{
-            key: sweep_dataset.sized(key, ("point",), np.asarray(value))
-            for key, value in values.items()
-        },
+        **{key: (dims_of(key, ("point",)), np.asarray(value)) for key, value in values.items()},
         "multiplier_real": (("point", "multiplier"), multipliers.real),
         "multiplier_imag": (("point", "multiplier"), multipliers.imag),
         "section": (("point", "component"), np.array([state_of(one) for one in orbits])),
@@ -100,8 +97,8 @@ def as_dataset(
         coordinates["stop"] = stops_of(fam.oscillator)
     data = xr.Dataset(variables, coordinates)
     data.attrs["parameter"] = name
-    add_outputs(data, own, _own(own, orbits))
-    critical = _own(own, [b.orbit for one in followed for b in one.bifurcations])
+    add_outputs(data, own, _output_values(own, orbits))
+    critical = _output_values(own, [b.orbit for one in followed for b in one.bifurcations])
     for k, output in enumerate(own):
         data[f"bifurcation_{output.name}"] = ("bifurcation", critical[:, k])
     for i, one in enumerate(followed):
@@ -146,7 +143,7 @@ def _by_mass(
     return notes_on(assembly, rows, "orbits")
 
 
-def _own(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Array:
+def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Array:
     """Own outputs of orbits over one period each."""
     if not outputs:
         return np.empty((len(orbits), 0))
@@ -176,7 +173,7 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
     else:
         known = _sizes(assembly, orbits)
         sizes = {
-            f"bifurcation_{name}": sweep_dataset.sized(name, ("bifurcation",), known[name])
+            f"bifurcation_{name}": (dims_of(name, ("bifurcation",)), known[name])
             for name in VARIABLES
         }
     values: dict[str, Any] = {

@@ -49,7 +49,7 @@ class Rested:
     last: Orbit | None = None
     left: bool = False
 
-    def comes_again(self, here: Orbit) -> bool:
+    def repeats(self, here: Orbit) -> bool:
         """Whether a branch that has left these orbits follows them again.
 
         A chatter that is not completed any more ends in a cascade of grazings, in which a branch

@@ -29,7 +29,7 @@ from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sweep_starts import arrivals
 from vibroimpact.stability.assembly_diagram import place_assembly
 from vibroimpact.stability.equivalence import image_of, mirrors, same
-from vibroimpact.stability.settle import (
+from vibroimpact.stability.settled_motion import (
     Settled,
     approach,
     later,
@@ -193,7 +193,7 @@ def find_motions(
         if found.status in (Status.DONE, Status.NOT_SETTLED):
             found = _at_phase(found, excitation, max_events)
         if found.status in (Status.DONE, Status.NOT_SETTLED):
-            _keep(kept, found, name, options)
+            _add_motion(kept, found, name, options)
         else:
             given_up.setdefault(found.status, (start, []))[1].append(name)
         followed(name)
@@ -208,7 +208,7 @@ def find_motions(
     generator = np.random.default_rng(seed)
     for number in range(random):
         drawn = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2 * states.masses) * size
-        go(f"random {number + 1}", _placed(rig, drawn))
+        go(f"random {number + 1}", _start_of(rig, drawn))
     if kept and kept[0].found.symmetric:
         for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
@@ -232,7 +232,7 @@ def find_motions(
     return motions
 
 
-def _placed(rig: Rig, drawn: NDArray[np.float64]) -> _Start:
+def _start_of(rig: Rig, drawn: NDArray[np.float64]) -> _Start:
     """Return a start of drawn displacements, and of velocities divided by ω."""
     system, excitation = rig.system, rig.periodic
     n = len(drawn) // 2
@@ -275,7 +275,9 @@ def _at_phase(found: Settled, excitation: Repeated, max_events: int) -> Settled:
     return found._replace(state=state, engine=there)
 
 
-def _keep(kept: list[_Kept], found: Settled, name: str, options: tuple[int, int, int, int]) -> None:
+def _add_motion(
+    kept: list[_Kept], found: Settled, name: str, options: tuple[int, int, int, int]
+) -> None:
     """Add a new motion, or add its initial state to a known motion."""
     for one in kept:
         if one.found.period != found.period or one.found.status is not found.status:

@@ -9,8 +9,8 @@ import xarray as xr
 
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly
+from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.stability.bifurcation_curve import bifurcation_curve
 from vibroimpact.stability.branch import branch
 from vibroimpact.stability.resonance_diagram import resonance_diagram

@@ -18,7 +18,7 @@ from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_exponents import judge_orbit
 from vibroimpact.stability.motion_type import Judgement, judge
 from vibroimpact.stability.parameter_sweep import Held
-from vibroimpact.stability.settle import Settled
+from vibroimpact.stability.settled_motion import Settled
 from vibroimpact.stability.steady import approached
 
 _Array = NDArray[np.float64]

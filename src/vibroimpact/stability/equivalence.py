@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
-from vibroimpact.stability.settle import Settled, apart, later, reach
+from vibroimpact.stability.settled_motion import Settled, later, reach, state_distance
 
 SAME = 1e-6
 """Two orbits are one if their points agree to this share of their size."""
@@ -38,7 +38,7 @@ def same(one: Settled, other: Settled, max_events: int) -> bool:
         size = reach(one, one.state)
         state = other.state
         for _ in range(one.period):
-            if apart(one, one.state, state, size) <= SAME:
+            if state_distance(one, one.state, state, size) <= SAME:
                 return True
             status, state = later(one, state, 1.0, max_events)
             if status is not Status.DONE:

@@ -21,18 +21,18 @@ from vibroimpact.model.argument_types import (
     PositiveInt,
     whole,
 )
+from vibroimpact.model.parameter_ranges import Values, Varied, read_values, vary_all
 from vibroimpact.model.parameters import parameter
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
-from vibroimpact.model.varied import Values, Varied, read_values, vary_all
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sweep import check_frequencies, periodic_rigs
 from vibroimpact.stability.block_averages import Averaged
-from vibroimpact.tasks.executors import THREADS, placed
+from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import DONE, Progress, Tally, each
 
 DISCARD = 100
@@ -138,7 +138,7 @@ def lyapunov_exponents(
     for one in starts:
         if one is not None and one.phase is not None:
             angle = one.phase
-    workers = placed(threads, where)
+    workers = workers_for(threads, where)
     counts = [2 * SectionStates(rig.system).masses for rig in pairs]
     if count is not None:
         asked = whole(count, "count", most=max(counts))

@@ -16,7 +16,7 @@ import numpy as np
 from vibroimpact.engine.motion import FLIGHT
 from vibroimpact.engine.section_map import MODE, PARAMETER
 from vibroimpact.model import Harmonic
-from vibroimpact.model.clearance import room
+from vibroimpact.model.clearance import clearances_at_rest
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import free_flight_excursions, resonance_ratio
 from vibroimpact.stability.fixed_points import Orbit
@@ -95,7 +95,7 @@ def grazing_frequency(orbit: Orbit) -> float:
     assert isinstance(shaken, Harmonic)
     if not (rig.isolator.initial_stiffness > 0.0 and rig.isolator.damping > 0.0):
         return math.nan
-    free = 2.0 * min(room(rig).values())
+    free = 2.0 * min(clearances_at_rest(rig).values())
     here = orbit.value
     for _ in range(_STEPS):
         beside = np.array([here, here * (1.0 + 1e-6)])

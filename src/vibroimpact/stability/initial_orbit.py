@@ -23,7 +23,14 @@ from vibroimpact.stability.fixed_points import (
     vector_of,
 )
 from vibroimpact.stability.parameter_family import Family
-from vibroimpact.stability.settle import Settled, apart, approach, later, reach, reach_at_rest
+from vibroimpact.stability.settled_motion import (
+    Settled,
+    approach,
+    later,
+    reach,
+    reach_at_rest,
+    state_distance,
+)
 
 _Array = NDArray[np.float64]
 
@@ -158,7 +165,9 @@ def _returns(rest: Settled, begin: _Array, period: int) -> list[_Array]:
             break
         sections.append(vector)
     size = reach(rest, rest.state)
-    missed = [apart(rest, *pair, size) for pair in zip(sections, sections[period:], strict=False)]
+    missed = [
+        state_distance(rest, *pair, size) for pair in zip(sections, sections[period:], strict=False)
+    ]
     best: list[int] = []
     for i in np.argsort(missed, kind="stable"):
         # Its neighbours belong to the same passage.
@@ -174,7 +183,7 @@ def _tell_another(rest: Settled, found: Orbit) -> None:
     there = vector_of(found)
     if (
         rest.period == found.section.period
-        and apart(rest, there, rest.state, reach(rest, rest.state)) <= _SAME
+        and state_distance(rest, there, rest.state, reach(rest, rest.state)) <= _SAME
     ):
         return
     it = f"has period {rest.period}" if rest.period else "does not settle"

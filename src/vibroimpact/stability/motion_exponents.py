@@ -14,7 +14,7 @@ from vibroimpact.model import Assembly
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_type import Judgement, judge, repeats
-from vibroimpact.stability.settle import Settled
+from vibroimpact.stability.settled_motion import Settled
 from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]

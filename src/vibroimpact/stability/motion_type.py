@@ -145,7 +145,7 @@ def judge(logarithms: _Array, section: _Array, damping: _Array | None = None) ->
     if bounded and apart and whole < 0.0:
         told = f"{grown}: disturbances still decay slowly"
         return Judgement("undecided", 0, mean, uncertainty, told, returns(section))
-    if bounded and damping is not None and forgets(logarithms, damping):
+    if bounded and damping is not None and shrinks_as_damped(logarithms, damping):
         told = (
             f"{grown}: as in a quasi-periodic motion, but no quasi-periodic motion exists if the "
             "bumpers have no memory of the previous cycle; the motion settles slowly"
@@ -167,7 +167,7 @@ def repeats(period: int) -> str:
     return f"the section repeats after {period} cycle{'' if period == 1 else 's'}"
 
 
-def forgets(logarithms: _Array, damping: _Array) -> bool:
+def shrinks_as_damped(logarithms: _Array, damping: _Array) -> bool:
     """Whether areas shrink as the damping says, and not otherwise: by the sum of the exponents."""
     lost = float(damping.mean())
     return lost > 0.0 and abs(float(logarithms.sum(axis=1).mean()) + lost) <= FORGOTTEN * lost

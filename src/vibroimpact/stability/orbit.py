@@ -13,7 +13,7 @@ from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.stability.fixed_points import MAX_EVENTS
 from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.parameter_family import family
-from vibroimpact.stability.settle import settled_on
+from vibroimpact.stability.settled_motion import settled_on
 from vibroimpact.stability.steady import describe_motion
 
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.continuation.arclength import distance, predicted, strays
+from vibroimpact.continuation.arclength import distance, is_other_curve, predicted
 from vibroimpact.continuation.closing import returned
 from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
@@ -32,7 +32,7 @@ from vibroimpact.stability.fixed_points import (
     seen_at,
 )
 from vibroimpact.stability.impact_grazing import at_wall, dies_out, has_rigid_stop, taken_up
-from vibroimpact.stability.parent_branches import parent, shrinks_onto, simplest, slid
+from vibroimpact.stability.parent_branches import is_of_simpler_map, parent, shrinks_onto, simplest
 
 _Array = NDArray[np.float64]
 
@@ -121,7 +121,11 @@ class Branch:
             aim, normal = predicted(self, here, length), section.held
             aim[VALUE] = bound
         status, found = corrected(section, aim, mode, normal)
-        if status is not Status.DONE or strays(self, found.point, aim, length) or slid(found):
+        if (
+            status is not Status.DONE
+            or is_other_curve(self, found.point, aim, length)
+            or is_of_simpler_map(found)
+        ):
             return None
         return placed_at_rest(found)
 
@@ -146,10 +150,10 @@ class Branch:
             return self._on_bound(here, bound), f"the range ends at {written(bound, 9)}"
         if value in (self.low, self.high):
             return [there], f"the range ends at {written(value, 9)}"
-        if slid(there.orbit):
+        if is_of_simpler_map(there.orbit):
             # The impacts by which it differed are gone: beyond, the same orbits come again.
             return [replace(there, tangent=-here.tangent)], _born_grazing(simplest(there.orbit))
-        if self.rested.comes_again(here.orbit):
+        if self.rested.repeats(here.orbit):
             return (
                 [],
                 f"beyond {here.orbit.place}, the branch repeats the orbits in which the mass "
@@ -237,7 +241,7 @@ class Branch:
             found.append((image, sense * tangent))
         return found
 
-    def elsewhere(self, here: Station) -> Station | None:
+    def in_other_coordinates(self, here: Station) -> Station | None:
         """See `Path`: at another section, for where an event falls on it there is a corner."""
         for number in range(here.phases_tried, len(PHASES)):
             found = at_phase(here.orbit, here.orbit.section.family.phase + PHASES[number])

@@ -17,16 +17,16 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Oscillator, State
+from vibroimpact.model.parameter_ranges import field_of
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.varied import field_of
 from vibroimpact.response.analytic_free_response import check_bounded
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.stability.assembly_diagram import place_assembly, random_assembly_states
-from vibroimpact.stability.settle import Settled, reach_at_rest
+from vibroimpact.stability.settled_motion import Settled, reach_at_rest
 from vibroimpact.tasks.threads import Stopped, Tally
 
 _Array = NDArray[np.float64]
@@ -96,11 +96,11 @@ def stepped(
         if going_on and before is not None:
             state = before.found.state
             if rig.system != before.found.rig.system:
-                state = placed(rig, state)
+                state = nearest_state(rig, state)
         elif start is None:
             state = prepare(rig).state()
         else:
-            state = placed(rig, start)
+            state = nearest_state(rig, start)
         before = _held(rig, state, settling)
         seen(before)
         tally[0] += 1
@@ -116,7 +116,7 @@ def _held(rig: Rig, state: _Array, settling: Settling) -> Held:
     return Held(found, row)
 
 
-def placed(rig: Rig, state: _Array) -> _Array:
+def nearest_state(rig: Rig, state: _Array) -> _Array:
     """The nearest state that a rig can have: no mass inside a stop, no memory beyond its bounds."""
     if isinstance(rig.system, Assembly):
         return place_assembly(rig, state)

@@ -41,14 +41,14 @@ def half_plus(orbit: Orbit) -> float:
         return float(np.linalg.det(orbit.carried + np.eye(len(orbit.carried))))
 
 
-def slid(found: Orbit) -> bool:
+def is_of_simpler_map(found: Orbit) -> bool:
     """Whether an orbit has become one of a simpler map: its own mirror image, or half as long."""
     return found.missed is not None and found.missed[0] <= _SLID
 
 
 def simplest(found: Orbit) -> Orbit:
     """An orbit as that of the simplest map whose fixed point it is."""
-    while slid(found) and (section := found.section.parent()) is not None:
+    while is_of_simpler_map(found) and (section := found.section.parent()) is not None:
         _, found, _ = evaluated(section, found.point, found.facts[section_map.MODE])
     return found
 

@@ -23,11 +23,11 @@ from vibroimpact.model.argument_types import (
     RandomStarts,
     whole,
 )
+from vibroimpact.model.parameter_ranges import Ranges, read_ranges
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig
-from vibroimpact.model.varied import Ranges, read_ranges
 from vibroimpact.response.outputs import Outputs, read_outputs
-from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, born
+from vibroimpact.stability.bifurcations import BREAKING, DOUBLING, Bifurcation, bifurcating_orbits
 from vibroimpact.stability.branch import follow_both_ways
 from vibroimpact.stability.branch_dataset import Followed, as_dataset
 from vibroimpact.stability.fixed_points import Orbit, at_phase, corrected, images
@@ -148,7 +148,7 @@ def resonance_diagram(
         for found in done.bifurcations:
             if found.turns or found.kind not in (BREAKING, DOUBLING):
                 continue
-            for station in born(found):
+            for station in bifurcating_orbits(found):
                 inside = ends[0] <= station.orbit.value <= ends[1]
                 if station.orbit.section.period <= longest and inside:
                     waiting.append((station.orbit, found))

@@ -39,13 +39,13 @@ from vibroimpact.stability.initial_orbit import first_orbit
 from vibroimpact.stability.motion_exponents import exponents, judge_orbit, judge_wandering
 from vibroimpact.stability.motion_type import Judgement
 from vibroimpact.stability.parameter_family import family
-from vibroimpact.stability.settle import (
+from vibroimpact.stability.settled_motion import (
     Settled,
-    apart,
     approach,
     later,
     reach,
     settled_on,
+    state_distance,
 )
 from vibroimpact.tasks.threads import Progress
 
@@ -213,7 +213,7 @@ def approached(found: Settled, period: int) -> Settled | None:
         return None
     there = settled_on(orbit)
     size = reach(found, found.state)
-    near = apart(found, there.state, found.state, size) <= APPROACHED
+    near = state_distance(found, there.state, found.state, size) <= APPROACHED
     return there if near and orbit.stable else None
 
 
@@ -246,7 +246,7 @@ def _mirror_distance(found: Settled, state: _Array, period: int, max_events: int
     if status is not Status.DONE:
         return math.nan  # seen from there a cycle has more events than are allowed
     image = found.states.mirror_image(half)
-    return math.nan if image is None else apart(found, image, state, reach(found, state))
+    return math.nan if image is None else state_distance(found, image, state, reach(found, state))
 
 
 def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.Dataset:

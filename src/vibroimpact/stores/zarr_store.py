@@ -1,10 +1,9 @@
 """A Zarr group in a folder: written block by block, by one writer, with checksums.
 
 The group exists with all its arrays or not at all. Each block has a mark in the array ``done``,
-which is set when the block is complete. Each chunk carries a checksum of its bytes, and the array
-``checksum`` one of its values together with their place, so that a chunk that was exchanged for
-another is noticed as well. When a store is opened, every block that is marked is read once; a
-damaged one is marked as not done, so that whoever completes the store computes it again.
+which is set when the block is complete. Each chunk carries a checksum. When a store is opened,
+every block that is marked is read once; a damaged one is marked as not done, so that whoever
+completes the store computes it again.
 """
 
 from __future__ import annotations
@@ -13,7 +12,6 @@ import json
 import os
 import shutil
 import warnings
-import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -40,9 +38,9 @@ class Kind(NamedTuple):
     arrays: frozenset[str]
     """Names of those that are written block by block, all of them in the same chunks."""
 
-    def sorted_arrays(self, group: zarr.Group) -> list[zarr.Array[Any]]:
-        """Return these arrays in the order of their names."""
-        return [group[name] for name in sorted(self.arrays)]  # type: ignore[misc]
+    def arrays_of(self, group: zarr.Group) -> list[zarr.Array[Any]]:
+        """Return these arrays."""
+        return [group[name] for name in self.arrays]  # type: ignore[misc]
 
 
 class Block(NamedTuple):
@@ -105,31 +103,11 @@ def create(
 
 
 def write_block(
-    group: zarr.Group, kind: Kind, place: tuple[slice, ...], values: Mapping[str, NDArray[Any]]
+    group: zarr.Group, place: tuple[slice, ...], values: Mapping[str, NDArray[Any]]
 ) -> None:
-    """Write one block of some arrays.
-
-    The checksums are written first, the new ones beside those of what is there: whichever values a
-    process leaves behind that is killed in between are known.
-    """
-    arrays = kind.sorted_arrays(group)
-    known = []
-    for array in arrays:
-        there = np.asarray(array[place])
-        before = after = _checksum(array, place, there)
-        if array.basename in values:
-            new = np.broadcast_to(values[array.basename], there.shape).astype(there.dtype)
-            after = _checksum(array, place, new)
-        known.append((before, after))
-    group["checksum"][_chunk_number(arrays[0], place)] = known  # type: ignore[index]
+    """Write one block of some arrays."""
     for name, part in values.items():
         group[name][place] = part  # type: ignore[index]
-
-
-def _checksum(array: Any, place: tuple[slice, ...], values: Any) -> int:
-    """Return the checksum of an array's values and their place."""
-    head = f"{array.basename} {_chunk_number(array, place)} ".encode()
-    return zlib.crc32(np.ascontiguousarray(values).tobytes(), zlib.crc32(head))
 
 
 def _chunk_number(array: Any, place: tuple[slice, ...]) -> tuple[int, ...]:
@@ -225,11 +203,6 @@ class Template(NamedTuple):
 
         group = zarr.open_group(store, mode="w")
         self.make(group)
-        arrays = self.kind.sorted_arrays(group)
-        grid, ones = arrays[0].cdata_shape, (1,) * arrays[0].ndim
-        shape, chunk = (*grid, len(arrays), 2), (*ones, len(arrays), 2)
-        dims = (*(f"block_{n}" for n in range(len(grid))), "array", "version")
-        create(group, "checksum", shape, chunk, "u4", 0, dims)
         group.attrs.update(
             created_by=self.kind.created_by,
             vibroimpact_version=__version__,
@@ -324,20 +297,18 @@ def _holds(path: Path, content: bytes) -> bool:
 
 def _damaged(there: Path, group: zarr.Group, template: Template) -> list[Block]:
     """The blocks that were begun and cannot be read."""
-    arrays = template.kind.sorted_arrays(group)
+    arrays = template.kind.arrays_of(group)
     return [block for block in template.blocks if not _is_intact(there, group, arrays, block)]
 
 
 def _is_intact(there: Path, group: zarr.Group, arrays: list[Any], block: Block) -> bool:
     """Whether a block can be read, or is not there yet."""
     try:
-        if not any(group["done"][mark] == 1 for mark in block.marks):  # type: ignore[index]
+        marks = [group["done"][mark] == 1 for mark in block.marks]  # type: ignore[index]
+        if not any(marks):
             return not finished(group)
-        known: Any = group["checksum"]
-        versions = known[_chunk_number(arrays[0], block.place)]
-        for array, accepted in zip(arrays, versions, strict=True):
-            if _checksum(array, block.place, array[block.place]) not in accepted:
-                return False
+        for array in arrays:
+            array[block.place]  # raises an error if a checksum differs
     except (OSError, RuntimeError, ValueError):
         return False
     # A chunk without a file would be read as the fill value.
@@ -352,14 +323,11 @@ def _chunks(there: Path, arrays: list[Any], block: Block) -> Iterator[Path]:
 
 
 def _forget(there: Path, group: zarr.Group, template: Template, block: Block) -> None:
-    """Remove a block, its marks and its checksums."""
+    """Remove a block and its marks."""
     done: Any = group["done"]
-    known: Any = group["checksum"]
-    arrays = template.kind.sorted_arrays(group)
+    arrays = template.kind.arrays_of(group)
     for mark in block.marks:
         _clear(there / "done" / done.metadata.encode_chunk_key(mark))
-    number = (*_chunk_number(arrays[0], block.place), 0, 0)
-    _clear(there / "checksum" / known.metadata.encode_chunk_key(number))
     for path in _chunks(there, arrays, block):
         _clear(path)
 

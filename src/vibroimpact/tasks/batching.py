@@ -62,7 +62,7 @@ def bundle(task: bytes, items: bytes) -> tuple[bytes, float]:
     return pickle.dumps(found, _PROTOCOL), time.perf_counter() - begin
 
 
-def dealt(
+def distribute(
     hands: Hands,
     task: Callable[[_Item, Tally], _Found],
     items: Sequence[_Item],

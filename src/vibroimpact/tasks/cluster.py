@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeVar
 
 from vibroimpact.errors import InputError
 from vibroimpact.stderr import print_line
-from vibroimpact.tasks.batching import dealt
+from vibroimpact.tasks.batching import distribute
 from vibroimpact.tasks.threads import LostError, Progress, Tally
 
 _Item = TypeVar("_Item")
@@ -52,7 +52,7 @@ class Cluster(NamedTuple):
         """Run tasks as `threads.each` does; tasks and results are sent over the network."""
         hands = _Hands(self)
         try:
-            return dealt(hands, task, items, total, progress)
+            return distribute(hands, task, items, total, progress)
         except InputError:
             raise
         except Exception as error:

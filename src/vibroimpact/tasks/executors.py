@@ -21,7 +21,7 @@ _PATIENCE = "10s"
 _MARKS = ("tcp://", "tls://", "ucx://", "ws://", "wss://", "inproc://")
 
 
-def placed(threads: int | None, where: Any = THREADS) -> Workers:
+def workers_for(threads: int | None, where: Any = THREADS) -> Workers:
     """Return where tasks run.
 
     Parameters

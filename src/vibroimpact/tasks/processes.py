@@ -12,7 +12,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from typing import Any, NamedTuple, TypeVar
 
 from vibroimpact.stderr import open_streams
-from vibroimpact.tasks.batching import dealt
+from vibroimpact.tasks.batching import distribute
 from vibroimpact.tasks.threads import LostError, Progress, Tally, available
 
 _Item = TypeVar("_Item")
@@ -91,7 +91,7 @@ class Processes(NamedTuple):
         )
         try:
             with open_streams():  # loky flushes both when it starts a process
-                return dealt(_Hands(pool, self.width()), task, items, total, progress)
+                return distribute(_Hands(pool, self.width()), task, items, total, progress)
         except loky.process_executor.TerminatedWorkerError as died:
             raise LostError(
                 f"where: a process died, perhaps because memory ran out ({died}); if a store is "

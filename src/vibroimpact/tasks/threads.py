@@ -71,7 +71,7 @@ def available() -> int:
     return os.cpu_count() or 1
 
 
-def breadth(threads: Workers) -> int:
+def worker_count(threads: Workers) -> int:
     """Return the number of tasks that run at once."""
     if threads is None:
         return available()

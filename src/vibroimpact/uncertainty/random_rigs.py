@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Oscillator, Repeated
+from vibroimpact.model.parameter_ranges import vary_all
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.read_rig import RigOrSystem, one_system
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.varied import vary_all
 from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.uncertainty.distributions import (
     Distribution,

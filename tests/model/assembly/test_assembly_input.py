@@ -250,12 +250,12 @@ def test_jankowski_has_the_mass_of_the_two_bodies_unless_it_is_passed():
         "wall": vi.Link(GROUND, "roof", law),
         "own": vi.Link("base", GROUND, law.replace(mass="7 t")),
     }
-    found = {stop.name: stop.values["mass"] for stop in numbers(building(stops=stops)).stops}
+    found = {stop.name: stop.law.mass for stop in numbers(building(stops=stops)).stops}
     assert found == pytest.approx(
         {"pad": 300e3 * 250e3 / 550e3, "wall": 250e3, "own": 7e3}, rel=1e-14
     )
     heavier = building(masses={"base": "300 t", "roof": "500 t"}, stops=stops)
-    assert numbers(heavier).stops[1].values["mass"] == pytest.approx(500e3)
+    assert numbers(heavier).stops[1].law.mass == pytest.approx(500e3)
 
 
 def test_numbers_have_indices_and_signs():
@@ -269,13 +269,12 @@ def test_numbers_have_indices_and_signs():
     # Modal damping is added to the dashpots.
     assert (np.linalg.eigvalsh(found.damping - [[1.2e6, -1e6], [-1e6, 1e6]]) > 0.0).all()
     (brace,) = found.links
-    assert (brace.name, brace.left, brace.right, brace.kind) == ("brace", 1, 0, "polynomial")
-    assert brace.values["cubic"] == 2e6
+    assert (brace.name, brace.left, brace.right, brace.law.kind) == ("brace", 1, 0, "polynomial")
+    assert brace.law.cubic == 2e6
     assert np.isnan(brace.gap)
     (moat,) = found.stops
-    assert (moat.left, moat.right, moat.gap, moat.kind) == (0, -1, 0.1, "kelvin-voigt")
-    assert moat.values == {"stiffness": 60e6, "damping": 0.9e6}
-    assert moat.meeting_mass == pytest.approx(300e3, rel=1e-15)
+    assert (moat.left, moat.right, moat.gap, moat.law.kind) == (0, -1, 0.1, "kelvin-voigt")
+    assert (moat.law.stiffness, moat.law.damping) == (60e6, 0.9e6)
 
 
 def test_a_force_on_the_only_mass_needs_no_name():

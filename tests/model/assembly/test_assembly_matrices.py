@@ -36,7 +36,7 @@ def test_matrices_of_a_chain_are_that_chain():
     np.testing.assert_allclose(found.damping, chain.damping_matrix, rtol=1e-15)
     assert found.stops[0].left == 0
     # 1/(w M⁻¹ wᵀ) is the reduced mass.
-    assert found.stops[0].meeting_mass == pytest.approx(6.0 / 5.0, rel=1e-15)
+    assert same.meeting_mass(stops["pad"]) == pytest.approx(6.0 / 5.0, rel=1e-15)
     assert vi.Assembly.model_validate(same.model_dump()) == same
     assert same.replace() == same
 

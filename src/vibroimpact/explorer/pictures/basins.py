@@ -6,7 +6,7 @@ from typing import Any
 
 from vibroimpact.attraction.basins import basins
 from vibroimpact.explorer.pictures.numbers import axis, forcing, short
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.figures.own_units import in_unit
 from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import as_first_argument, unit
@@ -19,7 +19,7 @@ _PATIENCE = 500
 
 
 @as_first_argument
-def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
+def starts(state: PageState, fine: bool, progress: Progress) -> dict[str, Any]:
     """Return the motions, and for each initial state the number of the motion that it leads to.
 
     Raises

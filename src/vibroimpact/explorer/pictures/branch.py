@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.explorer.pictures.motion import at
 from vibroimpact.explorer.pictures.numbers import forcings, short
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.figures.own_units import in_unit
 from vibroimpact.figures.resonance_panels import peak_force_unit
 from vibroimpact.model import GRAVITY
@@ -26,7 +26,7 @@ _MOST = 2000
 
 
 @as_first_argument
-def branches(state: State, data: xr.Dataset, progress: Progress) -> dict[str, Any]:
+def branches(state: PageState, data: xr.Dataset, progress: Progress) -> dict[str, Any]:
     """Return the branch through the selected motion, split into stable and unstable parts.
 
     Raises
@@ -50,7 +50,7 @@ def branches(state: State, data: xr.Dataset, progress: Progress) -> dict[str, An
     }
 
 
-def _heights(state: State, data: xr.Dataset, found: xr.Dataset) -> list[NDArray[np.float64]]:
+def _heights(state: PageState, data: xr.Dataset, found: xr.Dataset) -> list[NDArray[np.float64]]:
     """What the panels of the curves show, of each orbit."""
     still = base_at_rest(data)
     if not state.physical:

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings, one, short
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.facts import sweeps as told
 from vibroimpact.facts.tables import as_text
 from vibroimpact.figures.resonance_panels import Drawn, normalised, physical_curves
@@ -26,7 +26,7 @@ _PATIENCE, _WINDOW = 300, 100
 """Cycles that a coarse hold waits, and those it is measured over, where it does not settle."""
 
 
-def swept(state: State, fine: bool, progress: Progress | None = None) -> xr.Dataset:
+def swept(state: PageState, fine: bool, progress: Progress | None = None) -> xr.Dataset:
     """Sweep the rig over the frequency range of the page."""
     count = FINE if fine else COARSE
     frequencies = beside_resonance(state.oscillator, np.linspace(*state.span, count))
@@ -37,7 +37,7 @@ def swept(state: State, fine: bool, progress: Progress | None = None) -> xr.Data
 
 
 @as_first_argument
-def curves(state: State, data: xr.Dataset, fine: bool) -> dict[str, Any]:
+def curves(state: PageState, data: xr.Dataset, fine: bool) -> dict[str, Any]:
     """Return the curves of a sweep as two or three panels."""
     found = resonance.features(data)
     panels = physical_curves(data) if state.physical else normalised(data)

@@ -9,7 +9,7 @@ import xarray as xr
 
 from vibroimpact.datasets.stops import of_stop
 from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings, one, short
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.facts import motions as told
 from vibroimpact.facts.tables import as_text
 from vibroimpact.figures.own_units import in_unit
@@ -31,7 +31,7 @@ _HIGHEST = 16.0
 """Order up to which lines of the spectrum are drawn."""
 
 
-def at(state: State, data: xr.Dataset) -> tuple[Harmonic, xr.DataArray, float]:
+def at(state: PageState, data: xr.Dataset) -> tuple[Harmonic, xr.DataArray, float]:
     """Return the excitation, the state and the period of the selected motion, from a sweep.
 
     They belong to the frequency of the sweep that is nearest to the selected frequency.
@@ -44,7 +44,7 @@ def at(state: State, data: xr.Dataset) -> tuple[Harmonic, xr.DataArray, float]:
 
 
 @as_first_argument
-def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
+def quick(state: PageState, data: xr.Dataset) -> dict[str, Any]:
     """Return the motion from the end of the sweep's simulation, while a knob is turned."""
     shaken, section, period = at(state, data)
     cycles = int(period) if 0 < period <= _MOST_CYCLES else _MOST_CYCLES
@@ -53,7 +53,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 
 @as_first_argument
-def careful(state: State, data: xr.Dataset) -> dict[str, Any]:
+def careful(state: PageState, data: xr.Dataset) -> dict[str, Any]:
     """Return the classified motion, with its spectrum, and the impacts that are drawn."""
     shaken, section, _ = at(state, data)
     motion = steady(
@@ -89,7 +89,7 @@ def _spectrum(motion: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def _drawn(state: State, motion: xr.Dataset, shaken: Harmonic) -> dict[str, Any]:
+def _drawn(state: PageState, motion: xr.Dataset, shaken: Harmonic) -> dict[str, Any]:
     """The curves of a motion in mm and mm/s, or without units, and their axes."""
     rig = state.oscillator
     time = motion["time"].values

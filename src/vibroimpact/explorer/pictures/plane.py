@@ -8,7 +8,7 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.explorer.pictures.numbers import short
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.model import from_dimensionless, to_dimensionless
 from vibroimpact.model.written_units import as_first_argument
 from vibroimpact.scenarios.map import scenario_map
@@ -30,7 +30,7 @@ class Plane(NamedTuple):
 
 
 @as_first_argument
-def plane(state: State) -> Plane:
+def plane(state: PageState) -> Plane:
     """Return the values on which the map of a rig depends.
 
     Raises

@@ -7,7 +7,7 @@ from typing import Any
 import xarray as xr
 
 from vibroimpact.explorer.pictures.numbers import one
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 from vibroimpact.facts import scenario as told
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.written_units import as_first_argument
@@ -20,7 +20,7 @@ from vibroimpact.tasks.threads import Progress
 
 
 @as_first_argument
-def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
+def quick(state: PageState, data: xr.Dataset) -> dict[str, Any]:
     """Return the scenario of a coarse sweep, while a knob is turned."""
     used = Thresholds()
     found = evidence(Rig(state.oscillator, state.shaking), data, 0.5 * used.prominence)
@@ -36,7 +36,7 @@ def quick(state: State, data: xr.Dataset) -> dict[str, Any]:
 
 
 @as_first_argument
-def careful(state: State, progress: Progress) -> dict[str, Any]:
+def careful(state: PageState, progress: Progress) -> dict[str, Any]:
     """Return the result of `vibroimpact.classify_scenario`, which selects its own frequencies."""
     found = told.facts(classify(state.rig, progress=progress))
     return {

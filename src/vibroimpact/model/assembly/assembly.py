@@ -23,11 +23,11 @@ from vibroimpact.model.assembly.link import Link, read_link
 from vibroimpact.model.assembly.matrices import Matrices
 from vibroimpact.model.assembly.names import GROUND, check_body, check_known, check_part_name
 from vibroimpact.model.frozen_mapping import FrozenMapping
-from vibroimpact.model.keys import listed
 from vibroimpact.model.oscillator import Units
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.stated_units import check_no_units
 from vibroimpact.model.units import pretty
+from vibroimpact.model.unknown_keys import listed
 from vibroimpact.model.validation import Accepts, Model, takes_fields
 from vibroimpact.model.written_units import NONE, SI, written_for
 

@@ -9,10 +9,9 @@ import numpy as np
 
 from vibroimpact.errors import InputError
 from vibroimpact.model.assembly.names import GROUND
-from vibroimpact.model.keys import listed
 from vibroimpact.model.quantities import LENGTH
-from vibroimpact.model.stops import RigidStop
 from vibroimpact.model.units import pretty
+from vibroimpact.model.unknown_keys import listed
 
 if TYPE_CHECKING:
     from vibroimpact.model.assembly.assembly import Assembly
@@ -73,7 +72,7 @@ def _check_frequencies(assembly: Assembly) -> None:
 
 def _check_room(assembly: Assembly) -> None:
     """Check that the masses can be placed so that all rigid stops are open."""
-    rigid = {name: stop for name, stop in assembly.stops.items() if isinstance(stop.law, RigidStop)}
+    rigid = {name: stop for name, stop in assembly.stops.items() if stop.stop.rigid}
     gaps = np.array([stop.stop.gap for stop in rigid.values()])
     if not len(rigid) or gaps.min() > 0.0:
         return

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Literal
 
 from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.quantities import LENGTH, MASS
-from vibroimpact.model.stops import RigidStop
 from vibroimpact.model.units import pretty
 
 if TYPE_CHECKING:
@@ -177,7 +176,7 @@ def _draw_stop(
     x0, face, x1, y = where
     gap = link.stop.gap
     made.line("stop", (face, y - 8.0), (face, y + 8.0))
-    if isinstance(link.law, RigidStop):
+    if link.stop.rigid:
         made.line("stop", (face, y - 3.0), (x1, y - 3.0), (x1, y + 3.0), (face, y + 3.0))
     else:
         _draw_spring(made, "stop", face, x1, y, length)

@@ -29,10 +29,9 @@ from numpy.typing import NDArray
 from vibroimpact.errors import InputError
 from vibroimpact.model.assembly.state import AssemblyState
 from vibroimpact.model.isolators import FrictionIsolator
-from vibroimpact.model.keys import listed
 from vibroimpact.model.quantities import FORCE, LENGTH
-from vibroimpact.model.stops import Bumper, RigidStop
 from vibroimpact.model.units import pretty
+from vibroimpact.model.unknown_keys import listed
 
 if TYPE_CHECKING:
     from vibroimpact.model.assembly.assembly import Assembly
@@ -184,10 +183,10 @@ def _problem(assembly: Assembly) -> _Problem:
             )
     for name, stop in assembly.stops.items():
         stopping, row = stop.stop, assembly.closing(stop)
-        if isinstance(stopping, Bumper):
-            contact(row, stopping.gap, 1.0 / stopping.stiffness, 0.0, math.inf)
-        elif isinstance(stopping, RigidStop):
+        if stopping.rigid:
             contact(row, stopping.gap, 0.0, 0.0, math.inf)
+        elif pair := stopping.spring_and_dashpot:
+            contact(row, stopping.gap, 1.0 / pair[0], 0.0, math.inf)
         else:
             curved.append(
                 _Curve(

@@ -9,7 +9,7 @@ from pydantic import ConfigDict, field_validator, model_serializer, model_valida
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.names import GROUND
-from vibroimpact.model.built_in import as_isolator, as_stop
+from vibroimpact.model.built_in_laws import as_isolator, as_stop
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
 from vibroimpact.model.isolators.design import design_keys
 from vibroimpact.model.law_registry import Kinds

@@ -7,7 +7,7 @@ from collections.abc import Collection
 from typing import Final
 
 from vibroimpact.errors import InputError, shown, similar
-from vibroimpact.model.keys import LIKENESS
+from vibroimpact.model.unknown_keys import LIKENESS
 
 GROUND: Final = "ground"
 """Name of the base in links and stops."""

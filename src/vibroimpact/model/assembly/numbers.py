@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 from vibroimpact.model.assembly.assembly import Assembly
 from vibroimpact.model.assembly.link import AnyLaw, Link
 from vibroimpact.model.assembly.names import GROUND
-from vibroimpact.model.own_law import Law
-from vibroimpact.model.stops import JankowskiBumper
 
 GROUND_INDEX = -1
 """Index of the ground."""
@@ -24,16 +22,10 @@ class PartNumbers(NamedTuple):
     left: int
     """Index of the left body; -1 for the ground."""
     right: int
-    kind: str
-    """Name of the law, as in study files, such as ``"kelvin-voigt"``."""
     gap: float
     """Gap of a stop (m); NaN for a link."""
-    values: dict[str, float]
-    """The other numbers of the law in SI units, by name. A Jankowski bumper has a mass here."""
-    meeting_mass: float
-    """The mass (kg) that meets at a stop: m₁ m₂/(m₁ + m₂), or m at the ground."""
     law: AnyLaw
-    """The law itself, such as for the operations of a formula."""
+    """The law; a Jankowski bumper has a mass."""
 
 
 class AssemblyNumbers(NamedTuple):
@@ -76,21 +68,12 @@ def numbers(assembly: Assembly) -> AssemblyNumbers:
 
 
 def _part(assembly: Assembly, name: str, link: Link) -> PartNumbers:
-    law = link.law
-    values: dict[str, Any] = dict(law.numbers) if isinstance(law, Law) else dict(law)
-    meeting = assembly.meeting_mass(link)
-    if isinstance(law, JankowskiBumper) and law.mass is None:
-        values["mass"] = meeting
-    values.pop("gap", None)
     return PartNumbers(
         name,
         _index(assembly, link.left),
         _index(assembly, link.right),
-        law.kind,
         link.stop.gap if link.is_stop else float("nan"),
-        {key: one for key, one in values.items() if isinstance(one, float)},
-        meeting,
-        law,
+        link.law.between(assembly.meeting_mass(link)),
     )
 
 

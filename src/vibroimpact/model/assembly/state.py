@@ -13,7 +13,6 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.frozen_mapping import FrozenMapping
 from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
-from vibroimpact.model.stops import RigidStop
 from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import Accepts, Model, constructor
 
@@ -143,7 +142,7 @@ class AssemblyState(Model):
         for name, stop in assembly.stops.items():
             depth = float(assembly.closing(stop) @ u) - stop.stop.gap
             size = float(np.abs(u).max()) + abs(stop.stop.gap)
-            if isinstance(stop.law, RigidStop) and depth > max(1e-12 * size, NEAR_ZERO):
+            if stop.stop.rigid and depth > max(1e-12 * size, NEAR_ZERO):
                 raise InputError(
                     f"{where}.displacement: {stop.left} and {stop.right} overlap by "
                     f"{pretty(depth, LENGTH)} at the rigid stop {name!r}; pass displacements that "

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from vibroimpact.errors import DependentError, InputError, shown
-from vibroimpact.model.keys import unknown_key
 from vibroimpact.model.quantities import (
     DIMENSIONLESS,
     FORCE,
@@ -16,8 +15,9 @@ from vibroimpact.model.quantities import (
     MASS,
     PERIOD,
 )
-from vibroimpact.model.sizes import doubt_damping_ratio
+from vibroimpact.model.size_checks import doubt_damping_ratio
 from vibroimpact.model.units import one_of
+from vibroimpact.model.unknown_keys import unknown_key
 from vibroimpact.model.validation import Accepts
 
 if TYPE_CHECKING:

@@ -88,6 +88,10 @@ class JankowskiBumper(StopLaw):
         """Return such a stop, a Hertz contact."""
         return cls(force / depth**1.5, gap, restitution, mass)
 
+    def between(self, meeting_mass: float) -> Self:
+        """Return the stop with the mass that hits it, if it has none of its own."""
+        return self.replace(mass=meeting_mass) if self.mass is None else self
+
     def engine_numbers(self) -> PowerLaw:
         """Return the numbers by which the engine follows the law."""
         assert self.mass is not None  # which an oscillator requires

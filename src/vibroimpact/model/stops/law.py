@@ -82,11 +82,6 @@ class StopLaw(Named):
         return False
 
     @property
-    def rigid(self) -> bool:
-        """Whether the mass cannot pass the stop."""
-        return False
-
-    @property
     def spring_and_dashpot(self) -> tuple[float, float] | None:
         """The pair (K_j, C_j) of a stop whose face relaxes after a contact; otherwise None."""
         return None

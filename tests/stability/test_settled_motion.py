@@ -9,7 +9,7 @@ import vibroimpact as vi
 from vibroimpact.engine.motion import mirror_image
 from vibroimpact.engine.status import Status
 from vibroimpact.response.engine_input import engine_state
-from vibroimpact.stability.settle import apart, approach, later, reach
+from vibroimpact.stability.settled_motion import approach, later, reach, state_distance
 
 CASE = vi.laboratory.case("B3-10mm-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 1.2, 0.4)
@@ -20,7 +20,7 @@ def test_it_repeats_itself():
     assert (found.status, found.period) == (Status.DONE, 1)
     status, state = later(found, found.state, 1.0)
     assert status is Status.DONE
-    assert apart(found, found.state, state, reach(found, found.state)) < 1e-11
+    assert state_distance(found, found.state, state, reach(found, found.state)) < 1e-11
 
 
 def test_a_start_as_the_engine_sees_it():
@@ -42,8 +42,8 @@ def test_the_mirror_image_half_a_cycle_later_is_a_motion():
     image = approach(vi.Rig(CASE.oscillator, SHAKEN), mirror_image(half))
     assert image.cycles < 16 < found.cycles
     size = reach(found, found.state)
-    assert apart(found, image.state, mirror_image(half), size) < 1e-10
-    assert apart(found, image.state, found.state, size) > 1e-2  # one of a pair
+    assert state_distance(found, image.state, mirror_image(half), size) < 1e-10
+    assert state_distance(found, image.state, found.state, size) > 1e-2  # one of a pair
 
 
 @pytest.mark.parametrize("cycles", [0.5, 3.0])

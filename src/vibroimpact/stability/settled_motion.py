@@ -108,7 +108,7 @@ def later(
     return found.engine.propagate(state, cycles, max_events)
 
 
-def apart(found: Settled, one: _Array, other: _Array, size: float) -> float:
+def state_distance(found: Settled, one: _Array, other: _Array, size: float) -> float:
     """Largest difference of two states of the engine, as a displacement over `size`."""
     states, omega = found.states, found.excitation.angular_frequency
     difference = np.abs(states.point(one) - states.point(other))

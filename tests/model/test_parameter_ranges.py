@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.model.varied import read_ranges, read_values
+from vibroimpact.model.parameter_ranges import read_ranges, read_values
 
 RIG = vi.laboratory.case("B2-G1-A3").rig
 WALL = vi.Oscillator(1.0, vi.Isolator(1.0, 0.1), right=vi.RigidStop(0.5, 0.1))

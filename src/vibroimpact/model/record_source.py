@@ -15,7 +15,7 @@ from vibroimpact.model.quantities import ACCELERATION, LENGTH, TIME, Quantity
 from vibroimpact.model.units import one_of, pretty, to_si
 from vibroimpact.model.written_units import NONE
 from vibroimpact.records.channel import Channel
-from vibroimpact.records.doubts import of_end, of_times
+from vibroimpact.records.plausibility import of_end, of_times
 from vibroimpact.records.read import read_channel
 from vibroimpact.tables.decimal_mark import Decimal
 from vibroimpact.tables.statements import Peak

@@ -16,7 +16,7 @@ from vibroimpact.model.oscillator import Oscillator
 from vibroimpact.model.parameters import Parameter, parameter
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.sizes import doubt_damping_ratio
+from vibroimpact.model.size_checks import doubt_damping_ratio
 from vibroimpact.model.units import pretty, to_si
 
 _FIRST = ("proportional_stiffness", "stiffness_at_restitution")
