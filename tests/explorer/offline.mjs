@@ -26,4 +26,5 @@ for (const state of JSON.parse(fs.readFileSync(0))) {
     basins: state.shown.includes("basins") ? await modules["basins.js"].basins(engine, state, false, known, nothing) : null,
   });
 }
-process.stdout.write(JSON.stringify(found));
+// The worker waits for messages.
+process.stdout.write(JSON.stringify(found), () => process.exit());

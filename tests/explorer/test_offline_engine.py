@@ -27,8 +27,11 @@ from vibroimpact.response.sweep_arrays import plan_sweep, rows
 
 NODE = shutil.which("node")
 SETTINGS = 50
-NEAR = 1e-9
-"""Difference over the size of a motion."""
+EXACT, NEAR = 1e-13, 1e-9
+"""Difference over the size of a motion: of its extremes, and at each instant."""
+WANDERING = 100
+"""Cycles of a transient that may wander."""
+ORDER = {"forward": 1, "backward": -1}
 
 
 def drawn(random: np.random.Generator) -> State:
@@ -73,7 +76,9 @@ def run(tmp_path_factory):
 
     def run(states: list[State]) -> list[dict]:
         given = json.dumps([table(one) for one in states])
-        done = subprocess.run(command, cwd=folder, input=given, capture_output=True, text=True)
+        done = subprocess.run(
+            command, cwd=folder, input=given, capture_output=True, text=True, timeout=120
+        )
         assert done.returncode == 0, done.stderr
         return json.loads(done.stdout)
 
@@ -97,11 +102,10 @@ def test_sweeps_and_motions_are_those_of_python(run):
         settling = Settling(max_cycles=curves.PATIENCE, window=curves.WINDOW)
         expected, reached = rows(plan, state.direction, 0.0, settling, np.zeros(2, np.int64))
         here, there = numbers(found["rows"]), numbers(found["states"])
-        settled = (expected[:, hold.PERIOD] > 0) & (here[:, hold.PERIOD] > 0)
-        # What wanders, and what has come to another of two motions from there on, is another
-        # motion: rounding decides.
-        same = settled & (expected[:, hold.PERIOD] == here[:, hold.PERIOD])
-        assert same.sum() >= settled.sum() - 1
+        assert (expected[:, hold.PERIOD] == here[:, hold.PERIOD]).mean() > 0.9
+        # Behind what wanders, for ever or for long, rounding decides which of two motions follows.
+        calm = (expected[:, hold.PERIOD] > 0) & (expected[:, hold.CYCLES] <= WANDERING)
+        same = np.logical_and.accumulate(calm[:: ORDER[state.direction]])[:: ORDER[state.direction]]
         for columns in (
             [hold.U_LEAST, hold.U_MOST],
             [hold.A_LEAST, hold.A_MOST],
@@ -111,9 +115,10 @@ def test_sweeps_and_motions_are_those_of_python(run):
             one, other = expected[same][:, columns], here[same][:, columns]
             finite = np.isfinite(one) & np.isfinite(other)
             size = np.abs(np.where(finite, one, 0.0)).max(axis=1, keepdims=True)
-            assert (np.abs(one - other)[finite] <= NEAR * (size + 0 * one)[finite]).all()
+            away = np.abs(np.subtract(one, other, where=finite, out=np.zeros_like(one)))
+            assert (away <= EXACT * size).all()
         parts = [layout.U, layout.V]
-        size = np.abs(reached[same][:, parts]).max(axis=0)
+        size = np.abs(reached[same][:, parts]).max(axis=0, initial=0.0)
         assert (np.abs(reached - there)[same][:, parts] <= NEAR * size).all()
         compared += int(same.sum())
 
@@ -130,8 +135,8 @@ def test_sweeps_and_motions_are_those_of_python(run):
             ("acceleration", record.ACCELERATION),
         ):
             one, other = motion[name].values, numbers(found["motion"][row : row + 1])[0]
-            assert np.abs(one - other).max() <= 10 * NEAR * np.abs(one).max()
-    assert compared > 0.8 * SETTINGS * curves.COARSE
+            assert np.abs(one - other).max() <= NEAR * np.abs(one).max()
+    assert compared > 0.75 * SETTINGS * curves.COARSE
 
 
 def test_pictures_and_knobs_are_those_of_python(run):
@@ -139,7 +144,10 @@ def test_pictures_and_knobs_are_those_of_python(run):
     states = [preset(FIRST), *(drawn(random) for _ in range(8))]
     for state, found in zip(states, run(states), strict=True):
         expected = curves.curves(state, curves.swept(state, fine=False), fine=False)
-        assert near(found["curves"], json.loads(json.dumps(expected))), state
+        for panel in expected["panels"]:
+            for level in panel["levels"]:
+                del level["label"]  # which no page shows
+        assert near(found["curves"], json.loads(json.dumps(expected)))
         knobs = [one._asdict() for one in controls(state, state)]
         theirs = [one for one in knobs if one["path"] != "isolator.damping_exponent"]
         assert near(found["controls"], theirs)
@@ -160,8 +168,7 @@ def test_basins_are_those_of_python(run):
 def near(one, other) -> bool:
     """Whether two pictures are the same, but for the last of five digits."""
     if isinstance(one, dict):
-        left = {key: value for key, value in one.items() if key != "label" or value}
-        return left.keys() == other.keys() and all(near(left[key], other[key]) for key in left)
+        return one.keys() == other.keys() and all(near(one[key], other[key]) for key in one)
     if isinstance(one, list | tuple):
         return len(one) == len(other) and all(map(near, one, other))
     if isinstance(one, float | int) and isinstance(other, float | int):

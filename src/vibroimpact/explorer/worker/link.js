@@ -7,7 +7,7 @@ export class Link {
     Object.assign(this, { told, changed, number: 0, open: false });
     const source = new Blob([text("worker")], { type: "text/javascript" });
     this.worker = new Worker(URL.createObjectURL(source));
-    this.worker.onerror = (event) => changed("lost", event.message);
+    this.worker.onerror = (event) => changed("lost", `The computation failed (${event.message}); reload the page`);
     this.worker.onmessage = ({ data }) => {
       if (data.hello) this.begun(address());
       told(data);
