@@ -245,9 +245,7 @@ def main(names: list[str]) -> None:
         for old in native.FOLDER.iterdir():
             old.unlink()
     symbols = [compiled.symbol(type(given)) for compiled, given in functions()]
-    wanted = [
-        k for k, name in enumerate(symbols) if any(one.has(name) for one in chosen.values())
-    ]
+    wanted = [k for k, name in enumerate(symbols) if any(one.has(name) for one in chosen.values())]
     with ProcessPoolExecutor() as pool:
         codes = {}
         for symbol, code in pool.map(lowered, wanted):

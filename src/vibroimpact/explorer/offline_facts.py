@@ -5,7 +5,8 @@ from __future__ import annotations
 import base64
 import json
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
+from functools import cache
 from typing import Any
 
 from vibroimpact.attraction import state_window
@@ -39,28 +40,32 @@ _ONLY_LINEAR = "damping_exponent"
 """A field that the page leaves as it is: with another value the law is not linear."""
 _FITTING = re.compile(r"\([GMk]?N(?: s)?\)")
 """A unit of a force or an impulse."""
-_PREFIXES = ("", "k", "M", "G", "m", "µ", "c")
 _UNITS = {
-    "": ("%",),
-    **{
-        unit: tuple(f"{prefix}{unit}" for prefix in _PREFIXES)
-        for unit in ("m", "g", "N", "N/m", "N s/m", "Hz", "N s", "kg m", "t", "s", "gal")
-    },
-    "written": (
-        "kg", "lb", "gram", "tonne", "in", "inch", "ft", "N/mm", "kN/mm", "N/cm", "kN/cm",
-        "N s/mm", "kN s/mm", "kg/s", "kg/s²", "m/s²", "mm/s²", "cm/s²", "g mm", "kg mm", "lbf",
-        "rad/s", "rpm", "1/s", "deg/s", "min", "h",
-    ),
-}  # fmt: skip
+    "length": "m dm cm mm µm km in inch ft",
+    "mass": "kg gram t tonne lb",
+    "force": "N mN kN MN GN lbf",
+    "time": "s ms min h",
+    "frequency": "Hz mHz kHz rad/s rpm 1/s deg/s",
+    "acceleration": "g mg gal m/s² cm/s² mm/s²",
+    "stiffness": "N/m kN/m MN/m GN/m N/mm kN/mm N/cm kN/cm kg/s²",
+    "damping": "N s/m|kN s/m|MN s/m|N s/mm|kN s/mm|kg/s",
+    "unbalance": "kg m|kg mm|kg cm|g m|g mm",
+    "dimensionless number": "%",
+}
 """Units that are known by heart: without a server there is no library that reads all others."""
 
 
 def facts(first: states.State) -> Table:
     """Return all that the page without a server has of the package, as JSON can hold it."""
+    return {**_known(), "first": table(first)}
+
+
+@cache
+def _known() -> Table:
+    """What does not depend on the rig."""
     quantities = {one.name: one for one in _quantities()}
     return {
         "engine": {**layout_of_engine(), "free": [_number(one) for one in free_rig()]},
-        "first": table(first),
         "presets": [[group, names] for group, names in presets.names()],
         "tables": {
             name: table(presets.preset(name)) for _, names in presets.names() for name in names
@@ -177,18 +182,16 @@ def _quantities() -> Iterator[Quantity]:
 
 
 def _quantity(one: Quantity) -> Table:
-    sizes = {}
-    for text in (*(scale.symbol for scale in one.scales), *_texts()):
-        try:
-            sizes[text] = read(f"1 {text}", one)
-        except InputError:
-            continue
-    scales = [[scale.least, scale.size, scale.symbol] for scale in one.scales]
-    return {"phrase": one.phrase, "scales": scales, "units": sizes}
-
-
-def _texts() -> Iterable[str]:
-    return (text for group in _UNITS.values() for text in group)
+    known = _UNITS.get(one.name, "")
+    texts = known.split("|" if "|" in known else None)
+    return {
+        "phrase": one.phrase,
+        "scales": [[scale.least, scale.size, scale.symbol] for scale in one.scales],
+        "units": {
+            text: read(f"1 {text}", one)
+            for text in dict.fromkeys([*(scale.symbol for scale in one.scales), *texts])
+        },
+    }
 
 
 def _accepts(law: Any) -> Iterator[tuple[str, Accepts]]:

@@ -12,6 +12,7 @@ import re
 from importlib import resources
 
 from vibroimpact.engine import native
+from vibroimpact.errors import InputError
 from vibroimpact.explorer.engine_layout import WASM
 from vibroimpact.explorer.offline_facts import check, facts
 from vibroimpact.explorer.state import State
@@ -30,8 +31,7 @@ _PAGE = ("plot.js", "save.js", "knobs.js", "curves.js", "motion.js", "plane.js",
 _IMPORT = re.compile(r'^import (\{[^}]*\}) from "\./(.*)";$', re.MULTILINE)
 _EXPORT = re.compile(r"^export ((?:async )?(?:class|const|function)\*? (\w+))", re.MULTILINE)
 _LINKED = (
-    '<link rel="stylesheet" href="/style.css">\n'
-    '<script type="module" src="/main.js"></script>\n'
+    '<link rel="stylesheet" href="/style.css">\n<script type="module" src="/main.js"></script>\n'
 )
 
 
@@ -41,9 +41,15 @@ def page(first: State) -> str:
     Raises
     ------
     InputError
-        If only Python computes the rig: a law is not linear, or the rig has no units.
+        If only Python computes the rig: a law is not linear, or the rig has no units. Also if the
+        module of WebAssembly is missing, or made of other sources.
     """
     check(first)
+    if not _is_current():
+        raise InputError(
+            "page: the engine of the page is not made of the engine's present sources; run make "
+            "kernels"
+        )
     engine = gzip.compress((native.FOLDER / WASM).read_bytes(), mtime=0)
     table = json.dumps(facts(first), separators=(",", ":"), ensure_ascii=False)
     parts = {
@@ -51,7 +57,9 @@ def page(first: State) -> str:
         "application/json": ("facts", table.replace("<", "\\u003c")),
         "text/plain": ("worker", worker()),
     }
-    scripts = [f'<script type="{kind}" id="{id}">{text}</script>' for kind, (id, text) in parts.items()]
+    scripts = [
+        f'<script type="{kind}" id="{id}">{text}</script>' for kind, (id, text) in parts.items()
+    ]
     program = _bundle({"link.js": "worker", **dict.fromkeys(_PAGE, "page")})
     scripts.append(f'<script type="module">\n{program}</script>')
     frame = _read("page", "index.html")
@@ -59,6 +67,12 @@ def page(first: State) -> str:
     style = f"<style>\n{_read('page', 'style.css')}</style>\n"
     frame = frame.replace(_LINKED, style).replace("<body>", '<body class="offline">')
     return frame.replace("</body>", "\n".join([*scripts, "</body>"]))
+
+
+def _is_current() -> bool:
+    digest = native.FOLDER / native.DIGEST
+    here = (native.FOLDER / WASM).exists() and digest.exists()
+    return here and digest.read_text().strip() == native.digest()
 
 
 def worker() -> str:

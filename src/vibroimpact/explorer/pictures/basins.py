@@ -28,9 +28,7 @@ def starts(state: State, fine: bool, progress: Progress) -> dict[str, Any]:
     InputError
         If the rig has no dissipation, because then every initial state has its own motion.
     """
-    data = basins(
-        state.rig, nodes=FINE if fine else COARSE, max_cycles=PATIENCE, progress=progress
-    )
+    data = basins(state.rig, nodes=FINE if fine else COARSE, max_cycles=PATIENCE, progress=progress)
     return {
         "picture": "basins",
         "fine": fine,
