@@ -36,6 +36,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "links",
     "validation",
+    "parameters",
 ]
 
 root_doc = "docs/index"

@@ -1,4 +1,4 @@
-"""Parameters of public functions have the names and defaults that docs/reference/words.md lists."""
+"""A parameter of public functions has one name and one default, but for exceptions with reasons."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from typing import Any
 import pytest
 
 import vibroimpact as vi
-from contributing import rows
 from vibroimpact import figures
 
 REQUIRED = inspect.Parameter.empty
@@ -34,28 +33,99 @@ def _functions() -> dict[str, inspect.Signature]:
 FUNCTIONS = _functions()
 
 
-def _default(cell: str) -> object:
-    """Read a default: "required", or a Python literal in backticks."""
-    return REQUIRED if cell == "required" else ast.literal_eval(cell.strip("`"))
-
-
-WORDS = {row[0].strip("`"): _default(row[3]) for row in rows("Words of signatures")}
-EXCEPTIONS = {
-    (row[0].strip("`"), row[1].strip("`")): _default(row[2])
-    for row in rows("Exceptions in signatures")
+WORDS: dict[str, Any] = {
+    "rig": REQUIRED,
+    "rigs": REQUIRED,
+    "frequency": None,
+    "frequencies": REQUIRED,
+    "vary": REQUIRED,
+    "frequency_span": None,
+    "start": None,
+    "starts": None,
+    "period": None,
+    "samples": 256,
+    "draws": 128,
+    "seed": 0,
+    "tolerance": 1e-12,
+    "max_cycles": 2000,
+    "max_events": 10000,
+    "window": 500,
+    "outputs": None,
+    "records": None,
+    "where": "threads",
+    "threads": None,
+    "progress": None,
+    "store": None,
 }
+"""Parameters that have one meaning, and one default, in all public functions."""
+EXCEPTIONS: dict[tuple[str, str], Any] = {
+    # The explorer opens with a published rig.
+    ("explore", "rig"): "B2-G1-A3",
+    # Computed: the range that determines the scenario, or one around the natural frequency.
+    ("classify_scenario", "frequencies"): None,
+    ("coexisting_motions", "frequencies"): None,
+    ("next_test", "frequencies"): None,
+    # Without a parameter, the rigs that are passed are computed.
+    ("basin_stability", "vary"): None,
+    ("demands", "vary"): None,
+    ("lyapunov_exponents", "vary"): None,
+    # Stiffness and damping of the bumpers, in ranges that depend on the isolator.
+    ("least_acceleration", "vary"): None,
+    # The function cannot choose a bifurcation for the caller.
+    ("bifurcation_curve", "start"): REQUIRED,
+    # A count: of the parameter values at which simulations are started, or of local fits.
+    ("resonance_diagram", "starts"): 40,
+    ("identify", "starts"): 6,
+    # The period of saddles that are passed as states, which the motion from rest does not give.
+    ("manifolds", "period"): 1,
+    # 256 per forcing cycle for a periodic shaking, and 1 per step for a record.
+    ("simulate", "samples"): None,
+    # Points in each of two random sets, of which draws × (parameters + 2) rigs are made.
+    ("sensitivity", "draws"): 256,
+    # Bootstrap samples, each of which requires a fit.
+    ("identify", "draws"): 0,
+    # 2000, or 300 for a map, which needs fewer details; more if the damping is light.
+    ("classify_scenario", "max_cycles"): None,
+    ("scenario_map", "max_cycles"): None,
+    # A manifold is a curve with many points; one that needs more events is given up.
+    ("manifolds", "max_events"): 1000,
+    # The window is recorded as a time history, which takes memory.
+    ("steady", "window"): 200,
+    ("coexisting_motions", "window"): 200,
+    # Cycles of a time history that are simulated from one fitted initial state; 5.
+    ("identify", "window"): None,
+    # A demand is the peak response to a record.
+    ("demands", "records"): REQUIRED,
+    # Threads for fewer than 500 nodes, and processes, which are then faster, for more.
+    ("scenario_map", "where"): None,
+    # No argument `rig` could contain the acceleration of the table, or a prescribed displacement.
+    ("read_measurement", "amplitude"): None,
+    ("figures.force_loop", "amplitude"): REQUIRED,
+    # The motion is so slow that the dashpots exert no force.
+    ("figures.force_loop", "frequency"): 0.0,
+}
+
+MANY_TASKS = {
+    *("basin_stability", "basins", "bifurcation_diagram", "demands", "design_chart"),
+    *("least_acceleration", "lyapunov_exponents", "required_gap", "scenario_map", "sweeps"),
+}
+"""Functions of many independent tasks: these have `where`, `threads` and `progress`."""
+FEW_TASKS = {"classify_scenario", "identify", "manifolds", "sweep"}
+"""Functions of a few tasks that share their results: these have `threads` and `progress`."""
+ONE_TASK = {
+    *("bifurcation_curve", "branch", "coexisting_motions", "resonance_diagram"),
+    *("response_spectrum", "seismic_response", "simulate", "steady"),
+    *("ensemble", "sensitivity"),  # their argument `response` decides where rigs are computed
+}
+"""Functions that compute one motion, or a curve from point to point: these have `progress`."""
 
 
 def _named(function: str) -> dict[str, object]:
     return {name: one.default for name, one in FUNCTIONS[function].parameters.items()}
 
 
-def test_the_tables_are_read():
+def test_functions_are_read():
     assert len(FUNCTIONS) > 70
-    assert {"rig", "frequency", "vary", "seed", "tolerance", "frequency_span"} <= set(WORDS)
-    assert WORDS["seed"] == 0
-    assert WORDS["vary"] is REQUIRED
-    assert all(row[3] for row in rows("Exceptions in signatures")), "an exception has a reason"
 
 
 @pytest.mark.parametrize("function", FUNCTIONS)
@@ -83,15 +153,14 @@ def test_no_function_takes_a_rig_in_parts(function):
         assert function in BUILDERS or (function, name) in EXCEPTIONS, name
 
 
-def test_long_computations_take_what_is_listed():
+def test_long_computations_take_what_their_tasks_allow():
     words = {"where", "threads", "progress"}
-    listed = {}
-    for parameters, functions, reason in rows("Long computations"):
-        assert reason
-        for name in re.findall(r"`(\w+)`", functions):
-            listed[name] = set(re.findall(r"`(\w+)`", parameters))
     taking = {name: words & set(_named(name)) for name in FUNCTIONS if "progress" in _named(name)}
-    assert listed == {name: found for name, found in taking.items() if "." not in name}
+    assert {name: found for name, found in taking.items() if "." not in name} == {
+        **dict.fromkeys(MANY_TASKS, words),
+        **dict.fromkeys(FEW_TASKS, words - {"where"}),
+        **dict.fromkeys(ONE_TASK, words & {"progress"}),
+    }
 
 
 def test_every_word_is_used():
@@ -103,28 +172,6 @@ def test_every_exception_is_one():
     for (function, name), default in EXCEPTIONS.items():
         assert _named(function)[name] == default, f"{function}({name}=)"
         assert name in FORBIDDEN or WORDS[name] != default, f"{function}({name}=) is as usual"
-
-
-def test_names_lists_parameters_as_they_are():
-    page = (Path(__file__).parents[1] / "docs/names.md").read_text(encoding="utf-8")
-    shown = re.findall(r"^\| `([\w.]+)\((.*?)\)` \|", page, re.M)
-    assert {name for name, _ in shown} >= {name for name in FUNCTIONS if "figures" not in name}
-    for name, text in shown:
-        thing = vi
-        for part in name.split("."):
-            thing = getattr(thing, part)
-        parameters = inspect.signature(thing).parameters
-        words = [word.strip() for word in text.split(",") if word.strip()]
-        listed = [word for word in words if word not in {"*", "…"}]
-        order = [parameter for parameter in parameters if parameter in listed]
-        assert listed == order, name
-        if "…" not in words:
-            assert listed == list(parameters), name
-        if "*" in words:
-            first = words[words.index("*") + 1]
-            after = words[: words.index("*")]
-            assert parameters[first].kind is inspect.Parameter.KEYWORD_ONLY, (name, first)
-            assert all(parameters[one].kind is not inspect.Parameter.KEYWORD_ONLY for one in after)
 
 
 def test_calls_of_the_changes_are_possible():

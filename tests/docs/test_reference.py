@@ -6,6 +6,7 @@ import re
 from collections import Counter
 
 import vibroimpact as vi
+from docs._ext.parameters import rows
 from docs.snippets import ROOT
 from vibroimpact import figures
 
@@ -23,3 +24,17 @@ def test_every_public_name_occurs_once():
     public |= {f"vibroimpact.figures.{name}" for name in figures.__all__}
     assert {name: count for name, count in found.items() if count > 1} == {}
     assert public == set(found)
+
+
+def test_the_table_of_parameters_states_units_bounds_and_laws():
+    found = {path: cells for path, *cells in rows()}
+    assert found["gap"][1:] == ["m", "any", "every stop"]
+    assert found["isolator.cubic"][1:] == ["N m-3", "any", "PolynomialIsolator"]
+    assert found["stops.restitution"][2:] == [
+        "0 to 1",
+        "JankowskiBumper, PowerBumper, RigidStop",
+    ]
+    assert found["gap_ratio"][0] == "gap ratio of each side (G / u_max)"
+    assert all(
+        cells[-1] for path, cells in found.items() if path.startswith(("isolator.", "stops."))
+    )

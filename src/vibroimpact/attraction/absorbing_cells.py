@@ -12,8 +12,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.ndimage import binary_dilation
 
 from vibroimpact.attraction.label_states import Stage, images
 from vibroimpact.tasks.threads import Workers
@@ -78,7 +78,7 @@ def closed(stage: Stage, cells: Cells, points: _Array, threads: Workers) -> _Mas
 
 def _wider(mask: _Mask) -> _Mask:
     """The cells, and those beside them."""
-    wider: _Mask = binary_dilation(mask, _AROUND)
+    wider: _Mask = scipy.ndimage.binary_dilation(mask, _AROUND)
     return wider
 
 

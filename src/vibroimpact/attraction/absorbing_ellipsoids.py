@@ -13,8 +13,8 @@ was met, that speed is one more component, and all of the ball is pressed.
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import solve_discrete_lyapunov
 
 from vibroimpact.attraction.label_states import Stage, images
 from vibroimpact.attraction.section_coordinates import met, remembered
@@ -113,7 +113,7 @@ def _ellipsoid(
         return None
     # The norm's unit ball is mapped into `share` of itself where P is linear.
     share = max(np.sqrt(largest), 0.5)
-    form = solve_discrete_lyapunov((slope / share).T, np.eye(len(kept)))
+    form = scipy.linalg.solve_discrete_lyapunov((slope / share).T, np.eye(len(kept)))
     root = np.linalg.cholesky(form).T  # |root x| is the norm
     sphere = _sphere(len(kept))
     around = sphere @ np.linalg.inv(root).T

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import betaincinv
 
 CONFIDENCE = 0.95
 
@@ -27,6 +27,8 @@ def interval(
     tail = 0.5 * (1.0 - confidence)
     none, all_ = found <= 0.0, found >= total
     inside_low, inside_high = np.where(none, 1.0, found), np.where(all_, total - 1.0, found)
-    low = np.where(none, 0.0, betaincinv(inside_low, total - inside_low + 1.0, tail))
-    high = np.where(all_, 1.0, betaincinv(inside_high + 1.0, total - inside_high, 1.0 - tail))
+    low = np.where(none, 0.0, scipy.special.betaincinv(inside_low, total - inside_low + 1.0, tail))
+    high = np.where(
+        all_, 1.0, scipy.special.betaincinv(inside_high + 1.0, total - inside_high, 1.0 - tail)
+    )
     return low, high

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 _Array = NDArray[np.float64]
 _Labels = NDArray[np.integer[Any]]
@@ -128,5 +128,7 @@ def border_distances(labels: _Labels, x: _Array, y: _Array, points: list[_Array]
         if not len(inside):
             continue
         others = places[(owners != label) & (owners >= 0)]
-        found[label] = KDTree(others).query(inside)[0].min() if len(others) else np.inf
+        found[label] = (
+            scipy.spatial.KDTree(others).query(inside)[0].min() if len(others) else np.inf
+        )
     return found

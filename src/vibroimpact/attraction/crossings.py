@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 _Array = NDArray[np.float64]
 
@@ -19,8 +19,10 @@ def crossings(one: _Array, other: _Array) -> _Array:
     if not (len(begin) and len(there)):
         return np.empty((0, 2))
     reach = 0.5 * (np.linalg.norm(way, axis=1).max() + np.linalg.norm(its_way, axis=1).max())
-    middles = KDTree(begin + 0.5 * way)
-    near = middles.query_ball_tree(KDTree(there + 0.5 * its_way), reach * (1.0 + 1e-9))
+    middles = scipy.spatial.KDTree(begin + 0.5 * way)
+    near = middles.query_ball_tree(
+        scipy.spatial.KDTree(there + 0.5 * its_way), reach * (1.0 + 1e-9)
+    )
     i = np.repeat(np.arange(len(begin)), [len(found) for found in near])
     j = np.array([k for found in near for k in found], dtype=int)
     if not len(i):

@@ -8,8 +8,8 @@ K. L. Rossi and A. Wagemakers, Chaos 33, 073151, 2023).
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import KDTree
 
 _Array = NDArray[np.float64]
 
@@ -19,8 +19,8 @@ NEAR = 0.3
 
 def apart(one: _Array, other: _Array) -> float:
     """The larger of the mean distances of the points of either set from the other."""
-    there, _ = KDTree(other).query(one)
-    back, _ = KDTree(one).query(other)
+    there, _ = scipy.spatial.KDTree(other).query(one)
+    back, _ = scipy.spatial.KDTree(one).query(other)
     return float(max(there.mean(), back.mean()))
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import NDArray
 from rich.console import Group, RenderableType
 from rich.text import Text
-from scipy.signal import find_peaks
 
 from vibroimpact.datasets.description import noted
 from vibroimpact.facts.assembly import assembly_of
@@ -103,7 +103,7 @@ def _resonances(data: xr.Dataset) -> list[dict[str, Any]]:
                     "peak_displacement": float(curve[i]),
                     "peak_acceleration": float(shaken[i]),
                 }
-                for i in find_peaks(curve, prominence=least or None)[0]
+                for i in scipy.signal.find_peaks(curve, prominence=least or None)[0]
             ]
     return found
 

@@ -6,9 +6,9 @@ import math
 from typing import Any
 
 import numpy as np
+import scipy
 import xarray as xr
 from matplotlib.ticker import MaxNLocator
-from scipy.special import chdtri
 
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError
@@ -115,7 +115,7 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
     columns = columns_that_fit(min(_COLUMNS, len(keys)))
     rows = -(-len(keys) // columns)
     made = new_axes(rows, columns, (2.9 * columns, 0.3 + 2.5 * rows))
-    limit = float(chdtri(1, 1.0 - float(result.attrs["confidence"])))
+    limit = float(scipy.special.chdtri(1, 1.0 - float(result.attrs["confidence"])))
     for ax in made.ravel()[len(keys) :]:
         ax.set_axis_off()
     for ax, key in zip(made.ravel(), keys, strict=False):

@@ -7,9 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
-from scipy.stats import qmc
 
 from vibroimpact.identification.least_squares import Problem, Values
 
@@ -62,7 +61,7 @@ def local(problem: Problem, x: Array, most: int = 60, precise: bool = False) -> 
 
     inside = np.clip(x, problem.low, problem.high)
     tight = 1e-13 if precise else 1e-7
-    done = least_squares(
+    done = scipy.optimize.least_squares(
         lambda y: values(y).residuals,
         inside,
         jac=lambda y: problem.jacobian(y, fine=precise, at=values(y)),
@@ -102,7 +101,9 @@ def search(
     own = problem.start
     places = [own, *best]
     if tried:
-        shares = qmc.Sobol(count, seed=seed).random(1 << max(tried - 1, 1).bit_length())[:tried]
+        shares = scipy.stats.qmc.Sobol(count, seed=seed).random(
+            1 << max(tried - 1, 1).bit_length()
+        )[:tried]
         for row in shares:
             x = own.copy()
             for j, (one, share) in enumerate(zip(problem.free, row, strict=True)):

@@ -11,9 +11,8 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
-from scipy.stats import t as student
 
 from vibroimpact.identification.least_squares import Problem
 from vibroimpact.identification.robust_loss import moments
@@ -68,7 +67,7 @@ def refitted(
         return problem.jacobian(whole(y), only=others)
 
     low, high = problem.low[others], problem.high[others]
-    done = least_squares(
+    done = scipy.optimize.least_squares(
         lambda y: problem.values(whole(y)).residuals,
         np.clip(start[others], low, high),
         jac=derivative,
@@ -129,7 +128,7 @@ class _Refits:
 
 def limit_of(confidence: float, freedom: int) -> float:
     """Rise of the deviance at the ends of an interval."""
-    return float(student.ppf(0.5 + 0.5 * confidence, freedom)) ** 2
+    return float(scipy.stats.t.ppf(0.5 + 0.5 * confidence, freedom)) ** 2
 
 
 def profile(

@@ -6,9 +6,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.stats import f as fisher
-from scipy.stats import norm
 
 Array = NDArray[np.float64]
 
@@ -94,8 +93,8 @@ def structure(
     excess, excess_chance = math.nan, 1.0
     if noise is not None and noise > 0.0:
         excess = size / noise
-        excess_chance = float(fisher.sf(excess**2, freedom, noise_freedom))
-    return Structure(share, float(norm.sf(score)), excess, excess_chance, _worst(rows))
+        excess_chance = float(scipy.stats.f.sf(excess**2, freedom, noise_freedom))
+    return Structure(share, float(scipy.stats.norm.sf(score)), excess, excess_chance, _worst(rows))
 
 
 def _neighbours(one: Array, other: Array) -> list[Array]:

@@ -6,8 +6,8 @@ import json
 from typing import Any, NamedTuple
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.stats import t as student
 
 from vibroimpact.datasets.description import (
     describe,
@@ -141,7 +141,7 @@ def _intervals(
     if curves:
         ends = np.array([(c.low, c.high) for c in curves])
         return ends, np.array([(c.open_low, c.open_high) for c in curves], dtype=np.int64)
-    wide = float(student.ppf(0.5 + 0.5 * confidence, around.freedom)) * around.error
+    wide = float(scipy.stats.t.ppf(0.5 + 0.5 * confidence, around.freedom)) * around.error
     low = np.array([one.low for one in problem.free])
     high = np.array([one.high for one in problem.free])
     ends = np.stack([np.maximum(values - wide, low), np.minimum(values + wide, high)], axis=1)

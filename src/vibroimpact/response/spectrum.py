@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from vibroimpact.arguments import check_variables
 from vibroimpact.datasets.description import describe, motion_parameters, noted
@@ -142,7 +142,7 @@ def _of_measured(motion: xr.Dataset, highest: float) -> xr.Dataset:
     data.coords["line_frequency"] = ("order", order[kept] * sine.frequency)
     for name, values in held.items():
         known = np.isfinite(values)
-        line = _lines(CubicSpline(time[known], values[known])(even))[kept]
+        line = _lines(scipy.interpolate.CubicSpline(time[known], values[known])(even))[kept]
         data[f"{name}_amplitude"] = ("order", np.abs(line))
         data[f"{name}_phase"] = ("order", np.angle(line))
     data.attrs["method"] = f"Hann window over {cycles} forcing cycles"

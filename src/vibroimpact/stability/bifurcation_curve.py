@@ -51,8 +51,6 @@ from vibroimpact.tasks.threads import Progress, counted
 
 _Array = NDArray[np.float64]
 
-_NOTHING = xr.DataArray([np.nan])
-
 
 @public
 def bifurcation_curve(
@@ -101,7 +99,9 @@ def bifurcation_curve(
     rig = as_rig(rig, frequency)
     ranges = read_ranges(vary, rig, 2)
     oscillator, excitation = rig.oscillator, rig.harmonic
-    if not isinstance(start, xr.Dataset) or start.get("bifurcation_kind", _NOTHING).ndim:
+    if not isinstance(start, xr.Dataset) or (
+        "bifurcation_kind" not in start or start["bifurcation_kind"].ndim
+    ):
         raise InputError(
             "start: this is not a single bifurcation; pass one bifurcation of a result of branch, "
             "such as data.isel(bifurcation=0)"

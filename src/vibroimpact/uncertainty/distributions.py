@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import stats
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.parameters import Parameter
@@ -90,24 +90,26 @@ def _made(
     made: Distribution
     match kind, texts:
         case "normal", [share]:
-            made = stats.norm(own(), number(share) * abs(own()))
+            made = scipy.stats.norm(own(), number(share) * abs(own()))
         case "normal", [mean, deviation]:
-            made = stats.norm(value(mean), to_si(deviation, varied.quantity, field, above=0.0))
+            made = scipy.stats.norm(
+                value(mean), to_si(deviation, varied.quantity, field, above=0.0)
+            )
         case "normal", [mean, deviation, *bounds] if len(bounds) == 2:
             at = value(mean)
             wide = to_si(deviation, varied.quantity, field, above=0.0)
             low, high = pair(*bounds)
-            made = stats.truncnorm((low - at) / wide, (high - at) / wide, at, wide)
+            made = scipy.stats.truncnorm((low - at) / wide, (high - at) / wide, at, wide)
         case "lognormal", [share]:
-            made = stats.lognorm(number(share), scale=_positive(own(), field))
+            made = scipy.stats.lognorm(number(share), scale=_positive(own(), field))
         case "lognormal", [median, sigma]:
-            made = stats.lognorm(number(sigma), scale=_positive(value(median), field))
+            made = scipy.stats.lognorm(number(sigma), scale=_positive(value(median), field))
         case "uniform", [share]:
             half = number(share) * abs(own())
-            made = stats.uniform(own() - half, 2.0 * half)
+            made = scipy.stats.uniform(own() - half, 2.0 * half)
         case "uniform", [low, high]:
             first, last = pair(low, high)
-            made = stats.uniform(first, last - first)
+            made = scipy.stats.uniform(first, last - first)
         case "triangular", [low, mode, high]:
             first, last = pair(low, high)
             middle = value(mode)
@@ -116,7 +118,7 @@ def _made(
                     f"{field}: the mode {mode!r} is not between {low!r} and {high!r}; use a mode "
                     "between them"
                 )
-            made = stats.triang((middle - first) / (last - first), first, last - first)
+            made = scipy.stats.triang((middle - first) / (last - first), first, last - first)
         case _:
             raise _Unknown
     return made

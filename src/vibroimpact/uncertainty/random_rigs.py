@@ -6,8 +6,8 @@ import math
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from vibroimpact.datasets.description import rig_parameters
 from vibroimpact.errors import InputError
@@ -157,9 +157,9 @@ def shares(count: int, columns: int, method: Method, seed: int) -> _Array:
     """
     if method == "sobol":
         check_power(count, "draws", "Sobol's points")
-        found: _Array = qmc.Sobol(columns, rng=seed).random(count)
+        found: _Array = scipy.stats.qmc.Sobol(columns, rng=seed).random(count)
     elif method == "latin":
-        found = qmc.LatinHypercube(columns, rng=seed).random(count)
+        found = scipy.stats.qmc.LatinHypercube(columns, rng=seed).random(count)
     else:
         found = np.random.default_rng(seed).random((count, columns))
     return found

@@ -7,9 +7,9 @@ from functools import partial
 from typing import Annotated, Any
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from vibroimpact.arguments import check_name
 from vibroimpact.datasets.description import describe
@@ -93,7 +93,7 @@ def sensitivity(
     drawn = uncertain(rig, distributions)
     check_power(draws, "draws", "Sobol's points")
     columns = len(drawn.names)
-    points = qmc.Sobol(2 * columns, rng=seed).random(draws)
+    points = scipy.stats.qmc.Sobol(2 * columns, rng=seed).random(draws)
     a, b = points[:, :columns], points[:, columns:]
     # Of each parameter the first set with that column of the second one.
     sets = [a, b, *(np.where(np.arange(columns) == i, b, a) for i in range(columns))]
