@@ -100,7 +100,9 @@ def page() -> Table | None:
         ):
             value = found[name]
             table.add(words + what, f"{value:.0f}", f"under {limit:g} ms", met(value < limit))
-    table.add("size of the file without a server, kB", f"{size / 1e3:.0f}", "under 1000", met(size < 1e6))
+    table.add(
+        "size of the file without a server, kB", f"{size / 1e3:.0f}", "under 1000", met(size < 1e6)
+    )
     table.add("slider to painted frame, 95 of 100 within, ms", f"{took['most']:.0f}", "", "")
     table.notes.append(
         f"The page shows {FIRST}, and the slider changes its gap. Chromium runs without a screen "

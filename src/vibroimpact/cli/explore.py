@@ -53,9 +53,9 @@ def explore(
         to the server if they know the token. The token is a secret key, which is part of the
         printed address of the page.
     save
-        Write the page to this HTML file instead, and start no server. The file contains the
-        compiled engine: opened in a browser, it computes rigs with linear laws by itself, without
-        scenarios, unstable orbits and the map.
+        Name of an HTML file to which the page is written; no server is started then. The file
+        contains the compiled engine: in a browser it computes rigs with linear laws by itself,
+        without scenarios, unstable orbits and the map. Default: no file.
     """
     from vibroimpact.cli.output import warn
     from vibroimpact.cli.rig import subject
