@@ -21,6 +21,8 @@ for (const state of JSON.parse(fs.readFileSync(0))) {
     rows: plain(rows),
     states: plain(states),
     motion: plain(motion.rows),
+    quick: modules["motion.js"].quick(engine, state, data, known),
+    careful: modules["motion.js"].careful(engine, state, data, known),
     curves: curves(state, data, false, known, engine.layout),
     controls: modules["rig.js"].controls(state, state, known),
     basins: state.shown.includes("basins") ? await modules["basins.js"].basins(engine, state, false, known, nothing) : null,

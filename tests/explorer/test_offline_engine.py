@@ -17,7 +17,7 @@ from vibroimpact.explorer.controls import controls
 from vibroimpact.explorer.engine_layout import WASM
 from vibroimpact.explorer.offline_facts import facts, table
 from vibroimpact.explorer.offline_page import worker
-from vibroimpact.explorer.pictures import basins, curves
+from vibroimpact.explorer.pictures import basins, curves, motion
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.state import State, begin
 from vibroimpact.model import Bumper, Harmonic, Isolator, Oscillator, Rig, RigidStop
@@ -151,6 +151,34 @@ def test_pictures_and_knobs_are_those_of_python(run):
         knobs = [one._asdict() for one in controls(state, state)]
         theirs = [one for one in knobs if one["path"] != "isolator.damping_exponent"]
         assert near(found["controls"], theirs)
+
+
+def test_pictures_of_motions_are_those_of_python(run):
+    random = np.random.default_rng(3)
+    states = [preset(FIRST), *(drawn(random) for _ in range(12))]
+    periodic = 0
+    for state, found in zip(states, run(states), strict=True):
+        data = curves.swept(state, fine=False)
+        held = data.sel(direction=state.direction)
+        if (held["cycles"] > WANDERING).any():
+            continue  # see above
+        quick, careful = motion.quick(state, data), motion.careful(state, data)
+        assert near(found["quick"], quick)
+        lines, expected = (
+            one.pop("spectrum")["displacement"] for one in (found["careful"], careful)
+        )
+        # The page's lines are those of samples.
+        np.testing.assert_allclose(lines, expected, rtol=1e-3, atol=1e-5 * max(expected))
+        assert found["careful"].pop("table") is None
+        del careful["table"]
+        words, theirs = found["careful"].pop("words"), careful.pop("words")
+        if "period" in theirs:
+            assert words.split("; ")[0] == theirs.split("; ")[0]
+            multipliers = [float(one.split()[-3]) for one in (words, theirs)]
+            assert multipliers[0] == pytest.approx(multipliers[1], rel=1e-5, abs=1e-9)
+            periodic += 1
+        assert near(found["careful"], careful)
+    assert periodic > 6
 
 
 def test_basins_are_those_of_python(run):
