@@ -149,6 +149,15 @@ def test_a_telephone(browser, file):
     opened.goto(file.as_uri())
     opened.wait_for_selector("body[data-settled]", timeout=60_000)
     assert opened.evaluate("document.documentElement.scrollWidth") <= 390
+    # The curves stay in sight where a knob is turned.
+    opened.locator("#knob-stops-relaxation_time").scroll_into_view_if_needed()
+    curve = opened.locator("#panels [data-name='forward']").first
+    before = curve.get_attribute("d")
+    opened.fill("#text-stops-gap", "12 mm")
+    opened.press("#text-stops-gap", "Enter")
+    opened.wait_for_function("document.body.dataset.settled === document.body.dataset.asked")
+    assert curve.get_attribute("d") != before
+    assert 0 <= opened.locator("#panels").bounding_box()["y"] < 400
     opened.close()
 
 
