@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import threading
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 
 import numpy as np
 import pytest
@@ -183,6 +186,26 @@ def test_a_saved_notebook_shows_the_page_or_a_picture(browser, tmp_path):
     friction = vi.FrictionIsolator("1 kN/m", "10 N s/m", "20 N")
     curved = vi.Rig(vi.Oscillator("100 kg", friction, vi.Bumper("9 kN/m", 10.0, "5 mm")), "0.05 g")
     assert "data:image/png" in vi.explore(curved)._repr_html_()
+
+
+def test_a_notebook_of_this_machine_shows_the_page_of_its_server(browser, tmp_path):
+    explored = vi.explore(FIRST)
+    text = f"<!doctype html><meta charset=utf-8>{explored._repr_html_()}"
+    (tmp_path / "notebook.html").write_text(text, encoding="utf-8")
+
+    class Quiet(SimpleHTTPRequestHandler):
+        def log_message(self, *args):
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=tmp_path)) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        opened = browser.new_page()
+        opened.goto(f"http://127.0.0.1:{server.server_port}/notebook.html")
+        frame = opened.frame_locator("iframe")
+        frame.locator("body[data-settled] #scenario-name:visible").wait_for(timeout=60_000)
+        assert opened.locator("iframe").get_attribute("src") == explored.address
+        opened.close()
+        server.shutdown()
 
 
 def test_the_facts_are_json():
