@@ -33,7 +33,7 @@ help:
 	@echo 'make format   put the code into the style that make lint checks'
 	@echo 'make docs     build the documentation, gallery included; it begins at out/site/index.html'
 	@echo 'make bench    compare speed and accuracy with other solvers (benchmarks/README.md)'
-	@echo 'make kernels  make machine code of the engine for this machine; ARGS="linux-x86_64-v3.so ..." for others'
+	@echo 'make kernels  make machine code of the engine for this machine and the explorer; ARGS="linux-x86_64-v3.so ..." for others'
 	@echo 'make dist     build wheel and sdist into dist/, and try them out; PYTHONS="python3.11 python3.13"'
 	@echo 'make pins     renew constraints.txt (CONTRIBUTING.md)'
 	@echo 'make clean    remove .venv, all caches and the built documentation; the rest of out/ stays'

@@ -27,16 +27,20 @@ class Libraries(BuildHookInterface):
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Choose the files and the tag of the wheel."""
         platform = os.environ.get("VIBROIMPACT_PLATFORM")
+        folder = Path(self.root, "src/vibroimpact/engine/libraries")
+        # The engine of the explorer's page is the same on all platforms.
+        always = (folder / "page.wasm", folder / "digest")
+        for path in always:
+            build_data["force_include"][str(path)] = f"vibroimpact/engine/libraries/{path.name}"
         if not platform:
             return
-        folder = Path(self.root, "src/vibroimpact/engine/libraries")
         found = sorted(folder.glob(f"{platform}-*"))
         if platform not in TAGS or not found:
             raise ValueError(
                 f"VIBROIMPACT_PLATFORM: no libraries for {platform!r} in {folder.name}; one of "
                 f"{', '.join(TAGS)}, made by make kernels"
             )
-        for path in (*found, folder / "digest"):
+        for path in found:
             build_data["force_include"][str(path)] = f"vibroimpact/engine/libraries/{path.name}"
         build_data["pure_python"] = False
         build_data["tag"] = f"py3-none-{TAGS[platform]}"

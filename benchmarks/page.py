@@ -2,14 +2,20 @@
 
 import asyncio
 import shutil
+import tempfile
 import threading
+from pathlib import Path
+from typing import Any
 
 from benchmarks.report import Table, met, targets
+from vibroimpact.explorer import offline_page
 from vibroimpact.explorer.presets import FIRST, preset
 from vibroimpact.explorer.run import serving
 
 _MOVES = 200
 _COARSE, _FINE = 50.0, 300.0
+_ALONE = 100.0
+"""Without a server."""
 
 TURNED = """async ({ id, moves }) => {
     const knob = document.getElementById(id);
@@ -47,6 +53,16 @@ def chromium() -> str | None:
     return next(filter(None, map(shutil.which, names)), None)
 
 
+def _turned(browser: Any, address: str) -> dict[str, float]:
+    """Milliseconds of a page in which a slider is turned."""
+    opened = browser.new_page(viewport={"width": 1280, "height": 720})
+    opened.goto(address)
+    opened.wait_for_selector("body[data-settled]", timeout=300_000)  # it may have to compile
+    took: dict[str, float] = opened.evaluate(TURNED, {"id": "knob-stops-gap", "moves": _MOVES})
+    opened.close()
+    return took
+
+
 def page() -> Table | None:
     """Measure the page; nothing where there is no browser, or nothing that drives it."""
     try:
@@ -66,20 +82,27 @@ def page() -> Table | None:
     server = serving(preset(FIRST), "127.0.0.1", 0, told)
     threading.Thread(target=lambda: asyncio.run(server), daemon=True).start()
     ready.wait()
-    with sync_playwright() as driver:
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as driver:
+        file = Path(folder, "explorer.html")
+        file.write_text(offline_page.page(preset(FIRST)), encoding="utf-8")
         shown = driver.chromium.launch(executable_path=browser, args=["--no-sandbox"])
-        opened = shown.new_page(viewport={"width": 1280, "height": 720})
-        opened.goto(where[0])
-        opened.wait_for_selector("body[data-settled]", timeout=300_000)  # it may have to compile
-        took = opened.evaluate(TURNED, {"id": "knob-stops-gap", "moves": _MOVES})
+        took, alone = (_turned(shown, address) for address in (where[0], file.as_uri()))
+        size = file.stat().st_size
         shown.close()
     table = targets("The explorer's page")
-    for words, name, limit in (
-        (f"slider to painted frame, median of {_MOVES} moves, ms", "median", _COARSE),
-        ("fine curves after it is let go, ms", "fine", _FINE),
+    for words, found, limits in (
+        ("", took, (_COARSE, _FINE)),
+        ("without a server: ", alone, (_ALONE, _FINE)),
     ):
-        value = took[name]
-        table.add(words, f"{value:.0f}", f"under {limit:g} ms", met(value < limit))
+        for what, name, limit in (
+            (f"slider to painted frame, median of {_MOVES} moves, ms", "median", limits[0]),
+            ("fine curves after it is let go, ms", "fine", limits[1]),
+        ):
+            value = found[name]
+            table.add(words + what, f"{value:.0f}", f"under {limit:g} ms", met(value < limit))
+    table.add(
+        "size of the file without a server, kB", f"{size / 1e3:.0f}", "under 1000", met(size < 1e6)
+    )
     table.add("slider to painted frame, 95 of 100 within, ms", f"{took['most']:.0f}", "", "")
     table.notes.append(
         f"The page shows {FIRST}, and the slider changes its gap. Chromium runs without a screen "

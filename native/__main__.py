@@ -2,7 +2,8 @@
 
 numba lowers each entry and each flow's functions once, to code for no processor in particular; LLVM
 makes machine code of it for each target, and a linker a library of that. Targets are named as in
-`TARGETS`; the default is this machine.
+`TARGETS`; the default is this machine and the explorer's page, whose WebAssembly has only the
+functions that the page calls.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ from vibroimpact.engine import flow_dispatch, flow_tables, jit, kernel_linking, 
 from vibroimpact.engine.compilation import Compiled
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.plain_entries import Alone, Single
+from vibroimpact.explorer import engine_layout
 
 
 class Target(NamedTuple):
@@ -44,6 +46,18 @@ class Target(NamedTuple):
     cpu: str
     triple: str
     linker: str
+    features: str = ""
+    symbols: frozenset[str] | None = None
+    """Its functions. Default: all."""
+
+    def has(self, symbol: str) -> bool:
+        """Whether it has a function."""
+        return self.symbols is None or symbol in self.symbols
+
+    @property
+    def in_a_page(self) -> bool:
+        """Whether it is WebAssembly."""
+        return self.machine == "wasm32"
 
 
 _LEVELS = {"v2": "x86-64-v2", "v3": "x86-64-v3", "v4": "x86-64-v4"}
@@ -64,7 +78,21 @@ def _targets() -> Iterator[Target]:
         yield Target(system, *arm)
 
 
-TARGETS = {native.name_of(one.system, one.machine, one.level): one for one in _targets()}
+_PAGE = Target(
+    "wasi",
+    "wasm32",
+    "",
+    "generic",
+    # The code has 64-bit integers, but no pointer's size: it is lowered before numba optimises it.
+    "wasm32-unknown-unknown",
+    "wasm32-wasi",
+    "+simd128,+bulk-memory,+nontrapping-fptoint,+sign-ext",
+    engine_layout.SYMBOLS,
+)
+TARGETS = {
+    **{native.name_of(one.system, one.machine, one.level): one for one in _targets()},
+    engine_layout.WASM: _PAGE,
+}
 
 
 def functions() -> Iterator[tuple[Compiled, Any]]:
@@ -114,8 +142,13 @@ def lowered(index: int) -> tuple[str, bytes]:
 def _machine(target: Target) -> Any:
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
+    placed = ("static", "default") if target.in_a_page else ("pic", "small")
     return llvm.Target.from_triple(target.triple).create_target_machine(
-        cpu=target.cpu, opt=3, reloc="pic", codemodel="small"
+        cpu=target.cpu,
+        features=target.features,
+        opt=3,
+        reloc=placed[0],
+        codemodel=placed[1],
     )
 
 
@@ -161,6 +194,19 @@ _COUNTED = "void NRT_MemInfo_call_dtor(void *nothing) {}\n"
 """Of an array whose memory is counted; memory that Python passes is not."""
 
 
+_FOR_A_PAGE = [
+    "-mexec-model=reactor",  # no main, and nothing is imported
+    *(
+        f"-Wl,{option}"
+        for option in (
+            "--no-entry,--gc-sections,--strip-all",
+            "-z,stack-size=1048576",
+            *(f"--export={name}" for name in ("__heap_base", *sorted(engine_layout.SYMBOLS))),
+        )
+    ),
+]
+
+
 def link(objects: list[bytes], target: Target, path: Path) -> None:
     """Link a library of objects."""
     with tempfile.TemporaryDirectory() as folder:
@@ -171,7 +217,8 @@ def link(objects: list[bytes], target: Target, path: Path) -> None:
         stub = Path(folder) / "stub.c"
         stub.write_text(_COUNTED)
         command = [sys.executable, "-m", "ziglang", "cc", "-target", target.linker]
-        options = ["-shared", "-s", "-O2", "-o", str(path), "-lm"]
+        options = ["-s", "-O2", "-o", str(path), "-lm"]
+        options += _FOR_A_PAGE if target.in_a_page else ["-shared"]
         subprocess.run([*command, *options, *map(str, files), str(stub)], check=True)
     path.write_bytes(_without_places(path.read_bytes()))
 
@@ -190,21 +237,23 @@ def _made(work: tuple[bytes, Target]) -> bytes:
 
 def main(names: list[str]) -> None:
     """Make the libraries of these names."""
-    chosen = [TARGETS[name] for name in names or [_own()]]
+    chosen = {name: TARGETS[name] for name in names or [_own(), engine_layout.WASM]}
     native.FOLDER.mkdir(exist_ok=True)
     digest = native.FOLDER / native.DIGEST
     if not digest.exists() or digest.read_text() != native.digest():
         for old in native.FOLDER.iterdir():
             old.unlink()
+    symbols = [compiled.symbol(type(given)) for compiled, given in functions()]
+    wanted = [k for k, name in enumerate(symbols) if any(one.has(name) for one in chosen.values())]
     with ProcessPoolExecutor() as pool:
-        codes = []
-        for symbol, code in pool.map(lowered, range(len(list(functions())))):
+        codes = {}
+        for symbol, code in pool.map(lowered, wanted):
             print(f"{symbol}: {len(code) // 1024} kB", flush=True)
-            codes.append(code)
-        for target in chosen:
-            objects = list(pool.map(_made, [(code, target) for code in codes]))
-            path = native.FOLDER / native.name_of(target.system, target.machine, target.level)
-            link(objects, target, path)
+            codes[symbol] = code
+        for name, target in chosen.items():
+            theirs = [(code, target) for symbol, code in codes.items() if target.has(symbol)]
+            path = native.FOLDER / name
+            link(list(pool.map(_made, theirs)), target, path)
             print(f"{path.name}: {path.stat().st_size / 1e6:.2f} MB", flush=True)
     digest.write_text(native.digest())
 

@@ -1,14 +1,13 @@
 """Links that read well in the plain files, made right for the site.
 
-A link to the gallery or to a script of it leads to its page, one to an HTML file to that file, and
-one to another folder is only its text. Docstrings name what is public without the package, and
+A link to the gallery or to a script of it leads to its page, and one to another folder is only its
+text. Docstrings name what is public without the package, and
 pages by their files.
 """
 
 from __future__ import annotations
 
 import re
-import shutil
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -17,8 +16,11 @@ from sphinx import addnodes
 from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 
-PAGES = ("docs/explorer.html",)
-"""Pages that are in the repository as they are shown."""
+from vibroimpact.explorer.offline_page import page
+from vibroimpact.explorer.presets import FIRST, preset
+
+EXPLORER = "docs/explorer.html"
+"""The explorer's page without a server."""
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
@@ -47,10 +49,7 @@ def _as_in_the_files(app: Sphinx, document: nodes.document) -> None:
             link.replace_self(new)
     for link in list(document.findall(addnodes.download_reference)):
         target = _target(app, link)
-        if target in PAGES:
-            up = "../" * name.count("/")
-            link.replace_self(nodes.reference("", "", *link.children, refuri=up + target))
-        elif target.startswith("gallery/") and target.endswith(".py"):
+        if target.startswith("gallery/") and target.endswith(".py"):
             link.replace_self(_page(link, "/docs/" + target.removesuffix(".py"), name))
 
 
@@ -87,5 +86,5 @@ def _public(
 
 
 def _pages(app: Sphinx, error: Exception | None) -> None:
-    for page in PAGES if error is None else ():
-        shutil.copy(Path(app.srcdir, page), Path(app.outdir, page))
+    if error is None:
+        Path(app.outdir, EXPLORER).write_text(page(preset(FIRST)), encoding="utf-8")

@@ -60,6 +60,7 @@ def motions(engine: str) -> tuple[bool, bool, list[str]]:
 
 def test_the_library_of_the_repository_is_of_these_sources() -> None:
     assert (native.FOLDER / native.DIGEST).read_text() == native.digest(), "run make kernels"
+    assert (native.FOLDER / "page.wasm").exists(), "run make kernels"
 
 
 @here

@@ -17,11 +17,11 @@ from vibroimpact.tasks.threads import Progress
 Window = tuple[tuple[float, float], tuple[float, float]]
 """Ranges of displacement (m) and velocity (m/s)."""
 
-_WIDER = 1.6
+WIDER = 1.6
 """Over what the steady motions take."""
-_FIRST = 2.0
+FIRST = 2.0
 """Over the size of the motion from rest, and the gaps: where other motions are sought."""
-_LATTICE = 20
+LATTICE = 20
 """Starts along each axis."""
 
 
@@ -50,7 +50,7 @@ def window(search: Search, progress: Progress | None = None) -> Window:
     size = reach_at_rest(Rig(stage.oscillator, excitation))
     if rest.status in (Status.DONE, Status.NOT_SETTLED):
         size = max(size, reach(rest, rest.state))
-    size = _FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops), 0.0)
+    size = FIRST * max(size, *(abs(stop.gap) for stop in stage.oscillator.stops), 0.0)
     if not size > 0.0:
         raise InputError(
             "displacement: there is no default range, because the mass does not move from rest; "
@@ -59,11 +59,11 @@ def window(search: Search, progress: Progress | None = None) -> Window:
     low, high = walls(stage)
     fast = size * excitation.angular_frequency
     wide = max(-size, low), min(size, high)
-    search.label(lattice(wide, (-fast, fast), (_LATTICE, _LATTICE)), progress)
+    search.label(lattice(wide, (-fast, fast), (LATTICE, LATTICE)), progress)
     if not search.known:
         return wide, (-fast, fast)
     most = max(float(one.motion["displacement_max"]) for one in search.known)
     least = min(float(one.motion["displacement_min"]) for one in search.known)
-    fast = _WIDER * max(float(np.abs(one.motion["velocity"]).max()) for one in search.known)
-    middle, half = 0.5 * (most + least), 0.5 * _WIDER * (most - least)
+    fast = WIDER * max(float(np.abs(one.motion["velocity"]).max()) for one in search.known)
+    middle, half = 0.5 * (most + least), 0.5 * WIDER * (most - least)
     return (max(middle - half, low), min(middle + half, high)), (-fast, fast)

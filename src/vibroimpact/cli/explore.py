@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
@@ -19,6 +20,7 @@ def explore(
     port: int = 0,
     browser: Annotated[bool, Parameter(negative="--no-browser")] = True,
     host: str = "127.0.0.1",
+    save: Path | None = None,
     changes: opt.RigOptions = opt.AS_DESCRIBED,
 ) -> int:
     """Change parameters in a browser, and see how the resonance curves and the motion change.
@@ -33,6 +35,7 @@ def explore(
         vibroimpact explore
         vibroimpact explore B3-10mm-A3
         vibroimpact explore building.toml --no-browser --port 8000
+        vibroimpact explore B2-G1-A3 --save explorer.html
 
     Parameters
     ----------
@@ -49,6 +52,10 @@ def explore(
         Address on which the server listens. If you change the default, other machines can connect
         to the server if they know the token. The token is a secret key, which is part of the
         printed address of the page.
+    save
+        Name of an HTML file to which the page is written; no server is started then. The file
+        contains the compiled engine: in a browser it computes rigs with linear laws by itself,
+        without scenarios, unstable orbits and the map. Default: no file.
     """
     from vibroimpact.cli.output import warn
     from vibroimpact.cli.rig import subject
@@ -65,6 +72,20 @@ def explore(
     if span is None and what.published:
         span = (0.5, 5.0)  # the range of the published tests
     first = begin(Rig(what.oscillator, what.repeated), what.name, span)
+
+    if save is not None:
+        from vibroimpact.explorer.offline_page import page
+
+        whole = page(first)
+        try:
+            save.write_text(whole, encoding="utf-8")
+        except OSError as error:
+            raise InputError(
+                f"--save: {str(save)!r} cannot be written ({error.strerror}); pass the path of a "
+                "file in a folder that exists"
+            ) from None
+        print(f"The page is in {save}, {len(whole) // 1024} KiB")
+        return 0
 
     def announce(address: str) -> None:
         print(f"The explorer is at {address}\nPress Ctrl-C to stop it.", flush=True)

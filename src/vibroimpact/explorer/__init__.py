@@ -11,6 +11,11 @@ Each page has one session, and each session has one immutable state::
     server.py     the server of the pages and their sessions
     share.py      a state as an address, a study file and a program
 
-The page itself (HTML, CSS, JavaScript) is in ``page/``. It draws the pictures that the server
-sends, and computes nothing.
+The page itself (HTML, CSS, JavaScript) is in ``page/``. It draws the pictures that it gets, and
+computes nothing. Without a server they come from a worker, whose program is in ``worker/``, and
+whose engine is a module of WebAssembly::
+
+    engine_layout.py  what the worker has to know of the engine
+    offline_facts.py  what it has to know of the package: presets, knobs, units, limits, words
+    offline_page.py   all of that as one HTML file
 """

@@ -21,7 +21,7 @@ from vibroimpact.model.written_units import unitless
 SIDES = ("right", "left")
 DIMENSIONLESS = ("stiffness_ratio", "gap_ratio", "relaxation_time")
 """Dimensionless parameters of a stop."""
-_ROUNDED = 1e-6
+ROUNDED = 1e-6
 """Relative error of a frequency that the page has rounded."""
 OF_RIG = ("isolator_period", "damping_ratio")
 
@@ -154,7 +154,7 @@ def chosen(state: PageState, direction: str, frequency: float | str) -> PageStat
     else:
         hertz = to_si(frequency, FREQUENCY, "frequency", above=0.0)
     # The page has frequencies with some digits only, also those of both ends.
-    hertz = next((end for end in state.span if math.isclose(hertz, end, rel_tol=_ROUNDED)), hertz)
+    hertz = next((end for end in state.span if math.isclose(hertz, end, rel_tol=ROUNDED)), hertz)
     if not low <= hertz <= high:
         raise InputError(
             f"frequency: {forcing(hertz)} is outside the range of the sweeps; use a frequency from "

@@ -28,10 +28,10 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.model.units import pretty
 from vibroimpact.model.validation import in_order
 
-_TENFOLD = 10.0
-_WIDE = 60.0
+TENFOLD = 10.0
+WIDE = 60.0
 """Reach of a knob that turns by factors: to either side of where it began; of stops more."""
-_RANGES = {
+RANGES = {
     "stiffness_ratio": (0.2, 500.0, True),
     "gap_ratio": (0.0, 1.5, False),
     "relaxation_time": (1e-4, 10.0, True),
@@ -43,7 +43,7 @@ _RANGES = {
     "gamma": (-1.0, 1.0, False),
 }
 """Ends, and whether it turns by factors; of numbers without a unit."""
-_SYMBOLS = {
+SYMBOLS = {
     "mass": "M",
     "isolator.stiffness": "K",
     "isolator.damping": "C",
@@ -59,9 +59,9 @@ _SYMBOLS = {
 }
 
 
-_LABELS = {"force": "constant force"}
+LABELS = {"force": "constant force"}
 """Labels of knobs whose fields do not tell them from others."""
-_AMPLITUDES: dict[Of, tuple[str, str]] = {
+AMPLITUDES: dict[Of, tuple[str, str]] = {
     "acceleration": ("base acceleration", "A"),
     "displacement": ("base displacement", "X"),
     "force": ("force amplitude", "F"),
@@ -108,8 +108,8 @@ def _physical(state: PageState, first: PageState) -> Iterator[Control]:
     shaken = state.shaking
     sizes = _Sizes(state)
     begun = first.shaking.amplitude if first.shaking.of == shaken.of else shaken.amplitude
-    ends = (begun / _TENFOLD, begun * _TENFOLD, True)
-    label, symbol = _AMPLITUDES[shaken.of]
+    ends = (begun / TENFOLD, begun * TENFOLD, True)
+    label, symbol = AMPLITUDES[shaken.of]
     yield _control("amplitude", "shaking", label, shaken.amplitude, shaken.quantity, ends)._replace(
         symbol=symbol
     )
@@ -135,9 +135,9 @@ def _fields(
             continue
         begun = getattr(old, field) if type(old) is type(part) else value
         stop = name not in ("", "isolator")
-        ends = _ends(field, accepts.quantity, begun or 0.0, accepts, sizes, _WIDE if stop else None)
+        ends = _ends(field, accepts.quantity, begun or 0.0, accepts, sizes, WIDE if stop else None)
         path = f"{name}.{field}" if name else field
-        label = _LABELS.get(path, field.replace("_", " "))
+        label = LABELS.get(path, field.replace("_", " "))
         yield _control(path, group, label, value, accepts.quantity, ends)
 
 
@@ -166,9 +166,9 @@ def _ends(
     field: str, quantity: Quantity, begun: float, accepts: Any, sizes: _Sizes, wide: float | None
 ) -> tuple[float, float, bool]:
     """Range of a knob, and whether it turns by factors."""
-    if field in _RANGES:
-        return _RANGES[field]
-    factor = wide if wide and field != "mass" else _TENFOLD
+    if field in RANGES:
+        return RANGES[field]
+    factor = wide if wide and field != "mass" else TENFOLD
     if begun > 0.0 and quantity is not LENGTH:
         return begun / factor, begun * factor, True
     large = sizes.of(quantity, begun)
@@ -182,7 +182,7 @@ def _dimensionless(state: PageState) -> Iterator[Control]:
     for name in OF_RIG:
         found = _read(rig, state, name)
         if found is not None:
-            ends = _RANGES.get(name, (found / _TENFOLD, found * _TENFOLD, True))
+            ends = RANGES.get(name, (found / TENFOLD, found * TENFOLD, True))
             yield _control(
                 name, group, name.replace("_", " "), found, PARAMETERS[name].quantity, ends
             )
@@ -195,7 +195,7 @@ def _dimensionless(state: PageState) -> Iterator[Control]:
                 continue
             words = name.replace("_", " ")
             label = words if both else f"{words}, {side}"
-            yield _control(f"{side}.{name}", group, label, found, NUMBER, _RANGES[name])
+            yield _control(f"{side}.{name}", group, label, found, NUMBER, RANGES[name])
 
 
 def one_sided_or_none(rig: Oscillator, side: str) -> Oscillator | None:
@@ -231,8 +231,8 @@ def _control(
     """A knob, its range wide enough for the value."""
     low, high, log = ends
     low, high = min(low, value) if value > 0.0 or not log else low, max(high, value)
-    symbol = _SYMBOLS.get(path) or _SYMBOLS.get(path.rpartition(".")[2], "")
-    if path.startswith("isolator.") and path not in _SYMBOLS:
+    symbol = SYMBOLS.get(path) or SYMBOLS.get(path.rpartition(".")[2], "")
+    if path.startswith("isolator.") and path not in SYMBOLS:
         symbol = ""
     text = pretty(value, quantity, 4)
     return Control(path, group, label, symbol, value, text, low, high, log)

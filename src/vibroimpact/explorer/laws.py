@@ -16,9 +16,9 @@ from vibroimpact.model.stops import STOPS
 
 NONE = "none"
 """Kind that removes a stop."""
-_RESTITUTION, _STIFFER = 0.6, 20.0
+RESTITUTION, STIFFER = 0.6, 20.0
 """Restitution and stiffness ratio of a new stop. λ is close to that of the published rig."""
-_PRESSED = 0.2
+PRESSED = 0.2
 """Penetration at which two stops have equal forces, divided by the displacement without stops."""
 
 
@@ -82,11 +82,11 @@ def stop_of(kind: str, state: PageState, side: str) -> Stop | None:
         return None
     u = free_displacement(state)
     gap = 0.5 * u if old is None else old.gap
-    depth = _PRESSED * u
-    force = _STIFFER * rig.isolator.initial_stiffness * depth
+    depth = PRESSED * u
+    force = STIFFER * rig.isolator.initial_stiffness * depth
     if old is not None and not old.rigid:
         force = old.static_force(depth)
-    restitution = getattr(old, "restitution", None) or _RESTITUTION
+    restitution = getattr(old, "restitution", None) or RESTITUTION
     law = STOPS.classes.get(kind)
     made: Stop | None = (
         law.like(force, depth, gap, restitution, rig.angular_frequency, rig.mass)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer.state import PageState, begin
 from vibroimpact.model import Bumper, Isolator, Oscillator, Rig, laboratory
@@ -17,11 +19,16 @@ _CASES = {
 BUILDING = "building with moat"
 
 
+@cache
+def _codes() -> tuple[str, ...]:
+    return tuple(case.code for case in laboratory.campaign())
+
+
 def names() -> list[tuple[str, list[str]]]:
     """Return the names of the presets, by group."""
     return [
         ("examples", [*_CASES, BUILDING]),
-        ("published tests", [case.code for case in laboratory.campaign()]),
+        ("published tests", list(_codes())),
     ]
 
 
@@ -39,7 +46,7 @@ def preset(name: str) -> PageState:
     if name in _CASES:
         case = laboratory.case(_CASES[name])
         return begin(case, name, (case.frequencies[0], case.frequencies[-1]))
-    if name in (case.code for case in laboratory.campaign()):
+    if name in _codes():
         case = laboratory.case(name)
         return begin(case, name, (case.frequencies[0], case.frequencies[-1]))
     raise InputError(f"preset: {shown(name)} is unknown; choose a name in the list of the page")

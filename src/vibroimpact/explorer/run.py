@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import base64
+import html
+import io
 import secrets
 import threading
 from collections.abc import Callable
@@ -64,22 +67,68 @@ async def serving(
         await (stop or asyncio.Event()).wait()
 
 
-class Explored:
-    """A page in a notebook. You can also open its `address` in a browser."""
+_LIVE = """<script>
+{
+  const [frame, live] = [document.getElementById("NAME"), "ADDRESS"];
+  const near = ["localhost", "127.0.0.1", "[::1]"].includes(location.hostname);
+  if (near || location.protocol === "vscode-webview:")
+    fetch(live, { mode: "no-cors" }).then(() => {
+      frame.removeAttribute("srcdoc");
+      frame.src = live;
+    }, () => {});
+}
+</script>"""
+"""Shows the server's page where the notebook is on this machine and the server answers."""
 
-    def __init__(self, where: str, height: int) -> None:
+
+class Explored:
+    """A page in a notebook. You can also open its `address` in a browser.
+
+    A notebook that is saved shows the page without a server, or a picture of the resonance curves
+    if only Python computes the rig.
+    """
+
+    def __init__(self, where: str, height: int, state: State) -> None:
         self.address = where
-        self._height = height
+        self._height, self._state = height, state
 
     def __repr__(self) -> str:
         return f"explorer at {self.address}"
 
     def _repr_html_(self) -> str:
+        name = f"explorer-{secrets.token_hex(8)}"
         # The address is made of letters, digits and signs that HTML leaves alone.
+        live = _LIVE.replace("NAME", name).replace("ADDRESS", self.address)
         return (
-            f'<iframe src="{self.address}" title="vibroimpact explorer" width="100%" '
-            f'height="{self._height}" style="border: 0" allow="clipboard-write"></iframe>'
+            f'<iframe id="{name}" srcdoc="{html.escape(self._alone())}" '
+            f'title="vibroimpact explorer" width="100%" height="{self._height}" '
+            f'style="border: 0" allow="clipboard-write"></iframe>{live}'
         )
+
+    def _alone(self) -> str:
+        """What is shown without the server."""
+        from vibroimpact.explorer.offline_page import page
+
+        try:
+            return page(self._state)
+        except InputError as error:
+            return f"<p>{html.escape(str(error))}</p>{_picture(self._state)}"
+
+
+def _picture(state: State) -> str:
+    """The resonance curves as an image."""
+    from matplotlib import pyplot
+
+    from vibroimpact.explorer.pictures.curves import swept
+    from vibroimpact.figures import resonance_curves
+
+    figure = resonance_curves(swept(state, fine=False))[0].get_figure(root=True)
+    assert figure is not None
+    file = io.BytesIO()
+    figure.savefig(file, format="png", dpi=110)
+    pyplot.close(figure)
+    data = base64.b64encode(file.getvalue()).decode()
+    return f'<img src="data:image/png;base64,{data}" alt="Resonance curves" style="width: 100%">'
 
 
 def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
@@ -88,7 +137,8 @@ def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
     In the explorer you change a parameter of the rig and see how the resonance curves change.
 
     A server in the background computes the curves. There is one server per process, and only this
-    machine can connect to it.
+    machine can connect to it. A saved notebook shows a page that needs no server; if a law of the
+    rig is not linear, it shows a picture.
 
     Parameters
     ----------
@@ -116,7 +166,7 @@ def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
         state = preset(rig) if isinstance(rig, str) else begin(rig)
     except InputError:
         state = begin(rig)  # which says what is wrong with it
-    return Explored(f"{_background()}#{address(state)}", height)
+    return Explored(f"{_background()}#{address(state)}", height, state)
 
 
 _RUNNING: list[str] = []

@@ -30,7 +30,7 @@ from vibroimpact.model.written_units import unit as unit_of
 
 _Array = NDArray[np.float64]
 
-_SEEN = 2.0
+SEEN = 2.0
 """A gap is drawn unless it is larger than all displacements by this factor."""
 
 _NIL = 1e-9
@@ -161,7 +161,7 @@ def physical_curves(data: xr.Dataset, halves: Collection[str] = ()) -> list[Draw
     rest = _rest(rig)
     swing = in_unit(1e3) * 0.5 * data["free_displacement_excursion"].values
     swings = _curves(data, "peak_displacement", in_unit(1e3))
-    gaps = _gaps(rig, _SEEN * max(np.nanmax(one, initial=0.0) for one in swings.values()))
+    gaps = _gaps(rig, SEEN * max(np.nanmax(one, initial=0.0) for one in swings.values()))
     found = [
         Drawn(
             "acceleration",

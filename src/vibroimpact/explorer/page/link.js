@@ -26,7 +26,8 @@ export class Link {
     socket.onclose = (event) => {
       this.open = false;
       const wait = WAITS[Math.min(this.tries++, WAITS.length - 1)];
-      this.changed("lost", event.reason || "the server does not answer");
+      const why = event.reason || "the server does not answer";
+      this.changed("lost", `Connection lost: ${why}. Trying again …`);
       setTimeout(() => this.connect(), wait);
     };
   }

@@ -11,7 +11,8 @@ import { asPicture, copy, keep } from "./save.js";
 // Milliseconds after which a page that waits says so, and says why it may take so long.
 const PATIENCE = 400;
 const LONG = 3000;
-const FIRST = "computing … (compiling on first use: up to a minute, only once)";
+const OFFLINE = document.body.classList.contains("offline");
+const FIRST = OFFLINE ? "computing …" : "computing … (compiling on first use: up to a minute, only once)";
 const id = (name) => document.getElementById(name);
 const status = id("status");
 let state = null;
@@ -25,7 +26,7 @@ const link = new Link({
   changed(how, why) {
     document.body.dataset.link = how;
     patient(how === "connected");
-    if (how === "lost") say(`Connection lost: ${why}. Trying again …`, true);
+    if (how === "lost") say(why, true);
     else say("");
   },
   address: () => state?.address ?? location.hash.slice(1),
@@ -41,7 +42,7 @@ const curves = new Curves((direction, frequency) => send({ do: "choose", directi
 const motion = new Motion();
 const plane = new Plane(id("map"), (x, y, dragging, gesture) => send({ do: "place", x, y, dragging, gesture: `place ${gesture}` }));
 const basins = new Basins(id("basins"));
-const TABS = ["motion", "words", "map", "basins"];
+const TABS = ["motion", "words", "map", "basins"].filter((name) => !OFFLINE || !id(`tab-${name}`).classList.contains("served"));
 let beside = "motion"; // of those that are there already
 
 // What is drawn fades while it is not yet that of the knobs.

@@ -5,6 +5,5 @@ from `vibroimpact.facts`, like those of the command line.
 
 A new picture is a module here, a `Stage` of `explorer/session.py`, whose key has all values on
 which the picture depends, and code in `explorer/page/` that draws it with `plot.js`.
-``python -m vibroimpact.explorer.family docs/explorer.html`` rebuilds the page without a server, and
-``python tests/explorer/strip.py`` the screenshots.
+``python tests/explorer/strip.py`` renews the screenshots.
 """

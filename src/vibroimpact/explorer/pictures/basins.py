@@ -12,9 +12,10 @@ from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import as_first_argument, unit
 from vibroimpact.tasks.threads import Progress
 
+AXES = {"x": "initial displacement (mm)", "y": "initial velocity (mm/s)"}
 COARSE, FINE = 32, 128
 """Number of initial states along each axis."""
-_PATIENCE = 500
+PATIENCE = 500
 """Number of forcing cycles after which an unsettled motion is treated as not periodic."""
 
 
@@ -27,17 +28,12 @@ def starts(state: PageState, fine: bool, progress: Progress) -> dict[str, Any]:
     InputError
         If the rig has no dissipation, because then every initial state has its own motion.
     """
-    data = basins(
-        state.rig, nodes=FINE if fine else COARSE, max_cycles=_PATIENCE, progress=progress
-    )
+    data = basins(state.rig, nodes=FINE if fine else COARSE, max_cycles=PATIENCE, progress=progress)
     return {
         "picture": "basins",
         "fine": fine,
         "frequency": forcing(state.shaking.frequency),
-        "axes": {
-            "x": axis("initial displacement (mm)"),
-            "y": axis("initial velocity (mm/s)"),
-        },
+        "axes": {name: axis(label) for name, label in AXES.items()},
         "x": short(in_unit(1e3) * data["displacement"].values),
         "y": short(in_unit(1e3) * data["velocity"].values),
         "cells": [[int(cell) for cell in row] for row in data["basin"].values],

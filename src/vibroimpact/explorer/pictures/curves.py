@@ -22,7 +22,8 @@ COARSE = 46
 """Number of frequencies while a knob is turned, as in the published tests."""
 FINE = 181
 """Number of frequencies of a fine sweep. Every fourth one is a frequency of the coarse sweep."""
-_PATIENCE, _WINDOW = 300, 100
+AXIS = "frequency (Hz)"
+PATIENCE, WINDOW = 300, 100
 """Cycles that a coarse hold waits, and those it is measured over, where it does not settle."""
 
 
@@ -30,7 +31,7 @@ def swept(state: PageState, fine: bool, progress: Progress | None = None) -> xr.
     """Sweep the rig over the frequency range of the page."""
     count = FINE if fine else COARSE
     frequencies = beside_resonance(state.oscillator, np.linspace(*state.span, count))
-    few: dict[str, Any] = {} if fine else {"max_cycles": _PATIENCE, "window": _WINDOW}
+    few: dict[str, Any] = {} if fine else {"max_cycles": PATIENCE, "window": WINDOW}
     data = sweep(state.rig, frequencies, progress=progress, **few)
     data.attrs["title"] = state.name
     return data
@@ -48,7 +49,7 @@ def curves(state: PageState, data: xr.Dataset, fine: bool) -> dict[str, Any]:
         "words": words,
         "physical": state.physical,
         "frequency": forcings(data["frequency"].values),
-        "axis": axis("frequency (Hz)"),
+        "axis": axis(AXIS),
         "panels": [_panel(panel) for panel in panels],
         "jumps": [
             {

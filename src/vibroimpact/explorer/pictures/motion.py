@@ -21,13 +21,20 @@ from vibroimpact.response.simulate import compute_history
 from vibroimpact.response.spectrum import fourier_spectrum
 from vibroimpact.stability.steady import steady
 
-_SAMPLES = 160
+AXES = {
+    "time": "time (s)",
+    "displacement": "displacement (mm)",
+    "velocity": "velocity (mm/s)",
+    "force": "force ({})",
+    "spectrum": "frequency (Hz)",
+}
+SAMPLES = 160
 """Of a cycle, so that a curve is smooth on the page."""
-_MOST_CYCLES = 8
+MOST_CYCLES = 8
 """Of a motion that is drawn; one that does not repeat is drawn as long."""
-_WINDOW, _GROWTH = 40, 2000
+WINDOW, _GROWTH = 40, 2000
 """Cycles that are recorded, and over which the growth of disturbances is averaged."""
-_HIGHEST = 16.0
+HIGHEST = 16.0
 """Order up to which lines of the spectrum are drawn."""
 
 
@@ -47,8 +54,8 @@ def at(state: PageState, data: xr.Dataset) -> tuple[Harmonic, xr.DataArray, floa
 def quick(state: PageState, data: xr.Dataset) -> dict[str, Any]:
     """Return the motion from the end of the sweep's simulation, while a knob is turned."""
     shaken, section, period = at(state, data)
-    cycles = int(period) if 0 < period <= _MOST_CYCLES else _MOST_CYCLES
-    motion = compute_history(Rig(state.oscillator, shaken), cycles, section, _SAMPLES)
+    cycles = int(period) if 0 < period <= MOST_CYCLES else MOST_CYCLES
+    motion = compute_history(Rig(state.oscillator, shaken), cycles, section, SAMPLES)
     return {**_drawn(state, motion, shaken), "fine": False}
 
 
@@ -57,10 +64,10 @@ def careful(state: PageState, data: xr.Dataset) -> dict[str, Any]:
     """Return the classified motion, with its spectrum, and the impacts that are drawn."""
     shaken, section, _ = at(state, data)
     motion = steady(
-        Rig(state.oscillator, shaken), section, _SAMPLES, window=_WINDOW, exponent_cycles=_GROWTH
+        Rig(state.oscillator, shaken), section, SAMPLES, window=WINDOW, exponent_cycles=_GROWTH
     )
     found = {shaken.frequency: {f"{state.direction} branch": motion}}
-    drawn = motion.isel(time=slice(_MOST_CYCLES * _SAMPLES + 1))
+    drawn = motion.isel(time=slice(MOST_CYCLES * SAMPLES + 1))
     return {
         **_drawn(state, drawn, shaken),
         "fine": True,
@@ -82,7 +89,7 @@ def careful(state: PageState, data: xr.Dataset) -> dict[str, Any]:
 
 def _spectrum(motion: xr.Dataset) -> dict[str, Any]:
     """The lines of the displacement, the mean left out."""
-    lines = fourier_spectrum(motion, _HIGHEST).isel(order=slice(1, None))
+    lines = fourier_spectrum(motion, HIGHEST).isel(order=slice(1, None))
     return {
         "frequency": forcings(lines["line_frequency"].values, 5),
         "displacement": short(in_unit(1e3) * lines["displacement_amplitude"].values),
@@ -107,13 +114,7 @@ def _drawn(state: PageState, motion: xr.Dataset, shaken: Harmonic) -> dict[str, 
         "frequency": forcing(shaken.frequency),
         "cycle": shaken.period,
         "seconds": not unitless(),
-        "axes": {
-            "time": axis("time (s)"),
-            "displacement": axis("displacement (mm)"),
-            "velocity": axis("velocity (mm/s)"),
-            "force": axis(f"force ({unit.symbol})"),
-            "spectrum": axis("frequency (Hz)"),
-        },
+        "axes": {name: axis(label.format(unit.symbol)) for name, label in AXES.items()},
         "time": short(time, 6),
         "displacement": short(in_unit(1e3) * motion["displacement"].values),
         "velocity": short(in_unit(1e3) * motion["velocity"].values),

@@ -1,0 +1,204 @@
+"""The engine and the worker of the page without a server, run by node, against Python."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from vibroimpact.engine import hold, native
+from vibroimpact.engine import motion as layout
+from vibroimpact.engine.observers import record
+from vibroimpact.explorer.controls import controls
+from vibroimpact.explorer.engine_layout import WASM
+from vibroimpact.explorer.offline_facts import facts, table
+from vibroimpact.explorer.offline_page import worker
+from vibroimpact.explorer.pictures import basins, curves, motion
+from vibroimpact.explorer.presets import FIRST, preset
+from vibroimpact.explorer.state import State, begin
+from vibroimpact.model import Bumper, Harmonic, Isolator, Oscillator, Rig, RigidStop
+from vibroimpact.response.hold_rows import Settling
+from vibroimpact.response.simulate import compute_history
+from vibroimpact.response.sweep_arrays import plan_sweep, rows
+
+NODE = shutil.which("node")
+SETTINGS = 50
+EXACT, NEAR = 1e-13, 1e-9
+"""Difference over the size of a motion: of its extremes, and at each instant."""
+WANDERING = 100
+"""Cycles of a transient that may wander."""
+ORDER = {"forward": 1, "backward": -1}
+
+
+def drawn(random: np.random.Generator) -> State:
+    """A rig of linear laws, shaken in any way, at a frequency of its sweep."""
+
+    def stop() -> Bumper | RigidStop | None:
+        gap = random.uniform(0.1, 1.2) * 0.02
+        if random.random() < 0.25:
+            return RigidStop(random.uniform(0.2, 0.9), gap)
+        stiffness = k * 10 ** random.uniform(0.3, 2.0)
+        return Bumper(stiffness, stiffness * 10 ** random.uniform(-3.5, -1.5), gap)
+
+    mass = 10 ** random.uniform(1, 3)
+    k = mass * (2 * np.pi * random.uniform(0.8, 1.6)) ** 2
+    isolator = Isolator(k, 2.0 * random.uniform(0.08, 0.3) * np.sqrt(k * mass))
+    right = stop()
+    left = right if random.random() < 0.5 else stop() if random.random() < 0.7 else None
+    rig = Oscillator(mass, isolator, right, left, force=random.choice([0.0, 0.1 * k * 0.01]))
+    amplitude, of = {
+        0: (0.4, "acceleration"),
+        1: (0.008, "displacement"),
+        2: (0.4 * mass, "force"),
+        3: (0.008 * mass, "unbalance"),
+    }[int(random.integers(4))]
+    state = begin(Rig(rig, Harmonic(amplitude, 1.0, of=of)))
+    return state._replace(
+        direction=str(random.choice(["forward", "backward"])),
+        physical=bool(random.random() < 0.5),
+        shaking=state.shaking.replace(frequency=float(random.uniform(*state.span))),
+    )
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    if NODE is None:
+        pytest.skip("node is not installed, which runs the page's modules")
+    folder = tmp_path_factory.mktemp("offline")
+    (folder / "worker.js").write_text(worker(), encoding="utf-8")
+    (folder / "facts.json").write_text(json.dumps(facts(preset(FIRST))), encoding="utf-8")
+    command = [NODE, str(Path(__file__).with_name("offline.mjs")), "worker.js"]
+    command += [str(native.FOLDER / WASM), "facts.json"]
+
+    def run(states: list[State]) -> list[dict]:
+        given = json.dumps([table(one) for one in states])
+        done = subprocess.run(
+            command, cwd=folder, input=given, capture_output=True, text=True, timeout=120
+        )
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout)
+
+    return run
+
+
+def numbers(lists: list[list[float | None]]) -> np.ndarray:
+    return np.array(lists, dtype=float)
+
+
+@pytest.mark.skipif(
+    (native.FOLDER / native.DIGEST).read_text() != native.digest(), reason="run make kernels"
+)
+def test_sweeps_and_motions_are_those_of_python(run):
+    random = np.random.default_rng(1)
+    states = [drawn(random) for _ in range(SETTINGS)]
+    compared = 0
+    for state, found in zip(states, run(states), strict=True):
+        grid = np.linspace(*state.span, curves.COARSE)
+        plan = plan_sweep(state.rig, grid)
+        settling = Settling(max_cycles=curves.PATIENCE, window=curves.WINDOW)
+        expected, reached = rows(plan, state.direction, 0.0, settling, np.zeros(2, np.int64))
+        here, there = numbers(found["rows"]), numbers(found["states"])
+        assert (expected[:, hold.PERIOD] == here[:, hold.PERIOD]).mean() > 0.9
+        # Behind what wanders, for ever or for long, rounding decides which of two motions follows.
+        calm = (expected[:, hold.PERIOD] > 0) & (expected[:, hold.CYCLES] <= WANDERING)
+        same = np.logical_and.accumulate(calm[:: ORDER[state.direction]])[:: ORDER[state.direction]]
+        for columns in (
+            [hold.U_LEAST, hold.U_MOST],
+            [hold.A_LEAST, hold.A_MOST],
+            [hold.T_LEAST, hold.T_MOST],
+            [hold.FORCE_RIGHT, hold.FORCE_LEFT],
+        ):
+            one, other = expected[same][:, columns], here[same][:, columns]
+            finite = np.isfinite(one) & np.isfinite(other)
+            size = np.abs(np.where(finite, one, 0.0)).max(axis=1, keepdims=True)
+            away = np.abs(np.subtract(one, other, where=finite, out=np.zeros_like(one)))
+            assert (away <= EXACT * size).all()
+        parts = [layout.U, layout.V]
+        size = np.abs(reached[same][:, parts]).max(axis=0, initial=0.0)
+        assert (np.abs(reached - there)[same][:, parts] <= NEAR * size).all()
+        compared += int(same.sum())
+
+        at = int(np.argmin(np.abs(grid - state.shaking.frequency)))
+        if not same[at]:
+            continue
+        shaken = state.shaking.replace(frequency=float(grid[at]))
+        data = curves.swept(state, fine=False)
+        section = data["section"].sel(direction=state.direction).isel(frequency=at)
+        motion = compute_history(Rig(state.oscillator, shaken), 3, section, 40)
+        for name, row in (
+            ("displacement", record.DISPLACEMENT),
+            ("velocity", record.VELOCITY),
+            ("acceleration", record.ACCELERATION),
+        ):
+            one, other = motion[name].values, numbers(found["motion"][row : row + 1])[0]
+            assert np.abs(one - other).max() <= NEAR * np.abs(one).max()
+    assert compared > 0.75 * SETTINGS * curves.COARSE
+
+
+def test_pictures_and_knobs_are_those_of_python(run):
+    random = np.random.default_rng(2)
+    states = [preset(FIRST), *(drawn(random) for _ in range(8))]
+    for state, found in zip(states, run(states), strict=True):
+        expected = curves.curves(state, curves.swept(state, fine=False), fine=False)
+        for panel in expected["panels"]:
+            for level in panel["levels"]:
+                del level["label"]  # which no page shows
+        assert near(found["curves"], json.loads(json.dumps(expected)))
+        knobs = [one._asdict() for one in controls(state, state)]
+        theirs = [one for one in knobs if one["path"] != "isolator.damping_exponent"]
+        assert near(found["controls"], theirs)
+
+
+def test_pictures_of_motions_are_those_of_python(run):
+    random = np.random.default_rng(3)
+    states = [preset(FIRST), *(drawn(random) for _ in range(12))]
+    periodic = 0
+    for state, found in zip(states, run(states), strict=True):
+        data = curves.swept(state, fine=False)
+        held = data.sel(direction=state.direction)
+        if (held["cycles"] > WANDERING).any():
+            continue  # see above
+        quick, careful = motion.quick(state, data), motion.careful(state, data)
+        assert near(found["quick"], quick)
+        lines, expected = (
+            one.pop("spectrum")["displacement"] for one in (found["careful"], careful)
+        )
+        # The page's lines are those of samples.
+        np.testing.assert_allclose(lines, expected, rtol=1e-3, atol=1e-5 * max(expected))
+        assert found["careful"].pop("table") is None
+        del careful["table"]
+        words, theirs = found["careful"].pop("words"), careful.pop("words")
+        if "period" in theirs:
+            assert words.split("; ")[0] == theirs.split("; ")[0]
+            multipliers = [float(one.split()[-3]) for one in (words, theirs)]
+            assert multipliers[0] == pytest.approx(multipliers[1], rel=1e-5, abs=1e-9)
+            periodic += 1
+        assert near(found["careful"], careful)
+    assert periodic > 6
+
+
+def test_basins_are_those_of_python(run):
+    state = preset("B2-G1-A3")._replace(shown=frozenset(["basins"]))
+    (found,) = run([state])
+    expected = basins.starts(state, False, lambda done, total: None)
+    assert found["basins"]["motions"] == expected["motions"]
+    assert len(expected["motions"]) == 2
+    assert found["basins"]["excursions"] == expected["excursions"]
+    cells = np.array(found["basins"]["cells"]) == np.array(expected["cells"])
+    assert cells.all()
+    assert near(found["basins"], expected)
+
+
+def near(one, other) -> bool:
+    """Whether two pictures are the same, but for the last of five digits."""
+    if isinstance(one, dict):
+        return one.keys() == other.keys() and all(near(one[key], other[key]) for key in one)
+    if isinstance(one, list | tuple):
+        return len(one) == len(other) and all(map(near, one, other))
+    if isinstance(one, float | int) and isinstance(other, float | int):
+        return abs(one - other) <= 1.1e-4 * max(abs(one), abs(other), 1e-12)
+    return one == other
