@@ -19,7 +19,7 @@ from vibroimpact.explorer.offline_facts import facts, table
 from vibroimpact.explorer.offline_page import worker
 from vibroimpact.explorer.pictures import basins, curves, motion
 from vibroimpact.explorer.presets import FIRST, preset
-from vibroimpact.explorer.state import State, begin
+from vibroimpact.explorer.state import PageState, begin
 from vibroimpact.model import Bumper, Harmonic, Isolator, Oscillator, Rig, RigidStop
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.simulate import compute_history
@@ -34,7 +34,7 @@ WANDERING = 100
 ORDER = {"forward": 1, "backward": -1}
 
 
-def drawn(random: np.random.Generator) -> State:
+def drawn(random: np.random.Generator) -> PageState:
     """A rig of linear laws, shaken in any way, at a frequency of its sweep."""
 
     def stop() -> Bumper | RigidStop | None:
@@ -74,7 +74,7 @@ def run(tmp_path_factory):
     command = [NODE, str(Path(__file__).with_name("offline.mjs")), "worker.js"]
     command += [str(native.FOLDER / WASM), "facts.json"]
 
-    def run(states: list[State]) -> list[dict]:
+    def run(states: list[PageState]) -> list[dict]:
         given = json.dumps([table(one) for one in states])
         done = subprocess.run(
             command, cwd=folder, input=given, capture_output=True, text=True, timeout=120

@@ -26,7 +26,7 @@ from vibroimpact.model.quantities import (
     IMPULSE,
     Quantity,
 )
-from vibroimpact.model.sizes import LARGEST, SMALLEST
+from vibroimpact.model.size_checks import LARGEST, SMALLEST
 from vibroimpact.model.units import accepted, read
 from vibroimpact.model.validation import Accepts, in_order
 from vibroimpact.response import resonance
@@ -55,7 +55,7 @@ _UNITS = {
 """Units that are known by heart: without a server there is no library that reads all others."""
 
 
-def facts(first: states.State) -> Table:
+def facts(first: states.PageState) -> Table:
     """Return all that the page without a server has of the package, as JSON can hold it."""
     return {**_known(), "first": table(first)}
 
@@ -129,7 +129,7 @@ def _known() -> Table:
     }
 
 
-def check(state: states.State) -> None:
+def check(state: states.PageState) -> None:
     """Refuse a state that only Python computes.
 
     Raises
@@ -165,7 +165,7 @@ def _labels(amplitude: str) -> dict[str, list[str]]:
     return found
 
 
-def table(state: states.State) -> Table:
+def table(state: states.PageState) -> Table:
     """A state as an address holds it."""
     text = share.address(state)
     table: Table = json.loads(base64.urlsafe_b64decode(text + "=" * (-len(text) % 4)))

@@ -15,7 +15,7 @@ from vibroimpact.engine import native
 from vibroimpact.errors import InputError
 from vibroimpact.explorer.engine_layout import WASM
 from vibroimpact.explorer.offline_facts import check, facts
-from vibroimpact.explorer.state import State
+from vibroimpact.explorer.state import PageState
 
 _WORKER = (
     "units.js",
@@ -35,7 +35,7 @@ _LINKED = (
 )
 
 
-def page(first: State) -> str:
+def page(first: PageState) -> str:
     """Return the page that starts with a state, as one HTML text.
 
     Raises

@@ -88,7 +88,7 @@ class Explored:
     if only Python computes the rig.
     """
 
-    def __init__(self, where: str, height: int, state: State) -> None:
+    def __init__(self, where: str, height: int, state: PageState) -> None:
         self.address = where
         self._height, self._state = height, state
 
@@ -115,7 +115,7 @@ class Explored:
             return f"<p>{html.escape(str(error))}</p>{_picture(self._state)}"
 
 
-def _picture(state: State) -> str:
+def _picture(state: PageState) -> str:
     """The resonance curves as an image."""
     from matplotlib import pyplot
 
