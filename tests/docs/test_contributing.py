@@ -44,5 +44,5 @@ def test_every_module_of_the_engine_has_its_row():
 
 def test_decisions_are_listed():
     pages = {path.name for path in (ROOT / "docs" / "decisions").glob("0*.md")}
-    contents = (ROOT / "docs" / "index.md").read_text(encoding="utf-8")
-    assert pages == set(re.findall(r"decisions/([\w-]+\.md)", contents))
+    contents = (ROOT / "docs" / "decisions" / "index.md").read_text(encoding="utf-8")
+    assert pages == set(re.findall(r"\]\(([\w-]+\.md)\)", contents))
