@@ -231,6 +231,32 @@ def test_links_stuck_at_once_and_the_most_overloaded_slides_first() -> None:
     assert slides.displacement[1].values == pytest.approx(expected, rel=1e-13)
 
 
+@pytest.mark.parametrize(
+    "beside",
+    [
+        vi.BilinearIsolator(8.345, 0.03627, 2.4186, 0.11965),
+        vi.BoucWenIsolator(8.345, 0.03627, 2.4186, 0.11965),
+        vi.Isolator(1.0, 0.2, damping_exponent=2.0),
+        vi.Law("k*u + c*v*abs(v)", k="1 N/m", c=0.2),
+    ],
+)
+@pytest.mark.parametrize("friction", [0.1, 0.788])
+def test_the_order_of_links_beside_each_other(beside: Any, friction: float) -> None:
+    """Both turn at the same instant, of which one is the first; friction holds both, or neither."""
+    links = {
+        "base": ("ground", "a", vi.Isolator(6.0, 0.5)),
+        "friction": ("a", "b", vi.FrictionIsolator(1.0, 0.01, friction)),
+        "beside": ("b", "a", beside),
+    }
+    shaken, masses = vi.Harmonic(1.96, 0.0477, 2.419), {"a": 1.5, "b": 1.75}
+    one, other = (
+        follow(masses, {name: links[name] for name in names}, {}, shaken, cycles=2)
+        for names in (list(links), list(links)[::-1])
+    )
+    assert apart(one.displacement, other.displacement) < 1e-12
+    assert apart(one.velocity, other.velocity) < 1e-12
+
+
 def test_a_motion_goes_on_from_any_place() -> None:
     masses, links = (
         {"a": 1.0, "b": 0.6},
