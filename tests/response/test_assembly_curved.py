@@ -95,6 +95,32 @@ def test_one_mass_moves_as_an_oscillator(name: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("formula", "k", "c"),
+    [
+        ("k*d**2 + c*d*v", 1e6, 5e3),
+        ("k*d**3 + c*d*v", 1e8, 5e3),
+        ("k*d**3 + c*d**2*v", 1e8, 1e6),
+        ("k*d**4 + c*d**3*v", 2.9e9, 7e5),
+        ("k*d**2 + c*d*v*abs(v)", 1e6, 4e3),
+    ],
+)
+def test_a_formula_without_stiffness_at_first_touch_moves_as_an_oscillator(
+    formula: str, k: float, c: float
+) -> None:
+    """It ceases to push while it is pressed, at another root than that where it is left."""
+    law = vi.Law(f"max({formula}, 0)", gap=0.01, k=k, c=c)
+    expected = vi.simulate(vi.Rig(vi.Oscillator(1.0, LINEAR, right=law), SHAKEN), 10, samples=32)
+    motion = follow(
+        {"m": 1.0}, {"i": ("ground", "m", LINEAR)}, {"r": ("m", "ground", law)}, cycles=10
+    )
+    assert motion.attrs["message"] == "done"
+    assert apart(motion.displacement, expected.displacement) < 1e-12
+    assert apart(motion.velocity, expected.velocity) < 1e-11
+    assert (motion.event_contact.values == expected.event_contact.values).all()
+    assert len(motion.event) >= 20
+
+
+@pytest.mark.parametrize(
     ("isolator", "stop"),
     [(BOUC_WEN, HUNT), (BILINEAR, BUMPER), (FRICTION, vi.RigidStop(0.6, 0.01))],
 )

@@ -252,13 +252,13 @@ def switch(
     if kind == at.PUSHING:
         if not mode >> f & 1:
             deformation[f] = abs(closing(plan, f, beyond(y, int(plan[at.MASSES]))))
-            zeros[f] = 1.0
+            zeros[f] = float(of.DEPTH_FRESH)
             return mode | 1 << f, CONTACT
-        if which == 1:
-            zeros[f] = 2.0
+        if which > 0:
+            zeros[f] = float(of.RATE_FRESH if which == 1 else of.FORCE_FRESH)
             return mode, TURN
         deformation[f] = 0.0
-        zeros[f] = 1.0
+        zeros[f] = float(of.DEPTH_FRESH)
         return mode & ~(1 << f), DETACHMENT
     if kind == at.RIGID and not mode >> f & 1:
         # Friction passes no impulse on.
