@@ -95,6 +95,32 @@ def test_one_mass_moves_as_an_oscillator(name: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("formula", "k", "c"),
+    [
+        ("k*d**2 + c*d*v", 1e6, 5e3),
+        ("k*d**3 + c*d*v", 1e8, 5e3),
+        ("k*d**3 + c*d**2*v", 1e8, 1e6),
+        ("k*d**4 + c*d**3*v", 2.9e9, 7e5),
+        ("k*d**2 + c*d*v*abs(v)", 1e6, 4e3),
+    ],
+)
+def test_a_formula_without_stiffness_at_first_touch_moves_as_an_oscillator(
+    formula: str, k: float, c: float
+) -> None:
+    """It ceases to push while it is pressed, at another root than that where it is left."""
+    law = vi.Law(f"max({formula}, 0)", gap=0.01, k=k, c=c)
+    expected = vi.simulate(vi.Rig(vi.Oscillator(1.0, LINEAR, right=law), SHAKEN), 10, samples=32)
+    motion = follow(
+        {"m": 1.0}, {"i": ("ground", "m", LINEAR)}, {"r": ("m", "ground", law)}, cycles=10
+    )
+    assert motion.attrs["message"] == "done"
+    assert apart(motion.displacement, expected.displacement) < 1e-12
+    assert apart(motion.velocity, expected.velocity) < 1e-11
+    assert (motion.event_contact.values == expected.event_contact.values).all()
+    assert len(motion.event) >= 20
+
+
+@pytest.mark.parametrize(
     ("isolator", "stop"),
     [(BOUC_WEN, HUNT), (BILINEAR, BUMPER), (FRICTION, vi.RigidStop(0.6, 0.01))],
 )
@@ -229,6 +255,32 @@ def test_links_stuck_at_once_and_the_most_overloaded_slides_first() -> None:
     time = slides.time.values
     expected = 0.25 + 0.75 * np.cos(np.sqrt(8.0) * time)
     assert slides.displacement[1].values == pytest.approx(expected, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "beside",
+    [
+        vi.BilinearIsolator(8.345, 0.03627, 2.4186, 0.11965),
+        vi.BoucWenIsolator(8.345, 0.03627, 2.4186, 0.11965),
+        vi.Isolator(1.0, 0.2, damping_exponent=2.0),
+        vi.Law("k*u + c*v*abs(v)", k="1 N/m", c=0.2),
+    ],
+)
+@pytest.mark.parametrize("friction", [0.1, 0.788])
+def test_the_order_of_links_beside_each_other(beside: Any, friction: float) -> None:
+    """Both turn at the same instant, of which one is the first; friction holds both, or neither."""
+    links = {
+        "base": ("ground", "a", vi.Isolator(6.0, 0.5)),
+        "friction": ("a", "b", vi.FrictionIsolator(1.0, 0.01, friction)),
+        "beside": ("b", "a", beside),
+    }
+    shaken, masses = vi.Harmonic(1.96, 0.0477, 2.419), {"a": 1.5, "b": 1.75}
+    one, other = (
+        follow(masses, {name: links[name] for name in names}, {}, shaken, cycles=2)
+        for names in (list(links), list(links)[::-1])
+    )
+    assert apart(one.displacement, other.displacement) < 1e-12
+    assert apart(one.velocity, other.velocity) < 1e-12
 
 
 def test_a_motion_goes_on_from_any_place() -> None:

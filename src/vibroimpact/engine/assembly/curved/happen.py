@@ -70,6 +70,46 @@ def stop_moving(plan: Vector, f: int, y: Vector) -> None:
         v[i] -= plan[int(plan[at.RESPONSE]) + f * n + i] * kick
 
 
+@kernel
+def _yield_or_not(plan: Vector, mode: int, f: int, rate: float, deformation: Vector) -> int:
+    """Let a bilinear spring yield where s goes on at its limit, and be elastic elsewhere."""
+    z, limit = deformation[f], plan[row_of(plan, f) + _LIMIT]
+    yields = abs(z) >= limit and rate * z > 0.0
+    if abs(z) >= limit and not yields:
+        place = int(plan[at.ZEROS]) + f
+        plan[place] = float(int(plan[place]) | of.SIDE_FRESH)
+    found: int = with_side(plan, f, mode, -1.0 if yields else 1.0)
+    return found
+
+
+@kernel
+def _follow(plan: Vector, mode: int, f: int, way: float, deformation: Vector) -> int:
+    """Let the rows beside a link of friction go as it: a way, or not at all (0).
+
+    Their own events are not seen while it holds, and the one at its beginning need not have been.
+    """
+    stops = int(plan[at.STOP])
+    one = stops + f * at.STOP_WIDTH
+    for g in range(int(plan[at.STOPS])):
+        other, row = stops + g * at.STOP_WIDTH, row_of(plan, g)
+        if g == f or not is_link(plan, g) or plan[row + of.BRANCH] < 0.0 or mode >> g & 1:
+            continue
+        left, right = plan[other + at.LEFT], plan[other + at.RIGHT]
+        if left == plan[one + at.LEFT] and right == plan[one + at.RIGHT]:
+            along = way
+        elif right == plan[one + at.LEFT] and left == plan[one + at.RIGHT]:
+            along = -way
+        else:
+            continue
+        if along != 0.0:
+            mode = with_way(plan, g, mode, along)
+            fresh = int(plan[int(plan[at.ZEROS]) + g])
+            plan[int(plan[at.ZEROS]) + g] = float(fresh | of.V_FRESH)
+        if int(plan[row + of.BEHAVIOUR]) == of.BILINEAR:
+            mode = _yield_or_not(plan, mode, g, along, deformation)
+    return mode
+
+
 @apart
 def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
     """Which links without speed friction holds; the most overloaded slides first.
@@ -84,7 +124,7 @@ def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> in
             continue
         rate = closing(plan, f, v)
         if rate == 0.0:
-            mode |= 1 << f
+            mode = _follow(plan, mode | 1 << f, f, 0.0, deformation)
             some = True
         else:
             mode = with_way(plan, f, mode & ~(1 << f), -rate)
@@ -107,6 +147,7 @@ def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> in
         # What holds them apart is gone: they close, and s falls.
         mode = with_way(plan, worst, mode & ~(1 << worst), -force)
         plan[int(plan[at.ZEROS]) + worst] = float(of.V_FRESH)
+        mode = _follow(plan, mode, worst, way_of_slide(plan, worst, mode), deformation)
         enter_mode(plan, mode)
     return mode
 
@@ -126,11 +167,7 @@ def decide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
         if rate != 0.0:
             mode = with_way(plan, f, mode, rate)
         if behaviour == of.BILINEAR:
-            z = deformation[f]
-            yields = abs(z) >= plan[row + _LIMIT] and rate * z > 0.0
-            mode = with_side(plan, f, mode, -1.0 if yields else 1.0)
-            if abs(z) >= plan[row + _LIMIT] and not yields:
-                zeros[f] = float(of.SIDE_FRESH)
+            mode = _yield_or_not(plan, mode, f, rate, deformation)
         elif behaviour == of.HYSTERETIC and deformation[f] != 0.0:
             mode = with_side(plan, f, mode, deformation[f])
         elif behaviour == of.OWN and closing(plan, f, y) != 0.0:
@@ -169,43 +206,22 @@ def decide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
 
 
 @kernel
-def _follow(plan: Vector, mode: int, f: int) -> int:
-    """Let the other rows of a link that friction holds no more go its way."""
-    stops = int(plan[at.STOP])
-    one, way = stops + f * at.STOP_WIDTH, way_of_slide(plan, f, mode)
-    for g in range(int(plan[at.STOPS])):
-        other, row = stops + g * at.STOP_WIDTH, row_of(plan, g)
-        if g == f or not is_link(plan, g) or plan[row + of.BRANCH] < 0.0 or mode >> g & 1:
-            continue
-        left, right = plan[other + at.LEFT], plan[other + at.RIGHT]
-        if left == plan[one + at.LEFT] and right == plan[one + at.RIGHT]:
-            mode = with_way(plan, g, mode, way)
-        elif right == plan[one + at.LEFT] and left == plan[one + at.RIGHT]:
-            mode = with_way(plan, g, mode, -way)
-        else:
-            continue
-        fresh = int(plan[int(plan[at.ZEROS]) + g])
-        plan[int(plan[at.ZEROS]) + g] = float(fresh | of.V_FRESH)
-    return mode
-
-
-@kernel
 def _turned(plan: Vector, mode: int, f: int, which: int, y: Vector, deformation: Vector) -> int:
     """Go on to the next branch of a link."""
     row, zeros = row_of(plan, f), beyond(plan, int(plan[at.ZEROS]))
     behaviour = int(plan[row + of.BEHAVIOUR])
     if behaviour == of.FRICTION:
         if mode >> f & 1:
-            mode = with_way(plan, f, mode & ~(1 << f), 1.0 if which else -1.0)
+            way = 1.0 if which else -1.0
             zeros[f] = float(of.V_FRESH)
-            return _follow(plan, mode, f)
+            mode = with_way(plan, f, mode & ~(1 << f), way)
+            return _follow(plan, mode, f, way, deformation)
         zeros[f] = float(of.V_FRESH)
         stop_moving(plan, f, y)
         stuck = mode | 1 << f
         enter_mode(plan, stuck)
         move_alike(plan, beyond(y, int(plan[at.MASSES])))
-        mode = hold_or_slide(plan, stuck, y, deformation)
-        return mode if mode >> f & 1 else _follow(plan, mode, f)
+        return hold_or_slide(plan, stuck, y, deformation)
     if behaviour == of.BILINEAR:
         if side_of(plan, f, mode) < 0.0:
             zeros[f] = float(of.SIDE_FRESH)
@@ -236,13 +252,13 @@ def switch(
     if kind == at.PUSHING:
         if not mode >> f & 1:
             deformation[f] = abs(closing(plan, f, beyond(y, int(plan[at.MASSES]))))
-            zeros[f] = 1.0
+            zeros[f] = float(of.DEPTH_FRESH)
             return mode | 1 << f, CONTACT
-        if which == 1:
-            zeros[f] = 2.0
+        if which > 0:
+            zeros[f] = float(of.RATE_FRESH if which == 1 else of.FORCE_FRESH)
             return mode, TURN
         deformation[f] = 0.0
-        zeros[f] = 1.0
+        zeros[f] = float(of.DEPTH_FRESH)
         return mode & ~(1 << f), DETACHMENT
     if kind == at.RIGID and not mode >> f & 1:
         # Friction passes no impulse on.

@@ -8,7 +8,13 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide
-from vibroimpact.engine.assembly.curved.terms import accelerations_of_all, expand_all, node, row_of
+from vibroimpact.engine.assembly.curved.terms import (
+    accelerations_of_all,
+    expand_all,
+    first,
+    node,
+    row_of,
+)
 from vibroimpact.engine.assembly.events import closing, speeds
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
@@ -177,7 +183,9 @@ def _power(plan: Vector, f: int, row: int, y: Vector, gains: float, longest: flo
     meets = plan[int(plan[at.COUPLING]) + f * int(plan[at.STOPS]) + f]
     rate, depth = closing(plan, f, beyond(y, n)), closing(plan, f, y) - plan[one + at.GAP]
     fresh = int(plan[int(plan[at.ZEROS]) + f])
-    if fresh & 2 and plan[row + _STOP + par.BUMPER_DAMPING] != 0.0:  # it turns: rate is rounding
+    if (
+        fresh == of.RATE_FRESH and plan[row + _STOP + par.BUMPER_DAMPING] != 0.0
+    ):  # it turns: rate is rounding
         rate = 0.0
         plan[row + _PUSH_C] = plan[row + _STOP + par.BUMPER_DAMPING] if gains > 0.0 else 0.0
     push = Push(
@@ -202,16 +210,25 @@ def _own(plan: Vector, f: int, row: int, y: Vector, deformation: Vector, gains: 
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH
     rate = closing(plan, f, beyond(y, n))
     fresh = int(plan[int(plan[at.ZEROS]) + f])
-    if fresh & 2 and abs(rate) <= EVEN * speeds(plan, f, beyond(y, n)):
+    if fresh == of.RATE_FRESH:  # what is left of the rate is rounding
         plan[row + _WAY] = -1.0 if gains < 0.0 else 1.0
-    force = plan[node(plan, row, of.RAW_NODE, int(plan[at.POINT]))]
-    stiff = plan[row + _LAW + par.OWN + par.OWN_WIDTH + par.OWN_STIFFNESS]
-    even = EVEN * (abs(force) + stiff * (speeds(plan, f, y) + abs(plan[one + at.GAP])))
+    point = int(plan[at.POINT])
+    first(plan, row, int(plan[row + of.LAST_OP]), int(plan[row + of.LAST_SLOPE]), point)
+    by_s, by_v = plan[node(plan, row, of.BY_S, point)], plan[node(plan, row, of.BY_V, point)]
+    force, depth = (
+        plan[node(plan, row, of.RAW_NODE, point)],
+        plan[node(plan, row, of.S_NODE, point)],
+    )
+    # Where it is zero its terms are not, and by these it is rounded.
+    grain = _GRAIN * (speeds(plan, f, y) + abs(plan[one + at.GAP]))
+    even = EVEN * (abs(by_s * depth) + abs(by_v * rate)) + abs(by_s) * grain
     pushes = force > even
-    if not pushes and force >= -even:
+    # A root was found to the rounding of the step that led to it.
+    if fresh == of.FORCE_FRESH or (not pushes and force >= -even):
         length = 1.0 / plan[at.STIFF_RATE]
-        expand_all(plan, y, deformation, length, 2)
-        raw = node(plan, row, of.RAW_NODE, int(plan[at.NODES]))
-        slope = plan[raw + 1]
-        pushes = slope > 0.0 or (slope == 0.0 and plan[raw + 2] > 0.0)
+        expand_all(plan, y, deformation, length, of.ORDER)
+        raw, k = node(plan, row, of.RAW_NODE, int(plan[at.NODES])), 1
+        while k < of.ORDER and plan[raw + k] == 0.0:
+            k += 1
+        pushes = plan[raw + k] > 0.0
     plan[row + _OWN_WEIGHT] = 1.0 if pushes else 0.0

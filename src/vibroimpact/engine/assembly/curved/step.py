@@ -17,9 +17,11 @@ from vibroimpact.engine.assembly.curved.terms import (
 from vibroimpact.engine.assembly.series import travel_by_series
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.series.layout import NAMES
 from vibroimpact.engine.series.step import BALANCED, TOLERANCE
 
 _ORDER = of.ORDER
+_OWN_WEIGHT = of.NAMES + NAMES.index("own_weight")
 _CUT = 100
 """How often a step is shortened at most. Far sooner it is so short that any is right."""
 _LEAST_SHARE = 2.0**-10
@@ -41,6 +43,13 @@ def travel(plan: Vector, y: Vector, deformation: Vector, tau: float) -> None:
 
 
 @kernel
+def _idle(plan: Vector, law: int) -> bool:
+    """Whether a stop of a formula is touched and would pull."""
+    touched = int(plan[law + of.BEHAVIOUR]) == of.OWN_STOP and plan[law + of.ACTIVE] != 0.0
+    return bool(touched and plan[law + _OWN_WEIGHT] == 0.0)
+
+
+@kernel
 def _last(plan: Vector, m: int, rate: float) -> float:
     """The largest coefficient of this order, as a velocity."""
     n = int(plan[at.MASSES])
@@ -49,12 +58,19 @@ def _last(plan: Vector, m: int, rate: float) -> float:
         one = abs(plan[row + n + 1 + i]) + rate * abs(plan[row + i])
         if not one <= most and most == most:  # what is not a number shows
             most = one
-    for f in range(int(plan[at.STOPS])):
+    count = int(plan[at.STOPS])
+    for f in range(count):
         law = row_of(plan, f)
         if remembers(plan, law):
             one = rate * abs(plan[node(plan, law, of.Z_NODE, int(plan[at.NODES])) + m])
-            if not one <= most and most == most:
-                most = one
+        elif _idle(plan, law):
+            # Its force is watched: as exact as if it acted.
+            meets = plan[int(plan[at.COUPLING]) + f * count + f] * plan[at.PIECE_LENGTH] / m
+            one = meets * abs(plan[node(plan, law, of.RAW_NODE, int(plan[at.NODES])) + m])
+        else:
+            continue
+        if not one <= most and most == most:
+            most = one
     return most
 
 

@@ -163,14 +163,14 @@ def _of_link(
 def _of_stop(
     plan: Vector, f: int, row: int, size: float, end: float, a: Vector
 ) -> tuple[float, int]:
-    """Of a curved stop that is touched: its release (0), or another piece of its law (1)."""
+    """Of a curved stop that is touched: release (0), another piece of its law (1, of a force 2)."""
     fresh = int(plan[int(plan[at.ZEROS]) + f])
     gap = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.GAP]
     relative(plan, f, 0, 1.0, a)
     a[0] -= gap
     y = beyond(plan, int(plan[at.Y]))
-    found, which = fall(plan, a, speeds(plan, f, y) + abs(gap), fresh & 1 != 0, end), 0
-    t, turning = NONE, fresh & 2 != 0
+    found, which = fall(plan, a, speeds(plan, f, y) + abs(gap), fresh == of.DEPTH_FRESH, end), 0
+    t, piece, turning = NONE, 1, fresh == of.RATE_FRESH
     active = plan[row + of.ACTIVE] != 0.0
     if int(plan[row + of.BEHAVIOUR]) == of.POWER:
         if active and plan[row + _DAMPING] != 0.0:
@@ -192,13 +192,14 @@ def _of_stop(
         most = 0.0
         for j in range(int(plan[at.ORDER]) + 1):
             most = max(most, abs(a[j]))
-        begins = fresh != 0 and abs(a[0]) <= _WRONG * most
-        t = fall(plan, a, most, begins, end)
+        begins = fresh == of.FORCE_FRESH or (fresh != 0 and abs(a[0]) <= _WRONG * most)
+        t, piece = fall(plan, a, most, begins, end), 2
         if int(plan[row + _FORMULA + par.OWN_WIDTH + par.OWN_FLAGS]) & 2:
             turns = _ways(plan, f, plan[row + of.NAMES + 23], turning, size, end, a)
-            t = min(t, turns)
+            if turns < t:
+                t, piece = turns, 1
     if t <= end and t < found:
-        found, which = t, 1
+        found, which = t, piece
     return found, which
 
 
