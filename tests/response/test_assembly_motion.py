@@ -269,6 +269,79 @@ def test_rest_between_masses_is_a_contact_of_its_own() -> None:
     assert (pressing > 0.0).all()
 
 
+@pytest.mark.parametrize("restitution", [0.667, 0.949])
+def test_a_chatter_is_completed_far_from_the_origin(restitution: float) -> None:
+    """Its last flights are lower than the rounding of a displacement, 1.4e-17 m."""
+    pair = vi.Assembly(
+        {"a": 1.0, "b": 1.0},
+        {
+            "a": vi.Link("ground", "a", vi.Isolator(5.0, 0.0)),
+            "b": vi.Link("ground", "b", vi.Isolator(5.0, 0.0)),
+        },
+        {
+            "between": vi.Link("a", "b", vi.RigidStop(restitution, 0.0)),
+            "quick": vi.Link("a", "ground", vi.Bumper(500.0, 0.0, 9.0)),
+        },
+        {"a": 0.02},
+    )
+    first = vi.State({"a": 0.1, "b": 0.1}, {"a": 1e-3})
+    motion = vi.simulate(vi.Rig(pair), 1.0, first, frequency=0.5)
+    assert motion.attrs["message"] == "done"
+    # Their distance alone: it is shaken by 0.02 N, and springs back by 5 N/m.
+    speed, swing, ends = 1e-3, math.sqrt(5.0), 0.0
+    while speed > 1e-12:
+        speed *= restitution
+        ends += 2.0 * math.atan2(speed * swing, 0.02) / swing
+    rests = motion["event_time"].values[motion["event_contact"].values == 1]
+    assert rests == pytest.approx([ends], abs=1e-6)  # what is left of it is not followed
+
+
+def test_a_rest_holds_to_the_last_digit() -> None:
+    """On the ground and on each other: no velocity of rounding remains."""
+    three = vi.Assembly(
+        {"a": 1.7, "b": 0.9, "c": 1.3},
+        {
+            "a": vi.Link("ground", "a", vi.Isolator(3.0, 0.01)),
+            "b": vi.Link("ground", "b", vi.Isolator(4.0, 0.02)),
+            "c": vi.Link("b", "c", vi.Isolator(2.0, 0.02)),
+        },
+        {
+            "wall": vi.Link("ground", "a", vi.RigidStop(0.0, 0.1)),
+            "between": vi.Link("b", "c", vi.RigidStop(0.3, 0.0)),
+        },
+        {"a": -2.0, "b": 1.0},
+    )
+    motion = vi.simulate(vi.Rig(three, vi.Harmonic("0.3 m/s2", 0.3)), 6.0, samples=40)
+    touching = motion["contact_force"] > 0.0
+    on_wall, joined = touching.sel(stop="wall").values, touching.sel(stop="between").values
+    assert on_wall.sum() > 20
+    assert joined.sum() > 20
+    v, u = motion["velocity"], motion["displacement"]
+    assert (v.sel(mass="a").values[on_wall] == 0.0).all()
+    assert np.ptp(u.sel(mass="a").values[on_wall]) < 1e-16
+    assert (v.sel(mass="b").values[joined] == v.sel(mass="c").values[joined]).all()
+
+
+def test_a_dashpot_ends_a_rest_at_once() -> None:
+    """Its force begins with a jump, so that the acceleration behind the rest does, too."""
+    carts = vi.Assembly(
+        {"a": 1.0, "b": 1.0},
+        {"a": vi.Link("ground", "a", vi.Isolator(40.0, 0.0))},
+        {
+            "wall": vi.Link("ground", "a", vi.RigidStop(0.0, 0.0)),
+            "between": vi.Link("b", "a", vi.Bumper(100.0, 20.0, 0.1)),
+        },
+        {"a": -5.0},
+    )
+    motion = vi.simulate(vi.Rig(carts), 1.0, vi.State(velocity={"b": 1.0}), frequency=2.0)
+    assert motion.attrs["message"] == "done"
+    names, kinds = motion["event_stop"].values.tolist(), motion["event_contact"].values.tolist()
+    assert names[:2] == ["between", "wall"]
+    assert kinds[:2] == [1, 0]
+    assert motion["event_time"].values[:2] == pytest.approx([0.1, 0.1], rel=1e-13)
+    assert float(motion["displacement"].sel(mass="a").max()) > 1e-3
+
+
 @pytest.mark.parametrize("samples", [0, 16])
 @pytest.mark.parametrize("what", ["harmonic", "record"])
 def test_motions_are_resumed(what: str, samples: int) -> None:

@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.events import pack_fresh, speeds, switch_mode, unpack_fresh
+from vibroimpact.engine.assembly.events import JUMPED, pack_fresh, speeds, switch_mode, unpack_fresh
 from vibroimpact.engine.assembly.mode import enter_mode
 from vibroimpact.engine.assembly.roots import first_fall
 from vibroimpact.engine.assembly.series import (
@@ -150,13 +150,9 @@ def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> f
         else:
             d = 0.0
     size = magnitude(plan, f, mode, b)
-    if zeros > 0:
-        b[0] = -d
-        if zeros > 1:
-            b[1] = b[0] + x * d / at.DEGREE
-        if zeros > 2:
-            b[2] = 0.0
-    elif b[0] + d < -_WRONG * size:
+    if zeros == 0 and b[0] + d < -_WRONG * size:
+        if mode >> f & 1:
+            plan[int(plan[at.ZEROS]) + f] = float(JUMPED)
         return 0.0
     return first_fall(b, d, x, end, zeros, _ROUNDING * size + _TINY, plan)
 

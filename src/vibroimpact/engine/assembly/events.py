@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.mode import enter_mode, hold
+from vibroimpact.engine.assembly.mode import enter_mode, hold, move_alike
 from vibroimpact.engine.assembly.series import accelerate, places, take_off
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, REST_ENDS
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -20,6 +20,9 @@ what is lost is of second order, 1e-12."""
 
 _NOISE = 1e-15
 """A closing speed below this share of the bodies' speeds is rounding."""
+
+JUMPED = 3
+"""In place of the zeros of a force that another event has put below zero, and that ends at once."""
 
 KEPT = 6
 """Zeros by construction that fit into a state."""
@@ -134,6 +137,7 @@ def halt(plan: Vector, y: Vector) -> None:
         impulses[j] = closing(plan, int(plan[listed + j]), beyond(y, n))
     hold(plan, impulses)
     take_off(plan, places(plan), impulses, beyond(y, n))
+    move_alike(plan, beyond(y, n))
 
 
 def impacts(settle: Any) -> Any:
@@ -197,7 +201,8 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
     dashpot = plan[one + at.RELAXATION] < math.inf
     bit = 1 << f
     if mode >> f & 1:
-        zeros[f] = 3.0
+        # The bodies part with a jerk, or with an acceleration where the force has jumped.
+        zeros[f] = 2.0 if zeros[f] == JUMPED else 3.0
         kind = REST_ENDS
         if not rigid:
             kind = DETACHMENT

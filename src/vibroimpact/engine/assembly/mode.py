@@ -103,3 +103,23 @@ def hold(plan: Vector, closing: Vector) -> None:
             value -= rows[j * count + i] * closing[j]
         pivot = rows[i * count + i]
         closing[i] = value / pivot if pivot > 0.0 else 0.0
+
+
+@kernel
+def move_alike(plan: Vector, values: Vector) -> None:
+    """Give bodies that rest on each other the same velocity or acceleration, to the last digit."""
+    n, r = int(plan[at.MASSES]), int(plan[at.RESTING])
+    changed, passes = r > 0, 0
+    while changed and passes <= r:
+        changed, passes = False, passes + 1
+        for j in range(r):
+            f = int(plan[int(plan[at.RESTING_LIST]) + j])
+            one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+            # The ground, then the first mass, gives it to the other end.
+            a, b = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
+            first, second = (b, a) if a == n or (b != n and b < a) else (a, b)
+            if second == n:
+                if values[first] != 0.0:
+                    values[first], changed = 0.0, True
+            elif values[second] != values[first]:
+                values[second], changed = values[first], True

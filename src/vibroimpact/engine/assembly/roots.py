@@ -33,13 +33,13 @@ def first_fall(
     """The first x ≤ end at which f falls through zero, or NONE; b is overwritten.
 
     `zeros`: the order of the zero at 0 that is there by construction; `noise`: by how much f may be
-    below zero by rounding.
+    below zero by rounding, which grows from a zero by construction.
     """
     if zeros == 0 and b[0] + d <= 0.0:  # rounding has put it below zero, or it is on its way there
         if _D * (b[1] - b[0]) - x_rate * d < -noise:
             return 0.0
-        b[0] = -d
         zeros = 1
+    begin_at_zero(b, d, x_rate, zeros)
     room, widths = int(plan[at.ROOM]), int(plan[at.WIDTHS])
     left, width, waiting, splits = 0.0, 1.0, 0, 0
     while left < end:
@@ -47,7 +47,9 @@ def first_fall(
         x = x_rate * width
         known = zeros if left == 0.0 else 0
         last = e * math.exp(-x) if e > 0.0 else 0.0
-        free = positive(b, e, x, last, known, noise)
+        # Coefficients that are off by `noise`, but for the first, are a polynomial below this.
+        grown = noise if zeros == 0 else noise * min(_D * (left + width), 1.0)
+        free = positive(b, e, x, last, known, grown)
         if not free and b[_D] + last <= 0.0 and falling(b, e, x, last, known):
             if known > 0:
                 return 0.0
@@ -74,6 +76,29 @@ def first_fall(
         for j in range(_D + 1):
             b[j] = plan[room + 16 * waiting + j]
     return NONE
+
+
+@kernel
+def begin_at_zero(b: Vector, d: float, x_rate: float, zeros: int) -> None:
+    """Take the terms off that are zero by construction, but for rounding: on the whole step.
+
+    A flight after an impact may be lower than the rounding of its clearance.
+    """
+    if zeros > 0:
+        off = b[0] + d
+        for j in range(_D + 1):
+            b[j] -= off
+        b[0] = -d
+    if zeros > 1:
+        off = b[1] - b[0] - x_rate * d / _D
+        for j in range(1, _D + 1):
+            b[j] -= off * j
+        b[1] = b[0] + x_rate * d / _D
+    if zeros > 2:
+        off = b[2] - 2.0 * b[1] + b[0]
+        for j in range(2, _D + 1):
+            b[j] -= off * (0.5 * j * (j - 1))
+        b[2] = 2.0 * b[1] - b[0]
 
 
 @kernel

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.mode import hold
+from vibroimpact.engine.assembly.mode import hold, move_alike
 from vibroimpact.engine.assembly.vectors import combine
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.memory import beyond
@@ -138,12 +138,12 @@ def accelerate(
     restrain(plan, of, beyond(deformation, of.pressed), row)
 
 
-def expanding(begin: Any = None, push: Any = None, alike: Any = None, grow: Any = None) -> Any:
+def expanding(begin: Any = None, push: Any = None, grow: Any = None) -> Any:
     """Make what writes the series of a state, with what curved laws add to it, or None.
 
     That is `begin(plan, deformation)`, for their memories; `push(plan, of, here, j, after)`, which
-    takes what they do off the accelerations of order j; `alike(plan, values)`, behind what holds;
-    and `grow(plan, factor, j)`, which writes coefficient j + 1 of the memories.
+    takes what they do off the accelerations of order j; and `grow(plan, factor, j)`, which writes
+    coefficient j + 1 of the memories.
     """
 
     def expand(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
@@ -178,8 +178,7 @@ def expanding(begin: Any = None, push: Any = None, alike: Any = None, grow: Any 
             if push is not None:
                 push(plan, of, here, j, after)
             restrain(plan, of, beyond(held, of.pressed), after)
-            if alike is not None:
-                alike(plan, beyond(plan, after))
+            move_alike(plan, beyond(plan, after))
             if j == order:
                 break
             factor = length / (j + 1)

@@ -9,9 +9,9 @@ from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.happen import decide, switch
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
 from vibroimpact.engine.assembly.curved.step import take_step, travel
-from vibroimpact.engine.assembly.curved.terms import expand_all, move_alike
+from vibroimpact.engine.assembly.curved.terms import expand_all
 from vibroimpact.engine.assembly.curved.watch import first_of
-from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.assembly.mode import enter_mode, move_alike
 from vibroimpact.engine.event import GIVEN_UP, LIMIT, TURN, event_of
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond

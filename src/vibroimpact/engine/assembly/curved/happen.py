@@ -10,11 +10,10 @@ from vibroimpact.engine.assembly.curved.numbers import enter, size_of
 from vibroimpact.engine.assembly.curved.terms import (
     accelerations_of_all,
     expand_all,
-    move_alike,
     row_of,
 )
 from vibroimpact.engine.assembly.events import closing, impacts, switch_mode
-from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.assembly.mode import enter_mode, move_alike
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, TURN
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond

@@ -191,28 +191,6 @@ def remembers(plan: Vector, row: int) -> bool:
 
 
 @kernel
-def move_alike(plan: Vector, values: Vector) -> None:
-    """Give ends that friction holds the same velocity or acceleration, to the last digit."""
-    n, r = int(plan[at.MASSES]), int(plan[at.RESTING])
-    changed, passes = r > 0, 0
-    while changed and passes <= r:
-        changed, passes = False, passes + 1
-        for j in range(r):
-            f = int(plan[int(plan[at.RESTING_LIST]) + j])
-            one = int(plan[at.STOP]) + f * at.STOP_WIDTH
-            if plan[one + at.KIND] != at.LINK:
-                continue
-            # The ground, then the first mass, gives it to the other end.
-            a, b = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
-            first, second = (b, a) if a == n or (b != n and b < a) else (a, b)
-            if second == n:
-                if values[first] != 0.0:
-                    values[first], changed = 0.0, True
-            elif values[second] != values[first]:
-                values[second], changed = values[first], True
-
-
-@kernel
 def _begin(plan: Vector, deformation: Vector) -> None:
     for f in range(int(plan[at.STOPS])):
         law = row_of(plan, f)
@@ -235,7 +213,7 @@ def _grow(plan: Vector, factor: float, j: int) -> None:
             plan[node(plan, law, of.Z_NODE, base) + j + 1] = factor * grown
 
 
-expand_all = expanding(_begin, _push, move_alike, _grow)
+expand_all = expanding(_begin, _push, _grow)
 
 
 @apart
