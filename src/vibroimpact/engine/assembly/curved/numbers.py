@@ -9,6 +9,7 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide
 from vibroimpact.engine.assembly.curved.terms import accelerations_of_all, expand_all, node, row_of
+from vibroimpact.engine.assembly.curved.watch import held_alike
 from vibroimpact.engine.assembly.events import closing, speeds
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
@@ -138,6 +139,9 @@ def enter(plan: Vector, y: Vector, deformation: Vector, size: float) -> float:
         behaviour = int(plan[row + of.BEHAVIOUR])
         gains = closing(plan, f, beyond(plan, place))
         if behaviour == of.DRAG and plan[row + _POWER] != 2.0:
+            if held_alike(plan, f):  # there is no velocity, nor will be while they are held
+                plan[row + of.ACTIVE] = 0.0
+                continue
             longest = min(longest, _drag(plan, f, row, -closing(plan, f, v), -gains))
         elif behaviour == of.POWER and plan[row + of.ACTIVE] != 0.0:
             longest = _power(plan, f, row, y, gains, longest)
