@@ -227,7 +227,6 @@ def one_mass(mass: float, law: Any, shaken: vi.Harmonic, **stops: Any) -> tuple[
     return vi.Rig(vi.Oscillator(mass, law, **stops), shaken), vi.Rig(assembly, shaken)
 
 
-@pytest.mark.xfail(strict=True, reason="the zeros of a clearance are taken for those of a force")
 @pytest.mark.parametrize(
     ("mass", "law", "shaken", "stops"),
     [
@@ -255,7 +254,6 @@ def test_motions_on_which_it_fails(mass: float, law: Any, shaken: vi.Harmonic, s
     assert ends[1] == pytest.approx(ends[0], abs=1e-10)
 
 
-@pytest.mark.xfail(strict=True, reason="friction before a bilinear link of the same bodies")
 def test_the_order_of_links_beside_each_other() -> None:
     """With the other order it is the limit of friction that rises steeply with the velocity."""
     laws = {

@@ -341,3 +341,15 @@ def test_orbits_of_one_mass_are_those_of_an_oscillator(isolator: Any, stop: Any)
     assert found.displacement.values.ravel() == pytest.approx(
         expected.displacement.values.ravel(), rel=0.0, abs=1e-11
     )
+
+
+@pytest.mark.parametrize("exponent", [0.5, 0.8])
+def test_a_drag_is_nothing_while_friction_holds(exponent: float) -> None:
+    """A power of the velocity below 1 is steep there, and must not shorten the steps."""
+    law = vi.FrictionIsolator(100.0, 0.5, 0.5, damping_exponent=exponent)
+    one = vi.Assembly({"m": 1.0}, {"i": vi.Link("ground", "m", law)})
+    rigs = (vi.Rig(system, vi.Harmonic(2.0, 1.6)) for system in (vi.Oscillator(1.0, law), one))
+    expected, found = (vi.simulate(rig, 4, samples=0) for rig in rigs)
+    assert found.attrs["message"] == "done"
+    ends = [data["final_state"].values[:2] for data in (expected, found)]
+    assert ends[1] == pytest.approx(ends[0], abs=1e-10)

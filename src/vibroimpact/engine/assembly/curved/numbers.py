@@ -15,6 +15,7 @@ from vibroimpact.engine.assembly.curved.terms import (
     node,
     row_of,
 )
+from vibroimpact.engine.assembly.curved.watch import held_alike
 from vibroimpact.engine.assembly.events import closing, speeds
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
@@ -144,6 +145,9 @@ def enter(plan: Vector, y: Vector, deformation: Vector, size: float) -> float:
         behaviour = int(plan[row + of.BEHAVIOUR])
         gains = closing(plan, f, beyond(plan, place))
         if behaviour == of.DRAG and plan[row + _POWER] != 2.0:
+            if held_alike(plan, f):  # there is no velocity, nor will be while they are held
+                plan[row + of.ACTIVE] = 0.0
+                continue
             longest = min(longest, _drag(plan, f, row, -closing(plan, f, v), -gains))
         elif behaviour == of.POWER and plan[row + of.ACTIVE] != 0.0:
             longest = _power(plan, f, row, y, gains, longest)

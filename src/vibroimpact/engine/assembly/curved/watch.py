@@ -80,7 +80,7 @@ def held_force(plan: Vector, f: int) -> int:
 
 
 @kernel
-def held_alike(plan: Vector, f: int, mode: int) -> bool:
+def held_alike(plan: Vector, f: int) -> bool:
     """Whether friction holds the two ends of a row together."""
     stops = int(plan[at.STOP])
     one, found = stops + f * at.STOP_WIDTH, False
@@ -128,7 +128,7 @@ def _of_link(
             if t <= end and t < found:
                 found, which = t, k
         return found, which
-    if held_alike(plan, f, mode):
+    if held_alike(plan, f):
         return NONE, 0
     if behaviour == of.BILINEAR and side > 0.0:
         limit = plan[row + _LIMIT]
