@@ -246,7 +246,245 @@ def one_mass(mass: float, law: Any, shaken: vi.Harmonic, **stops: Any) -> tuple[
         ),
     ],
 )
-def test_motions_on_which_it_fails(mass: float, law: Any, shaken: vi.Harmonic, stops: Any) -> None:
+def test_motions_that_were_found_to_fail(mass: float, law: Any, shaken: vi.Harmonic, stops: Any) -> None:
+    rigs = one_mass(mass, law, shaken, **stops)
+    expected, found = (vi.simulate(rig, 2, samples=0) for rig in rigs)
+    assert found.attrs["message"] == "done"
+    ends = [one["final_state"].values[:2] for one in (expected, found)]
+    assert ends[1] == pytest.approx(ends[0], abs=1e-10)
+
+
+if __name__ == "__main__":
+    from pathlib import Path
+
+    sys.path.insert(0, str(Path(__file__).parents[1]))
+
+import vibroimpact as vi
+from properties.random_assemblies import mirrored, random_assembly, reordered
+from reference.stored_by_assembly import stored
+from samples import sample
+
+CYCLES = 4
+LONGEST = 400.0
+"""s; one that hangs ends the process, with its place."""
+EXACT = 1e-9
+"""Of the size of the motion, and of the energy that goes through it."""
+ROUNDING = 1e-13
+"""Of the largest kinetic energy: the rounding of a balance in which hardly any energy is left."""
+NOTHING = 1e-14
+"""m, by which a mass that is held at zero may move; times the forces, in J."""
+GIVEN_UP = "given up"
+BALANCED = 4
+"""Of so many the energy balance of one is drawn up, which takes longer than all else."""
+SENSITIVE = 1e-12
+"""A change of the amplitude by this share shows how far two roundings may lead apart."""
+GROWTH = 1e4
+
+
+def survey(count: int, seed: int, first: int = 0, tell: bool = False) -> tuple[Counter[str], list]:
+    """Outcomes and faults of the assemblies `first`, … of a seed."""
+    outcomes: Counter[str] = Counter()
+    wrong: list[str] = []
+    begin = time.monotonic()
+    for i in range(first, first + count):
+        faulthandler.dump_traceback_later(LONGEST, exit=True)
+        status, found = looked_at(seed, i)
+        faulthandler.cancel_dump_traceback_later()
+        outcomes[status] += 1
+        if status == GIVEN_UP and tell:
+            print(f"assembly {i} of seed {seed} {status}", flush=True)
+        found = [f"assembly {i} of seed {seed}: {one}" for one in found]
+        wrong += found
+        if tell:
+            for one in found:
+                print(one, flush=True)
+            if (i + 1 - first) % 100 == 0:
+                rate = 60.0 * (i + 1 - first) / (time.monotonic() - begin)
+                print(f"{i + 1 - first}, {rate:.0f} a minute: {dict(outcomes)}", flush=True)
+    return outcomes, wrong
+
+
+def drawn(seed: int, which: int) -> tuple[np.random.Generator, vi.Assembly, vi.Harmonic] | str:
+    """One assembly, or why there is none: a random one may have no equilibrium."""
+    rng = np.random.default_rng([seed, which])
+    try:
+        return rng, *random_assembly(rng)
+    except vi.InputError as error:
+        return f"refused, {str(error).split(':')[0]}"
+
+
+def looked_at(seed: int, which: int) -> tuple[str, list[str]]:
+    """The outcome of a motion, and what is wrong with it."""
+    found = drawn(seed, which)
+    if isinstance(found, str):
+        return found, []
+    rng, assembly, shaken = found
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        warnings.simplefilter("ignore", UserWarning)
+        data = followed(assembly, shaken, CYCLES, samples=8)
+        told = data.attrs["message"]
+        status = GIVEN_UP if "max_events" in told else told.split(":")[0]
+        wrong = faults(assembly, data, status)
+        if not wrong and status == "done":
+            wrong = unlike(rng, assembly, shaken)
+            if which % BALANCED == 0:
+                wrong += imbalance(assembly, data)
+    return status, wrong
+
+
+def followed(
+    assembly: vi.Assembly, shaken: vi.Harmonic, cycles: float, samples: int = 0, start: Any = None
+) -> xr.Dataset:
+    rig = vi.Rig(assembly, shaken)
+    return vi.simulate(rig, cycles, start, samples=samples, max_events=3000)
+
+
+def faults(assembly: vi.Assembly, data: xr.Dataset, status: str) -> list[str]:
+    """What no motion may have."""
+    wrong = [status] if "range of floating-point numbers" in status else []
+    names = ("displacement", "velocity", "acceleration", "contact_force", "final_state")
+    wrong += [f"{name} is not finite" for name in names if not np.isfinite(data[name]).all()]
+    if wrong or not data.sizes["time"]:
+        return wrong
+    gap = max(abs(stop.law.gap) for stop in assembly.stops.values())
+    size = float(abs(data["displacement"]).max()) + gap
+    for name, stop in assembly.stops.items():
+        w = assembly.closing(stop)
+        pulled = float(data["contact_force"].sel(stop=name).min())
+        if pulled < -EXACT * float(data["contact_force"].max()):
+            wrong.append(f"stop {name} pulls with {-pulled:g} N")
+        if float(data["deformation"].sel(stop=name).min()) < -1e-12 * size:
+            wrong.append(f"stop {name} is stretched")
+        if isinstance(stop.law, vi.RigidStop | vi.Bumper):
+            depth = w @ data["displacement"].values - stop.law.gap
+            if isinstance(stop.law, vi.Bumper):
+                depth = depth - data["deformation"].sel(stop=name).values
+            if depth.max() > EXACT * size:
+                wrong.append(f"stop {name} is passed by {depth.max():g} of {size:g} m")
+    return wrong
+
+
+def imbalance(assembly: vi.Assembly, data: xr.Dataset) -> list[str]:
+    """Energy that is created or missing."""
+    found = vi.totals(data)
+    if not np.isfinite(found["total_stored"]) or _holds(assembly, data):
+        return []
+    supplied = float(found["total_supplied"])
+    links, stops = (found[f"total_{one}"] for one in ("links", "stops"))
+    damped = float(found["total_damping"]) if "total_damping" in found else 0.0
+    change = stored(assembly, data["final_state"]) - stored(assembly, data["initial_state"])
+    lost = float(links.sum()) + float(stops.sum()) + damped
+    through = abs(supplied) + float(abs(links).sum()) + float(abs(stops).sum()) + abs(change)
+    masses = np.array(list(assembly.masses.values()))
+    force = float(masses.sum() * abs(data["base_acceleration"]).max())
+    nothing = NOTHING * (force + sum(map(abs, assembly.forces.values())))
+    kinetic = 0.5 * float((masses @ data["velocity"].values ** 2).max())
+    wrong = [
+        f"{name} created {-float(one):g} of {through:g} J"
+        for kind in (links, stops)
+        for name, one in zip(kind.values.size * [kind.name], kind.values, strict=True)
+        if one < -EXACT * through - ROUNDING * kinetic - nothing
+    ]
+    missing = supplied - lost - change
+    if abs(missing) > EXACT * through + ROUNDING * kinetic + nothing:
+        wrong.append(f"{missing:g} of {through:g} J are missing")
+    return wrong
+
+
+def _holds(assembly: vi.Assembly, data: xr.Dataset) -> bool:
+    """Whether a curved stop is pressed at the end: what it holds there counts as lost."""
+    pressed = data["final_state"].to_series()
+    return any(
+        pressed[f"touching.{name}"] and not isinstance(stop.law, vi.RigidStop | vi.Bumper)
+        for name, stop in assembly.stops.items()
+    )
+
+
+def unlike(rng: np.random.Generator, assembly: vi.Assembly, shaken: vi.Harmonic) -> list[str]:
+    """What changes the motion and must not: a restart, a mirror, another order of the masses."""
+    cycles, cut = 2.0, float(rng.uniform(0.05, 1.95))
+    plain = followed(assembly, shaken, cycles)
+    whole = _ends(plain, assembly)
+    first = followed(assembly, shaken, cut)
+    if plain.attrs["message"] != "done" or first.attrs["message"] != "done":
+        return []
+    try:
+        resumed = followed(assembly, shaken, cycles - cut, start=first)
+    except vi.InputError as error:
+        return [f"not resumed after {cut!r} cycles: {error}"]
+    others = {
+        f"resumed after {cut:g} cycles": resumed,
+        "the mirror image": followed(*mirrored(assembly, shaken), cycles),
+        "another order of the masses": followed(reordered(rng, assembly), shaken, cycles),
+    }
+    if given_up := [what for what, one in others.items() if one.attrs["message"] != "done"]:
+        return [f"{what}: given up" for what in given_up]
+    speed = shaken.angular_frequency
+    size = max(float(np.abs(whole[0]).max()), float(np.abs(whole[1]).max()) / speed, 1e-3)
+
+    def off(other: Any, sign: float = 1.0) -> float:
+        u, v = (float(np.abs(sign * a - b).max()) for a, b in zip(other, whole, strict=True))
+        return max(u, v / speed) / size
+
+    apart = {
+        what: off(_ends(one, assembly), -1.0 if "mirror" in what else 1.0)
+        for what, one in others.items()
+    }
+    if max(apart.values()) <= EXACT or plain["simultaneous_impacts"]:
+        return []
+    other = shaken.replace(amplitude=shaken.amplitude * (1.0 + SENSITIVE))
+    allowed = EXACT + GROWTH * off(_ends(followed(assembly, other, cycles), assembly))
+    return [f"{what}: {one:.1e} apart" for what, one in apart.items() if one > allowed]
+
+
+def _ends(data: xr.Dataset, assembly: vi.Assembly) -> tuple[Any, Any]:
+    end, names = data["final_state"], list(assembly.names)
+    u, v = (
+        end.sel(component=[f"{part}.{name}" for name in names]).values
+        for part in ("displacement", "velocity")
+    )
+    return u, v
+
+
+@pytest.mark.parametrize("seed", range(sample(20, 1)))
+def test_random_assemblies(seed: int) -> None:
+    outcomes, wrong = survey(sample(1000, 25), seed)
+    assert not wrong, "\n".join(wrong)
+    assert outcomes["done"] > 0.9 * sum(outcomes.values())
+
+
+def one_mass(mass: float, law: Any, shaken: vi.Harmonic, **stops: Any) -> tuple[vi.Rig, vi.Rig]:
+    """The same rig as an oscillator and as an assembly."""
+    ends = {"right": ("m", "ground"), "left": ("ground", "m")}
+    assembly = vi.Assembly(
+        {"m": mass},
+        links={"i": vi.Link("ground", "m", law)},
+        stops={side: vi.Link(*ends[side], stop) for side, stop in stops.items()},
+    )
+    return vi.Rig(vi.Oscillator(mass, law, **stops), shaken), vi.Rig(assembly, shaken)
+
+
+@pytest.mark.parametrize(
+    ("mass", "law", "shaken", "stops"),
+    [
+        pytest.param(
+            0.6215301427674088,
+            vi.Isolator(2.5160483640856763, 0.0665112483536042),
+            vi.Harmonic(2.1142372501208317, 0.3307965805051976, 1.3055261982352593),
+            {"right": vi.RigidStop(0.0, 0.46607906358386764)},
+            id="rest after an impact without return, which ends too early",
+        ),
+        pytest.param(
+            1.0,
+            vi.Isolator(1.0, 0.1),
+            vi.Harmonic(4.76, 0.729, 2.975876887320248),
+            {"left": vi.Bumper(6603.0, 8.1, 0.0)},
+            id="a bumper that is met without speed, at the beginning",
+        ),
+    ],
+)
+def test_motions_that_were_found_to_fail(mass: float, law: Any, shaken: vi.Harmonic, stops: Any) -> None:
     rigs = one_mass(mass, law, shaken, **stops)
     expected, found = (vi.simulate(rig, 2, samples=0) for rig in rigs)
     assert found.attrs["message"] == "done"
