@@ -154,7 +154,7 @@ def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> f
         if mode >> f & 1:
             plan[int(plan[at.ZEROS]) + f] = float(JUMPED)
         return 0.0
-    return first_fall(b, d, x, end, zeros, _ROUNDING * size + _TINY, plan)
+    return first_fall(b, d, x, end, zeros, _ROUNDING * size + _TINY, plan, True)
 
 
 @kernel

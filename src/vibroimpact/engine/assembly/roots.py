@@ -28,12 +28,19 @@ _LONG = 4.0
 
 @apart
 def first_fall(
-    b: Vector, d: float, x_rate: float, end: float, zeros: int, noise: float, plan: Vector
+    b: Vector,
+    d: float,
+    x_rate: float,
+    end: float,
+    zeros: int,
+    noise: float,
+    plan: Vector,
+    grows: bool = False,
 ) -> float:
     """The first x ≤ end at which f falls through zero, or NONE; b is overwritten.
 
     `zeros`: the order of the zero at 0 that is there by construction; `noise`: by how much f may be
-    below zero by rounding, which grows from a zero by construction.
+    below zero by rounding; `grows`: from a zero at 0 on, before which terms are exact.
     """
     if zeros == 0 and b[0] + d <= 0.0:  # rounding has put it below zero, or it is on its way there
         if _D * (b[1] - b[0]) - x_rate * d < -noise:
@@ -48,7 +55,7 @@ def first_fall(
         known = zeros if left == 0.0 else 0
         last = e * math.exp(-x) if e > 0.0 else 0.0
         # Coefficients that are off by `noise`, but for the first, are a polynomial below this.
-        grown = noise if zeros == 0 else noise * min(_D * (left + width), 1.0)
+        grown = noise * min(_D * (left + width), 1.0) if grows and zeros > 0 else noise
         free = positive(b, e, x, last, known, grown)
         if not free and b[_D] + last <= 0.0 and falling(b, e, x, last, known):
             if known > 0:
