@@ -15,10 +15,18 @@ from vibroimpact.engine.memory import beyond, pointer
 from vibroimpact.engine.motion import STATE
 from vibroimpact.engine.observers import growth
 from vibroimpact.engine.observers import record as written
-from vibroimpact.engine.observers.demand import note_room, start_notes
 from vibroimpact.engine.observers.extremes import A_MOST, T_MOST, U_MOST
 from vibroimpact.engine.parameters import Drive, rig_vector
-from vibroimpact.engine.state import FIRST, copy, measures_room, parts_room, room, width, wind
+from vibroimpact.engine.state import (
+    FIRST,
+    copy,
+    measures_room,
+    notes_room,
+    parts_room,
+    room,
+    width,
+    wind,
+)
 from vibroimpact.law_numbers import IsolatorNumbers
 
 BUMPER = (20.0, 2.0, 0.3)
@@ -54,7 +62,7 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
     plan = planned(given, rig)
     flow.build(plan, amplitude, 2.0 * math.pi * frequency)
     period = 1.0 / frequency
-    state, notes, found = room(), measures_room(), note_room()
+    state, notes, found = room(), measures_room(), notes_room()
     kept, q, w = written.note_room(), np.zeros(25), np.zeros(25)
     for which in range(7):
         copy(pointer(start), state, width(plan))
@@ -74,7 +82,7 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
             flow.write(plan, state, pointer(samples), samples.shape[1], SAMPLES)
             low_high[8] = kept[written.WRITTEN]
         elif which == DEMAND:
-            start_notes(found, 0)
+            flow.start_demand(plan, found, 0)
             count = event_loop.demand(plan, state, S, C, period, MOST, found)
             low_high[4], low_high[5] = found[0], found[1]
             low_high[6], low_high[7] = found[2], found[3]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,7 @@ import pytest
 from vibroimpact.engine import flow_dispatch, jit, kernel_linking
 
 _SCRIPT = """
+import re
 import sys
 import numba
 from numba.core.codegen import JITCPUCodegen
@@ -71,4 +73,5 @@ def test_kernels_that_are_kept_apart_have_names_of_their_own() -> None:
     sources = [path.read_text(encoding="utf-8") for path in folder.rglob("*.py")]
     assert jit.APART
     for name in jit.APART:
-        assert sum(source.count(f"\ndef {name}(") for source in sources) == 1, name
+        made = re.compile(rf"^ *def {name}\(", re.MULTILINE)
+        assert sum(len(made.findall(source)) for source in sources) == 1, name

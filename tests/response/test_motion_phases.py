@@ -32,15 +32,16 @@ def motion():
 
 def test_a_row_has_a_place_for_each_mass_and_each_stop():
     """The columns of several masses do not overlap, and fill the row."""
-    for masses, stops in ((1, 2), (3, 0), (2, 5)):
-        several = layout.Layout(masses, stops)
+    for masses, stops, drifts in ((1, 2, 0), (3, 0, 2), (2, 5, 1)):
+        several = layout.Layout(masses, stops, drifts)
         columns = [
             *range(layout.SYSTEM),
             *(several.mass(i, n) for n in range(masses) for i in range(layout.MASS)),
             *(several.stop(i, n) for n in range(stops) for i in range(layout.STOP)),
+            *(several.drift(i, n) for n in range(drifts) for i in range(layout.DRIFT)),
         ]
         assert columns == list(range(several.width))
-    assert ONE_MASS == (1, 2)
+    assert ONE_MASS == (1, 2, 0)
 
 
 def test_they_are_those_between_the_events(motion):

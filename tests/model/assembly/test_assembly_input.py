@@ -298,9 +298,7 @@ REFUSED = {
     "classify_scenario": vi.classify_scenario,
     "basin_stability": lambda rig: vi.basin_stability(rig, (-1, 1), (-1, 1)),
     "manifolds": lambda rig: vi.manifolds(rig, None),
-    "bifurcation_curve": lambda rig: vi.bifurcation_curve(rig, None, vary={}),
     "resonance_diagram": lambda rig: vi.resonance_diagram(rig, vary={"frequency": (1.0, 2.0)}),
-    "design_chart": lambda rig: vi.design_chart(rig, {"gap": [0.1, 0.2]}),
     "to_dimensionless": vi.to_dimensionless,
     "explore": vi.explore,
 }

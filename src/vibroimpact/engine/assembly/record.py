@@ -47,6 +47,8 @@ whether a rule ordered it among impacts. Displacements, velocities just before i
 follow."""
 E_MASSES = 7
 
+_SAME = 1e-15
+"""Share of a section within which what happens is at once, but for rounding."""
 _FEW = 64
 """Events at one instant, at most, after which a state is written."""
 
@@ -98,7 +100,9 @@ def recording(next_stretch: Any, channels: Any) -> tuple[Any, Any]:
         if notes[COUNT]:
             step = notes[BETWEEN]
             i = int(notes[NEXT])
-            reach = math.inf if int(ended[EVENT]) == LIMIT else t + length
+            reach = t + length - _SAME * notes[COUNT] * step
+            if int(ended[EVENT]) == LIMIT:
+                reach = math.inf
             end = before_end(i, int(notes[COUNT]), step, reach)
             if i < end:
                 part, opened = piece_length(plan), -1
@@ -136,7 +140,7 @@ def recording(next_stretch: Any, channels: Any) -> tuple[Any, Any]:
         length = plan[at.INTERVAL] if plan[at.RECORD] != 0.0 else 1.0 / plan[at.STIFF_RATE]
         for _ in range(_FEW):  # what happens at this instant comes first
             next_stretch(plan, length)
-            if plan[at.LENGTH] > 0.0 or int(plan[at.EVENT]) == GIVEN_UP:
+            if plan[at.LENGTH] > _SAME * length or int(plan[at.EVENT]) == GIVEN_UP:
                 break
         plan[at.ORDERED], plan[at.UNDECIDED] = ordered, undecided
         open_stretch(plan)

@@ -146,7 +146,9 @@ def expanding(begin: Any = None, push: Any = None, grow: Any = None) -> Any:
     coefficient j + 1 of the memories.
     """
 
-    def expand(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
+    def expand_masses(
+        plan: Vector, y: Vector, deformation: Vector, length: float, order: int
+    ) -> None:
         of = places(plan)
         n, w = of.masses, of.waves
         plan[at.MOVED] = y[2 * n + w]
@@ -197,11 +199,11 @@ def expanding(begin: Any = None, push: Any = None, grow: Any = None) -> Any:
                     plan[now + w + 2 * q] = turn * plan[now + 2 * q + 1]
                     plan[now + w + 2 * q + 1] = -turn * plan[now + 2 * q]
 
-    expand.__doc__ = """Write the series of u, v, w and of all forces in t / length.
+    expand_masses.__doc__ = """Write the series of u, v, w and of all forces in t / length.
 
     y is u, v, w, 1; for a disturbance, its w and its last number are 0.
     """
-    return apart(expand)
+    return apart(expand_masses)
 
 
 _expand = expanding()

@@ -189,7 +189,7 @@ def _powers(channels: Any) -> Any:
     """Make what adds the powers on a piece, with what the stretches of a flow show."""
     series = channels.series
 
-    def add_powers(plan: Vector, row: Vector, a: Vector) -> None:
+    def add_powers_of_masses(plan: Vector, row: Vector, a: Vector) -> None:
         """Add the work of the shaking and what is lost on a piece, at the nodes of a quadrature."""
         n, w, stops = int(plan[at.MASSES]), int(plan[at.WAVES]), stops_of(plan)
         mode, length = int(plan[at.MODE]), plan[at.PIECE_LENGTH]
@@ -229,7 +229,7 @@ def _powers(channels: Any) -> Any:
                     lost = rate * evaluate(a, order, ABSCISSAE[k])
                 of_stops[STOP * f + phases.LOSES] += share * lost
 
-    return apart(add_powers)
+    return apart(add_powers_of_masses)
 
 
 def measuring(channels: Any) -> Any:
@@ -239,7 +239,7 @@ def measuring(channels: Any) -> Any:
     impacts is looked for, and the row.
     """
     open_stretch, open_piece, series = channels.open_stretch, channels.open_piece, channels.series
-    add_powers = _powers(channels)
+    add_powers_of_masses = _powers(channels)
 
     def measure(plan: Vector, before: Vector, everything: bool, row: Vector) -> None:
         n, stops, mode = int(plan[at.MASSES]), stops_of(plan), int(plan[at.STRETCH_MODE])
@@ -271,7 +271,7 @@ def measuring(channels: Any) -> Any:
                 extend_range(plan, a, order, range_)
                 stop[phases.DEPTH] = range_[1]
             if everything:
-                add_powers(plan, row, a)
+                add_powers_of_masses(plan, row, a)
         if left > 0:
             close_stretch(plan)
         if everything:
@@ -332,7 +332,8 @@ def integrating(channels: Any) -> Any:
         a = _series_room()
         open_stretch(plan)
         length = piece_length(plan)
-        parts = 1 + int(lines[count - 1] * length / fourier.TURN)
+        # A piece's series turns with the lines.
+        parts = 1 + int(lines[count - 1] * length / (fourier.TURN - at.STEP))
         for piece in range(pieces(plan) if length > 0.0 else 0):
             open_piece(plan, piece)
             begun = notes[fourier.BEGINS] + ended[T] + piece * length
