@@ -264,3 +264,22 @@ def test_what_is_not_recorded() -> None:
     for function in (vi.contacts, vi.totals):
         with pytest.raises(vi.InputError, match=r"^motion: this is not a recorded motion"):
             function(motion)
+
+
+def test_bodies_that_left_without_speed_and_return_hit_each_other() -> None:
+    """An impact without return leaves no speed; after a flight there is a second one."""
+    assembly = vi.Assembly(
+        {"a": 0.6116826483904807, "b": 0.559228125484749},
+        links={
+            "g": vi.Link("ground", "a", vi.Isolator(0.34530018143194574, 0.0)),
+            "l": vi.Link("a", "b", vi.Isolator(2.808388512449001, 0.2193428720145777)),
+            "k": vi.Link("b", "a", vi.Isolator(0.5720024181987748, 0.0)),
+        },
+        stops={"s": vi.Link("a", "b", vi.RigidStop(0.0, 0.4775787551863301))},
+    )
+    shaken = vi.Harmonic(1.9858781414912148, 0.11742319496363401, 0.007054873381011628)
+    motion = vi.simulate(vi.Rig(assembly, shaken), 3)
+    assert motion["event_contact"].values.tolist() == [2, 1, 0, 2, 2, 1, 0]
+    found = vi.totals(motion)
+    spent = found["total_links"].sum() + found["total_stops"].sum() + found["total_stored"]
+    assert float(spent) == pytest.approx(float(found["total_supplied"]), rel=1e-11)

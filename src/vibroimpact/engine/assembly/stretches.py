@@ -114,7 +114,8 @@ def recorded_kind(plan: Vector, fresh: float) -> float:
     for i in range(n):
         fastest = max(fastest, abs(v[i]))
     moving = abs(closing(plan, f, v)) > _AT_REST * fastest
-    struck = moving and not _left_without_speed(plan, fresh, f)
+    again = plan[at.LENGTH] == 0.0 and _left_without_speed(plan, fresh, f)
+    struck = moving and not again
     return record.IMPACT if struck else record.CONTACT_BEGINS
 
 
