@@ -34,8 +34,7 @@ from mpmath import mp, mpf
 
 import vibroimpact as vi
 from reference import laws_mpmath as laws
-from reference.first_zero import first_zero
-from reference.jets import Jet, Tape, Unknown, number, rescaled, value
+from reference.jets import Jet, Tape, Unknown, rescaled, value, zero_of_jet
 from reference.law_series import fraction, law_of, restoring
 from reference.law_stops import Side, times
 from reference.public_motion import reference_shaking
@@ -192,7 +191,7 @@ class _Run:
         factor = tape.stretch(self.tolerance)
         at, what = mpf(1), None
         for key, jet in waiting:
-            zero = self._first_zero(key, rescaled(jet.c, factor))
+            zero = zero_of_jet(rescaled(jet.c, factor), self.known.get(key, 0))
             if zero is not None and zero < at:
                 at, what = zero, key
 
@@ -217,15 +216,6 @@ class _Run:
             self.t = end
         elif what is not None:
             self._change(what)
-
-    def _first_zero(self, key: Any, series: list[int]) -> mpf | None:
-        known = self.known.get(key, 0)
-        while known < len(series) and not series[known]:
-            known += 1
-        rest = series[known:]
-        if not rest or rest[0] > sum(map(abs, rest[1:])):
-            return None
-        return first_zero([number(one) for one in rest])
 
     def _series(self, tape: Tape) -> tuple[Jet, Jet, Jet, Jet, list[tuple[Any, Jet]]]:
         """The unknowns t, u, v, z, and what ends the piece where it falls to zero."""

@@ -13,6 +13,8 @@ from typing import Any
 
 from mpmath import mp, mpf
 
+from reference.first_zero import first_zero
+
 BITS = 320
 """Behind the point: 1e-96."""
 
@@ -25,6 +27,16 @@ def fixed(x: Any) -> int:
 def number(c: int) -> mpf:
     """The number that an integer stands for."""
     return mp.ldexp(mpf(c), -BITS)
+
+
+def zero_of_jet(series: list[int], known: int) -> mpf | None:
+    """First place in [0, 1) where a jet changes its sign, but for so many zeros at 0."""
+    while known < len(series) and not series[known]:
+        known += 1
+    rest = series[known:]
+    if not rest or rest[0] > sum(map(abs, rest[1:])):
+        return None
+    return first_zero([number(one) for one in rest])
 
 
 class Jet:

@@ -21,7 +21,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Record, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_contacts import coordinates, energies, extremes
-from vibroimpact.response.assembly_phases import AssemblyPhases, phases_layout
+from vibroimpact.response.assembly_phases import AssemblyPhases, PartColumns, phases_layout
 from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
 from vibroimpact.response.assembly_state import assembly_vector
 from vibroimpact.response.motion_phases import Course, Followed
@@ -50,28 +50,11 @@ class AssemblyRuns(NamedTuple):
     """Default: those of the links."""
 
 
-class Found(NamedTuple):
-    """What the engine found of runs."""
+class Found(PartColumns):
+    """What the engine found of runs: a row for each factor, and how each ended."""
 
-    rows: _Array
-    """As of a phase, a row for each factor (`engine.assembly.stretches`)."""
-    layout: Layout
-    status: list[Status]
-
-    def of_mass(self, column: int) -> _Array:
-        """Return a column of each mass, shape (factor, mass)."""
-        of = self.layout
-        return self.rows[:, of.mass(column) : of.mass(0, of.masses) : phases.MASS]
-
-    def of_stop(self, column: int) -> _Array:
-        """Return a column of each stop, shape (factor, stop)."""
-        of = self.layout
-        return self.rows[:, of.stop(column, 0) : of.stop(0, of.stops) : phases.STOP]
-
-    def of_drift(self, column: int) -> _Array:
-        """Return a column of each drift, shape (factor, drift)."""
-        of = self.layout
-        return self.rows[:, of.drift(column, 0) : of.drift(0, of.drifts) : phases.DRIFT]
+    def __init__(self, rows: _Array, layout: Layout, status: list[Status]) -> None:
+        self.rows, self.layout, self.status = rows, layout, status
 
     @property
     def impact_count(self) -> _Array:

@@ -18,7 +18,7 @@ from vibroimpact.engine.flow_tables import plan_of
 from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import Assembly, Record, Repeated, RigidStop, equilibrium
+from vibroimpact.model import Assembly, Record, Repeated, equilibrium
 from vibroimpact.model.argument_types import check_samples
 from vibroimpact.model.assembly import numbers
 from vibroimpact.model.rig import Rig
@@ -78,7 +78,7 @@ class _Run:
         self.n, self.stops = len(system.names), len(system.stops)
         self.shaking, self.state, self.samples = shaking, state, samples
         self.max_events = max_events
-        self.rigid = [isinstance(one.stop, RigidStop) for one in system.stops.values()]
+        self.rigid = [one.stop.rigid for one in system.stops.values()]
         if isinstance(shaking, Record):
             self.interval = shaking.step
             self.lines = straight(shaking, length)

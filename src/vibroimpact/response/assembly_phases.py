@@ -19,7 +19,29 @@ _Array = NDArray[np.float64]
 _Flags = NDArray[np.bool_]
 
 
-class AssemblyPhases:
+class PartColumns:
+    """Rows of phases by what vibrates, which `engine.assembly.stretches` measures."""
+
+    rows: _Array
+    layout: Layout
+
+    def of_mass(self, column: int) -> _Array:
+        """Return a column of each mass, shape (row, mass)."""
+        of = self.layout
+        return self.rows[:, of.mass(column) : of.mass(0, of.masses) : phases.MASS]
+
+    def of_stop(self, column: int) -> _Array:
+        """Return a column of each stop, shape (row, stop)."""
+        of = self.layout
+        return self.rows[:, of.stop(column, 0) : of.stop(0, of.stops) : phases.STOP]
+
+    def of_drift(self, column: int) -> _Array:
+        """Return a column of each drift, shape (row, drift)."""
+        of = self.layout
+        return self.rows[:, of.drift(column, 0) : of.drift(0, of.drifts) : phases.DRIFT]
+
+
+class AssemblyPhases(PartColumns):
     """Phases of a motion, in the order of time.
 
     Parameters
@@ -39,21 +61,6 @@ class AssemblyPhases:
         self.layout = phases_layout(assembly)
         self.begin, self.final = begin, final
         self.parts = AssemblyParts(assembly)
-
-    def of_mass(self, column: int) -> _Array:
-        """Return a column of each mass, shape (phase, mass)."""
-        of = self.layout
-        return self.rows[:, of.mass(column) : of.mass(0, of.masses) : phases.MASS]
-
-    def of_stop(self, column: int) -> _Array:
-        """Return a column of each stop, shape (phase, stop)."""
-        of = self.layout
-        return self.rows[:, of.stop(column, 0) : of.stop(0, of.stops) : phases.STOP]
-
-    def of_drift(self, column: int) -> _Array:
-        """Return a column of the drift of each link, shape (phase, link)."""
-        of = self.layout
-        return self.rows[:, of.drift(column, 0) : of.drift(0, of.drifts) : phases.DRIFT]
 
     @property
     def pressed(self) -> _Flags:
