@@ -6,7 +6,7 @@ import re
 from collections import Counter
 
 import vibroimpact as vi
-from docs._ext.parameters import rows
+from docs._ext.parameter_rows import rows
 from docs.snippets import ROOT
 from vibroimpact import figures
 
