@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from vibroimpact.engine.assembly.entries import follow_sections, sections
 
 import vibroimpact as vi
 from benchmarks import fresh
@@ -21,14 +20,21 @@ from benchmarks.peers.assembly_problems import (
     Link,
     Masses,
 )
-from benchmarks.records import record
+from benchmarks.records import record as synthetic
 from benchmarks.report import Table, met, targets
 from benchmarks.rounds import Spread, interleave, ratio
 from benchmarks.trajectory import optional
-from vibroimpact.engine.assembly.plan import plan_of, state_width
+from vibroimpact.engine import batch
+from vibroimpact.engine.assembly import layout, record
+from vibroimpact.engine.assembly.plan import state_width
+from vibroimpact.engine.flow_tables import plan_of
+from vibroimpact.engine.status import Status
 from vibroimpact.response.assembly_rig import assembly_numbers, link_parts
+from vibroimpact.response.history_variables import EVENTS_AT_ONCE
 
 PERIODS, SCIPY_PERIODS = 500, 50
+_MOST = 1000
+"""Events a period."""
 _ROUNDS, _SCIPY_ROUNDS = 21, 3
 _TOLERANCE = {
     NEIGHBOURS.name: 1e-13,
@@ -70,34 +76,51 @@ def rig(problem: Masses) -> vi.Rig:
     return vi.Rig(assembly(problem), shaking)
 
 
+class Followed:
+    """A problem as the engine follows it from rest: as `vi.simulate`, or with tables of sweeps."""
+
+    def __init__(self, problem: Masses, periods: int, tables: bool = False) -> None:
+        masses = assembly(problem)
+        self.problem, self.periods, self.n = problem, float(periods), len(problem.masses)
+        self.vector = assembly_numbers(masses, rig(problem).periodic, tables=tables)
+        self.plan = plan_of(self.vector, batch.trajectory.groups)
+        self.state = np.zeros(state_width(self.n, len(masses.stops) + len(link_parts(masses))))
+        self.samples = np.empty((record.samples_of(self.n, len(masses.stops)), 0))
+        self.events = np.empty((_MOST + EVENTS_AT_ONCE, record.event_width(self.n)))
+
+    def run(self) -> int:
+        """Follow it; the number of events."""
+        self.state[:] = 0.0
+        at, events = 0, 0
+        while at < self.periods:
+            at, count, outcome = batch.trajectory.on(
+                *(self.plan, self.vector, self.problem.amplitude, self.problem.hertz),
+                *(self.problem.phase, self.state, float(at), self.periods, 0, _MOST),
+                *(self.samples, self.events),
+            )
+            events += count
+            if outcome != Status.DONE:
+                raise RuntimeError("the engine gave up")
+        return events
+
+
 def engine(problem: Masses, periods: int, tables: bool = False) -> Callable[[], tuple[float, ...]]:
-    """Return a call of the engine from rest: the one of `vi.simulate`, or with tables of sweeps."""
-    masses, n = assembly(problem), len(problem.masses)
-    plan = plan_of(assembly_numbers(masses, rig(problem).periodic, tables=tables))
-    state = np.zeros(state_width(n, len(masses.stops) + len(link_parts(masses))))
-    lines = sections(problem.phase, problem.period, periods)
+    """Return a call of the engine from rest."""
+    followed = Followed(problem, periods, tables)
 
     def call() -> tuple[float, ...]:
-        state[:] = 0.0
-        if follow_sections(plan, problem.amplitude, problem.omega, state, lines) < 0:
-            raise RuntimeError("the engine gave up")
-        return tuple(state[2 : 2 + 2 * n].tolist())
+        followed.run()
+        return tuple(followed.state[2 : 2 + 2 * followed.n].tolist())
 
     return call
 
 
 def counts(problem: Masses, periods: int) -> tuple[float, float]:
-    """Count contacts and detachments a period, and the series that are written, from rest."""
-    masses, n = assembly(problem), len(problem.masses)
-    plan = plan_of(assembly_numbers(masses, rig(problem).periodic))
-    parts = len(masses.stops) + len(link_parts(masses))
-    lines = sections(problem.phase, problem.period, periods)
-    rows = np.full((1000 * periods, 2 + 4 * n + 3 * parts), -1.0)
-    events = follow_sections(
-        *(plan, problem.amplitude, problem.omega, np.zeros(state_width(n, parts)), lines),
-        samples=rows,
-    )
-    return events / periods, float((rows[:, 0] >= 0.0).sum()) / periods
+    """Count contacts and detachments a period, and the steps that are taken, from rest."""
+    followed = Followed(problem, periods)
+    before = float(followed.plan[layout.STEPS])
+    events = followed.run()
+    return events / periods, (float(followed.plan[layout.STEPS]) - before) / periods
 
 
 def simulate(problem: Masses, periods: int) -> Callable[[], tuple[float, ...]]:
@@ -173,7 +196,7 @@ def assemblies() -> list[Table]:
             met(error <= 1e-11),
         )
     table.notes.append(
-        f"Contacts and detachments, and power series, a period: {'; '.join(told)}. scipy runs "
+        f"Contacts and detachments, and steps, a period: {'; '.join(told)}. scipy runs "
         f"{SCIPY_PERIODS} periods at a relative tolerance of 1e-10. The state error is relative "
         "to the largest displacement and velocity. Sweeps use tables of each contact mode; "
         "vi.simulate does without, so that a motion computed in parts has the same digits."
@@ -246,7 +269,7 @@ def moat_rig() -> vi.Rig:
             "left": vi.Link("ground", "base", bumper),
         },
     )
-    return vi.Rig(building, record())
+    return vi.Rig(building, synthetic())
 
 
 def moat() -> Table:
