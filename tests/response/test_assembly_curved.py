@@ -9,6 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
+from vibroimpact.response import assembly_rig
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*encountered:RuntimeWarning")
 """Without the compiler; terms that leave the range of numbers are found so."""
@@ -303,6 +304,26 @@ def test_more_parts_than_a_mode_has_bits_for_are_refused() -> None:
     with pytest.raises(vi.InputError, match="18 curved parts of links need 54 bits") as error:
         vi.simulate(rig, 1)
     assert "\n" not in str(error.value)
+
+
+def test_more_parts_than_a_state_has_room_for_are_refused(monkeypatch: Any) -> None:
+    """The engine's room of 1,024 numbers is made smaller: so many masses take long to build."""
+    linked = vi.Assembly(
+        {"a": 1.0, "b": 1.0},
+        {"x": vi.Link("ground", "a", LAWS["cubic"][0]), "y": vi.Link("ground", "b", LINEAR)},
+        {"z": vi.Link("a", "b", BUMPER)},
+    )
+    record = vi.Record([0.0, 1.0, 0.0], 0.01)
+    problem = (
+        r"masses: a state of 2 masses, 1 stops and 1 curved .* 6 numbers .* at most 5 are possible"
+    )
+    monkeypatch.setattr(assembly_rig, "MOST_PARTS", 6)
+    vi.simulate(vi.Rig(linked, record), samples=1)
+    monkeypatch.setattr(assembly_rig, "MOST_PARTS", 5)
+    with pytest.raises(vi.InputError, match=problem):
+        vi.simulate(vi.Rig(linked, record), samples=1)
+    with pytest.raises(vi.InputError, match=problem):
+        vi.demands(linked, record)
 
 
 @pytest.mark.parametrize("name", ["hunt-crossley", "bouc-wen", "friction"])
