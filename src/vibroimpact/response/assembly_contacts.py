@@ -15,7 +15,7 @@ from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.observers import phases
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Record, Repeated, validate
-from vibroimpact.response.assembly_phases import AssemblyPhases, phases_layout
+from vibroimpact.response.assembly_phases import AssemblyParts, AssemblyPhases, phases_layout
 from vibroimpact.response.assembly_rig import assembly_numbers
 from vibroimpact.response.assembly_rows import range_variables
 from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
@@ -126,12 +126,13 @@ def coordinates(assembly: Assembly) -> dict[str, _Array]:
 
 def energy_notes(assembly: Assembly) -> list[str]:
     """Say which energies are not known, if so."""
-    curved = [name for name, link in assembly.links.items() if not link.law.linear]
-    if not curved:
+    lossy = AssemblyParts(assembly).lossy
+    if lossy.sum() < 2:
         return []
+    names = [name for name, loses in zip(assembly.links, lossy, strict=True) if loses]
     return [
-        f"links: the energies of curved links are not computed ({', '.join(curved)}): total_links "
-        "of these and total_stored are NaN"
+        f"links: total_links of {', '.join(names)} is NaN; only the sum of their losses is known, "
+        "from the balance of the other energies"
     ]
 
 
@@ -164,15 +165,24 @@ def extremes(found: AssemblyPhases) -> dict[str, Any]:
 
 
 def energies(found: AssemblyPhases) -> dict[str, Any]:
-    """Return the energies (J) of a motion by link and stop, whose balance is closed."""
-    links = found.of_drift(phases.D_LOST).sum(axis=0)
-    stops = found.of_stop(phases.LOSES) + found.of_stop(phases.HIT)
+    """Return the energies (J) of a motion by link and stop, whose balance is closed.
+
+    The loss of one link beyond that of its dashpot follows from the balance; those of several do
+    not (NaN).
+    """
+    links, lossy = found.of_drift(phases.D_LOST).sum(axis=0), found.parts.lossy
+    stops = (found.of_stop(phases.LOSES) + found.of_stop(phases.HIT)).sum(axis=0)
+    stops = stops - found.held_by_stops()
+    supplied, damped = (float(found.rows[:, one].sum()) for one in (phases.WORK, phases.LOST))
+    stored, damping = found.stored(), damped - links.sum()
+    rest = supplied - damped - stops.sum() - stored
+    links[lossy] += rest if lossy.sum() == 1 else np.nan
     return {
-        "total_supplied": float(found.rows[:, phases.WORK].sum()),
-        "total_links": ("link", np.where(found.parts.curved, np.nan, links)),
-        "total_damping": float(found.rows[:, phases.LOST].sum() - links.sum()),
-        "total_stops": ("stop", stops.sum(axis=0)),
-        "total_stored": found.stored(),
+        "total_supplied": supplied,
+        "total_links": ("link", links),
+        "total_damping": damping,
+        "total_stops": ("stop", stops),
+        "total_stored": stored,
     }
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,8 +12,9 @@ from vibroimpact.engine.assembly import layout
 from vibroimpact.engine.observers import phases
 from vibroimpact.engine.observers.phases import Layout
 from vibroimpact.engine.observers.record import IMPACT
-from vibroimpact.model import Assembly
+from vibroimpact.model import Assembly, Link
 from vibroimpact.model.assembly import numbers
+from vibroimpact.response.assembly_state import memory_places
 from vibroimpact.response.motion_phases import Followed
 
 _Array = NDArray[np.float64]
@@ -81,6 +83,13 @@ class AssemblyPhases(PartColumns):
         """Return by how much kinetic and potential energy have grown (J)."""
         return self.parts.energy(self.final) - self.parts.energy(self.begin)
 
+    def held_by_stops(self) -> _Array:
+        """Return by how much the energies of stops without memory have grown (J).
+
+        The engine counts what such a stop takes up while it is touched, lost or not.
+        """
+        return self.parts.pressed_energies(self.final) - self.parts.pressed_energies(self.begin)
+
 
 class AssemblyParts:
     """The numbers of an assembly that its energies need."""
@@ -88,24 +97,57 @@ class AssemblyParts:
     def __init__(self, assembly: Assembly) -> None:
         of = numbers(assembly)
         self.mass, self.stiffness, self.constant = of.mass, of.stiffness, of.force
-        stops = assembly.stops.values()
-        closing = [assembly.closing(stop) for stop in stops]
-        self.closing = np.array(closing) if closing else np.empty((0, len(of.mass)))
-        pairs = [one.stop.spring_and_dashpot for one in stops]
-        self.springs = np.array([0.0 if pair is None else pair[0] for pair in pairs])
-        self.rigid = np.array([one.stop.rigid for one in stops], dtype=bool)
-        self.curved = np.array(
-            [not link.law.linear for link in assembly.links.values()], dtype=bool
+        stops = [one.stop for one in assembly.stops.values()]
+        links = {one.name: one.law for one in of.links}
+        self.closing = _rows(assembly, assembly.stops.values())
+        self.lossy = np.array(
+            [name in links and loses_elsewhere(links[name]) for name in assembly.links], dtype=bool
         )
+        self._curved = [assembly.links[name].isolator for name in links]
+        self._drifts = -_rows(assembly, [assembly.links[name] for name in links])
+        memories = memory_places(assembly)
+        self._memories = [memories.get(name) for name in links]
+        pairs = [one.spring_and_dashpot for one in stops]
+        self.springs = np.array([0.0 if pair is None else pair[0] for pair in pairs])
+        self.rigid = np.array([one.rigid for one in stops], dtype=bool)
+        self._pressed = {
+            f: one
+            for f, (one, pair) in enumerate(zip(stops, pairs, strict=True))
+            if pair is None and not one.rigid
+        }
 
     def energy(self, state: _Array) -> float:
-        """Return kinetic and potential energy; of curved links it is not known (NaN)."""
-        if self.curved.any():
-            return math.nan
+        """Return kinetic and potential energy (J)."""
         n, count = len(self.mass), len(self.springs)
         u, v, d = np.split(state[layout.PARTS :][: 2 * n + count], [n, 2 * n])
         springs = float(u @ self.stiffness @ u) + float(self.springs @ (d * d))
-        return 0.5 * (float(v @ self.mass @ v) + springs) - float(self.constant @ u)
+        linear = 0.5 * (float(v @ self.mass @ v) + springs) - float(self.constant @ u)
+        curved = sum(
+            law.stored_energy(float(s), 0.0 if place is None else float(state[place]))
+            for law, s, place in zip(self._curved, self._drifts @ u, self._memories, strict=True)
+        )
+        return linear + curved + float(self.pressed_energies(state).sum())
+
+    def pressed_energies(self, state: _Array) -> _Array:
+        """Return the energy (J) of each stop without memory that is touched, 0 of the others."""
+        found, mode = np.zeros(len(self.springs)), int(state[layout.STATE_MODE])
+        u = state[layout.PARTS :][: len(self.mass)]
+        for f, law in self._pressed.items():
+            if mode >> f & 1:
+                found[f] = law.stored_energy(max(float(self.closing[f] @ u) - law.gap, 0.0))
+        return found
+
+
+def loses_elsewhere(law: Any) -> bool:
+    """Return whether a link loses energy otherwise than in a linear dashpot."""
+    _, damping, does = law.engine_numbers()
+    drags = damping > 0.0 and does.drag != 1.0
+    return bool(does.hysteretic or does.friction or drags or does.own)
+
+
+def _rows(assembly: Assembly, links: Iterable[Link]) -> _Array:
+    """Return the rows of closing displacements, shape (link, mass)."""
+    return np.array([assembly.closing(one) for one in links]).reshape(-1, len(assembly.names))
 
 
 def phases_layout(assembly: Assembly) -> Layout:
