@@ -355,7 +355,7 @@ def test_earthquake(run, tmp_path):
         ((*BASINS, "--start", "velocity.wes=1"), "start.velocity: 'wes' is not"),
         (("basins", "neighbours", "--velocity", "0:1"), "--velocity: '0:1', but"),
         (("simulate", "neighbours", "--displacement", "2mm"), "--displacement: '2mm', but"),
-        (("sweep", "neighbours", "--compute", "p = mean(velocity)"), "--compute: "),
+        (("sweep", "neighbours", "--compute", "p = mean(velocity)"), "velocity.west"),
         (("sweep", "neighbours", "--normalised"), "--normalised: set, but"),
         (("branch", "neighbours", "--start", "1mm,0"), "--start: '1mm,0', but"),
         (("simulate", "neighbours", "--set", "stops.pound.gap=1cm"), "did you mean stops.pounding"),

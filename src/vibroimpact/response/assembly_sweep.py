@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -15,7 +15,9 @@ from vibroimpact.model import Assembly, AssemblyState, Rig
 from vibroimpact.response.assembly_rig import assembly_numbers, check_size
 from vibroimpact.response.assembly_rows import measured_variables, notes_on
 from vibroimpact.response.hold_rows import Settling, sweep_holds
+from vibroimpact.response.outputs import NamedOutput, about
 from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.sweep_outputs import add_sweep_outputs
 from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
@@ -28,13 +30,14 @@ def sweep_assembly(
     start: AssemblyState,
     phase: float,
     settling: Settling,
+    own: tuple[NamedOutput, ...],
     workers: Workers,
     progress: Progress | None,
 ) -> xr.Dataset:
     """Return what `sweep` returns of an assembly; the arguments are checked ones of `sweep`."""
     given = (frequencies, directions, {"": start}, phase, settling)
-    data, notes = _swept({"": rig}, *given, workers, progress)
-    return _described(data.isel(rig=0), "sweep", {"": rig}, notes, phase, settling)
+    data, notes = _swept({"": rig}, *given, [own], workers, progress)
+    return _described(data.isel(rig=0), "sweep", {"": rig}, notes, phase, settling, own)
 
 
 def sweep_assemblies(
@@ -44,6 +47,7 @@ def sweep_assemblies(
     starts: Mapping[str, AssemblyState],
     phase: float,
     settling: Settling,
+    own: Sequence[tuple[NamedOutput, ...]],
     workers: Workers,
     progress: Progress | None,
 ) -> xr.Dataset:
@@ -69,9 +73,9 @@ def sweep_assemblies(
                     f"{', '.join(theirs) or 'none'}; pass rigs with the same parts"
                 )
     given = (frequencies, directions, starts, phase, settling)
-    data, notes = _swept(rigs, *given, workers, progress)
+    data, notes = _swept(rigs, *given, own, workers, progress)
     data = data.assign_coords(rig=list(rigs))
-    return _described(data, "sweeps", rigs, notes, phase, settling)
+    return _described(data, "sweeps", rigs, notes, phase, settling, own[0])
 
 
 def _swept(
@@ -81,6 +85,7 @@ def _swept(
     starts: Mapping[str, AssemblyState],
     phase: float,
     settling: Settling,
+    own: Sequence[tuple[NamedOutput, ...]],
     workers: Workers,
     progress: Progress | None,
 ) -> tuple[xr.Dataset, list[str]]:
@@ -104,7 +109,9 @@ def _swept(
 
     items = [(name, direction) for name in rigs for direction in directions]
     steps = len(frequencies) * len(items)
-    done = each(follow, items, steps=steps, threads=workers, progress=progress)
+    total = 2 * steps if own[0] else steps
+    told = progress and (lambda done, _: progress(done, total))
+    done = each(follow, items, steps=steps, threads=workers, progress=told)
     shape = (len(rigs), len(directions), len(frequencies), -1)
     rows = np.array([found for found, _ in done]).reshape(shape)
     ends = np.array([reached for _, reached in done]).reshape(shape)
@@ -133,6 +140,10 @@ def _swept(
             "component": states.names,
         },
     )
+    if own[0]:
+        pairs, levels = list(rigs.values()), [levels for _, levels, _ in ready.values()]
+        given = (phase, ends, settling.window)
+        add_sweep_outputs(data, own, pairs, levels, *given, workers, progress)
     return data, notes_on(assembly, rows, "motions")
 
 
@@ -143,6 +154,7 @@ def _described(
     notes: list[str],
     phase: float,
     settling: Settling,
+    own: tuple[NamedOutput, ...],
 ) -> xr.Dataset:
     return describe(
         data,
@@ -154,6 +166,8 @@ def _described(
             "max_cycles": settling.max_cycles,
             "window": settling.window,
             "max_events": settling.max_events,
+            **about(own),
         },
         notes,
+        own,
     )

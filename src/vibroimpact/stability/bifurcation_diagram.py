@@ -172,11 +172,6 @@ def bifurcation_diagram(
             raise InputError(
                 f"section: {shown(section)}; for an Assembly, only 'stroboscopic' is accepted"
             )
-        if outputs is not None:
-            raise InputError(
-                "outputs: own outputs are not computed for an Assembly of several masses so far; "
-                "remove outputs"
-            )
     (along,) = read_ranges(vary, rig)
     rig, varied, ends = from_lowest(rig, along), along.parameter, along.ends
     excitation = as_periodic(rig.harmonic, "shaking")[0]
@@ -241,13 +236,12 @@ def bifurcation_diagram(
     }
     if isinstance(system, Assembly):
         data, notes = assembly_diagram(system, varied.name, values, found, excitation.phase)
-        data.attrs["parameter"] = varied.name
-        return describe(data, CREATED_BY, about_motions, notes, varied=[varied])
-    data = _dataset(system, varied.name, values, found, section, excitation.phase)
+    else:
+        data, notes = _dataset(system, varied.name, values, found, section, excitation.phase), []
     numbers = [one.outputs for some in found.values() for one in some]
     add_outputs(data, own, np.reshape(numbers, (*data["period"].shape, len(own))))
     data.attrs["parameter"] = varied.name
-    return describe(data, CREATED_BY, about_motions, varied=[varied, *own])
+    return describe(data, CREATED_BY, about_motions, notes, varied=[varied, *own])
 
 
 class _Part(NamedTuple):

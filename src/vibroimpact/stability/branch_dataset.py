@@ -17,7 +17,6 @@ from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.response import sweep_dataset
 from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
 from vibroimpact.response.assembly_rows import measured_variables, notes_on
-from vibroimpact.response.engine_input import state_from
 from vibroimpact.response.hold_rows import HoldRows, results_of
 from vibroimpact.response.outputs import NamedOutput, about, add_outputs, computed
 from vibroimpact.response.plausibility import note_unbounded
@@ -151,7 +150,7 @@ def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Ar
         computed(
             outputs,
             one.rig,
-            state_from(vector_of(one), one.section.family.phase),
+            one.section.family.layout.state(vector_of(one), one.section.family.phase),
             one.section.period,
         )
         for one in orbits
