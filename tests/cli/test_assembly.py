@@ -330,6 +330,30 @@ def test_earthquake(run, tmp_path):
     assert saved["motion"].sizes["mass"] == 2
 
 
+def test_ensemble(run, tmp_path):
+    words = ("ensemble", "neighbours", "--uncertain", "stops.pounding.gap=normal:5%")
+    words += ("--uncertain", "masses.west=normal:5%")
+    words += ("--draws", "8", "--frequencies", "1.9Hz,2.1Hz")
+    code, out, errors = run(*words, "--set", "stops.wall.gap=5mm")
+    assert (code, errors) == (0, "")
+    assert "largest displacement, west" in out
+    assert "largest contact force, pounding" in out
+    assert "contact force, wall" not in out  # it is rigid
+    assert "largest impulse, wall" in out
+    written = {one.name for one in (tmp_path / "out").iterdir()}
+    for ending in ("ensemble.nc", "ensemble.png", "ensemble-accelerations.png"):
+        assert any(name.endswith(f"-{ending}") for name in written)
+    assert any(name.endswith("-ensemble-forces.png") for name in written)
+    code, out, errors = run(*words, "--sensitivity", "--set", "stops.wall=none", "--json")
+    assert (code, errors) == (0, "")
+    told = json.loads(out)
+    assert set(told["sensitivity"]) == {"peak_acceleration", "peak_displacement", "peak_force"}
+    path = tmp_path / "out" / Path(told["files"]["data"]).name
+    data = vi.load(path)
+    exact = data["peak_displacement"].sel(mass="west").max(("direction", "frequency"))
+    assert told["peaks"]["peak_displacement.west"][1] == pytest.approx(float(exact.median()))
+
+
 @pytest.mark.parametrize(
     ("words", "named"),
     [

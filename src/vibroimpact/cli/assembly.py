@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from vibroimpact import figures
 from vibroimpact.errors import InputError
 
@@ -103,6 +105,22 @@ def draw_sweep(written: Results, data: xr.Dataset) -> None:
             continue
         figure = figures.mass_resonance(data, quantity=quantity, title=title)
         written.draw(name, f"sweep-{name}", figure)
+
+
+def draw_bands(written: Results, data: xr.Dataset, nominal: xr.Dataset) -> None:
+    """Draw the accelerations and the contact forces of an ensemble, after the displacements."""
+    forces = [
+        f"peak_force.{stop}"
+        if np.isfinite(data["peak_force"].sel(stop=stop)).all()
+        else f"peak_impulse.{stop}"  # of a rigid stop
+        for stop in data["stop"].values
+    ]
+    for name, drawn in (("accelerations", ["peak_acceleration"]), ("forces", forces)):
+        if drawn:
+            figure = figures.resonance_bands(
+                data, quantities=drawn, nominal=nominal, title=written.what.title
+            )
+            written.draw(name, f"ensemble-{name}", figure)
 
 
 def response_table(responses: dict[str, xr.Dataset]) -> xr.Dataset:
