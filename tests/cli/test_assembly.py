@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from earthquakes.rigs import noise
 from vibroimpact.cli import main
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.rig import subject
@@ -328,6 +329,33 @@ def test_earthquake(run, tmp_path):
         assert one["floor_spectra"][mass]["spectral_acceleration"] == float(floor.max())
     assert saved["response"]["peak_drift"].equals(response["peak_drift"])
     assert saved["motion"].sizes["mass"] == 2
+
+
+def test_design(run, tmp_path):
+    quake = noise(3, 4.0, 180)
+    columns = np.column_stack([quake.time, quake.acceleration])
+    head = "time (s),acceleration (m/s2)"
+    np.savetxt(tmp_path / "a.csv", columns, delimiter=",", header=head, comments="")
+    words = ("design", "neighbours", "a.csv", "--vary", "stops.pounding.gap=5mm:40mm:4")
+    code, out, errors = run(*words)
+    assert (code, errors) == (0, "")
+    chart = vi.load(tmp_path / "out/neighbours-design.nc")
+    assert chart.sizes["stops.pounding.gap"] == 4
+    gap = vi.required_gap(rig().system, records=vi.Record.read(tmp_path / "a.csv"))
+    needed = 1e3 * float(gap["required_gap"].sel(stop="pounding"))
+    row = next(line for line in out.splitlines() if line.startswith("pounding"))
+    assert f"{needed:.4g} mm" in row
+    for name in ("design.csv", "pareto.png"):
+        assert (tmp_path / f"out/neighbours-{name}").exists()
+    code, out, errors = run(*words, "--json", "--limit", "peak-force.pounding", "1N")
+    assert (code, errors) == (0, "")
+    told = json.loads(out)
+    assert told["required_gap"]["pounding"] == pytest.approx(1e-3 * needed)
+    hit = chart["peak_force"].sel(stop="pounding") > 1.0
+    assert told["designs_within_limits"] == int((~hit).sum())
+    code, _, errors = run(*words, "--best")
+    assert (code, errors.count("\n")) == (2, 1)
+    assert "--best: set, but" in errors
 
 
 def test_ensemble(run, tmp_path):

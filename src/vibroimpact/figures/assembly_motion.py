@@ -172,6 +172,20 @@ def contact_legend(assembly: Assembly, stops: list[str]) -> list[Any]:
     return entries
 
 
+def refuse_masses(data: Any, instead: str) -> None:
+    """Refuse a dataset of several masses, and name the figure that draws it.
+
+    Raises
+    ------
+    InputError
+        If the dataset is of an assembly.
+    """
+    if isinstance(data, xr.Dataset) and {"mass", "stop"} <= set(data.dims):
+        raise InputError(
+            f"data: it is of an Assembly of several masses; draw it with figures.{instead}"
+        )
+
+
 def chosen(given: Any, names: tuple[str, ...], what: str, field: str) -> list[str]:
     """Return the names that were passed, checked, or all of them.
 

@@ -105,8 +105,8 @@ def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
     parameters = json.loads(motion.attrs["parameters"])
     if "assembly" in parameters:
         raise InputError(
-            "motion: the motion of an Assembly of several masses is not accepted by this function; "
-            "pass that of an Oscillator"
+            "motion: it is of an Assembly of several masses, which this function does not accept; "
+            "draw it with figures.mass_histories, contact_forces or pair_portrait"
         )
     oscillator = validate(Oscillator, parameters["oscillator"], "motion.oscillator")
     assert isinstance(oscillator, Oscillator)
