@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -173,47 +173,6 @@ def check_alike(rigs: Runs) -> Assembly:
                     f"of the first rig, {', '.join(names) or 'none'}; pass rigs with the same parts"
                 )
     return first
-
-
-def demands_of_assemblies(
-    rigs: Runs,
-    records: Sequence[Record],
-    factors: _Array,
-    tail: float | None,
-    max_events: int,
-    workers: Workers,
-    progress: Progress | None,
-) -> tuple[dict[str, Any], Mapping[str, _Array]]:
-    """Compute the peaks of assemblies through scaled records.
-
-    Parameters
-    ----------
-    factors : ndarray, shape (record, scale)
-        What each record is multiplied by.
-    tail, max_events, workers, progress
-        As in `demands`.
-
-    Returns
-    -------
-    variables, coordinates
-        Variables with the dims ``record``, ``scale``, those of the rigs, and ``mass``, ``link`` or
-        ``stop``.
-    """
-    first = check_alike(rigs)
-    systems = [rigs.system(at) for at in np.ndindex(*rigs.shape)]
-    runs = [
-        AssemblyRuns(system, record, row)  # type: ignore[arg-type]
-        for record, row in zip(records, factors, strict=True)
-        for system in systems
-    ]
-    shape = (len(records), *rigs.shape, factors.shape[1])
-    scale, dims = len(shape) - 1, ("record", "scale", *rigs.dims)
-    variables: dict[str, Any] = {}
-    for name, values in peaks_of_assemblies(runs, tail, max_events, workers, progress).items():
-        dim = VARIABLES[name].part
-        whole = np.moveaxis(values.reshape(*shape, *values.shape[2:]), scale, 1)
-        variables[name] = ((*dims, dim) if dim else dims, whole)
-    return variables, coordinates(first)
 
 
 def peaks_of_assemblies(
