@@ -26,7 +26,7 @@ from vibroimpact.model import Assembly
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_contacts import coordinates
+from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
 from vibroimpact.stability.assembly_diagram import place_assembly

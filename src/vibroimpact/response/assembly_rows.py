@@ -12,12 +12,21 @@ from vibroimpact.engine.assembly import measures
 from vibroimpact.engine.state import MODE
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly
+from vibroimpact.model.rig import System
 from vibroimpact.response.hold_rows import MAX_EVENTS, results_of
 
 if TYPE_CHECKING:
     from vibroimpact.response.prepared_rig import PreparedRig
 
 _Array = NDArray[np.float64]
+
+
+def coordinates(system: System) -> dict[str, _Array]:
+    """Return the names of masses, links and stops as coordinates; an oscillator has none."""
+    if not isinstance(system, Assembly):
+        return {}
+    names = {"mass": system.names, "link": system.links, "stop": system.stops}
+    return {dim: np.array(list(found), dtype=np.str_) for dim, found in names.items()}
 
 
 def measured_variables(
