@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.stops import stops_of
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.assembly import measures
 from vibroimpact.engine.state import MODE
@@ -27,6 +28,14 @@ def coordinates(system: System) -> dict[str, _Array]:
         return {}
     names = {"mass": system.names, "link": system.links, "stop": system.stops}
     return {dim: np.array(list(found), dtype=np.str_) for dim, found in names.items()}
+
+
+def names_of_parts(system: System) -> dict[str, Any]:
+    """Return the names of masses and stops as coordinates; an oscillator has its stops alone."""
+    if not isinstance(system, Assembly):
+        return {"stop": stops_of(system)}
+    names = coordinates(system)
+    return {"mass": names["mass"], "stop": names["stop"]}
 
 
 def measured_variables(

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.datasets.stops import by_stop
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
@@ -20,7 +20,7 @@ from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rig import Rig, System
 from vibroimpact.response.assembly_rig import check_size
-from vibroimpact.response.assembly_rows import coordinates
+from vibroimpact.response.assembly_rows import names_of_parts
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.motion_phases import recorded
 from vibroimpact.response.prepared_rig import prepare
@@ -120,14 +120,6 @@ def section_variables(
         "section_velocity": (by_mass, v),
         "section_deformation": (of_stops, d),
     }
-
-
-def names_of_parts(system: System) -> dict[str, Any]:
-    """Return the names of masses and stops as coordinates of a dataset."""
-    if isinstance(system, Oscillator):
-        return {"stop": stops_of(system)}
-    names = coordinates(system)
-    return {"mass": names["mass"], "stop": names["stop"]}
 
 
 def impact_section(motion: xr.Dataset) -> xr.Dataset:

@@ -16,9 +16,9 @@ from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, AssemblyState
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rows import measured_variables, notes_on
+from vibroimpact.response.assembly_rows import measured_variables, names_of_parts, notes_on
 from vibroimpact.response.section_states import SectionStates
-from vibroimpact.response.sections import names_of_parts, section_variables
+from vibroimpact.response.sections import section_variables
 from vibroimpact.stability.settled_motion import reach_at_rest
 
 if TYPE_CHECKING:
