@@ -21,22 +21,6 @@ from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 _Array = NDArray[np.float64]
 
 
-def sweep_assembly(
-    rig: Rig,
-    frequencies: _Array,
-    directions: tuple[str, ...],
-    start: AssemblyState,
-    phase: float,
-    settling: Settling,
-    workers: Workers,
-    progress: Progress | None,
-) -> xr.Dataset:
-    """Return what `sweep` returns of an assembly; the arguments are checked ones of `sweep`."""
-    given = (frequencies, directions, {"": start}, phase, settling)
-    data, notes = _swept({"": rig}, *given, workers, progress)
-    return _described(data.isel(rig=0), "sweep", {"": rig}, notes, phase, settling)
-
-
 def sweep_assemblies(
     rigs: Mapping[str, Rig],
     frequencies: _Array,
@@ -68,23 +52,6 @@ def sweep_assemblies(
                     f"{', '.join(mine) or 'none'}, not those of the first rig, "
                     f"{', '.join(theirs) or 'none'}; pass rigs with the same parts"
                 )
-    given = (frequencies, directions, starts, phase, settling)
-    data, notes = _swept(rigs, *given, workers, progress)
-    data = data.assign_coords(rig=list(rigs))
-    return _described(data, "sweeps", rigs, notes, phase, settling)
-
-
-def _swept(
-    rigs: Mapping[str, Rig],
-    frequencies: _Array,
-    directions: tuple[str, ...],
-    starts: Mapping[str, AssemblyState],
-    phase: float,
-    settling: Settling,
-    workers: Workers,
-    progress: Progress | None,
-) -> tuple[xr.Dataset, list[str]]:
-    """Return the sweeps of some assemblies, and what was doubted of them."""
     ready = {}
     for name, rig in rigs.items():
         assert isinstance(rig.system, Assembly)
@@ -133,20 +100,11 @@ def _swept(
             "component": states.names,
         },
     )
-    return data, notes_on(assembly, rows, "motions")
-
-
-def _described(
-    data: xr.Dataset,
-    function: str,
-    rigs: Mapping[str, Rig],
-    notes: list[str],
-    phase: float,
-    settling: Settling,
-) -> xr.Dataset:
+    notes = notes_on(assembly, rows, "motions")
+    data = data.assign_coords(rig=list(rigs))
     return describe(
         data,
-        f"vibroimpact.{function}",
+        "vibroimpact.sweeps",
         {
             "rigs": [rig_parameters(rig, "frequency", "phase") for rig in rigs.values()],
             "phase": phase,
