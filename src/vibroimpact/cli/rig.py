@@ -195,7 +195,7 @@ def subject(
         )
     made = changes(options, rig_of, system)
     what = Subject(
-        ", ".join((name or found.title, *(change.words for change in made))),
+        ", ".join((found.title, *(change.words for change in made))),
         file_stem(check_name(name, "--name")) if name else joined(found.slug, made),
         system,
         shaking,
