@@ -30,7 +30,7 @@ from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.engine.flow_tables import plan_of
 from vibroimpact.engine.status import Status
 from vibroimpact.response.assembly_rig import assembly_numbers, link_parts
-from vibroimpact.response.history_variables import EVENTS_AT_ONCE
+from vibroimpact.response.written_motion import EVENTS_AT_ONCE
 
 PERIODS, SCIPY_PERIODS = 500, 50
 _MOST = 1000

@@ -210,7 +210,7 @@ def test_a_branch_along_a_path(run, tmp_path):
     words = ("--vary", "stops.pounding.gap=1cm:2cm", "--set", "stops.wall=none")
     code, _, _ = run("branch", "neighbours", *words)
     assert code == 0
-    data = vi.load(tmp_path / "out/neighbours-no-stop-wall-stops-pounding-gap-branches.nc")
+    data = vi.load(tmp_path / "out/neighbours-no-stop-wall-1.9Hz-stops-pounding-gap-branches.nc")
     assert data.attrs["parameter"] == "stops.pounding.gap"
 
 
@@ -415,7 +415,7 @@ def test_ensemble(run, tmp_path):
             ("simulate", "neighbours", "--set", "stops.moat=none"),
             "--set: stops.moat: 'moat' is not",
         ),
-        (("simulate", "neighbours", "--set", "masses.west=none"), "only a link, a stop or a force"),
+        (("simulate", "neighbours", "--set", "masses.west=none"), "'west' is not a mass; "),
         (("simulate", "neighbours", "--set", "masses.west=-1t"), "--set: masses.west: '-1t'"),
         (
             ("simulate", "B2-G1-A3", "--frequency", "2Hz", "--animation", "gif"),

@@ -29,7 +29,7 @@ from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import System
-from vibroimpact.response.assembly_contacts import coordinates
+from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress

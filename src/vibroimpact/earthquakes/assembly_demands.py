@@ -20,12 +20,12 @@ from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Record, equilibrium
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_contacts import coordinates, energies, extremes
-from vibroimpact.response.assembly_phases import AssemblyPhases, PartColumns, phases_layout
 from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
+from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.assembly_state import assembly_vector
-from vibroimpact.response.motion_phases import Course, Followed
+from vibroimpact.response.motion_phases import Course, Followed, PartColumns, Phases, phases_layout
 from vibroimpact.response.record_history import straight
+from vibroimpact.response.totals import energies, extremes
 from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
@@ -212,7 +212,7 @@ def seismic_response_of_assembly(
     values = _nothing(assembly)
     if status is Status.DONE:
         nothing = np.empty(0)
-        found = AssemblyPhases(assembly, Followed(status, rows, nothing, nothing), begin, final)
+        found = Phases(assembly, Followed(status, rows, nothing, nothing), begin, final)
         peaks = extremes(found)
         values = {name: peaks[name] for name in PEAKS} | energies(found)
     data = xr.Dataset(values, coordinates(assembly))

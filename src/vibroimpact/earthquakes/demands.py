@@ -52,7 +52,7 @@ from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import Rig, System
 from vibroimpact.model.written_units import has_no_units
-from vibroimpact.response.assembly_contacts import coordinates
+from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part

@@ -22,7 +22,7 @@ from vibroimpact.model import GRAVITY
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, fitting
 from vibroimpact.model.written_units import unit
-from vibroimpact.response.motion_phases import any_recorded
+from vibroimpact.response.motion_phases import recorded
 
 _DASHES = ("-", "--", "-.", ":")
 _COLOURS = ("black", "#c8102e", "#1f4fbf", "#00795c")
@@ -166,7 +166,7 @@ def _histories(
 
 def _force(ax: Axes, motion: xr.Dataset, curve: DrawnMotion) -> None:
     """Draw the restoring force of isolator and stops. Its loops are the dissipated energy."""
-    rig = any_recorded(motion).oscillator
+    rig = recorded(motion, records=True).oscillator
     pull = rig.force - rig.mass * curve.values["acceleration"]
     _, scale, symbol = fitting([float(np.abs(pull).max())], FORCE.scales)
     for zero in (ax.axhline, ax.axvline):

@@ -23,23 +23,6 @@ from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 _Array = NDArray[np.float64]
 
 
-def sweep_assembly(
-    rig: Rig,
-    frequencies: _Array,
-    directions: tuple[str, ...],
-    start: AssemblyState,
-    phase: float,
-    settling: Settling,
-    own: tuple[NamedOutput, ...],
-    workers: Workers,
-    progress: Progress | None,
-) -> xr.Dataset:
-    """Return what `sweep` returns of an assembly; the arguments are checked ones of `sweep`."""
-    given = (frequencies, directions, {"": start}, phase, settling)
-    data, notes = _swept({"": rig}, *given, [own], workers, progress)
-    return _described(data.isel(rig=0), "sweep", {"": rig}, notes, phase, settling, own)
-
-
 def sweep_assemblies(
     rigs: Mapping[str, Rig],
     frequencies: _Array,
@@ -72,24 +55,6 @@ def sweep_assemblies(
                     f"{', '.join(mine) or 'none'}, not those of the first rig, "
                     f"{', '.join(theirs) or 'none'}; pass rigs with the same parts"
                 )
-    given = (frequencies, directions, starts, phase, settling)
-    data, notes = _swept(rigs, *given, own, workers, progress)
-    data = data.assign_coords(rig=list(rigs))
-    return _described(data, "sweeps", rigs, notes, phase, settling, own[0])
-
-
-def _swept(
-    rigs: Mapping[str, Rig],
-    frequencies: _Array,
-    directions: tuple[str, ...],
-    starts: Mapping[str, AssemblyState],
-    phase: float,
-    settling: Settling,
-    own: Sequence[tuple[NamedOutput, ...]],
-    workers: Workers,
-    progress: Progress | None,
-) -> tuple[xr.Dataset, list[str]]:
-    """Return the sweeps of some assemblies, and what was doubted of them."""
     ready = {}
     for name, rig in rigs.items():
         assert isinstance(rig.system, Assembly)
@@ -144,21 +109,11 @@ def _swept(
         pairs, levels = list(rigs.values()), [levels for _, levels, _ in ready.values()]
         given = (phase, ends, settling.window)
         add_sweep_outputs(data, own, pairs, levels, *given, workers, progress)
-    return data, notes_on(assembly, rows, "motions")
-
-
-def _described(
-    data: xr.Dataset,
-    function: str,
-    rigs: Mapping[str, Rig],
-    notes: list[str],
-    phase: float,
-    settling: Settling,
-    own: tuple[NamedOutput, ...],
-) -> xr.Dataset:
+    notes = notes_on(assembly, rows, "motions")
+    data = data.assign_coords(rig=list(rigs))
     return describe(
         data,
-        f"vibroimpact.{function}",
+        "vibroimpact.sweeps",
         {
             "rigs": [rig_parameters(rig, "frequency", "phase") for rig in rigs.values()],
             "phase": phase,
@@ -166,8 +121,8 @@ def _described(
             "max_cycles": settling.max_cycles,
             "window": settling.window,
             "max_events": settling.max_events,
-            **about(own),
+            **about(own[0]),
         },
         notes,
-        own,
+        own[0],
     )

@@ -23,7 +23,7 @@ from vibroimpact.engine import batch, hold
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, AssemblyState, State, to_si
+from vibroimpact.model import Assembly, State, to_si
 from vibroimpact.model.argument_types import (
     MaxEvents,
     PositiveInt,
@@ -33,9 +33,9 @@ from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.quantity_lists import read_rising
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs, as_rigs_of_any_masses
+from vibroimpact.model.read_rig import AnyRig, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_sweep import sweep_assemblies, sweep_assembly
+from vibroimpact.response.assembly_sweep import sweep_assemblies
 from vibroimpact.response.engine_input import as_state
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, read_outputs
@@ -107,19 +107,6 @@ def sweep(
     InputError
         If a value is invalid.
     """
-    rig = as_rig_of_any_masses(rig)
-    if isinstance(rig.system, Assembly):
-        return _of_several_masses(
-            rig,
-            frequencies,
-            directions,
-            start,
-            phase,
-            Settling(tolerance, max_cycles, window, max_events),
-            outputs,
-            threads,
-            progress,
-        )
     data = sweeps(
         [rig],
         frequencies,
@@ -137,35 +124,6 @@ def sweep(
     data = data.isel(rig=0, drop=True)
     data.attrs["created_by"] = "vibroimpact.sweep"
     return data
-
-
-def _of_several_masses(
-    rig: Rig,
-    frequencies: Iterable[float | str],
-    directions: Sequence[str],
-    start: Any,
-    phase: float | str,
-    settling: Settling,
-    outputs: Outputs | None,
-    threads: int | None,
-    progress: Progress | None,
-) -> xr.Dataset:
-    """Return the sweep of an assembly, the arguments read."""
-    as_periodic(rig.shaking, "shaking")
-    own = read_outputs(outputs, rig)
-    state = SectionStates(rig.system).read(start)
-    assert isinstance(state, AssemblyState)
-    return sweep_assembly(
-        rig,
-        check_frequencies(frequencies),
-        _directions(directions),
-        state,
-        to_si(phase, ANGLE, "phase") if state.phase is None else state.phase,
-        settling,
-        own,
-        workers_for(threads),
-        progress,
-    )
 
 
 @public
