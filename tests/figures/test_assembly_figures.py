@@ -289,6 +289,13 @@ def test_branches_of_each_mass_with_their_contacts() -> None:
         (lambda: figures.mass_resonance(motion()), "data: this is not a sweep"),
         (lambda: figures.mass_resonance(swept(), quantity="eta_d"), "quantity: 'eta_d'; one of"),
         (lambda: figures.mass_branches(swept()), "data: this is not a branch"),
+        (lambda: figures.branch_diagram(branch()), "data: it is of an Assembly of several masses"),
+        (lambda: figures.resonance_curves(swept()), "data: it is of an Assembly of several"),
+        (
+            lambda: figures.resonance_family(vi.sweeps([vi.Rig(PAIR, "0.2 g")], [1.6])),
+            "data: it is of an Assembly of several masses; draw it with figures.mass_resonance",
+        ),
+        (lambda: figures.phase_portrait(motion()), "motion: it is of an Assembly of several"),
         (lambda: figures.mass_histories(motion(), axes=[1]), "axes: 1 given; 6 are accepted"),
         (lambda: save_animation(motion(), "motion.mp4"), "path: 'motion.mp4' does not end in .gif"),
         (lambda: save_animation(motion(), "a.gif", duration=0), "duration: 0"),
