@@ -95,15 +95,6 @@ def test_every_public_function_has_a_valid_call(folder: Path) -> None:
             assert set(given) == set(arguments.parameters(name)), name
 
 
-def test_valid_calls_are_valid(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Otherwise nonsense in one argument would be refused for another one."""
-    monkeypatch.chdir(folder)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        for function, given in arguments.calls(folder).values():
-            function(**given)
-
-
 @pytest.mark.parametrize("name", QUICK)
 def test_nonsense_is_one_line(name: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)

@@ -7,6 +7,7 @@ for a change of an existing object.
 
 from __future__ import annotations
 
+import functools
 import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -279,7 +280,7 @@ class Model(BaseModel, metaclass=_Listed):
     @classmethod
     def table_keys(cls) -> list[str]:
         """Return the keys that a table of this class may have."""
-        return in_order(cls)
+        return list(in_order(cls))
 
     def accepts(self, name: str) -> Accepts | None:
         """Return what a field accepts, given the other values, if it is a quantity."""
@@ -319,10 +320,11 @@ class Model(BaseModel, metaclass=_Listed):
             yield name, value, text
 
 
-def in_order(model: type[BaseModel]) -> list[str]:
+@functools.cache
+def in_order(model: type[BaseModel]) -> tuple[str, ...]:
     """Return the names of the fields, in the order of the arguments of the constructor."""
     said = [n for n in inspect.signature(model.__init__).parameters if n in model.model_fields]
-    return [*said, *(name for name in model.model_fields if name not in said)]
+    return (*said, *(name for name in model.model_fields if name not in said))
 
 
 def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelType:
