@@ -25,8 +25,8 @@ def test_without_noise_to_rounding_from_half_as_much_again(code):
         curves(case.oscillator, case.amplitude),
         FREE,
         profiles=False,
-        tried=16,
-        starts=3,
+        tried=sample(16, 4),
+        starts=sample(3, 1),
         threads=2,
     )
     assert np.abs(errors(found, case.oscillator)).max() < 1e-6

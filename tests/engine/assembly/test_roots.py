@@ -42,7 +42,7 @@ def test_near_touches() -> None:
     fit = np.linalg.inv(basis(nodes))
     kinds: dict[tuple[bool, bool], int] = {}
     plan = room()
-    for _ in range(samples.sample(2500, 300)):
+    for _ in range(samples.sample(2500, 200)):
         touch = rng.uniform(0.05, 0.95)
         depth = rng.choice([-1, 1]) * 10.0 ** rng.uniform(-14, -3)
         size, rate = 0.0, 0.0

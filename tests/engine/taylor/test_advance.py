@@ -21,7 +21,7 @@ CYCLES = 8
 SEEN = [U, V, ISOLATOR]
 
 
-@examples(sample(400, 60))
+@examples(sample(400, 90))
 @given(motions(all_stops=True))
 def test_linear_rigs_as_by_the_tables(motion: Motion) -> None:
     """Of those that do not blow up small disturbances."""
