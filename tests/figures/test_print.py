@@ -87,7 +87,7 @@ def test_on_the_screen(name) -> None:
 
 
 @pytest.mark.parametrize("size", sample([8.0, 10.0], [8.0]))
-@pytest.mark.parametrize("name", sample(OWN, OWN[::8]))
+@pytest.mark.parametrize("name", sample(OWN, OWN[::16]))
 def test_on_own_axes(name, size) -> None:
     with plt.rc_context({"font.size": size}):
         figure = on_own_axes(EVERY[name])
