@@ -131,7 +131,7 @@ def _of_masses(
     """Shake several masses with records."""
     from rich.text import Text as Line
 
-    from vibroimpact.cli.assembly import draw_motion, response_table
+    from vibroimpact.cli.assembly import between_masses, draw_motion, response_table
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.earthquakes.earthquake_response import earthquake_response
@@ -153,7 +153,7 @@ def _of_masses(
             written.files[f"data of {name}"] = vi.save(groups, written.path(ending, "nc"))
             title = f"{what.title}\n{literal(name)}"
             motion = groups["motion"]
-            drawn = figures.mass_histories(motion, title=title)
+            drawn = figures.mass_histories(motion, closing=between_masses(what), title=title)
             written.draw(f"displacements of {name}", f"{ending}-displacements", drawn)
             draw_motion(written, motion, ending, title, None, of=f" of {name}")
             masses = groups["floor"]["mass"].values.tolist()
