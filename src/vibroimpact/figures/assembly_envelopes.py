@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
@@ -80,6 +81,9 @@ def mass_envelopes(
     count = len(assembly.names)
     size = (7.2, 1.5 + 0.34 * max(count, 3))
     given = panels(axes, 3, "displacement, drift and acceleration", size, title, beside=True)
+    layout = given[0].figure.get_layout_engine() if axes is None else None
+    if isinstance(layout, ConstrainedLayoutEngine):
+        layout.set(w_pad=0.1)  # inches, between the labels of ticks at the edges of two panels
     for (name, motion), look in zip(named.items(), looks(list(named)), strict=True):
         _draw(given, motion, every[name], look)
     labels = ("relative displacement (mm)", "drift (mm)", "absolute acceleration (g)")
