@@ -106,7 +106,7 @@ def test_simulate(run, tmp_path):
     code, told, _ = run("simulate", "neighbours", "--animation", "html")
     assert code == 0
     stem = "neighbours-1.9Hz"
-    pictures = ("history", "accelerations", "forces", "envelopes")
+    pictures = ("history", "accelerations", "forces")
     assert files(tmp_path) == {
         f"{stem}-history.nc",
         f"{stem}.html",
@@ -206,6 +206,30 @@ def test_branch(run, tmp_path):
     assert "η_d" not in told
 
 
+def test_jumps_of_a_sweep(run):
+    words = ("sweep", "neighbours", "--to", "2.7Hz", "--set", "stops.wall=none")
+    code, told, _ = run(*words)
+    assert code == 0
+    data = vi.sweep(rig_without_wall(), [1.5 + k / 10 for k in range(13)])
+    west = data["peak_displacement"].sel(mass="west")
+    rows = [line.split() for line in told.splitlines()]
+    (down,) = [row for row in rows if row[:2] == ["forward", "downward"]]
+    (up,) = [row for row in rows if row[:2] == ["backward", "upward"]]
+    assert down[2:6] == ["2.4", "and", "2.5", "west"]
+    assert up[2:6] == ["2.4", "and", "2.3", "west"]
+    ends = west.sel(direction="forward").sel(frequency=[2.4, 2.5], method="nearest").values
+    np.testing.assert_allclose([float(down[6]), float(down[8])], 1e3 * ends, rtol=1e-3)
+    assert "vibroimpact branch locates the folds" in told
+    facts = json.loads(run(*words, "--json")[1])["jumps"]
+    assert [one["direction"] for one in facts] == ["forward", "backward"]
+    assert "Jumps: none" in run(*words[:2], "--to", "1.9Hz", *words[4:])[1]
+
+
+def rig_without_wall() -> vi.Rig:
+    stops = {"pounding": rig().system.stops["pounding"]}
+    return vi.Rig(rig().system.replace(stops=stops), "0.1 g")
+
+
 def test_a_branch_along_a_path(run, tmp_path):
     words = ("--vary", "stops.pounding.gap=1cm:2cm", "--set", "stops.wall=none")
     code, _, _ = run("branch", "neighbours", *words)
@@ -225,7 +249,7 @@ def test_motion(run, tmp_path):
         float(steady["displacement_max"].sel(mass="west")), rel=1e-12
     )
     stem = "neighbours-no-stop-wall-1.9Hz-motion"
-    assert {f"{stem}-envelopes.png", f"{stem}-spectrum.png"} <= files(tmp_path)
+    assert {f"{stem}-accelerations.png", f"{stem}-spectrum.png"} <= files(tmp_path)
     saved = vi.load(tmp_path / f"out/{stem}.nc")
     assert saved["section_displacement"].sizes == {"section_point": 1, "mass": 2}
     lines = vi.fourier_spectrum(steady)["acceleration_amplitude"]
@@ -301,7 +325,7 @@ def test_earthquake(run, tmp_path):
     code, told, _ = run("earthquake", "neighbours", "quake.csv", "--peak", "0.3g", "--json")
     assert code == 0
     stem = "neighbours-quake.csv-earthquake"
-    pictures = ("displacements", "accelerations", "forces", "envelopes", "spectra")
+    pictures = ("displacements", "accelerations", "forces", "spectra")
     assert files(tmp_path) == {
         "neighbours-earthquake.csv",
         f"{stem}.nc",

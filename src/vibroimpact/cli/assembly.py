@@ -50,7 +50,7 @@ def write_motion(
     cycles: float | None,
     animation: Animation | None = None,
 ) -> None:
-    """Save a motion, its histories, its contact forces and its envelopes.
+    """Save a motion, its histories, its contact forces and, of a frame, its envelopes.
 
     Parameters
     ----------
@@ -68,8 +68,18 @@ def write_motion(
         Format of an animation, if one is wanted.
     """
     stem = ending.removesuffix("-history")
-    written.write(motion, ending, figures.mass_histories, title, cycles=cycles)
+    pairs = between_masses(written.what)
+    written.write(motion, ending, figures.mass_histories, title, cycles=cycles, closing=pairs)
     draw_motion(written, motion, stem, title, cycles, animation)
+
+
+def between_masses(what: Subject) -> list[str]:
+    """Return the names of the stops that join two masses."""
+    from vibroimpact.model import Assembly
+    from vibroimpact.model.assembly.names import GROUND
+
+    stops = what.system.stops if isinstance(what.system, Assembly) else {}
+    return [name for name, stop in stops.items() if GROUND not in (stop.left, stop.right)]
 
 
 def draw_motion(
@@ -81,7 +91,10 @@ def draw_motion(
     animation: Animation | None = None,
     of: str = "",
 ) -> None:
-    """Draw the accelerations, the contact forces and the envelopes of a motion."""
+    """Draw the accelerations, the contact forces and, of a frame, the envelopes of a motion."""
+    from vibroimpact.figures.assembly_motion import chains
+    from vibroimpact.model import Assembly
+
     drawn = {
         "accelerations": figures.mass_histories(
             motion, quantity="acceleration", cycles=cycles, title=title
@@ -89,7 +102,9 @@ def draw_motion(
     }
     if motion.sizes["stop"]:
         drawn["forces"] = figures.contact_forces(motion, cycles=cycles, title=title)
-    drawn["envelopes"] = figures.mass_envelopes(motion, title=title)
+    system = written.what.system
+    if isinstance(system, Assembly) and any(len(row) > 1 for row in chains(system)):
+        drawn["envelopes"] = figures.mass_envelopes(motion, title=title)
     for name, figure in drawn.items():
         written.draw(f"{name}{of}", f"{stem}-{name}", figure)
     if animation is not None:
