@@ -134,7 +134,7 @@ def test_json(run, tmp_path):
 def test_along_the_gap(gaps):
     facts, folder = gaps
     assert facts["parameter"] == "gap"
-    assert facts["files"]["data"] == "out/B2-G1-A3-gap-branches.nc"
+    assert facts["files"]["data"] == "out/B2-G1-A3-2Hz-gap-branches.nc"
     data = vi.load(folder / facts["files"]["data"])
     assert (data["gap"].min(), data["gap"].max()) == (1e-3, 20e-3)
     # The mass that flies freely at 2 Hz grazes a gap of just its swing.
@@ -183,7 +183,7 @@ def test_quantity_period_name_and_format(run, tmp_path):
     assert 1e3 * float(np.abs(data["eccentricity"].values[pair]).max()) == pytest.approx(0.61, 0.02)
     svg = (tmp_path / facts["files"]["figure"]).read_text()
     assert "eccentricity (mm)" in svg
-    assert ">pair<" in svg
+    assert ">B3-10mm-A3<" in svg
     assert len(list((tmp_path / "out").iterdir())) == 2
 
 

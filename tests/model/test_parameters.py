@@ -10,7 +10,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.errors import InputError
-from vibroimpact.model.parameter_ranges import read_ranges, vary_all
+from vibroimpact.model.parameter_ranges import read_ranges
 from vibroimpact.model.parameters import PARAMETERS, parameter, set_values
 from vibroimpact.model.paths import put, walk
 from vibroimpact.model.quantities import MASS
@@ -134,16 +134,18 @@ def test_paths_walk_mappings_and_models():
 
 
 def test_values_are_set_at_once_and_an_absent_stop_is_made():
-    moved = set_values(RIG, {"gap": "9 mm", "left": None, "isolator.damping": "2 kN s/m"})
+    rig = vi.Rig(RIG)
+    start = set_values(rig, {"gap": "9 mm", "left": None, "isolator.damping": "2 kN s/m"})
+    moved = start.oscillator
     assert (moved.right.gap, moved.left, moved.isolator.damping) == (9e-3, None, 2e3)
-    made = set_values(moved, {"left.stiffness": "1 MN/m", "left.damping": 0.0, "left.gap": "1 mm"})
-    assert made.left == vi.Bumper(1e6, 0.0, 1e-3)
+    made = set_values(start, {"left.stiffness": "1 MN/m", "left.damping": 0.0, "left.gap": "1 mm"})
+    assert made.oscillator.left == vi.Bumper(1e6, 0.0, 1e-3)
     with pytest.raises(vi.InputError, match=r"^left\.damping: missing"):
-        set_values(moved, {"left.stiffness": "1 MN/m", "left.gap": "1 mm"})
+        set_values(start, {"left.stiffness": "1 MN/m", "left.gap": "1 mm"})
     with pytest.raises(vi.InputError, match=r"^right\.gap: '1 kg' is a mass"):
-        set_values(RIG, {"right.gap": "1 kg"})
-    with pytest.raises(vi.InputError, match=r"^isolator\.nothing: unknown key"):
-        set_values(RIG, {"isolator.nothing": 1.0})
+        set_values(rig, {"right.gap": "1 kg"})
+    with pytest.raises(vi.InputError, match=r"'isolator\.nothing' is unknown; one of frequency"):
+        set_values(rig, {"isolator.nothing": 1.0})
 
 
 def test_sides_that_differ():
@@ -253,11 +255,47 @@ def test_a_stiffness_at_restitution_is_that_of_bumpers_made_by_it():
         vi.InputError, match=r"has the same restitution at any stiffness; use 'stops.st"
     ):
         one.read(vi.Rig(RIG.replace(right=HERTZ, left=HERTZ), SHAKEN))
-    # A damping that is named is had, whichever is named first.
-    pairs = [(parameter("stops.damping", begun), 700.0), (one, 8e4)]
-    for order in (pairs, pairs[::-1]):
-        rig = vary_all(vi.Rig(begun, SHAKEN), order).oscillator
-        assert (rig.right.stiffness, rig.right.damping) == (8e4, 700.0)
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ({"stops.damping": 700.0}, {"stiffness_at_restitution": 8e4}),
+        ({"stops.damping": 700.0}, {"stiffness_ratio": 5.0}),
+        ({"mass": 1000.0}, {"isolator_period": 2.5}),
+        ({"weight": "10 kN", "isolator_period": 2.5}, {"damping_ratio": 0.1}),
+        ({"gap_ratio": 0.4}, {"damping_ratio": 0.1, "amplitude": 0.7}),
+        ({"relaxation_time": 0.2}, {"stops.stiffness": 4e5, "isolator_period": 2.5}),
+    ],
+)
+def test_values_set_together_are_had_in_either_order(first, second):
+    rig = vi.Rig(RIG, SHAKEN)
+    made = set_values(rig, {**first, **second})
+    assert set_values(rig, {**second, **first}) == made
+    for name, value in {**first, **second}.items():
+        if name != "weight":
+            assert parameter(name, made).read(made) == pytest.approx(value, rel=1e-14)
+    if "damping_ratio" not in second and "isolator_period" in second:
+        assert made.oscillator.damping_ratio == pytest.approx(RIG.damping_ratio, rel=1e-14)
+
+
+def test_fields_are_set_at_once_so_that_none_of_them_is_refused_for_another():
+    rig = vi.Rig(RIG.replace(isolator=vi.BilinearIsolator(2e5, 1e5, 100, 0)))
+    values = {"isolator.post_yield_stiffness": 3e5, "isolator.elastic_stiffness": 6e5}
+    assert set_values(rig, values).oscillator.isolator == vi.BilinearIsolator(6e5, 3e5, 100, 0)
+
+
+@pytest.mark.parametrize(
+    ("values", "says"),
+    [
+        ({"right.gap": 1.0, "stops.right.gap": 2.0}, "'stops.right.gap' is given twice"),
+        ({"left": None, "left.gap": 1.0}, "left.gap: left is set, too"),
+        ({"damping_ratio": 0.1, "isolator.damping": 1.0}, "set the same quantity; remove one"),
+    ],
+)
+def test_values_that_contradict_each_other(values, says):
+    with pytest.raises(vi.InputError, match=says):
+        set_values(vi.Rig(RIG), values)
 
 
 @pytest.mark.parametrize(

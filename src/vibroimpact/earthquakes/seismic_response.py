@@ -20,9 +20,9 @@ from vibroimpact.model.public import public
 from vibroimpact.model.quantities import TIME
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_contacts import energy_notes
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_parameters
+from vibroimpact.response.totals import energy_notes
 from vibroimpact.tasks.threads import Progress
 
 

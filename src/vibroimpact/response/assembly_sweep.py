@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -15,26 +15,12 @@ from vibroimpact.model import Assembly, AssemblyState, Rig
 from vibroimpact.response.assembly_rig import assembly_numbers, check_size
 from vibroimpact.response.assembly_rows import measured_variables, notes_on
 from vibroimpact.response.hold_rows import Settling, sweep_holds
+from vibroimpact.response.outputs import NamedOutput, about
 from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.sweep_outputs import add_sweep_outputs
 from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
-
-
-def sweep_assembly(
-    rig: Rig,
-    frequencies: _Array,
-    directions: tuple[str, ...],
-    start: AssemblyState,
-    phase: float,
-    settling: Settling,
-    workers: Workers,
-    progress: Progress | None,
-) -> xr.Dataset:
-    """Return what `sweep` returns of an assembly; the arguments are checked ones of `sweep`."""
-    given = (frequencies, directions, {"": start}, phase, settling)
-    data, notes = _swept({"": rig}, *given, workers, progress)
-    return _described(data.isel(rig=0), "sweep", {"": rig}, notes, phase, settling)
 
 
 def sweep_assemblies(
@@ -44,6 +30,7 @@ def sweep_assemblies(
     starts: Mapping[str, AssemblyState],
     phase: float,
     settling: Settling,
+    own: Sequence[tuple[NamedOutput, ...]],
     workers: Workers,
     progress: Progress | None,
 ) -> xr.Dataset:
@@ -68,23 +55,6 @@ def sweep_assemblies(
                     f"{', '.join(mine) or 'none'}, not those of the first rig, "
                     f"{', '.join(theirs) or 'none'}; pass rigs with the same parts"
                 )
-    given = (frequencies, directions, starts, phase, settling)
-    data, notes = _swept(rigs, *given, workers, progress)
-    data = data.assign_coords(rig=list(rigs))
-    return _described(data, "sweeps", rigs, notes, phase, settling)
-
-
-def _swept(
-    rigs: Mapping[str, Rig],
-    frequencies: _Array,
-    directions: tuple[str, ...],
-    starts: Mapping[str, AssemblyState],
-    phase: float,
-    settling: Settling,
-    workers: Workers,
-    progress: Progress | None,
-) -> tuple[xr.Dataset, list[str]]:
-    """Return the sweeps of some assemblies, and what was doubted of them."""
     ready = {}
     for name, rig in rigs.items():
         assert isinstance(rig.system, Assembly)
@@ -104,7 +74,9 @@ def _swept(
 
     items = [(name, direction) for name in rigs for direction in directions]
     steps = len(frequencies) * len(items)
-    done = each(follow, items, steps=steps, threads=workers, progress=progress)
+    total = 2 * steps if own[0] else steps
+    told = progress and (lambda done, _: progress(done, total))
+    done = each(follow, items, steps=steps, threads=workers, progress=told)
     shape = (len(rigs), len(directions), len(frequencies), -1)
     rows = np.array([found for found, _ in done]).reshape(shape)
     ends = np.array([reached for _, reached in done]).reshape(shape)
@@ -133,20 +105,15 @@ def _swept(
             "component": states.names,
         },
     )
-    return data, notes_on(assembly, rows, "motions")
-
-
-def _described(
-    data: xr.Dataset,
-    function: str,
-    rigs: Mapping[str, Rig],
-    notes: list[str],
-    phase: float,
-    settling: Settling,
-) -> xr.Dataset:
+    if own[0]:
+        pairs, levels = list(rigs.values()), [levels for _, levels, _ in ready.values()]
+        given = (phase, ends, settling.window)
+        add_sweep_outputs(data, own, pairs, levels, *given, workers, progress)
+    notes = notes_on(assembly, rows, "motions")
+    data = data.assign_coords(rig=list(rigs))
     return describe(
         data,
-        f"vibroimpact.{function}",
+        "vibroimpact.sweeps",
         {
             "rigs": [rig_parameters(rig, "frequency", "phase") for rig in rigs.values()],
             "phase": phase,
@@ -154,6 +121,8 @@ def _described(
             "max_cycles": settling.max_cycles,
             "window": settling.window,
             "max_events": settling.max_events,
+            **about(own[0]),
         },
         notes,
+        own[0],
     )

@@ -8,8 +8,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.stops import by_stop, dims_of, stops_of
+from vibroimpact.datasets.stops import dims_of, stops_of
 from vibroimpact.model import Oscillator
+from vibroimpact.response.assembly_rows import measured_variables
 from vibroimpact.response.engine_input import components
 from vibroimpact.response.hold_rows import HoldRows
 
@@ -46,10 +47,11 @@ def sweep_dataset(
     dims = ("rig", "direction", "frequency")
     stops = stops_of(*oscillators)
     found = [
-        sizes(one, HoldRows(part), stops) for one, part in zip(oscillators, results, strict=True)
+        measured_variables(one, part, dims[1:], stops=stops)
+        for one, part in zip(oscillators, results, strict=True)
     ]
     # What is stacked is not kept a second time.
-    told = {name: np.stack([one.pop(name) for one in found]) for name in list(found[0])}
+    told = {name: np.stack([one.pop(name)[1] for one in found]) for name in list(found[0])}
     reference = largest[..., np.newaxis, np.newaxis]
     rows = HoldRows(results)
     values = {
@@ -72,40 +74,3 @@ def sweep_dataset(
     data["largest_free_displacement_excursion"] = ("rig", largest[0])
     data["largest_free_acceleration_excursion"] = ("rig", largest[1])
     return data
-
-
-def sizes(
-    oscillator: Oscillator, rows: HoldRows, stops: NDArray[np.str_] | None = None
-) -> dict[str, NDArray[np.float64]]:
-    """Extremes, contacts per cycle and contact forces of one rig, by the names of variables.
-
-    Contacts, forces and impulses have the stops along their last axis.
-
-    Parameters
-    ----------
-    oscillator
-        The rig.
-    rows
-        What was measured of it.
-    stops
-        Names of the stops, as in `by_stop`. Default: those that the rig has.
-    """
-    mass = oscillator.mass
-    return {
-        "displacement_excursion": rows.displacement_excursion,
-        "acceleration_excursion": rows.acceleration_excursion,
-        "displacement_max": rows.displacement_max,
-        "displacement_min": rows.displacement_min,
-        "acceleration_max": rows.acceleration_max,
-        "acceleration_min": rows.acceleration_min,
-        "peak_displacement": rows.peak_displacement,
-        "peak_acceleration": rows.peak_acceleration,
-        "transmitted_force_max": mass * rows.transmitted_max,
-        "transmitted_force_min": mass * rows.transmitted_min,
-        "transmitted_force_excursion": mass * rows.transmitted_excursion,
-        "peak_transmitted_force": mass * rows.peak_transmitted,
-        "eccentricity": 0.5 * (rows.displacement_max + rows.displacement_min),
-        "impacts": by_stop(oscillator, rows.impacts, stops),
-        "peak_force": by_stop(oscillator, mass * rows.peak_force, stops),
-        "peak_impulse": by_stop(oscillator, mass * rows.peak_impulse, stops),
-    }

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import rig_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Oscillator, Repeated
-from vibroimpact.model.parameter_ranges import vary_all
-from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.parameters import Parameter, parameter, set_values
 from vibroimpact.model.read_rig import RigOrSystem, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.written_units import as_first_argument
@@ -73,10 +72,7 @@ class Uncertain(NamedTuple):
         InputError
             If the values are invalid together.
         """
-        pairs = [
-            (varied, float(value)) for varied, value in zip(self.parameters, values, strict=True)
-        ]
-        return vary_all(self.base, pairs)
+        return set_values(self.base, dict(zip(self.names, map(float, values), strict=True)))
 
     def rigs(self, values: _Array) -> list[Rig]:
         """Return one rig per row of values.
