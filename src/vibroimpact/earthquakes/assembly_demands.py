@@ -17,11 +17,10 @@ from vibroimpact.engine.assembly.plan import Drift
 from vibroimpact.engine.observers import phases
 from vibroimpact.engine.observers.phases import Layout
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Record, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
-from vibroimpact.response.assembly_rows import coordinates
+from vibroimpact.response.assembly_rows import check_alike, coordinates
 from vibroimpact.response.assembly_state import assembly_vector
 from vibroimpact.response.motion_phases import Course, Followed, PartColumns, Phases, phases_layout
 from vibroimpact.response.record_history import straight
@@ -149,32 +148,6 @@ def _nothing(assembly: Assembly) -> dict[str, Any]:
     }
 
 
-def check_alike(rigs: Runs) -> Assembly:
-    """Return the first of some assemblies, whose parts have the same names.
-
-    Raises
-    ------
-    InputError
-        If one has other names, or is an oscillator, or has laws that are not accepted.
-    """
-    first = next(iter(rigs.rigs.values()))
-    assert isinstance(first, Assembly)
-    for name, one in rigs.rigs.items():
-        if not isinstance(one, Assembly):
-            raise InputError(
-                f"rig[{name!r}]: an Oscillator beside an Assembly; pass rigs with the same parts"
-            )
-        check_laws(one)
-        for part, names in coordinates(first).items():
-            mine = coordinates(one)[part]
-            if mine.tolist() != names.tolist():
-                raise InputError(
-                    f"rig[{name!r}]: its {part} names are {', '.join(mine) or 'none'}, not those "
-                    f"of the first rig, {', '.join(names) or 'none'}; pass rigs with the same parts"
-                )
-    return first
-
-
 def demands_of_assemblies(
     rigs: Runs,
     records: Sequence[Record],
@@ -199,7 +172,8 @@ def demands_of_assemblies(
         Variables with the dims ``record``, ``scale``, those of the rigs, and ``mass``, ``link`` or
         ``stop``.
     """
-    first = check_alike(rigs)
+    check_alike(rigs.rigs, "rig", "mass", "link", "stop")
+    first = next(iter(rigs.rigs.values()))
     systems = [rigs.system(at) for at in np.ndindex(*rigs.shape)]
     runs = [
         AssemblyRuns(system, record, row)  # type: ignore[arg-type]

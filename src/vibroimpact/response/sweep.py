@@ -21,7 +21,6 @@ from vibroimpact.datasets.description import (
     rig_parameters,
 )
 from vibroimpact.engine import batch, hold
-from vibroimpact.engine import motion as layout
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, State, to_si
@@ -36,8 +35,9 @@ from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_sweep import sweep_assemblies
-from vibroimpact.response.engine_input import as_state, state_from
+from vibroimpact.response.assembly_rows import check_alike
+from vibroimpact.response.assembly_sweep import assembly_dataset
+from vibroimpact.response.engine_input import state_from
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import (
     NamedOutput,
@@ -206,33 +206,23 @@ def sweeps(
         If a value is invalid.
     """
     named = periodic_rigs(rigs, any_masses=True)
-    if any(isinstance(rig.system, Assembly) for rig in named.values()):
+    several = any(isinstance(rig.system, Assembly) for rig in named.values())
+    if several:
         if outputs is not None:
             raise InputError(_NO_OUTPUTS)
-        starts = {name: SectionStates(rig.system).read(start) for name, rig in named.items()}
-        begin = next(iter(starts.values())).phase
-        return sweep_assemblies(
-            named,
-            check_frequencies(frequencies),
-            _directions(directions),
-            starts,  # type: ignore[arg-type]
-            to_si(phase, ANGLE, "phase") if begin is None else begin,
-            Settling(tolerance, max_cycles, window, max_events),
-            workers_for(threads, where),
-            progress,
-        )
+        check_alike({k: rig.system for k, rig in named.items()}, "rigs", "mass", "stop")
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     directions = _directions(directions)
     angle = to_si(phase, ANGLE, "phase")
-    state = None if start is None else as_state(start)
-    if state is not None and state.phase is not None:
-        angle = state.phase
+    starts = [None if start is None else SectionStates(rig.system).read(start) for rig in pairs]
+    if starts[0] is not None and starts[0].phase is not None:
+        angle = starts[0].phase
     settling = Settling(tolerance, max_cycles, window, max_events)
     workers = workers_for(threads, where)
 
-    own = [read_outputs(outputs, rig) for rig in pairs]
-    ready = [plan_sweep(rig, grid, state) for rig in pairs]
+    own = [() if several else read_outputs(outputs, rig) for rig in pairs]
+    ready = [plan_sweep(rig, grid, one) for rig, one in zip(pairs, starts, strict=True)]
 
     batch.sweep.prepare(*(one.rig for one in ready))  # once, before the threads would queue for it
     items = [(one, direction) for one in ready for direction in directions]
@@ -246,9 +236,20 @@ def sweeps(
         progress=progress and (lambda done, _: progress(done, total)),
     )
     shape = (len(pairs), len(directions), len(grid))
-    results = np.array([found for found, _ in done]).reshape(*shape, hold.RESULTS)
-    states = np.array([reached for _, reached in done]).reshape(*shape, layout.STATE)
+    results = np.array([found for found, _ in done]).reshape(*shape, -1)
+    states = np.array([reached for _, reached in done]).reshape(*shape, -1)
     del done  # as large as both
+    about_sweeps = {
+        "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
+        "phase": angle,
+        **settling._asdict(),
+        **about(own[0]),
+    }
+    places = {"rig": names, "direction": list(directions), "frequency": grid}
+    if several:
+        data, notes = assembly_dataset(pairs[0].system, results, states, angle)
+        data = data.assign_coords(places)
+        return describe(data, "vibroimpact.sweeps", about_sweeps, notes)
     doubts: list[str] = []
     for r, rig in enumerate(pairs):
         oscillator, held, hardest = rig.oscillator, HoldRows(results[r]), rig.hardest
@@ -265,9 +266,7 @@ def sweeps(
     data = sweep_dataset(
         [rig.oscillator for rig in pairs], results, states, free, largest, exciting, angle
     )
-    data = data.assign_coords(
-        rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
-    )
+    data = data.assign_coords({**places, "component": COMPONENTS})
     if outputs:
         holds = [
             _Hold(r, rig, float(ready[r].levels[i]), float(grid[i]), angle, states[r, d, i])
@@ -286,18 +285,7 @@ def sweeps(
             progress=progress and (lambda done, _: progress(steps + done, total)),
         )
         add_outputs(data, own[0], np.reshape(values, (*shape, len(own[0]))))
-    return describe(
-        data,
-        "vibroimpact.sweeps",
-        {
-            "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
-            "phase": angle,
-            **settling._asdict(),
-            **about(own[0]),
-        },
-        dict.fromkeys(doubts),
-        own[0],
-    )
+    return describe(data, "vibroimpact.sweeps", about_sweeps, dict.fromkeys(doubts), own[0])
 
 
 class _Hold(NamedTuple):
