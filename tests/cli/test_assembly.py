@@ -209,7 +209,7 @@ def test_a_branch_along_a_path(run, tmp_path):
     words = ("--vary", "stops.pounding.gap=1cm:2cm", "--set", "stops.wall=none")
     code, _, _ = run("branch", "neighbours", *words)
     assert code == 0
-    data = vi.load(tmp_path / "out/neighbours-no-stop-wall-stops-pounding-gap-branches.nc")
+    data = vi.load(tmp_path / "out/neighbours-no-stop-wall-1.9Hz-stops-pounding-gap-branches.nc")
     assert data.attrs["parameter"] == "stops.pounding.gap"
 
 

@@ -151,7 +151,7 @@ def test_json(run, tmp_path):
 def test_along_the_gap(gaps):
     facts, folder = gaps
     assert facts["parameter"] == "gap"
-    assert facts["files"]["data"] == "out/B2-G1-A3-gap-branches.nc"
+    assert facts["files"]["data"] == "out/B2-G1-A3-2Hz-gap-branches.nc"
     data = vi.load(folder / facts["files"]["data"])
     alone = vi.resonance_diagram(
         vi.Rig(CASE.oscillator, vi.Harmonic(CASE.amplitude, 2.0)), vary={"gap": ("1 mm", "20 mm")}
@@ -205,7 +205,7 @@ def test_quantity_period_name_and_format(run, tmp_path):
     assert 1e3 * float(np.abs(data["eccentricity"].values[pair]).max()) == pytest.approx(0.61, 0.02)
     svg = (tmp_path / facts["files"]["figure"]).read_text()
     assert "eccentricity (mm)" in svg
-    assert ">pair<" in svg
+    assert ">B3-10mm-A3<" in svg
     assert len(list((tmp_path / "out").iterdir())) == 2
 
 

@@ -36,7 +36,10 @@ def test_parameter_sets(which):
 
 
 def test_name():
-    assert subject("B2-G1-A3", RigOptions(), "my/rig 1")[:2] == ("my/rig 1", "my_rig_1-89515662")
+    assert subject("B2-G1-A3", RigOptions(), "my/rig 1")[:2] == (
+        "B2-G1-A3",
+        "my_rig_1-89515662",
+    )
     assert subject("B2-G1-A3", RigOptions(), "../..").slug == "rig-0cfd1c96"
 
 

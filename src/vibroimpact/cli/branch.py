@@ -11,7 +11,7 @@ from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
 from vibroimpact.cli.own_outputs import Compute, own_outputs
-from vibroimpact.cli.states import rig_at, state
+from vibroimpact.cli.states import fixed_frequency, rig_at, state
 from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, Vary, read_one
 from vibroimpact.stability.branch_styles import Quantity
 
@@ -61,6 +61,8 @@ def branch(
     - NAME-PARAMETER-branches.png: the branches. If the parameter is the frequency, the figure also
       shows a simulated sweep.
     - NAME-PARAMETER-branches-OUTPUT.png: the branches over each output of --compute
+
+    Unless the frequency is varied, it stands after NAME, as in NAME-2Hz-gap-branches.nc.
 
     For a rig of several masses (table [assembly] of a study file), the command follows one branch,
     that of the motion that is reached from the equilibrium, or with --period of its orbit of this
@@ -128,7 +130,7 @@ def branch(
         shaken = shaken.with_parts(what.system, what.at(span[0]), keep_open=False)
     near = None if begin is None else state("--start", begin)
     swept, outputs = None, own_outputs(compute)
-    with results(what, output) as written:
+    with results(what, output, fixed_frequency(shaken, along)) as written:
         with progress_bar("following branches") as progress:
             if is_one:
                 data = vi.branch(
@@ -170,6 +172,6 @@ def branch(
         ending = f"{varied.ending}-branches"
         written.write(data, ending, figures.branch_diagram, quantity=shown, sweep=swept)
         for name in outputs or ():
-            drawn = figures.branch_diagram(data, quantity=name, sweep=swept, title=what.title)
+            drawn = figures.branch_diagram(data, quantity=name, sweep=swept, title=written.title)
             written.draw(f"figure of {name}", f"{ending}-{name}", drawn)
     return written.tell(facts.facts(data), facts.text(data))

@@ -221,8 +221,9 @@ class OutputOptions:
     output: OutputFolder = "out"
     """Folder for the written files (default: out). A missing folder is created."""
     name: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """Text with which all file names begin (NAME above). Default: the name of the rig. For the
-    command vibroimpact record, the default is the name of the record."""
+    """Text with which all file names begin (NAME above); titles keep the name of the rig. Default:
+    the name of the rig. For the command vibroimpact record, the default is the name of the
+    record."""
     figure: Annotated[Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, show_default=False)] = (
         "png"
     )

@@ -27,6 +27,7 @@ from vibroimpact.model.laboratory import Case, Parameters
 from vibroimpact.model.names import check_name, file_stem, kept_letters, literal
 from vibroimpact.model.parameters import canonical, parameters, set_values
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
+from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.rig import Rig, System, with_stated_units
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.units import pretty, to_si
@@ -186,7 +187,7 @@ def subject(
         )
     made = [_change(path, text, system) for path, text in _effective(values, rig_of).items()]
     what = Subject(
-        ", ".join((name or found.title, *(change.words for change in made))),
+        ", ".join((found.title, *(change.words for change in made))),
         file_stem(
             check_name(name, "--name") if name else "-".join((found.slug, *(c.slug for c in made)))
         ),
@@ -207,6 +208,8 @@ _OWN = ("amplitude", "gap")
 def stated(options: RigOptions) -> dict[str, str]:
     """Return the values of the options by path."""
     gap = () if options.gap is None else (f"gap={options.gap}",)
+    if options.gap is not None and options.gap.lower() != "none":
+        to_si(options.gap, LENGTH, "--gap")  # an error below would name a path
     values = by_path("--set", (*gap, *options.values))
     for path in values:
         if (name := path.rpartition(".")[2]) in ("amplitude", "frequency"):
