@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.optimize import minimize_scalar
 
 import vibroimpact as vi
@@ -238,10 +240,18 @@ def test_neighbours_of_equal_modes_never_meet() -> None:
         assert abs(gap) < 1e-14
 
 
-def test_wrong_arguments(tmp_path: object) -> None:
+def test_demands_in_a_store_are_those_in_memory(tmp_path: Path) -> None:
+    records = {"strong": QUAKE, "weak": QUAKE.scaled(0.5)}
+    given = {"scales": [0.5, 1.0], "vary": {"stops.wall.gap": [0.01, 0.02]}}
+    whole = vi.demands(neighbours(), records, **given)
+    stored = vi.demands(neighbours(), records, **given, store=tmp_path / "runs", block=1)
+    xr.testing.assert_identical(stored.drop_attrs(), whole.drop_attrs())
+    again = vi.demands(neighbours(), records, **given, store=tmp_path / "runs", block=1)
+    xr.testing.assert_identical(again, stored)
+
+
+def test_wrong_arguments() -> None:
     rig = neighbours()
-    with pytest.raises(vi.InputError, match=r"^store: demands of an Assembly are kept in memory"):
-        vi.demands(rig, QUAKE, store=tmp_path)
     single, _ = one_mass(BUMPER, None)
     with pytest.raises(vi.InputError, match=r"^rig\['one'\]: an Oscillator beside an Assembly"):
         vi.demands({"two": rig, "one": single}, QUAKE)

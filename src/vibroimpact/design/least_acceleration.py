@@ -22,7 +22,7 @@ from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Oscillator
 from vibroimpact.model.argument_types import NonNegativeInt, Share
 from vibroimpact.model.parameter_ranges import Ranges, read_ranges, stated
-from vibroimpact.model.parameters import in_units, parameter
+from vibroimpact.model.parameters import in_units, parameter, set_values
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig
@@ -70,9 +70,7 @@ class _Space(NamedTuple):
     def rigs(self, x: _Array) -> list[Oscillator]:
         """Return the rig of each column."""
         return [
-            runs(self.rig, {n: [v] for n, v in zip(self.names, one, strict=True)}).oscillator(
-                (0,) * len(self.names)
-            )
+            set_values(Rig(self.rig), dict(zip(self.names, one, strict=True))).oscillator
             for one in self.values(x).T.tolist()
         ]
 

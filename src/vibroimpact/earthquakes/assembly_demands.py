@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes.free_vibration import free_tail
-from vibroimpact.earthquakes.run_plan import Runs
 from vibroimpact.engine import earthquakes, sections
 from vibroimpact.engine.assembly.plan import Drift
 from vibroimpact.engine.observers import phases
@@ -20,7 +19,7 @@ from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Record, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
-from vibroimpact.response.assembly_rows import check_alike, coordinates
+from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.assembly_state import assembly_vector
 from vibroimpact.response.motion_phases import Course, Followed, PartColumns, Phases, phases_layout
 from vibroimpact.response.record_history import straight
@@ -146,48 +145,6 @@ def _nothing(assembly: Assembly) -> dict[str, Any]:
         for name in names
         for dim in [VARIABLES[name].part]
     }
-
-
-def demands_of_assemblies(
-    rigs: Runs,
-    records: Sequence[Record],
-    factors: _Array,
-    tail: float | None,
-    max_events: int,
-    workers: Workers,
-    progress: Progress | None,
-) -> tuple[dict[str, Any], Mapping[str, _Array]]:
-    """Compute the peaks of assemblies through scaled records.
-
-    Parameters
-    ----------
-    factors : ndarray, shape (record, scale)
-        What each record is multiplied by.
-    tail, max_events, workers, progress
-        As in `demands`.
-
-    Returns
-    -------
-    variables, coordinates
-        Variables with the dims ``record``, ``scale``, those of the rigs, and ``mass``, ``link`` or
-        ``stop``.
-    """
-    check_alike(rigs.rigs, "rig", "mass", "link", "stop")
-    first = next(iter(rigs.rigs.values()))
-    systems = [rigs.system(at) for at in np.ndindex(*rigs.shape)]
-    runs = [
-        AssemblyRuns(system, record, row)  # type: ignore[arg-type]
-        for record, row in zip(records, factors, strict=True)
-        for system in systems
-    ]
-    shape = (len(records), *rigs.shape, factors.shape[1])
-    scale, dims = len(shape) - 1, ("record", "scale", *rigs.dims)
-    variables: dict[str, Any] = {}
-    for name, values in peaks_of_assemblies(runs, tail, max_events, workers, progress).items():
-        dim = VARIABLES[name].part
-        whole = np.moveaxis(values.reshape(*shape, *values.shape[2:]), scale, 1)
-        variables[name] = ((*dims, dim) if dim else dims, whole)
-    return variables, coordinates(first)
 
 
 def peaks_of_assemblies(

@@ -15,8 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe
-from vibroimpact.datasets.stops import by_stop, dims_of, has_stops, stops_of
-from vibroimpact.earthquakes.assembly_demands import demands_of_assemblies
+from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.earthquakes.assembly_demands import PEAKS as PEAKS_OF_ASSEMBLIES
+from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, peaks_of_assemblies
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import (
     MAX_EVENTS,
@@ -36,7 +38,7 @@ from vibroimpact.earthquakes.run_plan import (
     suite,
 )
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, warn_of_result
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Assembly, Oscillator, Record, to_si
 from vibroimpact.model.argument_types import (
     MOST_TAIL,
@@ -50,6 +52,7 @@ from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import Rig, System
 from vibroimpact.model.written_units import has_no_units
+from vibroimpact.response.assembly_rows import check_alike, coordinates
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
@@ -64,7 +67,7 @@ _Array = NDArray[np.float64]
 
 CREATED_BY = "vibroimpact.demands"
 _VALUES = (*PEAKS, *RESIDUALS)
-_KIND = Kind("set of demands", CREATED_BY, frozenset({*_VALUES, "status"}))
+_WORD = "set of demands"
 _PENDING = -1
 
 
@@ -118,7 +121,7 @@ def demands(
     store
         Folder in which the demands are stored as a Zarr group. It is written block by block. If the
         folder holds an unfinished computation of the same demands, that computation is resumed.
-        Default: the demands are kept in memory. Demands of assemblies cannot be stored.
+        Default: the demands are kept in memory.
     block
         Number of rigs and number of records in a block. A block contains all scales. If the
         computation is stopped, at most the unfinished blocks are lost.
@@ -157,10 +160,8 @@ def demands(
     levels = _levels(scales, scaled)
     known, factors = scaled.factors(list(shaking.values()), levels)
     several = any(isinstance(one, Assembly) for one in rigs.rigs.values())
-    if several and store is not None:
-        raise InputError(
-            "store: demands of an Assembly are kept in memory; remove store, and save the result"
-        )
+    if several:
+        check_alike(rigs.rigs, "rig", "mass", "link", "stop")
     task = _Task(
         rigs,
         list(shaking.values()),
@@ -181,7 +182,7 @@ def demands(
         "max_events": task.max_events,
         "block": block,
     }
-    coordinates = {
+    axes = {
         "record": list(shaking),
         "scale": levels,
         **({"rig": list(rigs.rigs)} if rigs.several else {}),
@@ -190,24 +191,20 @@ def demands(
         "intensity": ("record", known),
     }
     notes = record_notes(shaking)
-    if several:
-        variables, names = demands_of_assemblies(
-            rigs, task.records, factors, task.tail, task.max_events, task.threads, progress
-        )
-        data = xr.Dataset(variables, {**coordinates, **names})
-        return _described(data, settings, notes, rigs, scaled)
     parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, block))
-    with folder(store, _KIND, settings, partial(_make, task=task, most=block), parts) as group:
+    kind = Kind(_WORD, CREATED_BY, frozenset({*task.values, "status"}))
+    with folder(store, kind, settings, partial(_make, task=task, most=block), parts) as group:
         if not finished(group):
             _complete(group, task, block, progress)
             group.attrs["finished"] = True
-        found = {name: read(group, _KIND.word, name) for name in (*_VALUES, "status")}
+        found = {name: read(group, _WORD, name) for name in (*task.values, "status")}
     dims = ("record", "scale", *rigs.dims)
     data = xr.Dataset(
-        {name: (dims_of(name, dims), values) for name, values in found.items()},
-        {"stop": task.stops, **coordinates},
+        {name: ((*dims, *task.part(name)), values) for name, values in found.items()},
+        {**task.parts, **axes},
     )
-    notes += _doubted(rigs.rigs, next(iter(shaking.values())), data)
+    if not several:
+        notes += _doubted(rigs.rigs, next(iter(shaking.values())), data)
     return _described(data, settings, notes, rigs, scaled)
 
 
@@ -246,9 +243,27 @@ class _Task(NamedTuple):
     threads: Workers
 
     @property
-    def stops(self) -> NDArray[np.str_]:
-        """Names of the stops that at least one of the rigs has."""
-        return stops_of(*(one for one in self.rigs.rigs.values() if isinstance(one, Oscillator)))
+    def several(self) -> bool:
+        """Whether the rigs are assemblies."""
+        return isinstance(next(iter(self.rigs.rigs.values())), Assembly)
+
+    @property
+    def values(self) -> tuple[str, ...]:
+        """Names of the variables."""
+        return PEAKS_OF_ASSEMBLIES if self.several else _VALUES
+
+    @property
+    def parts(self) -> dict[str, NDArray[Any]]:
+        """Names of the parts: of oscillators the stops that at least one of them has."""
+        systems = self.rigs.rigs.values()
+        if self.several:
+            return dict(coordinates(next(iter(systems))))
+        return {"stop": stops_of(*(one for one in systems if isinstance(one, Oscillator)))}
+
+    def part(self, name: str) -> tuple[str, ...]:
+        """Return the dim of the parts of a variable, if it has one."""
+        part = VARIABLES[name].part
+        return (part,) if part in self.parts else ()
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -259,19 +274,8 @@ class _Task(NamedTuple):
         """Compute the demands of a block."""
         count = self.factors.shape[1]
         places = list(itertools.product(*(range(s.start, s.stop) for s in one.rigs)))
-        rigs = [self.rigs.oscillator(at) for at in places]
         chosen = range(one.records.start, one.records.stop)
-        found = peaks(
-            [Shaken(rig, self.records[n], self.factors[n]) for n in chosen for rig in rigs],
-            tail=self.tail,
-            residuals=True,
-            max_events=self.max_events,
-            threads=self.threads,
-            progress=progress,
-        )
-        for name in filter(has_stops, found):
-            own = zip(rigs * len(chosen), found[name], strict=True)
-            found[name] = np.array([by_stop(rig, both, self.stops) for rig, both in own])
+        found = self._peaks(chosen, [self.rigs.system(at) for at in places], progress)
         shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
         scale = len(shape) - 1
         return {
@@ -279,10 +283,36 @@ class _Task(NamedTuple):
             for name, v in found.items()
         }
 
+    def _peaks(
+        self, chosen: range, rigs: list[System], progress: Progress | None
+    ) -> dict[str, NDArray[Any]]:
+        """Return values by run, level and part."""
+        if self.several:
+            every = [
+                AssemblyRuns(rig, self.records[n], self.factors[n])
+                for n in chosen
+                for rig in rigs
+                if isinstance(rig, Assembly)
+            ]
+            return peaks_of_assemblies(every, self.tail, self.max_events, self.threads, progress)
+        one_mass = [rig for rig in rigs if isinstance(rig, Oscillator)]
+        found = peaks(
+            [Shaken(rig, self.records[n], self.factors[n]) for n in chosen for rig in one_mass],
+            tail=self.tail,
+            residuals=True,
+            max_events=self.max_events,
+            threads=self.threads,
+            progress=progress,
+        )
+        for name in filter(has_stops, found):
+            own = zip(one_mass * len(chosen), found[name], strict=True)
+            found[name] = np.array([by_stop(rig, both, self.parts["stop"]) for rig, both in own])
+        return found
+
 
 def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | None) -> None:
     """Compute the unfinished blocks."""
-    ready = read(group, _KIND.word, "done")
+    ready = read(group, _WORD, "done")
     levels = task.factors.shape[1]
     total = levels * math.prod(task.shape)
     before = 0
@@ -309,10 +339,11 @@ def _make(group: zarr.Group, task: _Task, most: int) -> None:
     size, *further = chunks(task.shape, most)
     chunk = (size, levels, *further)
     dims = ("record", "scale", *task.rigs.dims)
-    for name in _VALUES:
-        stops = (len(task.stops),) if has_stops(name) else ()
-        sizes = (*shape, *stops), (*chunk, *(max(one, 1) for one in stops))
-        create(group, name, *sizes, "f8", np.nan, dims_of(name, dims))
+    for name in task.values:
+        part = task.part(name)
+        counts = [len(task.parts[dim]) for dim in part]
+        sizes = (*shape, *counts), (*chunk, *(max(one, 1) for one in counts))
+        create(group, name, *sizes, "f8", np.nan, (*dims, *part))
     create(group, "status", shape, chunk, "i1", _PENDING, dims)
     count = sum(1 for _ in blocks(task.shape, most))
     create(group, "done", (count,), (1,), "i1", 0, ("block",))
