@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list
 from vibroimpact.datasets.description import (
-    COMPONENTS,
     describe,
     rig_parameters,
 )
@@ -35,8 +34,7 @@ from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rows import check_alike
-from vibroimpact.response.assembly_sweep import assembly_dataset
+from vibroimpact.response.assembly_rows import check_alike, notes_on
 from vibroimpact.response.engine_input import state_from
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import (
@@ -245,13 +243,10 @@ def sweeps(
         **settling._asdict(),
         **about(own[0]),
     }
-    places = {"rig": names, "direction": list(directions), "frequency": grid}
-    if several:
-        data, notes = assembly_dataset(pairs[0].system, results, states, angle)
-        data = data.assign_coords(places)
-        return describe(data, "vibroimpact.sweeps", about_sweeps, notes)
     doubts: list[str] = []
     for r, rig in enumerate(pairs):
+        if isinstance(rig.system, Assembly):
+            continue
         oscillator, held, hardest = rig.oscillator, HoldRows(results[r]), rig.hardest
         swing = held.peak_displacement
         held.status[...] = judged(oscillator, held.status, swing)
@@ -260,13 +255,10 @@ def sweeps(
             *note_unbounded(hardest),
             *note_stiff_stops(hardest, float(grid[0])),
         ]
-    free = np.stack([one.free for one in ready], axis=1)
-    largest = np.stack([one.largest for one in ready], axis=1)
-    exciting = np.array([one.exciting for one in ready])
-    data = sweep_dataset(
-        [rig.oscillator for rig in pairs], results, states, free, largest, exciting, angle
-    )
-    data = data.assign_coords({**places, "component": COMPONENTS})
+    if isinstance(pairs[0].system, Assembly):
+        doubts = notes_on(pairs[0].system, results, "motions")
+    data = sweep_dataset([rig.system for rig in pairs], ready, results, states, angle)
+    data = data.assign_coords(rig=names, direction=list(directions), frequency=grid)
     if outputs:
         holds = [
             _Hold(r, rig, float(ready[r].levels[i]), float(grid[i]), angle, states[r, d, i])
