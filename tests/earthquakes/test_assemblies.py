@@ -240,14 +240,34 @@ def test_neighbours_of_equal_modes_never_meet() -> None:
         assert abs(gap) < 1e-14
 
 
-def test_demands_in_a_store_are_those_in_memory(tmp_path: Path) -> None:
-    records = {"strong": QUAKE, "weak": QUAKE.scaled(0.5)}
-    given = {"scales": [0.5, 1.0], "vary": {"stops.wall.gap": [0.01, 0.02]}}
-    whole = vi.demands(neighbours(), records, **given)
-    stored = vi.demands(neighbours(), records, **given, store=tmp_path / "runs", block=1)
-    xr.testing.assert_identical(stored.drop_attrs(), whole.drop_attrs())
-    again = vi.demands(neighbours(), records, **given, store=tmp_path / "runs", block=1)
-    xr.testing.assert_identical(again, stored)
+class _KilledError(Exception):
+    pass
+
+
+def test_stored_demands_are_resumed(tmp_path: Path) -> None:
+    rigs = {"soft": neighbours(), "hard": neighbours().replace(forces={})}
+    records = [vi.Record(QUAKE.acceleration[:n], QUAKE.step) for n in (60, 80, 100)]
+    arguments, how = (rigs, records, [0.5, 1.0]), {"vary": {"gap": [0.01, 0.02, 0.03]}, "block": 2}
+    whole = vi.demands(*arguments, **how)
+    assert whole["peak_drift"].dims == ("record", "scale", "rig", "gap", "link")
+    alone = vi.demands(rigs["hard"], records[1], [0.5, 1.0], vary={"gap": [0.02]})
+    for name in ("peak_displacement", "peak_force", "peak_transmitted_force"):
+        one = whole[name].isel(record=1, rig=1, gap=1)
+        np.testing.assert_array_equal(one, alone[name].isel(record=0, gap=0))
+
+    def kill(done: int, total: int) -> None:
+        if done > total // 2:
+            raise _KilledError
+
+    with pytest.raises(_KilledError):
+        vi.demands(*arguments, **how, store=tmp_path / "demands", progress=kill)
+    held = xr.open_zarr(tmp_path / "demands", consolidated=False)
+    assert 0 < int((held["status"] == 0).sum()) < held["status"].size
+    again = vi.demands(*arguments, **how, store=tmp_path / "demands")
+    for name in whole.data_vars:
+        np.testing.assert_array_equal(whole[name], again[name])
+    third = vi.demands(*arguments, **how, store=tmp_path / "demands", progress=lambda *_: 1 / 0)
+    assert third.identical(again)
 
 
 def test_wrong_arguments() -> None:

@@ -117,9 +117,7 @@ def branch(
     what = subject(rig, changes, output.name, masses=True)
     several = is_assembly(what)
     if several:
-        refuse(
-            what, start=begin, normalised=physical is False, compute=compute, basins=basins or None
-        )
+        refuse(what, start=begin, normalised=physical is False, basins=basins or None)
     varied = read_one(what, vary, number=False)
     along, span = varied.name, varied.span
     is_one = begin is not None or period is not None or several
@@ -159,10 +157,13 @@ def branch(
         if several:
             if along == "frequency":
                 grid = np.linspace(*span, _HOLDS)
-                swept = vi.sweep(what.rig, grid)
+                swept = vi.sweep(what.rig, grid, outputs=outputs)
             of = quantity or "peak_displacement"
             ending = f"{varied.ending}-branches"
             written.write(data, ending, figures.mass_branches, quantity=of, sweep=swept)
+            for name in outputs or ():
+                panels = figures.mass_branches(data, quantity=name, sweep=swept, title=what.title)
+                written.draw(f"figure of {name}", f"{ending}-{name}", panels)
             return written.tell(facts.facts(data), facts.text(data))
         # A quantity that is named is drawn in its own units.
         units = physical if quantity is None else bool(physical)

@@ -69,8 +69,9 @@ class _Space(NamedTuple):
 
     def rigs(self, x: _Array) -> list[Oscillator]:
         """Return the rig of each column."""
+        whole = Rig(self.rig)
         return [
-            set_values(Rig(self.rig), dict(zip(self.names, one, strict=True))).oscillator
+            set_values(whole, dict(zip(self.names, one, strict=True))).oscillator
             for one in self.values(x).T.tolist()
         ]
 

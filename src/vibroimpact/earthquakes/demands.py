@@ -17,7 +17,7 @@ from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe
 from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
-from vibroimpact.earthquakes.assembly_demands import PEAKS as PEAKS_OF_ASSEMBLIES
+from vibroimpact.earthquakes import assembly_demands
 from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, peaks_of_assemblies
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import (
@@ -67,7 +67,8 @@ _Array = NDArray[np.float64]
 
 CREATED_BY = "vibroimpact.demands"
 _VALUES = (*PEAKS, *RESIDUALS)
-_WORD = "set of demands"
+_KIND = Kind("set of demands", CREATED_BY, frozenset({*_VALUES, "status"}))
+_OF_ASSEMBLIES = Kind("set of demands", CREATED_BY, frozenset({*assembly_demands.PEAKS, "status"}))
 _PENDING = -1
 
 
@@ -182,7 +183,7 @@ def demands(
         "max_events": task.max_events,
         "block": block,
     }
-    axes = {
+    along = {
         "record": list(shaking),
         "scale": levels,
         **({"rig": list(rigs.rigs)} if rigs.several else {}),
@@ -192,16 +193,15 @@ def demands(
     }
     notes = record_notes(shaking)
     parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, block))
-    kind = Kind(_WORD, CREATED_BY, frozenset({*task.values, "status"}))
-    with folder(store, kind, settings, partial(_make, task=task, most=block), parts) as group:
+    with folder(store, task.kind, settings, partial(_make, task=task, most=block), parts) as group:
         if not finished(group):
             _complete(group, task, block, progress)
             group.attrs["finished"] = True
-        found = {name: read(group, _WORD, name) for name in (*task.values, "status")}
+        found = {name: read(group, _KIND.word, name) for name in (*task.values, "status")}
     dims = ("record", "scale", *rigs.dims)
     data = xr.Dataset(
-        {name: ((*dims, *task.part(name)), values) for name, values in found.items()},
-        {**task.parts, **axes},
+        {name: ((*dims, *task.part_of(name)), values) for name, values in found.items()},
+        {**task.parts, **along},
     )
     if not several:
         notes += _doubted(rigs.rigs, next(iter(shaking.values())), data)
@@ -243,27 +243,33 @@ class _Task(NamedTuple):
     threads: Workers
 
     @property
-    def several(self) -> bool:
-        """Whether the rigs are assemblies."""
-        return isinstance(next(iter(self.rigs.rigs.values())), Assembly)
+    def assembly(self) -> Assembly | None:
+        """The first of several assemblies, whose parts have the same names."""
+        first = next(iter(self.rigs.rigs.values()))
+        return first if isinstance(first, Assembly) else None
+
+    @property
+    def kind(self) -> Kind:
+        """What a store of the results is."""
+        return _KIND if self.assembly is None else _OF_ASSEMBLIES
 
     @property
     def values(self) -> tuple[str, ...]:
-        """Names of the variables."""
-        return PEAKS_OF_ASSEMBLIES if self.several else _VALUES
+        """Names of the results."""
+        return _VALUES if self.assembly is None else assembly_demands.PEAKS
 
     @property
-    def parts(self) -> dict[str, NDArray[Any]]:
-        """Names of the parts: of oscillators the stops that at least one of them has."""
-        systems = self.rigs.rigs.values()
-        if self.several:
-            return dict(coordinates(next(iter(systems))))
-        return {"stop": stops_of(*(one for one in systems if isinstance(one, Oscillator)))}
+    def parts(self) -> Mapping[str, NDArray[Any]]:
+        """Names of the parts of the rigs, by dim: of oscillators the stops that one has."""
+        if self.assembly is not None:
+            return coordinates(self.assembly)
+        oscillators = (one for one in self.rigs.rigs.values() if isinstance(one, Oscillator))
+        return {"stop": stops_of(*oscillators)}
 
-    def part(self, name: str) -> tuple[str, ...]:
-        """Return the dim of the parts of a variable, if it has one."""
-        part = VARIABLES[name].part
-        return (part,) if part in self.parts else ()
+    def part_of(self, name: str) -> tuple[str, ...]:
+        """Return the dim of the parts of which a result has one each, if it has one."""
+        dim = "" if name == "status" else VARIABLES[name].part or ""
+        return (dim,) if dim in self.parts else ()
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -275,7 +281,8 @@ class _Task(NamedTuple):
         count = self.factors.shape[1]
         places = list(itertools.product(*(range(s.start, s.stop) for s in one.rigs)))
         chosen = range(one.records.start, one.records.stop)
-        found = self._peaks(chosen, [self.rigs.system(at) for at in places], progress)
+        follow = self._of_oscillators if self.assembly is None else self._of_assemblies
+        found = follow(places, chosen, progress)
         shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
         scale = len(shape) - 1
         return {
@@ -283,36 +290,42 @@ class _Task(NamedTuple):
             for name, v in found.items()
         }
 
-    def _peaks(
-        self, chosen: range, rigs: list[System], progress: Progress | None
+    def _of_oscillators(
+        self, places: list[tuple[int, ...]], chosen: range, progress: Progress | None
     ) -> dict[str, NDArray[Any]]:
-        """Return values by run, level and part."""
-        if self.several:
-            every = [
-                AssemblyRuns(rig, self.records[n], self.factors[n])
-                for n in chosen
-                for rig in rigs
-                if isinstance(rig, Assembly)
-            ]
-            return peaks_of_assemblies(every, self.tail, self.max_events, self.threads, progress)
-        one_mass = [rig for rig in rigs if isinstance(rig, Oscillator)]
+        """Return the results of oscillators, shape (run, scale) and, if so, stop."""
+        rigs = [self.rigs.oscillator(at) for at in places]
         found = peaks(
-            [Shaken(rig, self.records[n], self.factors[n]) for n in chosen for rig in one_mass],
+            [Shaken(rig, self.records[n], self.factors[n]) for n in chosen for rig in rigs],
             tail=self.tail,
             residuals=True,
             max_events=self.max_events,
             threads=self.threads,
             progress=progress,
         )
+        stops = self.parts["stop"]
         for name in filter(has_stops, found):
-            own = zip(one_mass * len(chosen), found[name], strict=True)
-            found[name] = np.array([by_stop(rig, both, self.parts["stop"]) for rig, both in own])
+            own = zip(rigs * len(chosen), found[name], strict=True)
+            found[name] = np.array([by_stop(rig, both, stops) for rig, both in own])
         return found
+
+    def _of_assemblies(
+        self, places: list[tuple[int, ...]], chosen: range, progress: Progress | None
+    ) -> dict[str, NDArray[Any]]:
+        """Return the results of assemblies, shape (run, scale) and, if so, part."""
+        systems = [self.rigs.system(at) for at in places]
+        runs_of = [
+            AssemblyRuns(one, self.records[n], self.factors[n])
+            for n in chosen
+            for one in systems
+            if isinstance(one, Assembly)
+        ]
+        return peaks_of_assemblies(runs_of, self.tail, self.max_events, self.threads, progress)
 
 
 def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | None) -> None:
     """Compute the unfinished blocks."""
-    ready = read(group, _WORD, "done")
+    ready = read(group, _KIND.word, "done")
     levels = task.factors.shape[1]
     total = levels * math.prod(task.shape)
     before = 0
@@ -340,10 +353,10 @@ def _make(group: zarr.Group, task: _Task, most: int) -> None:
     chunk = (size, levels, *further)
     dims = ("record", "scale", *task.rigs.dims)
     for name in task.values:
-        part = task.part(name)
-        counts = [len(task.parts[dim]) for dim in part]
-        sizes = (*shape, *counts), (*chunk, *(max(one, 1) for one in counts))
-        create(group, name, *sizes, "f8", np.nan, (*dims, *part))
+        dim = task.part_of(name)
+        each = tuple(len(task.parts[one]) for one in dim)
+        sizes = (*shape, *each), (*chunk, *(max(one, 1) for one in each))
+        create(group, name, *sizes, "f8", np.nan, (*dims, *dim))
     create(group, "status", shape, chunk, "i1", _PENDING, dims)
     count = sum(1 for _ in blocks(task.shape, most))
     create(group, "done", (count,), (1,), "i1", 0, ("block",))
