@@ -104,7 +104,7 @@ class Quantity:
     def size(self, mass: float, length: float, time: float) -> float:
         """Return the value (SI units) that is made of a mass (kg), a length (m) and a time (s)."""
         units = {"kilogram": mass, "meter": length, "second": time, "radian": 1.0}
-        return math.prod(units[unit] ** power for unit, power in self.base)
+        return float(math.prod(units[unit] ** power for unit, power in self.base))
 
 
 LENGTH = Quantity(
@@ -306,6 +306,7 @@ def quantity(symbol: str) -> Quantity:
             f"{symbol!r} is not a product of powers of {', '.join(_BASE_OF)}; write a unit such as "
             "'N s/m^3'"
         )
+    symbol = re.sub(r"\^([23])(?![\d.])", lambda one: "²³"[int(one[1]) - 2], symbol)
     base = [sum(power * _BASE_OF[unit][i] for unit, power in factors) for i in range(3)]
     prefixed = factors[0][0] in ("N", "J", "W", "Pa") and factors[0][1] == 1.0
     prefixes = ((1e10, 1e9, "G"), (1e7, 1e6, "M"), (1e3, 1e3, "k")) if prefixed else ()
