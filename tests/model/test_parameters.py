@@ -155,7 +155,7 @@ def test_sides_that_differ():
             parameter(name, uneven).read(vi.Rig(uneven, SHAKEN))
     assert parameter("left.damping", uneven).read(vi.Rig(uneven, SHAKEN)) == 1.0
     free = RIG.without_bumpers()
-    with pytest.raises(vi.InputError, match="the rig has no stop with a damping"):
+    with pytest.raises(vi.InputError, match="the rig has no stop with a stiffness"):
         parameter("relaxation_time", free).read(vi.Rig(free, SHAKEN))
 
 
@@ -251,10 +251,19 @@ def test_a_stiffness_at_restitution_is_that_of_bumpers_made_by_it():
     rig = one.vary(vi.Rig(begun, SHAKEN), 8e4).oscillator
     assert rig.right.stiffness == 8e4
     assert rig.right.damping == pytest.approx(wall(8e4).damping, rel=1e-14)
-    with pytest.raises(
-        vi.InputError, match=r"has the same restitution at any stiffness; use 'stops.st"
-    ):
-        one.read(vi.Rig(RIG.replace(right=HERTZ, left=HERTZ), SHAKEN))
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["proportional_stiffness", "stiffness_at_restitution", "stiffness_ratio", "relaxation_time"],
+)
+@pytest.mark.parametrize("left", [HERTZ, RIG.left, None])
+def test_what_sets_the_damping_of_bumpers_refuses_another_law(name, left):
+    rig = vi.Rig(RIG.replace(right=HERTZ, left=left), SHAKEN)
+    one = parameter(name, rig)
+    for use in (one.read, lambda rig: one.vary(rig, 0.3), lambda rig: set_values(rig, {name: 0.3})):
+        with pytest.raises(vi.InputError, match=rf"(?=.*'{name}').*power"):
+            use(rig)
 
 
 @pytest.mark.parametrize(

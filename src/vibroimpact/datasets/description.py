@@ -14,7 +14,6 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Harmonic, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
-from vibroimpact.model.parameters import written_units
 from vibroimpact.model.rig import System
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
@@ -70,7 +69,7 @@ def describe(
     for name, which in (("amplitude", ""), ("candidate_amplitude", " of the next test")):
         if name in dataset.variables and parameters and "of" in parameters:
             of = amplitude_of(parameters["of"])
-            units = written_units(of.quantity)
+            units = of.quantity.units
             dataset[name].attrs.update(units=units, long_name=f"{of.meaning}{which}")
     for name, variable in known.items():
         dataset[name].attrs.update(units=variable.units, long_name=variable.long_name)
