@@ -65,6 +65,8 @@ def begin(plan: Vector, amplitude: float, omega: float) -> None:
     plan[at.USED] = 0.0
     for i in range(2 * int(max(plan[at.SLOTS], 1.0))):
         plan[int(plan[at.KEYS]) + i] = -1.0
+    for i in range(int(plan[at.RATES_SLOTS])):
+        plan[int(plan[at.RATES_MODE]) + i] = -1.0
 
 
 @kernel

@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.acceleration import accelerate, places, take_off
 from vibroimpact.engine.assembly.mode import enter_mode, hold, move_alike
-from vibroimpact.engine.assembly.series import accelerate, places, take_off
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, REST_ENDS
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
