@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
@@ -14,22 +15,25 @@ from vibroimpact.engine.memory import beyond
 _ROUNDING = 1e-18
 
 
+_ANGLES = tuple((_ROUNDING * math.factorial(k)) ** (1.0 / k) for k in range(1, at.TERMS))
+"""Up to which angle x each order k is enough: xᵏ / k! is lost in rounding."""
+
+
 @kernel
 def terms(angle: float) -> int:
     """The order whose remainder is lost in rounding, on a step of ρ times this angle."""
-    term, order = 1.0, 0
-    while order < at.TERMS - 1 and (term > _ROUNDING or order < 2):
-        order += 1
-        term *= angle / order
+    order = at.TERMS - 1
+    while order > 2 and angle <= _ANGLES[order - 2]:
+        order -= 1
     return order
 
 
 def expanding(begin: Any = None, push: Any = None, grow: Any = None) -> Any:
     """Make what writes the series of a state, with what curved laws add to it, or None.
 
-    That is `begin(plan, deformation)`, for their memories; `push(plan, of, here, j, inputs)`, which
-    writes their forces of order j; and `grow(plan, factor, j)`, which writes coefficient j + 1 of
-    the memories.
+    That is `begin(plan, deformation)`, for their memories; `push(plan, of, here, j, base, forces)`,
+    which writes their forces of order j (the displacements of order j + 1 are known, too); and
+    `grow(plan, factor, j)`, which writes coefficient j + 1 of the memories.
     """
 
     def expand_masses(
@@ -63,6 +67,10 @@ def expanding(begin: Any = None, push: Any = None, grow: Any = None) -> Any:
                 for p in range(of.pressed):
                     one = of.stops + int(plan[of.pressed_list + p]) * at.STOP_WIDTH
                     inputs[1 + p] = here[int(plan[one + at.LEFT])] - here[int(plan[one + at.RIGHT])]
+            # Each of these writes beyond its end what the next one writes.
+            factor, after = length / (j + 1), beyond(here, row)
+            if j < order:
+                scale(beyond(here, v), factor, after, v)
             if push is not None:
                 push(plan, of, here, j, int(plan[at.NODES]), beyond(inputs, 1 + of.pressed))
             apply_rates(plan, rates, here, inputs, min(j, 1), outputs)
@@ -70,9 +78,6 @@ def expanding(begin: Any = None, push: Any = None, grow: Any = None) -> Any:
                 plan[forces + j * count + p] = outputs[n + p]
             if j == order:
                 break
-            factor, after = length / (j + 1), beyond(here, row)
-            # Each of these writes beyond its end what the next one writes.
-            scale(beyond(here, v), factor, after, v)
             scale(outputs, factor, beyond(after, v), n)
             after[v + n] = 0.0
             if grow is not None:

@@ -196,21 +196,22 @@ def _combine_ranges(
 ) -> Any:
     def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         rows, x, u0, u1, v0, v1, w0, w1, y, y0, y1, out = args
-        total = _total(builder)
+        early, late = _total(builder), _total(builder)
 
-        def add(begin: Any, end: Any, numbers: Any, row: Any) -> None:
+        def add(total: Any, begin: Any, end: Any, numbers: Any, row: Any) -> None:
             with cgutils.for_range(builder, builder.sub(end, begin)) as loop:
                 i = builder.add(begin, loop.index)
                 here = builder.shl(builder.add(i, row), _word(3))
                 one = _spread(builder, _number(builder, numbers, i))
                 _add(builder, total, _eight(builder, rows, here), one)
 
-        # What was computed last comes last: only that is waited for.
-        add(y0, y1, y, w1)
-        add(w0, w1, x, _word(0))
-        add(u0, u1, x, _word(0))
-        add(v0, v1, x, _word(0))
-        _keep(builder, builder.load(total, typ=_EIGHT), out, _word(0))
+        # What is computed last is added last: only that is waited for.
+        add(early, w0, w1, x, _word(0))
+        add(early, u0, u1, x, _word(0))
+        add(early, y0, y1, y, w1)
+        add(late, v0, v1, x, _word(0))
+        sums = [builder.load(one, typ=_EIGHT) for one in (early, late)]
+        _keep(builder, builder.fadd(*sums), out, _word(0))
         return context.get_dummy_value()
 
     n = types.int64
@@ -304,9 +305,8 @@ def _convolving(weighted: bool) -> Any:
         rest = builder.and_(n, _word(7))
         left = _spread(builder, rest, ir.VectorType(_WORD, 8))
         inside = builder.icmp_signed("<", lanes, left)
-        masked = [builder.select(inside, one, _zero()) for one in pair(builder.sub(n, rest))]
-        _add(builder, total, *masked)
-        found = builder.load(total, typ=_EIGHT)
+        last = builder.select(inside, builder.fmul(*pair(builder.sub(n, rest))), _zero())
+        found = builder.fadd(builder.load(total, typ=_EIGHT), last)
         for width in (4, 2):
             halves = [
                 builder.shuffle_vector(

@@ -13,7 +13,7 @@ from vibroimpact.engine.assembly.curved.branches import way_of_slide
 from vibroimpact.engine.assembly.rates import apply_rates, rates_of_mode
 from vibroimpact.engine.assembly.series import expanding
 from vibroimpact.engine.assembly.vectors import convolve, convolve_weighted
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.memory import beyond
 
 _T = at.TERMS
@@ -88,9 +88,38 @@ def first(plan: Vector, row: int, begin: int, end: int, base: int) -> None:
             plan[out] = 4.0 * small / ((1.0 + small) * (1.0 + small))
 
 
+@inlined
+def _coefficient(plan: Vector, code: int, out: int, a: int, b: int, k: int) -> None:
+    """Write coefficient k > 0 of one operation."""
+    if code == _ADD:
+        plan[out + k] = plan[a + k] + plan[b + k]
+    elif code == _SHIFT:
+        plan[out + k] = plan[a + k]
+    elif code == _SUBTRACT:
+        plan[out + k] = plan[a + k] - plan[b + k]
+    elif code == _NEGATE:
+        plan[out + k] = -plan[a + k]
+    elif code == _SCALE:
+        plan[out + k] = plan[a + k] * plan[b]
+    elif code == _MULTIPLY:
+        plan[out + k] = _product(plan, a, b, k)
+    elif code == _POWER:
+        more = plan[b] + 1.0
+        known = convolve_weighted(plan, a + 1, out + k - 1, k - 1, more - k, more)
+        plan[out + k] = (known / k + plan[b] * plan[a + k] * plan[out]) / plan[a]
+    elif code == _EXP:
+        plan[out + k] = _driven(plan, a, out, k)
+    elif code in (_SINE, _TANH):
+        plan[out + k] = _driven(plan, a, b, k)
+    elif code == _COSINE:
+        plan[out + k] = -_driven(plan, a, b, k)
+    elif code == _FLAT:
+        plan[out + k] = -_product(plan, b, b, k)
+
+
 @kernel
-def further(plan: Vector, begin: int, end: int, k: int, base: int) -> None:
-    """Write coefficient k > 0 of what operations of a law make."""
+def further(plan: Vector, begin: int, end: int, k: int, last: int, base: int) -> None:
+    """Write coefficients k > 0 to `last` of what operations of a law make, one after the other."""
     tape = int(plan[at.TAPE])
     for i in range(begin, end):
         one = tape + i * of.OP_WIDTH
@@ -99,30 +128,22 @@ def further(plan: Vector, begin: int, end: int, k: int, base: int) -> None:
             continue
         out = base + i * _T
         a, b = base + int(plan[one + 1]) * _T, base + int(plan[one + 2]) * _T
-        if code == _ADD:
-            plan[out + k] = plan[a + k] + plan[b + k]
-        elif code == _SHIFT:
-            plan[out + k] = plan[a + k]
-        elif code == _SUBTRACT:
-            plan[out + k] = plan[a + k] - plan[b + k]
-        elif code == _NEGATE:
-            plan[out + k] = -plan[a + k]
-        elif code == _SCALE:
-            plan[out + k] = plan[a + k] * plan[b]
-        elif code == _MULTIPLY:
-            plan[out + k] = _product(plan, a, b, k)
-        elif code == _POWER:
-            more = plan[b] + 1.0
-            known = convolve_weighted(plan, a + 1, out + k - 1, k - 1, more - k, more)
-            plan[out + k] = (known / k + plan[b] * plan[a + k] * plan[out]) / plan[a]
-        elif code == _EXP:
-            plan[out + k] = _driven(plan, a, out, k)
-        elif code in (_SINE, _TANH):
-            plan[out + k] = _driven(plan, a, b, k)
-        elif code == _COSINE:
-            plan[out + k] = -_driven(plan, a, b, k)
-        elif code == _FLAT:
-            plan[out + k] = -_product(plan, b, b, k)
+        for m in range(k, last + 1):
+            _coefficient(plan, code, out, a, b, m)
+
+
+@inlined
+def _strain(plan: Vector, row: int, one: int, here: Vector, k: int, base: int) -> None:
+    """Write s and s′ of a row, of order k."""
+    n = int(plan[at.MASSES])
+    left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
+    x, v = here[left] - here[right], here[n + 1 + left] - here[n + 1 + right]
+    if plan[one + at.KIND] == at.LINK:
+        x, v = -x, -v
+    elif k == 0:
+        x = max(x - plan[one + at.GAP], 0.0)
+    plan[node(plan, row, of.S_NODE, base) + k] = x
+    plan[node(plan, row, of.V_NODE, base) + k] = v
 
 
 @kernel
@@ -131,7 +152,6 @@ def push(plan: Vector, of_: Places, here: Vector, k: int, base: int, forces: Vec
 
     Where a law remembers, z of this order stands in its node.
     """
-    n = of_.masses
     mode, place = int(plan[at.MODE]), -1
     for f in range(int(plan[at.STOPS])):
         row, one = row_of(plan, f), of_.stops + f * at.STOP_WIDTH
@@ -144,20 +164,20 @@ def push(plan: Vector, of_: Places, here: Vector, k: int, base: int, forces: Vec
             if k == 0 and not mode >> f & 1:
                 force = plan[row + _FRICTION] * -way_of_slide(plan, f, mode)
         elif plan[row + of.ACTIVE] != 0.0:
-            left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
-            x, v = here[left] - here[right], here[n + 1 + left] - here[n + 1 + right]
             link = plan[one + at.KIND] == at.LINK
-            if link:
-                x, v = -x, -v
-            elif k == 0:
-                x = max(x - plan[one + at.GAP], 0.0)
-            plan[node(plan, row, of.S_NODE, base) + k] = x
-            plan[node(plan, row, of.V_NODE, base) + k] = v
-            begin, end = int(plan[row + of.FIRST_OP]), int(plan[row + of.LAST_OP])
-            if k == 0:
-                first(plan, row, begin, end, base)
-            else:
-                further(plan, begin + int(plan[row + of.KNOWN]), end, k, base)
+            # What depends on s alone is written two orders at once.
+            alone = behaviour == of.SMOOTH
+            if k == 0 or k % 2 == 1 or not alone:
+                _strain(plan, row, one, here, k, base)
+                begin, end = int(plan[row + of.FIRST_OP]), int(plan[row + of.LAST_OP])
+                if k == 0:
+                    first(plan, row, begin, end, base)
+                else:
+                    last = k
+                    if alone and k < int(plan[at.ORDER]):
+                        last = k + 1
+                        _strain(plan, row, one, beyond(here, int(plan[at.ROW])), last, base)
+                    further(plan, begin + int(plan[row + of.KNOWN]), end, k, last, base)
             force = plan[node(plan, row, of.FORCE_NODE, base) + k]
             if link:
                 force = -force
@@ -180,7 +200,7 @@ def expand_slopes(plan: Vector) -> None:
         first(plan, row, begin, end, base)
         begin += int(plan[row + of.SLOPE_CONSTANTS])
         for k in range(1, int(plan[at.ORDER]) + 1):
-            further(plan, begin, end, k, base)
+            further(plan, begin, end, k, k, base)
 
 
 @kernel
