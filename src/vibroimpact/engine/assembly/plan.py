@@ -27,7 +27,7 @@ Matrix = NDArray[np.float64]
 GROUND = -1
 
 TABLE_MODES = 32
-"""Modes that may have tables. To make a table takes as long as some hundred events without it."""
+"""Modes that may have tables. To make a table takes as long as some dozen events without it."""
 TABLE_BYTES = 1 << 24
 """What their tables may take."""
 
