@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 import vibroimpact as vi
+from formula_stops import formula_stops
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.observers import record
@@ -36,6 +37,7 @@ STOPS = {
     "hunt-crossley": vi.PowerBumper(40.0, 0.5, dissipation=0.3),
     "flores": vi.PowerBumper(40.0, 0.5, restitution=0.6, relation="flores"),
     "pounding": vi.JankowskiBumper(40.0, 0.5, 0.6, 1.0),
+    **formula_stops(40.0, 0.5),
 }
 
 SHAKEN = vi.Harmonic(0.6, 0.9 / math.tau, 0.4)
