@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from formula_stops import formula_stops
 from vibroimpact.errors import InputError
 from vibroimpact.model.parameter_ranges import read_ranges
 from vibroimpact.model.parameters import PARAMETERS, parameter, set_values
@@ -44,6 +45,8 @@ def having(name: str) -> vi.Oscillator:
     """A rig that has the parameter."""
     found = RIG.replace(isolator=ISOLATORS.get(name.removeprefix("isolator."), RIG.isolator))
     stops = {"restitution": WALLS.right, "mass": POUNDING, "exponent": HERTZ, "dissipation": HERTZ}
+    for one in (RIG.right, *formula_stops(4e5, 7.5e-3).values()):
+        stops = {field: one for field in dict(one)} | stops
     stop = stops.get(name.rpartition(".")[2], RIG.right) if name.startswith("stops") else RIG.right
     return found.replace(right=stop, left=stop)
 
