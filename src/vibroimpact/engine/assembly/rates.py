@@ -83,7 +83,7 @@ def apply_rates(
 
 @apart
 def _find(plan: Vector) -> None:
-    """Look for the matrix of the present mode, of which branches of laws are no part."""
+    """Look for the matrix of the present mode; it is the same on all branches of laws."""
     mode = int(plan[at.MODE]) & ((1 << int(plan[at.STOPS])) - 1)
     k = (mode ^ mode >> 6 ^ mode >> 12 ^ mode >> 24) & (int(plan[at.RATES_SLOTS]) - 1)
     place = int(plan[at.RATES]) + k * int(plan[at.RATES_SIZE])

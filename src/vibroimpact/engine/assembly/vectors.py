@@ -342,7 +342,7 @@ def _replaces(plain: Any, made: Any) -> None:
     scope: dict[str, Any] = {"made": made}
     exec(f"def implementation({names}): return made({names})", scope)
 
-    @overload(plain, strict=False)  # type: ignore[arg-type]
+    @overload(plain, strict=False)
     def _chosen(*args: Any) -> Any:
         return scope["implementation"]
 

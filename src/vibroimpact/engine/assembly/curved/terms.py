@@ -39,14 +39,16 @@ def node(plan: Vector, row: int, which: int, base: int) -> int:
 def _product(plan: Vector, a: int, b: int, k: int) -> float:
     """Coefficient k > 0 of a product; what is computed last is added last, as it is waited for."""
     known: float = convolve(plan, a + 1, b + k - 1, k - 1)
-    return known + plan[a] * plan[b + k] + plan[a + k] * plan[b]
+    total: float = known + plan[a] * plan[b + k] + plan[a + k] * plan[b]
+    return total
 
 
 @kernel
 def _driven(plan: Vector, a: int, b: int, k: int) -> float:
     """Σ j a_j b_(k−j) / k: coefficient k > 0 of what has the slope a′ b."""
     known: float = convolve_weighted(plan, a + 1, b + k - 1, k - 1, 1.0, 1.0)
-    return known / k + plan[a + k] * plan[b]
+    total: float = known / k + plan[a + k] * plan[b]
+    return total
 
 
 @kernel
