@@ -46,7 +46,7 @@ def having(name: str) -> vi.Oscillator:
     found = RIG.replace(isolator=ISOLATORS.get(name.removeprefix("isolator."), RIG.isolator))
     stops = {"restitution": WALLS.right, "mass": POUNDING, "exponent": HERTZ, "dissipation": HERTZ}
     for one in (RIG.right, *formula_stops(4e5, 7.5e-3).values()):
-        stops = {field: one for field in dict(one)} | stops
+        stops = dict.fromkeys(dict(one), one) | stops
     stop = stops.get(name.rpartition(".")[2], RIG.right) if name.startswith("stops") else RIG.right
     return found.replace(right=stop, left=stop)
 
