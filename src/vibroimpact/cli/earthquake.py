@@ -149,14 +149,14 @@ def _show_masses(
     """Do what `_show` does for several masses."""
     from rich.text import Text as Line
 
-    from vibroimpact.cli.assembly import draw_motion
+    from vibroimpact.cli.assembly import between_masses, draw_motion
     from vibroimpact.facts import assembly as facts
     from vibroimpact.model.names import literal
     from vibroimpact.model.quantities import ACCELERATION
     from vibroimpact.model.units import pretty
 
     title, motion = f"{written.what.title}\n{literal(name)}", groups["motion"]
-    drawn = figures.mass_histories(motion, title=title)
+    drawn = figures.mass_histories(motion, closing=between_masses(written.what), title=title)
     written.draw(f"displacements of {name}", f"{ending}-displacements", drawn)
     draw_motion(written, motion, ending, title, None, of=f" of {name}")
     masses = groups["floor"]["mass"].values.tolist()

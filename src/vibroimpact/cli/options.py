@@ -118,7 +118,8 @@ def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     for name, value in pairs:
-        key = name.replace("-", "_")
+        base, dot, part = name.partition(".")
+        key = base.replace("-", "_") + dot + part
         if key in found:
             raise InputError(f"{option}: {name!r} is given twice; remove one of the two")
         found[key] = value

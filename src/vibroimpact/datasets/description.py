@@ -12,7 +12,7 @@ from vibroimpact._version import __version__
 from vibroimpact.datasets.variable import Described, Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
+from vibroimpact.model import Assembly, Harmonic, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
 from vibroimpact.model.rig import System
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
@@ -189,8 +189,3 @@ def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:
     kind = Periodic if "amplitudes" in parameters else Harmonic
     given = {k: parameters[k] for k in kind.model_fields if k in parameters}
     return kind.model_validate({**given, **others})
-
-
-def oscillator_parameters(oscillator: Oscillator) -> dict[str, Any]:
-    """Return an oscillator as plain nested numbers (SI units), for the attributes of a dataset."""
-    return oscillator.model_dump()

@@ -15,7 +15,7 @@ from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import DrawnMotion, named, shown
 from vibroimpact.figures.notebook import Drawing, Panel, Panels
 from vibroimpact.figures.own_units import acceleration_text, in_own_units, in_unit
-from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
+from vibroimpact.figures.record import contact_bands, gap_lines, mark_end, stops_legend, stops_of
 from vibroimpact.figures.sizes import columns_that_fit, size_of_new
 from vibroimpact.figures.style import EDGE, also_in_g, fit_x_axis, note_peak
 from vibroimpact.model import GRAVITY
@@ -133,7 +133,7 @@ def _histories(
         size = float(values[at])
         words = acceleration_text(size) if "acc" in variable else f"{size:.4g}{unit(' mm')}"
         note_peak(ax, float(curve.at[at]), size, words)
-    handles = stops_legend(stops, motion)
+    handles = [*stops_legend(stops, motion), *mark_end(axes, motion)]
     begun = motion["event_contact"].values >= 1
     for side, (mark, colour) in _MARKS.items():
         here = begun & (motion["event_stop"].values == side)

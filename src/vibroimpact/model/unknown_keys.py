@@ -33,7 +33,7 @@ _ELSEWHERE = (
 """Keys that users expect in a table, a key by which the table is recognised, and what to do."""
 
 
-def listed(keys: list[str]) -> str:
+def listed(keys: Sequence[str]) -> str:
     """Return keys as a list in words, such as ``"mass, right and left"``."""
     return " and ".join(filter(None, (", ".join(keys[:-1]), keys[-1])))
 
@@ -42,7 +42,7 @@ LIKENESS = 0.7
 """Least similarity of a misspelt key to the key that is suggested."""
 
 
-def unknown_key(keys: list[str], name: str, laws: Sequence[str] = ()) -> str:
+def unknown_key(keys: Sequence[str], name: str, laws: Sequence[str] = ()) -> str:
     """Describe the error of an unknown key, with the accepted keys and a suggestion.
 
     `laws` are the laws that have this key.
@@ -52,5 +52,5 @@ def unknown_key(keys: list[str], name: str, laws: Sequence[str] = ()) -> str:
             return f"unknown key; {listed(keys)} are accepted; {advice}"
     close = similar(name, keys, LIKENESS)
     hint = f"; did you mean {close}?" if close else ""
-    other = f"; {listed([*laws])} {'has' if len(laws) == 1 else 'have'} this key" if laws else ""
+    other = f"; {listed(laws)} {'has' if len(laws) == 1 else 'have'} this key" if laws else ""
     return f"unknown key; {listed(keys)} are accepted{other}{hint}"

@@ -21,7 +21,7 @@ from vibroimpact.engine.assembly.plan import (
     partners,
     record_motion,
 )
-from vibroimpact.engine.state import LARGEST
+from vibroimpact.engine.state import LARGEST, MOST_PARTS
 from vibroimpact.errors import InputError
 from vibroimpact.law_numbers import OwnStop, PowerLaw
 from vibroimpact.model import (
@@ -37,20 +37,26 @@ _Array = NDArray[np.float64]
 
 
 def check_laws(assembly: Assembly) -> None:
-    """Raise an error if an assembly has more parts than a contact mode has bits for.
+    """Raise an error if an assembly has more parts than a motion of the engine has room for.
 
     Raises
     ------
     InputError
-        If so.
+        If a contact mode has too few bits, or a state too few numbers.
     """
     rows = _rows(assembly)
+    stops, curved = len(assembly.stops), len(rows) - len(assembly.stops)
     if (count := bits(rows)) > layout.MOST_STOPS:
-        curved = len(rows) - len(assembly.stops)
         raise InputError(
-            f"stops: {len(assembly.stops)} stops and {curved} curved parts of links need {count} "
+            f"stops: {stops} stops and {curved} curved parts of links need {count} "
             f"bits of a contact mode; at most {layout.MOST_STOPS} are possible (one for each stop "
             "and each curved part, two more for each part that has branches)"
+        )
+    if (parts := 2 * len(assembly.names) + len(rows)) > MOST_PARTS:
+        raise InputError(
+            f"masses: a state of {len(assembly.names)} masses, {stops} stops and {curved} curved "
+            f"parts of links has {parts} numbers (two for each mass); at most {MOST_PARTS} are "
+            "possible, so reduce the number of masses"
         )
 
 
@@ -73,17 +79,22 @@ def check_size(assembly: Assembly) -> None:
         )
 
 
+_TABLE_MASSES = 20
+"""Up to which tables follow a motion faster than power series."""
+
+
 def assembly_numbers(
     assembly: Assembly,
     shaking: Repeated | Record,
     *,
-    tables: bool = False,
+    tables: bool | None = None,
     drifts: Sequence[Drift] | None = None,
 ) -> _Array:
     """Return an assembly that is shaken as the engine's vector.
 
-    With `tables`, contact modes that come again are faster, and a motion that is computed in parts
-    may differ in its last digits. Default of `drifts`: those of the links.
+    With `tables`, contact modes that come again are faster; default: for up to 20 masses. This
+    depends on the assembly alone, so that a motion has the same digits in parts of whole cycles.
+    Default of `drifts`: those of the links.
     """
     check_laws(assembly)
     of = numbers(assembly)
@@ -97,6 +108,8 @@ def assembly_numbers(
             damping += c * np.outer(w, w)
     forcing = _forcing(assembly, shaking, of.mass, of.influence)
     pairs = _drifts(assembly) if drifts is None else drifts
+    if tables is None:
+        tables = len(of.mass) <= _TABLE_MASSES
     return make_vector(
         of.mass, damping, stiffness, stops, forcing, of.force, tables, of.influence, pairs
     )

@@ -213,8 +213,8 @@ def recorded(motion: xr.Dataset, *, masses: bool = False, records: bool = False)
     kind: type[System] = Assembly if "assembly" in parameters else Oscillator
     if kind is Assembly and not masses:
         raise InputError(
-            "motion: the motion of an Assembly of several masses is not accepted by this function; "
-            "pass that of an Oscillator"
+            "motion: it is of an Assembly of several masses, which this function does not accept; "
+            "draw it with figures.mass_histories, contact_forces or pair_portrait"
         )
     name = kind.__name__.lower()
     system: System = validate(kind, parameters[name], f"motion.{name}")

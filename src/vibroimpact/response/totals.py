@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -10,13 +9,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.engine.assembly.layout import PARTS
 from vibroimpact.engine.observers import phases as layout
 from vibroimpact.model import Assembly
-from vibroimpact.model.assembly import numbers
 from vibroimpact.model.rig import System
 from vibroimpact.response.assembly_rows import coordinates, range_variables
 from vibroimpact.response.motion_phases import Phases, phases, recorded
+from vibroimpact.response.stored_energy import StoredEnergy
 
 _Array = NDArray[np.float64]
 
@@ -78,14 +76,15 @@ def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
 
 def energy_notes(system: System) -> list[str]:
     """Say which energies are not known, if so."""
-    curved = []
-    if isinstance(system, Assembly):
-        curved = [name for name, link in system.links.items() if not link.law.linear]
-    if not curved:
+    if not isinstance(system, Assembly):
         return []
+    lossy = StoredEnergy(system).lossy
+    if lossy.sum() < 2:
+        return []
+    names = [name for name, loses in zip(system.links, lossy, strict=True) if loses]
     return [
-        f"links: the energies of curved links are not computed ({', '.join(curved)}): total_links "
-        "of these and total_stored are NaN"
+        f"links: total_links of {', '.join(names)} is NaN; only the sum of their losses is known, "
+        "from the balance of the other energies"
     ]
 
 
@@ -130,7 +129,11 @@ def extremes(found: Phases) -> dict[str, Any]:
 
 
 def energies(found: Phases) -> dict[str, Any]:
-    """Return the energies (J) of a motion; of an assembly by link and stop, and in balance."""
+    """Return the energies (J) of a motion; of an assembly by link and stop, and in balance.
+
+    The loss of one link beyond that of its dashpot follows from the balance; those of several do
+    not (NaN).
+    """
     system, supplied = found.system, float(found.rows[:, layout.WORK].sum())
     lost = float(found.rows[:, layout.LOST].sum())
     stops = (found.of_stop(layout.LOSES) + found.of_stop(layout.HIT)).sum(axis=0)
@@ -140,27 +143,16 @@ def energies(found: Phases) -> dict[str, Any]:
             "total_isolator": lost,
             "total_bumpers": float(stops.sum()),
         }
-    links = found.of_drift(layout.D_LOST).sum(axis=0)
+    energy, links = StoredEnergy(system), found.of_drift(layout.D_LOST).sum(axis=0)
+    # The engine counts what a stop without memory takes up while it is touched, lost or not.
+    stops = stops - (energy.of_pressed(found.final) - energy.of_pressed(found.begin))
+    stored, damping = energy.of(found.final) - energy.of(found.begin), lost - links.sum()
+    rest = supplied - lost - stops.sum() - stored
+    links[energy.lossy] += rest if energy.lossy.sum() == 1 else np.nan
     return {
         "total_supplied": supplied,
-        "total_links": ("link", np.where(_curved(system), np.nan, links)),
-        "total_damping": float(lost - links.sum()),
+        "total_links": ("link", links),
+        "total_damping": float(damping),
         "total_stops": ("stop", stops),
-        "total_stored": _energy(system, found.final) - _energy(system, found.begin),
+        "total_stored": stored,
     }
-
-
-def _curved(assembly: Assembly) -> NDArray[np.bool_]:
-    return np.array([not link.law.linear for link in assembly.links.values()], dtype=bool)
-
-
-def _energy(assembly: Assembly, state: _Array) -> float:
-    """Return kinetic and potential energy; of curved links it is not known (NaN)."""
-    if _curved(assembly).any():
-        return math.nan
-    of, n = numbers(assembly), len(assembly.names)
-    pairs = [one.stop.spring_and_dashpot for one in assembly.stops.values()]
-    springs = np.array([0.0 if pair is None else pair[0] for pair in pairs])
-    u, v, d = np.split(state[PARTS:][: 2 * n + len(springs)], [n, 2 * n])
-    stored = float(u @ of.stiffness @ u) + float(springs @ (d * d))
-    return 0.5 * (float(v @ of.mass @ v) + stored) - float(of.force @ u)

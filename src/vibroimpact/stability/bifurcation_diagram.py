@@ -170,11 +170,6 @@ def bifurcation_diagram(
             raise InputError(
                 f"section: {shown(section)}; for an Assembly, only 'stroboscopic' is accepted"
             )
-        if outputs is not None:
-            raise InputError(
-                "outputs: own outputs are not computed for an Assembly of several masses so far; "
-                "remove outputs"
-            )
     (along,) = read_ranges(vary, rig)
     rig, varied, ends = from_lowest(rig, along), along.parameter, along.ends
     excitation = as_periodic(rig.harmonic, "shaking")[0]

@@ -15,7 +15,6 @@ from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Assembly
 from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
 from vibroimpact.response.assembly_rows import measured_variables, names_of_parts, notes_on
-from vibroimpact.response.engine_input import state_from
 from vibroimpact.response.hold_rows import results_of
 from vibroimpact.response.outputs import NamedOutput, about, add_outputs, computed
 from vibroimpact.response.plausibility import note_unbounded
@@ -137,7 +136,7 @@ def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Ar
         computed(
             outputs,
             one.rig,
-            state_from(vector_of(one), one.section.family.phase),
+            one.section.family.layout.state(vector_of(one), one.section.family.phase),
             one.section.period,
         )
         for one in orbits

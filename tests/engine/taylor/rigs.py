@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from itertools import cycle, product
 
 import numpy as np
 
 import vibroimpact as vi
 from formula_stops import formula_stops
+from samples import sample
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.observers import record
@@ -39,6 +41,13 @@ STOPS = {
     "pounding": vi.JankowskiBumper(40.0, 0.5, 0.6, 1.0),
     **formula_stops(40.0, 0.5),
 }
+
+
+def pairs(*without: str) -> list[tuple[str, str]]:
+    """Isolators and stops, but without some of these: all pairs, or each isolator and each stop."""
+    stops = [name for name in STOPS if name not in without]
+    return sample([*product(ISOLATORS, stops)], [*zip(ISOLATORS, cycle(stops), strict=False)])
+
 
 SHAKEN = vi.Harmonic(0.6, 0.9 / math.tau, 0.4)
 

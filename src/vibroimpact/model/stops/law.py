@@ -11,6 +11,7 @@ from pydantic import model_validator
 
 from vibroimpact.errors import InputError
 from vibroimpact.law_numbers import StopNumbers
+from vibroimpact.model.integral import integral_of
 from vibroimpact.model.law_registry import Named
 from vibroimpact.model.own_law import Law
 from vibroimpact.model.unknown_keys import listed
@@ -45,6 +46,10 @@ class StopLaw(Named):
     def static_force(self, deformation: float) -> float:
         """Return the force (N) of the stop at a slow deformation (m)."""
         raise NotImplementedError
+
+    def stored_energy(self, deformation: float) -> float:
+        """Return the energy (J) that the stop gives back after a slow deformation (m)."""
+        return integral_of(self.static_force, deformation)
 
     def force(self, deformation: ArrayLike, velocity: ArrayLike) -> NDArray[np.float64]:
         """Return the force (N, at least 0) along a contact, which starts at the first sample.

@@ -143,6 +143,10 @@ class PowerBumper(StopLaw):
         chi = self.dissipation if number is None else number / closing if closing else 0.0
         return np.maximum(self.stiffness * d**self.exponent * (1.0 + (chi or 0.0) * v), 0.0)
 
+    def stored_energy(self, deformation: float) -> float:
+        """Return the energy k δⁿ⁺¹/(n + 1) (J) of a deformation (m)."""
+        return self.static_force(deformation) * deformation / (self.exponent + 1.0)
+
     def static_force(self, deformation: float) -> float:
         """Return the force k δⁿ (N) of a stop that is slowly compressed by a deformation (m)."""
         return float(self.stiffness * max(deformation, 0.0) ** self.exponent)
