@@ -71,6 +71,16 @@ def test_only_an_unusual_kind_is_written():
             "rig.right.gapp: unknown key; restitution and gap are accepted; did you mean gap?",
         ),
         (
+            {"isolator": {**ISOLATOR, "cubic": 2}},
+            "rig.isolator.cubic: unknown key; stiffness, damping, damping_exponent, period and "
+            "damping_ratio are accepted; PolynomialIsolator (kind 'polynomial') has this key",
+        ),
+        (
+            {"right": {**WALL, "exponent": 2}},
+            "rig.right.exponent: unknown key; restitution and gap are accepted; PowerBumper "
+            "(kind 'power') has this key",
+        ),
+        (
             {"right": {"kind": "rigid", "gap": 2}},
             "rig.right.restitution: missing; a dimensionless number from 0 to 1 is accepted, "
             "such as 0.15",
@@ -89,6 +99,11 @@ def test_mistakes_are_named_by_their_path(table, message):
     with pytest.raises(InputError) as caught:
         rig(**table)
     assert str(caught.value) == message
+
+
+def test_the_law_with_a_misplaced_argument_is_named():
+    with pytest.raises(InputError, match=r"^cubic: .*; PolynomialIsolator \(kind 'polynomial'\)"):
+        Isolator(26e3, 1e3, cubic=1.0)
 
 
 def test_a_table_of_another_kind_is_refused():

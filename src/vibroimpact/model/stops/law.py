@@ -113,12 +113,12 @@ class FormulaStop(StopLaw):
     A negative force counts as 0. What a formula may contain is described in `Law`.
 
     With its entry in `STOPS`, study files, parameters by path, results, figures, the explorer and
-    the tests of all laws have the law. What does not follow from the class:
+    the tests of all laws have the law (``tests/model/test_registered_stop.py``). It needs no stored
+    states in ``tests/reference/``, for it is a `Law`, bit for bit. What does not follow:
 
-    - the name ``vibroimpact.DragBumper``: a line in ``model/__init__.py`` and ``__init__.pyi``;
-    - its page in ``docs/laws/``, which the tests of the pages require of each kind;
-    - ``words``, if the explorer shall show another name than the kind;
-    - rigs in ``tests/reference/``: the tests of `Law` hold for a formula, bit for bit.
+    - the name ``vibroimpact.DragBumper``: lines in ``model/__init__.py`` and ``__init__.pyi``;
+    - a page in ``docs/laws/`` and its line in ``index.md``;
+    - ``words``, if the explorer shall show another name than the kind.
     """
 
     formula: ClassVar[str]
