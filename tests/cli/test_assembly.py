@@ -324,7 +324,7 @@ def test_earthquake(run, tmp_path):
     path.write_text(f"time (s),acceleration (m/s^2)\n{rows}", encoding="utf-8")
     code, told, _ = run("earthquake", "neighbours", "quake.csv", "--peak", "0.3g", "--json")
     assert code == 0
-    stem = "neighbours-quake.csv-earthquake"
+    stem = "neighbours-quake-earthquake"
     pictures = ("displacements", "accelerations", "forces", "spectra")
     assert files(tmp_path) == {
         "neighbours-earthquake.csv",

@@ -153,6 +153,11 @@ def test_a_study_says_its_frequency(tmp_path, told):
         ),
         (("B2-G1-A3", "--vary", "colour=1:2"), "--vary: 'colour'"),
         (
+            ("B2-G1-A3", "--vary", "isolator.damping=-30%:30%", "--frequency", "2Hz"),
+            "--vary: isolator.damping: '-30%:30%' is in percent, but a range has the values "
+            "themselves; write them with a unit, such as 0.7985kN*s/m:1.483kN*s/m, which is ±30 %",
+        ),
+        (
             ("B2-G1-A3", "--vary", "frequency=3Hz:2Hz"),
             "--vary: frequency: the lower end of the range, 3 Hz",
         ),

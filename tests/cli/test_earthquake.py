@@ -9,6 +9,7 @@ import pytest
 
 import vibroimpact as vi
 from earthquakes.rigs import noise
+from vibroimpact.cli.records import record_stems
 
 COMMAND = "earthquake"
 
@@ -24,7 +25,7 @@ def quake(tmp_path):
 def test_words_figure_and_data(run, tmp_path, quake):
     code, told, errors = run("B2-G1-A3", quake, "--scale", "0.3")
     assert (code, errors) == (0, "")
-    stem = "B2-G1-A3-quake.csv-earthquake"
+    stem = "B2-G1-A3-quake-earthquake"
     assert {p.name for p in (tmp_path / "out").iterdir()} == {
         f"{stem}.nc",
         f"{stem}.png",
@@ -54,6 +55,12 @@ def test_words_figure_and_data(run, tmp_path, quake):
     for stop in ("right", "left"):
         force = float(direct["peak_force"].sel(stop=stop))
         assert float(values[f"peak_force.{stop} (N)"]) == force
+
+
+def test_file_names_leave_out_suffixes_that_distinguish_nothing():
+    names = ["a.csv", "A.txt", "b.AT2 90", "c.V2", "d.5", "e.HNE", "f-2.txt"]
+    stems = ["a.csv", "A.txt", "b_90", "c.V2", "d.5", "e.HNE", "f-2"]
+    assert record_stems(names) == dict(zip(names, stems, strict=True))
 
 
 @pytest.mark.full

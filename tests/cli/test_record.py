@@ -32,10 +32,10 @@ def test_summary_figure_and_data(run, tmp_path, quake):
     ):
         assert words in told
     assert {p.name for p in (tmp_path / "out").iterdir()} == {
-        "quake.AT2-record.nc",
-        "quake.AT2-record.png",
+        "quake-record.nc",
+        "quake-record.png",
     }
-    path = tmp_path / "out/quake.AT2-record.nc"
+    path = tmp_path / "out/quake-record.nc"
     data, spectrum = vi.load(path, "record"), vi.load(path, "spectrum")
     record = vi.Record.read(tmp_path / quake)
     np.testing.assert_array_equal(data["base_acceleration"], record.acceleration)

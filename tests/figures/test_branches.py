@@ -185,7 +185,7 @@ def test_unstable_mirror_images_are_dashed_where_they_coincide():
 
 def test_branches_are_named_by_their_impacts():
     texts = [text.get_text() for text in branch_diagram(diagram()).texts]
-    assert sorted(texts) == ["1R 1L", "free flight"]
+    assert sorted(texts) == ["1R 1L", "no contact"]
     several_texts = {text.get_text() for text in branch_diagram(several()).texts}
     assert {"1R 1L", "3R 2L, period 2"} <= several_texts
 
@@ -206,7 +206,7 @@ def test_names_leave_out_a_side_without_a_stop(side):
 
 def test_branches_are_named_under_a_sweep_too():
     ax = branch_diagram(diagram(), sweep=swept())
-    assert {"1R 1L", "free flight"} <= {text.get_text() for text in ax.texts}
+    assert {"1R 1L", "no contact"} <= {text.get_text() for text in ax.texts}
 
 
 def test_a_dense_sweep_leaves_the_branches_to_be_seen():

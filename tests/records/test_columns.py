@@ -48,6 +48,15 @@ def test_units(tmp_path):
     np.testing.assert_allclose(moved.acceleration, expected.acceleration, atol=1e-10)
 
 
+def test_a_missing_step_and_a_missing_unit_are_told_at_once(tmp_path):
+    path = written(tmp_path, "0.1\n-0.2\n0.3\n")
+    both = r'^step: missing, .* \(--step 10ms\); unit: missing, too; .* unit="g" \(--unit g\)$'
+    with pytest.raises(vi.InputError, match=both):
+        vi.Record.read(path)
+    with pytest.raises(vi.InputError, match=r"^step: missing, .* \(--step 10ms\)$"):
+        vi.Record.read(path, unit="g")
+
+
 @pytest.mark.parametrize(
     ("text", "step", "unit", "line"),
     [

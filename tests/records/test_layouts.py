@@ -222,8 +222,10 @@ def test_no_step_is_told_with_the_line_where_it_should_stand(written, name):
     path = written(lines)
     with pytest.raises(vi.InputError) as refused:
         vi.Record.read(path)
-    none = f'has no step in {where}; pass the time between two samples, such as "10 ms"'
-    assert str(refused.value) == f"step: missing, but {path!r} {none}"
+    none = f"has no step in {where}; pass the time between two samples, such as"
+    assert str(refused.value).startswith(
+        f'step: missing, but {path!r} {none} step="10 ms" (--step 10ms)'
+    )
     assert vi.Record.read(path, step="20 ms").step == 0.02
 
 

@@ -16,6 +16,7 @@ from vibroimpact.cli.records import (
     RecordOptions,
     Scale,
     record_of_study,
+    record_stems,
     records_of_design,
     scale_records,
 )
@@ -84,13 +85,13 @@ def earthquake(
     from vibroimpact.earthquakes.earthquake_response import earthquake_response
     from vibroimpact.facts import earthquake as facts
     from vibroimpact.model.argument_types import whole
-    from vibroimpact.model.names import file_stem
 
     found = reading.read(records or records_of_design(rig, with_own_record=False))
     first = next(iter(found.values()), None)
     what = subject(rig, changes, output.name, shaken=first, masses=True)
     shaking = scale_records(found or record_of_study(what), scale, peak)
     samples = whole(samples, "samples")
+    stems = record_stems(shaking)
     show = _show_masses if is_assembly(what) else _show
     text: list[Any] = []
     told: list[dict[str, Any]] = []
@@ -100,7 +101,7 @@ def earthquake(
             shaken = vi.Rig(what.system, record)
             with progress_bar("simulating") as progress:
                 groups = earthquake_response(shaken, tail=tail, samples=samples, progress=progress)
-            ending = f"{file_stem(name)}-earthquake"
+            ending = f"{stems[name]}-earthquake"
             written.files[f"data of {name}"] = vi.save(groups, written.path(ending, "nc"))
             responses[name] = groups["response"]
             values, lines = show(written, name, shaken, groups, ending, tail)

@@ -174,7 +174,8 @@ class RigOptions:
         tuple[str, ...], Parameter(name="--set", group=RIG, negative="", consume_multiple=False)
     ] = ()
     """Another value of the rig, PATH=VALUE, such as mass=550kg, isolator.stiffness=30kN/m,
-    stops.stiffness=1MN/m (both stops), right.gap=9mm, isolator_period=2.5s or damping_ratio=0.15.
+    stops.stiffness=1MN/m (both stops), right.gap=9mm, isolator_period=2.5s or damping_ratio=0.15;
+    of several masses, such as stops.pounding.gap=1cm or masses.roof=200t.
     The option may be repeated. left=none removes the left stop, and isolator=none the isolator.
     An unknown path lists those of the rig."""
 

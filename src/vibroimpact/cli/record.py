@@ -10,7 +10,7 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.records import AS_STATED, READING, RecordOptions, record_name
+from vibroimpact.cli.records import AS_STATED, READING, RecordOptions, record_name, record_stems
 from vibroimpact.errors import InputError
 
 _CHANGES = Parameter(group=Group("Changes to the record (applied in this order)", sort_key=2))
@@ -113,7 +113,8 @@ def record(
         found = found.scaled(1.0 if scale is None else scale, peak=peak)
     with width_of_figures(output), output_folder(output.output) as folder:
         spectrum = vi.response_spectrum(found, natural_periods, ratios)
-        stem = folder / f"{file_stem(called or name.replace(' ', '-'))}-record"
+        (plain,) = record_stems([name.replace(" ", "-")]).values()
+        stem = folder / f"{file_stem(called) if called else plain}-record"
         about = found.about
         where = ", ".join(part for part in (about.station, about.component) if part)
         axes = figures.accelerogram(found, spectrum, title=literal(where or name))

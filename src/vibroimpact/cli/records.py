@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -111,6 +113,23 @@ def one_or_each(option: str, text: str | None, count: int) -> list[str | None]:
 def record_name(file: str, component: str | None) -> str:
     """Return the name of a record: its file name, and its component if one was chosen."""
     return " ".join([Path(file).name.removesuffix(".gz"), *([component] if component else [])])
+
+
+_TABLES = re.compile(r"\.(txt|csv|tsv|dat|asc|at2)(?= |$)", re.IGNORECASE)
+"""Suffixes that say only that a file is a record. Others name its stage or component."""
+
+
+def record_stems(names: Iterable[str]) -> dict[str, str]:
+    """Return the part of file names for each record: its name without the suffix of its file.
+
+    Records whose names differ only by it keep it.
+    """
+    from vibroimpact.model.names import file_stem
+
+    every = list(names)
+    short = {name: _TABLES.sub("", name) for name in every}
+    many = Counter(one.lower() for one in short.values())
+    return {name: file_stem(one if many[one.lower()] == 1 else name) for name, one in short.items()}
 
 
 AS_STATED = RecordOptions()

@@ -68,8 +68,23 @@ class Varied(NamedTuple):
         return [self.low, *inside[1:-1], self.high]
 
 
-def read_range(option: str, varied: Parameter, text: str) -> Varied:
-    """Read ``LOW:HIGH[:log][:NUMBER]``.
+def _one_word(value: float, varied: Parameter) -> str:
+    """Return a value with its unit and without blanks, such as ``"2kN*s/m"``."""
+    from vibroimpact.model.units import pretty
+
+    return pretty(value, varied.quantity, 4).replace(" ", "", 1).replace(" ", "*")
+
+
+def _example(varied: Parameter, now: float | None) -> str:
+    """Return how a range around the value of the rig is written."""
+    if not now:
+        return ""
+    low, high = (_one_word(share * now, varied) for share in (0.7, 1.3))
+    return f", such as {low}:{high}, which is ±30 % of that of the rig"
+
+
+def read_range(option: str, varied: Parameter, text: str, now: float | None = None) -> Varied:
+    """Read ``LOW:HIGH[:log][:NUMBER]``. `now` is the value of the rig, for messages.
 
     Raises
     ------
@@ -77,6 +92,7 @@ def read_range(option: str, varied: Parameter, text: str) -> Varied:
         If the text is not such a range. The message contains the name of the option.
     """
     from vibroimpact.model import to_si
+    from vibroimpact.model.quantities import DIMENSIONLESS
     from vibroimpact.model.units import pretty
 
     parts = [part.strip() for part in text.split(":")]
@@ -86,6 +102,11 @@ def read_range(option: str, varied: Parameter, text: str) -> Varied:
         raise InputError(
             f"{option}: {text!r} is not a range; pass LOW:HIGH[:log][:NUMBER], such as 0.5:100 or "
             "0.5:100:log:21"
+        )
+    if varied.quantity is not DIMENSIONLESS and any(part.endswith("%") for part in parts[:2]):
+        raise InputError(
+            f"{option}: {text!r} is in percent, but a range has the values themselves; write them "
+            f"with a unit{_example(varied, now)}"
         )
     above = 0.0 if logarithmic or not varied.zero else None
     least = varied.least if above is None else None
@@ -136,8 +157,18 @@ def read_vary(what: Subject, texts: Sequence[str] | Mapping[str, str]) -> list[V
         if varied.name in found:
             raise InputError(f"--vary: {path!r} is given twice; remove one of the two")
         option = f"--vary: {path}"
-        found[varied.name] = read_range(option, varied, text) if text else _frequencies(what)
+        found[varied.name] = (
+            read_range(option, varied, text, _value(what, varied)) if text else _frequencies(what)
+        )
     return list(found.values())
+
+
+def _value(what: Subject, varied: Parameter) -> float | None:
+    """Return the value of the rig, unless it has none, such as a frequency that is open."""
+    try:
+        return None if varied.name == "frequency" else varied.read(what.rig)
+    except InputError:
+        return None
 
 
 def read_one(what: Subject, texts: Sequence[str], *, number: bool = True) -> Varied:

@@ -186,7 +186,7 @@ def _orbits(data: xr.Dataset) -> list[tuple[slice, str]]:
     ends = [0, *(np.flatnonzero(changes) + 1), len(branch)]
     for first, last in itertools.pairwise(ends):
         right, left, cycles = (int(part[first]) for part in (*hits, period))
-        name = contact_counts(right, left, stops) if right or left else "free flight"
+        name = contact_counts(right, left, stops) if right or left else "no contact"
         found.append((slice(first, last), f"{name}, period {cycles}" if cycles > 1 else name))
     return found
 

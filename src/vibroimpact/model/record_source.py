@@ -38,6 +38,10 @@ class About(NamedTuple):
     """Assumptions, doubts and changes, in their order."""
 
 
+class _MissingError(InputError):
+    """What a file does not state has to be passed."""
+
+
 def read_values(
     path: Path | str,
     component: str | int | None,
@@ -54,7 +58,15 @@ def read_values(
     """
     form, found, _ = read_channel(path, component, decimal)
     notes = list(found.notes)
-    spacing = _spacing(found, step, str(path), notes)
+    try:
+        spacing = _spacing(found, step, str(path), notes)
+    except _MissingError as error:
+        try:
+            _unit(found, unit, str(path), [])
+        except _MissingError:
+            both = f'{error}; unit: missing, too; pass that of the values: unit="g" (--unit g)'
+            raise InputError(both) from None
+        raise
     taken, factor, quantity = _unit(found, unit, str(path), notes)
     _check_peaks(found, taken, factor, quantity, str(path))
     if found.times is not None:
@@ -72,9 +84,9 @@ def _spacing(found: Channel, step: Any, path: str, notes: list[str]) -> float:
             raise InputError(f"record: {path!r}, {found.no_step}")
         if found.step is None:
             none = f"has no step in {found.where}" if found.where else "has no times"
-            raise InputError(
+            raise _MissingError(
                 f"step: missing, but {path!r} {none}; pass the time between two samples, such as "
-                '"10 ms"'
+                'step="10 ms" (--step 10ms)'
             )
         return found.step
     spacing = to_si(step, TIME, "step", above=0.0)
@@ -118,7 +130,7 @@ def _unit(
     taken = unit or found.unit
     if taken is None:
         if found.unclear:
-            raise InputError(
+            raise _MissingError(
                 f"unit: missing, and the values in {path!r} are {found.unclear}, not "
                 "accelerations; pass the unit of displacements, or convert velocities to "
                 'accelerations; for counts or volts, pass unit="m/s^2" (--unit) and the factor to '
@@ -127,7 +139,7 @@ def _unit(
         taken = _of_peak(found)
         if taken is None:
             largest = float(np.abs(found.values).max())
-            raise InputError(
+            raise _MissingError(
                 f"unit: missing, because {path!r} states no unit of its values, the largest of "
                 f'which is {largest:g}; pass it, such as unit="g" (--unit g)'
             )
