@@ -6,6 +6,7 @@ import pytest
 from mpmath import mp, mpf
 
 import vibroimpact as vi
+from formula_stops import FORMULA_STOPS
 from reference import fifty_digits, law_states, shaken_cases, shaken_states
 from reference import laws_mpmath as laws
 from reference import rig as rig_reference
@@ -108,7 +109,8 @@ def test_stored_states_are_those_of_a_fresh_run(name: str) -> None:
                     assert abs(one - digits) <= mpf("1e-23") * abs(digits)
 
 
-BUILT_IN = {kinds: set(kinds.classes.values()) - {vi.Law} for kinds in (ISOLATORS, STOPS)}
+BY_FORMULA = {vi.Law, *FORMULA_STOPS.values()}
+BUILT_IN = {kinds: set(kinds.classes.values()) - BY_FORMULA for kinds in (ISOLATORS, STOPS)}
 """A law given as a formula equals one of these to the bit: tests/engine/taylor/test_own_laws.py."""
 
 
