@@ -44,7 +44,8 @@ Limits: 52 stops, the bits of a mode in a float. Free masses that fly far away l
 their links' deformations, which are differences of displacements.
 
 Modules: `layout` (plan and state), `plan` (numpy description to a rig's vector, and to a plan),
-`mode`, `acceleration`, `rates` (it as a matrix of the mode), `series`, `vectors`, `roots`, `tables`, `events`, `advance` (stretch), `channels` (what is
-observed), `measures` (extremes), `tangent`, `section` (states at a section), `free_motion` (in
-closed form), `table`, `stretches` (measured), `record` (written down).
+`mode`, `acceleration`, `rates` (it as a matrix of the mode), `series`, `vectors`, `roots`,
+`tables`, `events`, `advance` (stretch), `channels` (what is observed), `measures` (extremes),
+`tangent`, `section` (states at a section), `free_motion` (in closed form), `table`, `stretches`
+(measured), `record` (written down).
 """
