@@ -30,7 +30,7 @@ from vibroimpact.engine.assembly.plan import state_width
 from vibroimpact.engine.flow_tables import plan_of
 from vibroimpact.engine.status import Status
 from vibroimpact.response.assembly_rig import assembly_numbers, link_parts
-from vibroimpact.response.history_variables import EVENTS_AT_ONCE
+from vibroimpact.response.written_motion import EVENTS_AT_ONCE
 
 PERIODS, SCIPY_PERIODS = 500, 50
 _MOST = 1000
@@ -43,7 +43,7 @@ _TOLERANCE = {
     CUBIC_FRAME.name: 1e-12,
 }
 """heyoka's, and with it its order: the fastest whose state error stays below 1e-11."""
-_TIMES = {False: (10.0, 3000.0), True: (3.0, None)}
+_TIMES: dict[bool, tuple[float, float | None]] = {False: (10.0, 3000.0), True: (3.0, None)}
 """Of heyoka and of scipy, without a curved link and with one."""
 _SIMULATE, _ENGINE = "vibroimpact, vi.simulate", "vibroimpact, engine"
 _HEYOKA, _SCIPY = "heyoka, general", "scipy DOP853"
@@ -174,18 +174,19 @@ def assemblies() -> list[Table]:
             fast = {name: calls[name] for name in mine}
             pair = interleave({**fast, _SCIPY: slow}, _SCIPY_ROUNDS, clock=time.thread_time)
             share = SCIPY_PERIODS / PERIODS
-            behind = {
+            slower = {
                 name: ratio(pair[_SCIPY], [share * one for one in pair[name]]) for name in mine
             }
             table.add(
                 f"{problem.name}: {_SCIPY}",
                 Spread.of(pair[_SCIPY]).text(1e6 / SCIPY_PERIODS),
-                behind[_ENGINE].text(),
+                slower[_ENGINE].text(),
                 f"{problem.error(SCIPY_PERIODS, slow()):.1e}",
             )
-            for name in mine if least_of_scipy is not None else ():
-                what = f"{problem.name}: {name}, than scipy DOP853"
-                _judge(verdicts, what, behind[name], least_of_scipy)
+            for name in mine:
+                if least_of_scipy is not None:
+                    what = f"{problem.name}: {name}, than scipy DOP853"
+                    _judge(verdicts, what, slower[name], least_of_scipy)
         error = problem.error(PERIODS, calls[_ENGINE]())
         verdicts.add(
             f"{problem.name}: engine, state error",
@@ -300,9 +301,12 @@ def moat() -> Table:
     table.notes.append(
         f"The base has {touches} contacts and a peak of {1e3 * peak:.4f} mm at the samples."
     )
-    peer = optional("opensees_assembly", missing := [])
+    missing: list[str] = []
+    peer = optional("opensees_assembly", missing)
     table.notes += [f"{name} is not installed and was left out." for name in missing]
-    for divisions in _DIVISIONS if peer is not None else ():
+    if peer is None:
+        return table
+    for divisions in _DIVISIONS:
         begin = time.thread_time()
         found = peer.follow(shaken.system, "base", shaken.record, divisions)
         spent = time.thread_time() - begin

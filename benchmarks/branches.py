@@ -2,6 +2,8 @@
 
 import math
 
+import xarray as xr
+
 import vibroimpact as vi
 from benchmarks.peers import auto07
 from benchmarks.report import Table, met, targets
@@ -21,12 +23,12 @@ def branches() -> Table:
     excitation = vi.Harmonic(0.2, 2.0 / _TURN)
     case = vi.laboratory.case("B3-10mm-A3")
 
-    def branch() -> object:
+    def branch() -> xr.Dataset:
         return vi.branch(vi.Rig(rig, excitation), vary={"frequency": (1.0 / _TURN, 2.5 / _TURN)})
 
-    def diagram() -> object:
+    def diagram() -> xr.Dataset:
         return vi.resonance_diagram(
-            vi.Rig(case.oscillator, case.amplitude), {"frequency": (0.3, 4.0)}
+            vi.Rig(case.oscillator, vi.Harmonic(case.amplitude, 1.0)), {"frequency": (0.3, 4.0)}
         )
 
     table = targets("Branches of orbits, warm")

@@ -61,8 +61,8 @@ def earthquakes() -> Table:
     )
     try:
         peer = import_module("benchmarks.peers.opensees_peer")
-    except ImportError as error:
-        table.notes.append(f"OpenSeesPy is not installed ({error}).")
+    except ImportError as missing:
+        table.notes.append(f"OpenSeesPy is not installed ({missing}).")
         return table
     one = found.isel(record=0, gap=4)
     part = rig.replace(

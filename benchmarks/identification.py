@@ -7,6 +7,7 @@ import xarray as xr
 from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
+from benchmarks import ours
 from benchmarks.report import Table, met, targets
 from vibroimpact.identification.curve_residuals import CurveTest
 from vibroimpact.measurements.read import as_measured
@@ -22,8 +23,8 @@ _CYCLES = 40
 def general(rig: vi.Oscillator, amplitude: float, frequencies: np.ndarray) -> float:
     """Seconds for one residual evaluation by scipy: both directions, event detection, rtol 1e-8."""
     begin = time.perf_counter()
-    k, c, m = rig.isolator.stiffness, rig.isolator.damping, rig.mass
-    bumper = rig.right
+    isolator, bumper = ours.linear(rig)
+    k, c, m = isolator.stiffness, isolator.damping, rig.mass
 
     def force(u: float, v: float, right: float, left: float) -> tuple[float, float, float]:
         """Force of both bumpers, and how fast they deform."""
@@ -64,8 +65,9 @@ def identification() -> Table:
     noisy = {n: swept[n] * e for n, e in zip(names, noise, strict=True)}
     data = as_measured(xr.Dataset(noisy).assign_attrs(amplitude=case.amplitude))
     rig = case.oscillator
-    bumper = vi.Bumper(1.5 * rig.right.stiffness, 0.5 * rig.right.damping, 1.2 * rig.right.gap)
-    isolator = vi.Isolator(1.5 * rig.isolator.stiffness, 0.5 * rig.isolator.damping)
+    isolator, right = ours.linear(rig)
+    bumper = vi.Bumper(1.5 * right.stiffness, 0.5 * right.damping, 1.2 * right.gap)
+    isolator = vi.Isolator(1.5 * isolator.stiffness, 0.5 * isolator.damping)
     start = vi.Oscillator(rig.mass, isolator, bumper, bumper)
 
     table = targets("Fits of two curves of 46 points")
@@ -83,12 +85,12 @@ def identification() -> Table:
               f"under {_BOOTSTRAP:g} s", met(seconds < _BOOTSTRAP))  # fmt: skip
     setting = vi.Rig(rig, vi.Harmonic(case.amplitude, 1.0))
     test = CurveTest("one", data, setting, None)
-    right = {"displacement_scale": 1.0, "acceleration_scale": 1.0,
-             "displacement_offset": 0.0, "acceleration_offset": 0.0}  # fmt: skip
+    scales = {"displacement_scale": 1.0, "acceleration_scale": 1.0,
+              "displacement_offset": 0.0, "acceleration_offset": 0.0}  # fmt: skip
     begin = time.perf_counter()
     rounds = 20
     for _ in range(rounds):
-        test.residuals(setting, right, np.empty(0))
+        test.residuals(setting, scales, np.empty(0))
     own = (time.perf_counter() - begin) / rounds
     table.add("one evaluation of the residuals, ms", f"{1e3 * own:.1f}", "", "")
     others = general(rig, case.amplitude, grid)

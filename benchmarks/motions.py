@@ -36,7 +36,10 @@ def motions() -> Table:
             met(spread.median < target),
         )
     rigs = {
-        f"{gap:.3f} mm": (vi.laboratory.case(f"B3-{gap:.3f}mm-A3").oscillator, case.amplitude)
+        f"{gap:.3f} mm": vi.Rig(
+            vi.laboratory.case(f"B3-{gap:.3f}mm-A3").oscillator,
+            vi.Harmonic(case.amplitude, 1.0),
+        )
         for gap in np.linspace(5.0, 25.0, _GAPS)
     }
     frequencies = np.linspace(0.5, 3.0, _FREQUENCIES)

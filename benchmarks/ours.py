@@ -106,6 +106,14 @@ def events(periods: int, rig: np.ndarray, problem: Problem = P) -> int:
     return int(count)
 
 
+def linear(rig: vi.Oscillator) -> tuple[vi.Isolator, vi.Bumper]:
+    """Return the isolator and the right stop of a rig whose laws are linear."""
+    isolator, stop = rig.isolator, rig.right
+    if not (isinstance(isolator, vi.Isolator) and isinstance(stop, vi.Bumper)):
+        raise TypeError(f"the laws of {rig} are not linear")
+    return isolator, stop
+
+
 @entry("i8(f8[::1], f8, f8, f8, i8, f8[::1])")
 def _counted(
     given: Any,

@@ -56,8 +56,8 @@ def records() -> Table:
     )
     try:
         peer = import_module("benchmarks.peers.opensees_peer")
-    except ImportError as error:
-        table.notes.append(f"OpenSeesPy is not installed ({error}).")
+    except ImportError as missing:
+        table.notes.append(f"OpenSeesPy is not installed ({missing}).")
         return table
     exact = vi.simulate(vi.Rig(rig, shaking))["displacement"].values
     for divisions in _DIVISIONS:

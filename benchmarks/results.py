@@ -15,7 +15,8 @@ _TARGET = re.compile(r"(under|at most|at least|over) ([\d,.e+-]+)")
 
 def number(text: str) -> float:
     """The first number of a cell: ``"1,353 (1,342 to 1,373)"`` is 1353."""
-    return float(re.search(r"\d[\d,]*\.?\d*(?:e[+-]?\d+)?", text)[0].replace(",", ""))
+    found = re.findall(r"\d[\d,]*\.?\d*(?:e[+-]?\d+)?", text)
+    return float(found[0].replace(",", ""))
 
 
 def tables() -> dict[str, list[dict[str, str]]]:

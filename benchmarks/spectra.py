@@ -1,5 +1,6 @@
 """Response spectra of a long record, beside eqsig."""
 
+from collections.abc import Callable
 from importlib import import_module
 
 import numpy as np
@@ -19,7 +20,9 @@ def spectra() -> Table:
     """Time 200 periods at five damping ratios; errors are those of the displacement at 5 %."""
     quake = record()
     table = targets(f"Response spectra: {len(_PERIODS)} periods, {len(_DAMPINGS)} damping ratios")
-    contestants = {"ours": lambda: vi.response_spectrum(quake, _PERIODS, _DAMPINGS)}
+    contestants: dict[str, Callable[[], object]] = {
+        "ours": lambda: vi.response_spectrum(quake, _PERIODS, _DAMPINGS)
+    }
     try:
         peer = import_module("eqsig.sdof").pseudo_response_spectra
         contestants["eqsig"] = lambda: [

@@ -126,22 +126,22 @@ def startup(compiled: Compiling) -> Table:
         )
     with fresh.empty_cache() as environment, tempfile.TemporaryDirectory() as out:
         words = ("sweep", "B2-G1-A3", "--output", out)
-        first = fresh.vibroimpact(*words, environment=environment)
+        installed = fresh.vibroimpact(*words, environment=environment)
         table.add(
             "the same as the first after installing, s",
-            _once(first),
+            _once(installed),
             "under 15 s",
-            met(first.seconds < 15.0),
+            met(installed.seconds < 15.0),
         )
     with fresh.empty_cache() as environment:
         rigid = fresh.python(_RIGID, environment)
         before = fresh.compiled(environment)
-        again = fresh.python(_SWEEP, environment)
+        second = fresh.python(_SWEEP, environment)
         more = fresh.compiled(environment) - before
     table.add("first vi.sweep of a rig with a rigid stop, whole process, s", _once(rigid), "", "")
     table.add(
         "first vi.sweep of a rig with bumpers after it, s, and functions compiled",
-        f"{_once(again)}; {more}",
+        f"{_once(second)}; {more}",
         f"{parts} compiled, as without",
         met(more == parts),
     )

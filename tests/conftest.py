@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import os
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
@@ -17,7 +19,7 @@ del os.environ["VIBROIMPACT_KERNELS"]
 jit.WITHIN["no_cpython_wrapper"] = False  # tests call kernels
 # The first example of a test imports and compiles: its time says nothing of the test.
 settings.register_profile("full", deadline=None)
-settings.register_profile("small", max_examples=30, deadline=None)
+settings.register_profile("small", max_examples=15, deadline=None)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -28,6 +30,21 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "full: only in the full run; a smaller sample stays daily")
     samples.full = config.getoption("full")
     settings.load_profile("full" if samples.full else "small")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def coarse_pictures() -> Iterator[None]:
+    """Fewer pixels in PNG files, which take as long to write as the figure to draw."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("vibroimpact.figures.style._SCREEN", samples.sample(200.0, 72.0))
+        yield
+
+
+def pytest_collection_finish() -> None:
+    """Search seldom for garbage, and never among the tests: a twelfth of the time."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(50_000, 20, 20)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:

@@ -70,7 +70,7 @@ def _bumpers(problem: Smooth, tol: float) -> Built:
     # the factors of x and v, and last the bend of the isolator's branch.
     clear_right, clear_left = (gap, -1.0, 0.0), (gap, 1.0, 0.0)
     press_right, press_left = (-k * gap, k, c), (-k * gap, -k, -c)
-    flight = (problem.damping, spring, 0.0, *clear_right, *clear_left)
+    flight: tuple[float, ...] = (problem.damping, spring, 0.0, *clear_right, *clear_left)
     contacts = (
         (problem.damping + c, spring + k, k * gap, *press_right, *clear_left),
         (problem.damping + c, spring + k, -k * gap, *clear_right, *press_left),

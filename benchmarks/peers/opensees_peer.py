@@ -7,6 +7,7 @@ only takes pressure once its gap is closed: so it deforms, forgets and never pul
 import ctypes
 import importlib.util
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,7 @@ _PENALTY = 1e4
 """Stiffness of the contact over the bumper's."""
 
 
-def _opensees():  # type: ignore[no-untyped-def]
+def _opensees() -> Any:
     """The module; its wheel has the libraries that it needs, but not where they are looked for."""
     found = importlib.util.find_spec("openseespylinux")
     if found is not None and found.submodule_search_locations:

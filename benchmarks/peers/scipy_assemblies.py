@@ -67,7 +67,7 @@ def run(
         if b in pressed:
             row, offset = np.concatenate([k * w, c * w]), k * gap
 
-            def function(_: float, y: _Vector) -> float:
+            def function(t: float, y: _Vector) -> float:
                 return float(row @ y) - offset
         else:
             deformation, since = memory[b]

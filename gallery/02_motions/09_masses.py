@@ -22,7 +22,7 @@ building = vi.Assembly(
     stops={
         "moat_left": vi.Link("ground", "base", moat),
         "moat_right": vi.Link("base", "ground", moat),
-        "neighbour": vi.Link("roof", "ground", vi.RigidStop(0.6, "25 cm")),
+        "neighbour": vi.Link("roof", "ground", vi.RigidStop(restitution=0.6, gap="25 cm")),
     },
 )
 assembly_drawing(building)

@@ -2,9 +2,9 @@
 Brute force and continuation in one diagram
 ===========================================
 
-The dots are steady motions, which were simulated at each gap (brute force). The vertical lines are
-bifurcations, which numerical continuation has located to ten digits. The two methods agree:
-wherever the dots split, there is a line.
+The dots are steady motions, which were simulated at each gap (brute force). The thin line is the
+branch of their orbit, dashed where it is unstable; the vertical lines are its bifurcations, which
+numerical continuation has located to ten digits. Wherever the dots split, there is a line.
 """
 
 import vibroimpact as vi

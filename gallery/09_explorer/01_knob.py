@@ -22,7 +22,7 @@ import vibroimpact as vi
 from vibroimpact.explorer.offline_page import page
 from vibroimpact.explorer.state import begin
 
-wall = vi.RigidStop(0.6, "10 mm")
+wall = vi.RigidStop(restitution=0.6, gap="10 mm")
 rig = vi.Rig(vi.Oscillator("550 kg", vi.Isolator("26.29 kN/m", "1.1 kN s/m"), wall, wall), "0.05 g")
 whole = page(begin(rig, "rigid stops"))
 print(f"{len(whole) / 1024:.0f} KiB, all in one file")

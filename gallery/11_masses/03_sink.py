@@ -17,8 +17,8 @@ sink = vi.Assembly(
     masses={"host": 1.0, "ball": 0.05},
     links={"spring": vi.Link("ground", "host", vi.Isolator(1.0, 0.02))},
     stops={
-        "right": vi.Link("ball", "host", vi.RigidStop(0.75, 0.5)),
-        "left": vi.Link("host", "ball", vi.RigidStop(0.75, 0.5)),
+        "right": vi.Link("ball", "host", vi.RigidStop(restitution=0.75, gap=0.5)),
+        "left": vi.Link("host", "ball", vi.RigidStop(restitution=0.75, gap=0.5)),
     },
     units="none",
 )

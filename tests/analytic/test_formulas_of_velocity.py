@@ -121,7 +121,7 @@ def followed(
             pushes = not pushes
 
 
-@pytest.mark.parametrize("name", sample([*ISOLATORS], [*ISOLATORS][::4]))
+@pytest.mark.parametrize("name", sample([*ISOLATORS], [*ISOLATORS][::8]))
 def test_an_isolator_agrees_with_a_general_integrator(name: str) -> None:
     for ratio in (2.0, 4.0, 12.0, 60.0, 1000.0):
         law, force = law_of(ISOLATORS[name], ratio, SPEED)
@@ -133,7 +133,7 @@ def test_an_isolator_agrees_with_a_general_integrator(name: str) -> None:
         np.testing.assert_allclose(data["final_state"].values[:2], known, atol=1e-10, rtol=0.0)
 
 
-@pytest.mark.parametrize("name", sample([*STOPS], [*STOPS][::5]))
+@pytest.mark.parametrize("name", sample([*STOPS], [*STOPS][::8]))
 def test_a_stop_agrees_with_a_general_integrator(name: str) -> None:
     formula = STOPS[name]
     dashpot = 6.0 if "k" in formula else 60.0

@@ -15,7 +15,6 @@ from mpmath import matrix, mp, mpf
 
 import vibroimpact as vi
 from properties.strategies import decades, examples
-from samples import sample
 
 AMPLITUDE, FREQUENCY, ISOLATOR_DAMPING = 1.0, 0.1, 0.06  # with M = K = 1
 ROUNDING = 200 * 2.0**-52
@@ -57,7 +56,7 @@ class Contact:
         return float((self.force * z)[0])
 
 
-@examples(sample(100, 25))
+@examples(100)
 @given(
     stiffness=decades(-1, 4),
     damping_ratio=st.just(0.0) | decades(-3, -0.5),

@@ -23,7 +23,7 @@ LAWS = {
 }
 
 
-@pytest.mark.parametrize("law", sample([*LAWS], [*LAWS][:4]))
+@pytest.mark.parametrize("law", sample([*LAWS], [*LAWS][:4:2]))
 def test_as_each_state_followed_to_the_end_by_steady(law):
     isolator, right, left, amplitude, omega, periods = LAWS[law]
     rig = vi.Oscillator(1.0, isolator, right, left)

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+import samples
 from vibroimpact.cli import main
 
 
@@ -18,6 +19,22 @@ def no_lines_of_progress():
     """Where the engine has to be compiled a command may take long enough for one."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("vibroimpact.tasks.progress.LINES", math.inf)
+        yield
+
+
+@pytest.fixture(scope="module", autouse=True)
+def blank_pictures():
+    """In the daily run PNG files are blank: what is in them is tested in `figures` and `docs`."""
+    from vibroimpact.figures.notebook import Drawing
+
+    save = Drawing.savefig
+
+    def blank(figure, file, **how):
+        if samples.full or how["format"] != "png":
+            save(figure, file, **how)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Drawing, "savefig", blank)
         yield
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from earthquakes.rigs import noise
 from vibroimpact.cli import main
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.rig import subject
@@ -105,7 +106,7 @@ def test_simulate(run, tmp_path):
     code, told, _ = run("simulate", "neighbours", "--animation", "html")
     assert code == 0
     stem = "neighbours-1.9Hz"
-    pictures = ("history", "accelerations", "forces", "envelopes")
+    pictures = ("history", "accelerations", "forces")
     assert files(tmp_path) == {
         f"{stem}-history.nc",
         f"{stem}.html",
@@ -205,11 +206,35 @@ def test_branch(run, tmp_path):
     assert "η_d" not in told
 
 
+def test_jumps_of_a_sweep(run):
+    words = ("sweep", "neighbours", "--to", "2.7Hz", "--set", "stops.wall=none")
+    code, told, _ = run(*words)
+    assert code == 0
+    data = vi.sweep(rig_without_wall(), [1.5 + k / 10 for k in range(13)])
+    west = data["peak_displacement"].sel(mass="west")
+    rows = [line.split() for line in told.splitlines()]
+    (down,) = [row for row in rows if row[:2] == ["forward", "downward"]]
+    (up,) = [row for row in rows if row[:2] == ["backward", "upward"]]
+    assert down[2:6] == ["2.4", "and", "2.5", "west"]
+    assert up[2:6] == ["2.4", "and", "2.3", "west"]
+    ends = west.sel(direction="forward").sel(frequency=[2.4, 2.5], method="nearest").values
+    np.testing.assert_allclose([float(down[6]), float(down[8])], 1e3 * ends, rtol=1e-3)
+    assert "vibroimpact branch locates the folds" in told
+    facts = json.loads(run(*words, "--json")[1])["jumps"]
+    assert [one["direction"] for one in facts] == ["forward", "backward"]
+    assert "Jumps: none" in run(*words[:2], "--to", "1.9Hz", *words[4:])[1]
+
+
+def rig_without_wall() -> vi.Rig:
+    stops = {"pounding": rig().system.stops["pounding"]}
+    return vi.Rig(rig().system.replace(stops=stops), "0.1 g")
+
+
 def test_a_branch_along_a_path(run, tmp_path):
     words = ("--vary", "stops.pounding.gap=1cm:2cm", "--set", "stops.wall=none")
     code, _, _ = run("branch", "neighbours", *words)
     assert code == 0
-    data = vi.load(tmp_path / "out/neighbours-no-stop-wall-stops-pounding-gap-branches.nc")
+    data = vi.load(tmp_path / "out/neighbours-no-stop-wall-1.9Hz-stops-pounding-gap-branches.nc")
     assert data.attrs["parameter"] == "stops.pounding.gap"
 
 
@@ -224,7 +249,7 @@ def test_motion(run, tmp_path):
         float(steady["displacement_max"].sel(mass="west")), rel=1e-12
     )
     stem = "neighbours-no-stop-wall-1.9Hz-motion"
-    assert {f"{stem}-envelopes.png", f"{stem}-spectrum.png"} <= files(tmp_path)
+    assert {f"{stem}-accelerations.png", f"{stem}-spectrum.png"} <= files(tmp_path)
     saved = vi.load(tmp_path / f"out/{stem}.nc")
     assert saved["section_displacement"].sizes == {"section_point": 1, "mass": 2}
     lines = vi.fourier_spectrum(steady)["acceleration_amplitude"]
@@ -300,7 +325,7 @@ def test_earthquake(run, tmp_path):
     code, told, _ = run("earthquake", "neighbours", "quake.csv", "--peak", "0.3g", "--json")
     assert code == 0
     stem = "neighbours-quake.csv-earthquake"
-    pictures = ("displacements", "accelerations", "forces", "envelopes", "spectra")
+    pictures = ("displacements", "accelerations", "forces", "spectra")
     assert files(tmp_path) == {
         "neighbours-earthquake.csv",
         f"{stem}.nc",
@@ -330,6 +355,101 @@ def test_earthquake(run, tmp_path):
     assert saved["motion"].sizes["mass"] == 2
 
 
+SINK = """
+name = "sink"
+[assembly]
+units = "none"
+[assembly.masses]
+host = 1.0
+ball = 0.05
+[assembly.links]
+spring = { left = "ground", right = "host", stiffness = 1.0, damping = 0.02 }
+[assembly.stops]
+right = { left = "ball", right = "host", kind = "rigid", restitution = 0.75, gap = 15.0 }
+left = { left = "host", right = "ball", kind = "rigid", restitution = 0.75, gap = 15.0 }
+[excitation]
+of = "force"
+on = "host"
+amplitude = 1.0
+[simulate]
+frequency = 0.15915494309189535
+cycles = 400
+"""
+
+
+def test_an_impact_damper_starts_from_a_state(run, tmp_path):
+    """Its closed form: two impacts a cycle, the speed of the ball in between V."""
+    (tmp_path / "sink.toml").write_text(SINK, encoding="utf-8")
+    speed = 14.78340654
+    words = ("motion", "sink.toml", "--start", "velocity.ball=14", "--start", "velocity.host=3")
+    code, _, errors = run(*words)
+    assert (code, errors) == (0, "")
+    found = vi.load(tmp_path / "out/sink-omega1-motion.nc")
+    assert float(abs(found["velocity"].sel(mass="ball")).max()) == pytest.approx(speed, rel=1e-6)
+    code, _, errors = run("simulate", "sink.toml", *words[2:], "--cycles", "1")
+    assert (code, errors) == (0, "")
+    motion = vi.load(tmp_path / "out/sink-omega1-history.nc")
+    assert float(motion["velocity"].sel(mass="ball")[0]) == 14.0
+    names = [f"{part}.{mass}" for part in ("displacement", "velocity") for mass in ("host", "ball")]
+    end = found["final_state"]
+    near = ",".join(f"{name}={float(end.sel(component=name)):.3g}" for name in names)
+    varied = ("--vary", "amplitude=0.9:1.1")
+    code, out, errors = run("branch", "sink.toml", "--start", near, *varied)
+    assert (code, errors) == (0, "")
+    assert "Branch 0: period 1" in out
+
+
+def test_design(run, tmp_path):
+    quake = noise(3, 4.0, 180)
+    columns = np.column_stack([quake.time, quake.acceleration])
+    head = "time (s),acceleration (m/s2)"
+    np.savetxt(tmp_path / "a.csv", columns, delimiter=",", header=head, comments="")
+    words = ("design", "neighbours", "a.csv", "--vary", "stops.pounding.gap=5mm:40mm:4")
+    code, out, errors = run(*words)
+    assert (code, errors) == (0, "")
+    chart = vi.load(tmp_path / "out/neighbours-design.nc")
+    assert chart.sizes["stops.pounding.gap"] == 4
+    gap = vi.required_gap(rig().system, records=vi.Record.read(tmp_path / "a.csv"))
+    needed = 1e3 * float(gap["required_gap"].sel(stop="pounding"))
+    row = next(line for line in out.splitlines() if line.startswith("pounding"))
+    assert f"{needed:.4g} mm" in row
+    for name in ("design.csv", "pareto.png"):
+        assert (tmp_path / f"out/neighbours-{name}").exists()
+    code, out, errors = run(*words, "--json", "--limit", "peak-force.pounding", "1N")
+    assert (code, errors) == (0, "")
+    told = json.loads(out)
+    assert told["required_gap"]["pounding"] == pytest.approx(1e-3 * needed)
+    hit = chart["peak_force"].sel(stop="pounding") > 1.0
+    assert told["designs_within_limits"] == int((~hit).sum())
+    code, _, errors = run(*words, "--best")
+    assert (code, errors.count("\n")) == (2, 1)
+    assert "--best: set, but" in errors
+
+
+def test_ensemble(run, tmp_path):
+    words = ("ensemble", "neighbours", "--uncertain", "stops.pounding.gap=normal:5%")
+    words += ("--uncertain", "masses.west=normal:5%")
+    words += ("--draws", "8", "--frequencies", "1.9Hz,2.1Hz")
+    code, out, errors = run(*words, "--set", "stops.wall.gap=5mm")
+    assert (code, errors) == (0, "")
+    assert "largest displacement, west" in out
+    assert "largest contact force, pounding" in out
+    assert "contact force, wall" not in out  # it is rigid
+    assert "largest impulse, wall" in out
+    written = {one.name for one in (tmp_path / "out").iterdir()}
+    for ending in ("ensemble.nc", "ensemble.png", "ensemble-accelerations.png"):
+        assert any(name.endswith(f"-{ending}") for name in written)
+    assert any(name.endswith("-ensemble-forces.png") for name in written)
+    code, out, errors = run(*words, "--sensitivity", "--set", "stops.wall=none", "--json")
+    assert (code, errors) == (0, "")
+    told = json.loads(out)
+    assert set(told["sensitivity"]) == {"peak_acceleration", "peak_displacement", "peak_force"}
+    path = tmp_path / "out" / Path(told["files"]["data"]).name
+    data = vi.load(path)
+    exact = data["peak_displacement"].sel(mass="west").max(("direction", "frequency"))
+    assert told["peaks"]["peak_displacement.west"][1] == pytest.approx(float(exact.median()))
+
+
 @pytest.mark.parametrize(
     ("words", "named"),
     [
@@ -355,15 +475,18 @@ def test_earthquake(run, tmp_path):
         ((*BASINS, "--start", "velocity.wes=1"), "start.velocity: 'wes' is not"),
         (("basins", "neighbours", "--velocity", "0:1"), "--velocity: '0:1', but"),
         (("simulate", "neighbours", "--displacement", "2mm"), "--displacement: '2mm', but"),
-        (("sweep", "neighbours", "--compute", "p = mean(velocity)"), "--compute: "),
+        (("sweep", "neighbours", "--compute", "p = mean(velocity)"), "velocity.west"),
         (("sweep", "neighbours", "--normalised"), "--normalised: set, but"),
-        (("branch", "neighbours", "--start", "1mm,0"), "--start: '1mm,0', but"),
+        (("branch", "neighbours", "--start", "1mm,0"), "--start: '1mm'"),
+        (("simulate", "neighbours", "--start", "velocity.wes=1"), "start.velocity: 'wes'"),
+        (("simulate", "B2-G1-A3", "--start", "velocity.a=1", "--frequency", "2Hz"), "has one mass"),
+        (("motion", "B2-G1-A3", "--start", "velocity.a=1", "--frequency", "2Hz"), "has one mass"),
         (("simulate", "neighbours", "--set", "stops.pound.gap=1cm"), "did you mean stops.pounding"),
         (
             ("simulate", "neighbours", "--set", "stops.moat=none"),
             "--set: stops.moat: 'moat' is not",
         ),
-        (("simulate", "neighbours", "--set", "masses.west=none"), "only a link, a stop or a force"),
+        (("simulate", "neighbours", "--set", "masses.west=none"), "'west' is not a mass; "),
         (("simulate", "neighbours", "--set", "masses.west=-1t"), "--set: masses.west: '-1t'"),
         (
             ("simulate", "B2-G1-A3", "--frequency", "2Hz", "--animation", "gif"),

@@ -6,8 +6,11 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import vibroimpact as vi
+from vibroimpact.facts import bifurcation_diagram as facts
+from vibroimpact.facts.tables import as_text
 from vibroimpact.stability.bifurcation_diagram import CREATED_BY
 
 COMMAND = "bifurcation"
@@ -20,18 +23,71 @@ def test_over_the_gap(tmp_path, told):
     )
     assert (code, errors) == (0, "")
     lines = [line.rstrip() for line in out.splitlines()]
-    for line in ("Up", "Down", "Random 1", "Files", "  out/B3-10mm-A3-gap-diagram.png"):
+    for line in ("Up", "Down", "Random 1", "Files", "  out/B3-10mm-A3-1.12Hz-gap-diagram.png"):
         assert lines.count(line) == 1
+    (base,) = [line for line in lines if line.startswith("base ")]
+    assert base.endswith("at 1.12 Hz")
     ranges = [line.split() for line in lines]
-    assert [*["periodic,", "period", "2", "4.85", "to", "4.9", "2"]] in [
-        words[:7] for words in ranges
-    ]
-    data = vi.load(tmp_path / "out" / "B3-10mm-A3-gap-diagram.nc")
+    found = ["periodic,", "period", "2", "4R", "2L", "4.85", "to", "4.9", "2"]
+    assert found in [words[:9] for words in ranges]
+    data = vi.load(tmp_path / "out" / "B3-10mm-A3-1.12Hz-gap-diagram.nc")
     case = vi.laboratory.case("B3-10mm-A3")
     same = vi.bifurcation_diagram(case, {"gap": (4.8e-3, 5e-3)}, 5, frequency=1.12, random=1)
     assert data.attrs["created_by"] == CREATED_BY
     for name in ("section_displacement", "exponents", "period"):
         np.testing.assert_array_equal(data[name], same[name])
+
+
+def test_the_frequency_stands_in_title_and_names_unless_it_is_varied(tmp_path, told):
+    few = ("B2-G1-A3", "--direction", "up", "--figure", "svg", "--vary")
+    code, out, _ = told(tmp_path, *few, "gap=7mm:8mm:2", "--frequency", "2.2Hz", "--json")
+    printed = json.loads(out)
+    assert (code, printed["frequency"]) == (0, 2.2)
+    assert printed["files"]["figure"] == "out/B2-G1-A3-2.2Hz-gap-diagram.svg"
+    assert "B2-G1-A3, 2.2 Hz" in (tmp_path / printed["files"]["figure"]).read_text()
+    printed = json.loads(told(tmp_path, *few, "frequency=2Hz:2.1Hz:2", "--json")[1])
+    assert "frequency" not in printed
+    assert printed["files"]["figure"] == "out/B2-G1-A3-frequency-diagram.svg"
+
+
+def test_contacts_part_ranges_and_their_absence_is_told(tmp_path, told):
+    few = ("B2-G1-A3", "--direction", "down", "--vary", "frequency=1.6Hz:2.8Hz:7")
+    _, out, _ = told(tmp_path, *few)
+    rows = [line.split()[3:] for line in out.splitlines() if line.startswith("periodic")]
+    assert [row[:-2] for row in rows] == [
+        ["1R", "1L", "1.6"],
+        ["none", "1.8", "to", "2.8"],
+    ]
+    assert "touches a stop" not in out
+    _, out, _ = told(tmp_path, *few[:4], "frequency=2.8Hz:2.9Hz:2")
+    assert "Note: none of these motions touches a stop. Motions that do may coexist" in out
+    found = json.loads(told(tmp_path, *few, "--json")[1])["starts"]["down"]
+    assert [one["contacts"] for one in found] == [{"right": n, "left": n} for n in (1, 0)]
+
+
+def test_no_undecided_motion_is_hidden():
+    count = 40
+    motion = np.array(["periodic"] * count, dtype=object)
+    motion[-1] = "undecided"
+    shape = ("start", "gap")
+    data = xr.Dataset(
+        {
+            "motion": (shape, [motion.astype(str)]),
+            "period": (shape, [[*range(1, count), 0]]),
+            "exponents": ((*shape, "exponent"), -np.ones((1, count, 2))),
+            "impacts": ((*shape, "stop"), np.ones((1, count, 1))),
+        },
+        {
+            "start": ["up"],
+            "gap": ("gap", np.arange(count) / 1e3, {"units": "m"}),
+            "stop": ["right"],
+        },
+        {"parameter": "gap"},
+    )
+    text = as_text(facts.text(data))
+    assert text.count("periodic") == 12
+    assert text.count("undecided") == 1
+    assert f"and {count - 13} narrower ranges" in text
 
 
 @pytest.mark.full
@@ -60,11 +116,11 @@ def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
         *("--quantity", "impact-velocity", "--phase", "90deg", "--json"),
     )
     assert (code, errors) == (0, "")
-    facts = json.loads(out)
-    assert list(facts["starts"]) == ["down"]
-    assert sum(one["values"] for one in facts["starts"]["down"]) == 5
-    assert facts["starts"]["down"][0]["from"] == 2.0
-    data = vi.load(tmp_path / facts["files"]["data"])
+    printed = json.loads(out)
+    assert list(printed["starts"]) == ["down"]
+    assert sum(one["values"] for one in printed["starts"]["down"]) == 5
+    assert printed["starts"]["down"][0]["from"] == 2.0
+    data = vi.load(tmp_path / printed["files"]["data"])
     assert "contact_start_velocity" in data
     assert float(data["section"].sel(component="phase")[0, 0]) == pytest.approx(np.pi / 2.0)
 

@@ -99,7 +99,7 @@ def test_garbage_is_searched_as_usual_only_while_a_command_computes():
 def test_installed_program(tmp_path):
     program = shutil.which("vibroimpact", path=str(Path(sys.executable).parent))
     assert program is not None
-    words = ["sweep", "B2-G1-A3", "--step", "0.5Hz", "--json"]
+    words = ["sweep", "B2-G1-A3", "--frequencies", "1Hz,2Hz", "--json"]
     done = subprocess.run([program, *words], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("{")

@@ -55,7 +55,7 @@ def test_a_changed_case_says_so(options, name, slug):
 
 def test_a_name_names_the_files_and_the_title_tells_the_changes():
     what = subject("B2-G1-A3", RigOptions(gap="9mm"), "mine")
-    assert what[:2] == ("mine, gap 9 mm", "mine")
+    assert what[:2] == ("B2-G1-A3, gap 9 mm", "mine")
 
 
 def test_a_long_title_is_broken_between_changes():

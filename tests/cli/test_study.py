@@ -146,8 +146,7 @@ def test_a_study_needs_no_ending(write):
         ),
         (
             RIG + 'left = { kind = "hertz" }',
-            r"oscillator.left.kind: 'hertz' is unknown; 'kelvin-voigt', 'rigid', 'power', "
-            r"'jankowski' or 'formula' is accepted",
+            r"oscillator.left.kind: 'hertz' is unknown; 'kelvin-voigt', 'rigid', .* is accepted",
         ),
         (
             RIG.replace('stiffness = "26.8 kN/m"', 'period = "2 s"'),

@@ -110,7 +110,9 @@ def test_options_reach_the_sweep(run, tmp_path):
     )
     code, _, _ = run("B2-G1-A3", *COARSE, *options, *rest)
     assert code == 0
-    assert (tmp_path / "out/one_sided-sweep.svg").is_file()
+    svg = (tmp_path / "out/one_sided-sweep.svg").read_text()
+    assert "B2-G1-A3, mass 600 kg" in svg
+    assert "one sided" not in svg
     parameters = json.loads(vi.load(tmp_path / "out/one_sided-sweep.nc").attrs["parameters"])
     assert (parameters["max_cycles"], parameters["tolerance"]) == (60, 1e-8)
     oscillator = parameters["rigs"][0]["oscillator"]

@@ -9,6 +9,7 @@ import vibroimpact as vi
 from design.test_design_chart import RECORDS
 from stability.test_assembly_orbits import STOPS, alone, frame
 from vibroimpact import figures
+from vibroimpact.design.limits import excesses
 from vibroimpact.design.pareto import non_dominated
 
 SINE = vi.Harmonic("1 m/s2", 0.9)
@@ -112,3 +113,35 @@ def test_wrong_input() -> None:
             vi.design_chart(vi.Rig(frame(), SINE), VARY, **options)
     with pytest.raises(vi.InputError, match=r"^vary: 'stops.rigt.gap' is unknown"):
         vi.design_chart(frame(), {"stops.rigt.gap": [0.01]}, records=RECORDS)
+
+
+def test_stiffnesses_of_all_stops_keep_their_damping() -> None:
+    stops = {"right": STOPS["bumpers"], "left": STOPS["bumpers"]}
+    assembly = frame(STOPS["bumpers"])
+    assert set(assembly.stops) == set(stops)
+    damping = assembly.stops["right"].law.damping
+    data = vi.design_chart(assembly, {"stops.stiffness": [1e5, 3e5]}, records=RECORDS)
+    np.testing.assert_array_equal(data["stops.damping"], [damping, damping])
+    stiff = assembly.stops["right"].law.replace(stiffness=3e5)
+    alone = vi.demands(
+        assembly.replace(
+            stops={name: one.replace(law=stiff) for name, one in assembly.stops.items()}
+        ),
+        RECORDS,
+    )
+    expected = alone["peak_force"].max("record").values.ravel()
+    np.testing.assert_allclose(data["peak_force"].values[1], expected, rtol=1e-12)
+
+
+def test_a_limit_of_one_part() -> None:
+    data = vi.design_chart(frame(), VARY, records=RECORDS)
+    drift = data["peak_drift"].sel(link="isolator")
+    middle = float(drift.median())
+    found = vi.design_chart(frame(), VARY, records=RECORDS, limits={"peak-drift.isolator": middle})
+    np.testing.assert_array_equal(found["within_limits"], drift <= middle)
+    assert 0 < int(found["within_limits"].sum()) < found["within_limits"].size
+    excess, *others = excesses(found)
+    assert not others
+    np.testing.assert_array_equal(excess <= 0.0, found["within_limits"])
+    with pytest.raises(vi.InputError, match=r"limits: 'peak_drift\.attic'; .* peak_drift\.storey"):
+        vi.design_chart(frame(), VARY, records=RECORDS, limits={"peak_drift.attic": 1.0})

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.optimize import minimize_scalar
 
 import vibroimpact as vi
@@ -238,10 +240,38 @@ def test_neighbours_of_equal_modes_never_meet() -> None:
         assert abs(gap) < 1e-14
 
 
-def test_wrong_arguments(tmp_path: object) -> None:
+class _KilledError(Exception):
+    pass
+
+
+def test_stored_demands_are_resumed(tmp_path: Path) -> None:
+    rigs = {"soft": neighbours(), "hard": neighbours().replace(forces={})}
+    records = [vi.Record(QUAKE.acceleration[:n], QUAKE.step) for n in (60, 80, 100)]
+    arguments, how = (rigs, records, [0.5, 1.0]), {"vary": {"gap": [0.01, 0.02, 0.03]}, "block": 2}
+    whole = vi.demands(*arguments, **how)
+    assert whole["peak_drift"].dims == ("record", "scale", "rig", "gap", "link")
+    alone = vi.demands(rigs["hard"], records[1], [0.5, 1.0], vary={"gap": [0.02]})
+    for name in ("peak_displacement", "peak_force", "peak_transmitted_force"):
+        one = whole[name].isel(record=1, rig=1, gap=1)
+        np.testing.assert_array_equal(one, alone[name].isel(record=0, gap=0))
+
+    def kill(done: int, total: int) -> None:
+        if done > total // 2:
+            raise _KilledError
+
+    with pytest.raises(_KilledError):
+        vi.demands(*arguments, **how, store=tmp_path / "demands", progress=kill)
+    held = xr.open_zarr(tmp_path / "demands", consolidated=False)
+    assert 0 < int((held["status"] == 0).sum()) < held["status"].size
+    again = vi.demands(*arguments, **how, store=tmp_path / "demands")
+    for name in whole.data_vars:
+        np.testing.assert_array_equal(whole[name], again[name])
+    third = vi.demands(*arguments, **how, store=tmp_path / "demands", progress=lambda *_: 1 / 0)
+    assert third.identical(again)
+
+
+def test_wrong_arguments() -> None:
     rig = neighbours()
-    with pytest.raises(vi.InputError, match=r"^store: demands of an Assembly are kept in memory"):
-        vi.demands(rig, QUAKE, store=tmp_path)
     single, _ = one_mass(BUMPER, None)
     with pytest.raises(vi.InputError, match=r"^rig\['one'\]: an Oscillator beside an Assembly"):
         vi.demands({"two": rig, "one": single}, QUAKE)

@@ -255,6 +255,9 @@ EVERY: dict[str, Drawn] = {
     ),
     "assembly_drawing": Drawn(_over(several_masses, figures.assembly_drawing)),
     "mass_histories": Drawn(_over(masses.quake, figures.mass_histories), 6),
+    "mass_histories, closing": Drawn(
+        _over(masses.quake, figures.mass_histories, closing=["pounding_2", "pounding_3"]), 8
+    ),
     "mass_histories, cycles": Drawn(
         _over(masses.motion, figures.mass_histories, quantity="acceleration", cycles=3), 6
     ),

@@ -120,6 +120,53 @@ def test_histories_are_the_samples_of_each_mass(quantity) -> None:
         np.testing.assert_allclose(line.get_ydata(), expected, rtol=1e-13)
 
 
+def test_closing_displacements_have_panels_below_the_masses() -> None:
+    data = quake()
+    *_, third, second = axes = figures.mass_histories(data, closing=["pounding_3", "pounding_2"])
+    assert len(axes) == len(BUILDINGS.names) + 2
+    for ax, i in ((third, 3), (second, 2)):
+        line = max(ax.lines, key=lambda one: len(one.get_xdata()))
+        moved = [data["displacement"].sel(mass=f"{name}{i}") for name in ("north", "south")]
+        np.testing.assert_allclose(line.get_ydata(), 1e3 * (moved[0] - moved[1]), atol=1e-12)
+        (gap,) = [one.get_ydata()[0] for one in ax.lines if one.get_linestyle() == "--"]
+        assert gap == 20.0
+    assert spans(third) == spans(axes[2])
+    with pytest.raises(vi.InputError, match=r"^closing: 'pounding' is not a stop"):
+        figures.mass_histories(data, closing=["pounding"])
+
+
+def test_the_end_of_a_record_is_marked_if_the_motion_goes_on() -> None:
+    record = json.loads(quake().attrs["parameters"])["record"]
+    end = (record["samples"] - 1) * record["step"]
+    assert end < quake()["time"].values[-1] - 0.9
+    for axes in (figures.mass_histories(quake()), figures.contact_forces(quake())):
+        for ax in axes:
+            assert [line.get_xdata()[0] for line in ax.lines if line.get_linestyle() == ":"] == [
+                end
+            ]
+        names = [text.get_text() for text in axes[0].get_legend().get_texts()]
+        assert "end of the record" in names
+    for ax in figures.mass_histories(motion()):
+        assert not [line for line in ax.lines if line.get_linestyle() == ":"]
+
+
+def test_an_axis_has_three_ticks_and_a_short_contact_the_colour_of_its_stop() -> None:
+    for ax in figures.mass_histories(quake()):
+        low, high = ax.get_ylim()
+        assert sum(low <= tick <= high for tick in ax.get_yticks()) >= 3
+        for band in (one for one in ax.collections if isinstance(one, PolyCollection)):
+            red, green, blue = band.get_edgecolor()[0][:3]
+            assert max(red, green, blue) - min(red, green, blue) > 0.3  # no grey
+            assert band.get_linewidth()[0] >= 0.7
+
+
+def test_panels_share_one_label() -> None:
+    for axes in (figures.mass_resonance(swept()), figures.mass_branches(branch())):
+        assert not any(ax.get_ylabel() for ax in axes)
+        figure = axes[0].get_figure(root=True)
+        assert figure.get_supylabel() == "largest displacement (mm)"
+
+
 def spans(ax) -> list[tuple[float, float]]:
     """Return the bands in a panel."""
     bands = [one for one in ax.collections if isinstance(one, PolyCollection)]
@@ -158,14 +205,14 @@ def test_forces_and_impulses_of_the_stops() -> None:
     data = quake()
     axes = dict(zip(BUILDINGS.stops, figures.contact_forces(data), strict=True))
     assert "MN" in axes["pounding_2"].get_ylabel()
-    (line,) = axes["pounding_2"].lines
+    line, _ = axes["pounding_2"].lines
     np.testing.assert_allclose(
         line.get_ydata(), 1e-6 * data["contact_force"].sel(stop="pounding_2").values
     )
     # The impulse is the change of momentum of the mass, from the samples on both sides of it.
     mine = (data["event_stop"].values == "wall") & (data["event_contact"].values == 2)
     assert mine.sum() >= 2
-    (points,) = axes["wall"].lines
+    points, _ = axes["wall"].lines
     speed = data["event_velocity"].sel(mass="south3").values[mine]
     np.testing.assert_allclose(points.get_ydata(), 1e-3 * 250e3 * 1.6 * speed, rtol=1e-12)
     assert axes["wall"].get_ylabel().replace("\n", " ") == "impulse (kN s)"
@@ -289,6 +336,13 @@ def test_branches_of_each_mass_with_their_contacts() -> None:
         (lambda: figures.mass_resonance(motion()), "data: this is not a sweep"),
         (lambda: figures.mass_resonance(swept(), quantity="eta_d"), "quantity: 'eta_d'; one of"),
         (lambda: figures.mass_branches(swept()), "data: this is not a branch"),
+        (lambda: figures.branch_diagram(branch()), "data: it is of an Assembly of several masses"),
+        (lambda: figures.resonance_curves(swept()), "data: it is of an Assembly of several"),
+        (
+            lambda: figures.resonance_family(vi.sweeps([vi.Rig(PAIR, "0.2 g")], [1.6])),
+            "data: it is of an Assembly of several masses; draw it with figures.mass_resonance",
+        ),
+        (lambda: figures.phase_portrait(motion()), "motion: it is of an Assembly of several"),
         (lambda: figures.mass_histories(motion(), axes=[1]), "axes: 1 given; 6 are accepted"),
         (lambda: save_animation(motion(), "motion.mp4"), "path: 'motion.mp4' does not end in .gif"),
         (lambda: save_animation(motion(), "a.gif", duration=0), "duration: 0"),

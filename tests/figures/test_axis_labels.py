@@ -16,7 +16,7 @@ from vibroimpact.figures.axis_labels import axis_label
         ("impacts.left", "contacts with the left stop per forcing cycle (–)"),
         ("impacts.wall", "contacts with stop wall per forcing cycle (–)"),
         ("peak_impulse.right", "largest impulse of an impact on the right rigid stop (N s)"),
-        ("peak_acceleration.roof", "roof: largest absolute acceleration, without sign (m/s²)"),
+        ("peak_acceleration.roof", "roof: largest absolute acceleration (g)"),
     ],
 )
 def test_of_one_stop_and_of_all(quantity: str, label: str) -> None:

@@ -30,7 +30,7 @@ OTHERS = {
     "Mark",
 }
 """Names that draw no figure."""
-SAVED = sample([*EVERY], [*EVERY][::8])
+SAVED = sample([*EVERY], [*EVERY][::15])
 """Figures whose files are looked at; of the others only what is drawn."""
 OWN = [name for name, one in EVERY.items() if one.axes]
 """Figures that are drawn on axes of the user."""
@@ -58,7 +58,7 @@ def test_every_figure_is_drawn_here() -> None:
     assert {name.partition(",")[0] for name in EVERY} == set(figures.__all__) - OTHERS
 
 
-@pytest.mark.parametrize("name", EVERY)
+@pytest.mark.parametrize("name", sample([*EVERY], [*EVERY][::3]))
 def test_at_the_width_of_a_column(name, tmp_path) -> None:
     with figure_size("86 mm"):
         figure = figure_of(EVERY[name].draw())
@@ -81,13 +81,13 @@ def test_at_the_width_of_a_column(name, tmp_path) -> None:
     assert all("TrueType" in line and " yes " in line for line in fonts)
 
 
-@pytest.mark.parametrize("name", sample([*EVERY], [*EVERY][::9]))
+@pytest.mark.parametrize("name", sample([*EVERY], [*EVERY][1::16]))
 def test_on_the_screen(name) -> None:
     assert problems(figure_of(EVERY[name].draw())) == []
 
 
 @pytest.mark.parametrize("size", sample([8.0, 10.0], [8.0]))
-@pytest.mark.parametrize("name", sample(OWN, OWN[::8]))
+@pytest.mark.parametrize("name", sample(OWN, OWN[::16]))
 def test_on_own_axes(name, size) -> None:
     with plt.rc_context({"font.size": size}):
         figure = on_own_axes(EVERY[name])

@@ -27,7 +27,12 @@ def test_the_record_lies_above_the_response() -> None:
     assert impacts > 0
     assert any(len(one.get_offsets()) == impacts for one in hits)
     words = [text.get_text() for text in axes[1].get_legend().get_texts()]
-    assert words == ["gaps", "left contact", "impact"]  # a wall is struck, never pressed
+    assert words == [
+        "gaps",
+        "left contact",
+        "impact",
+        "end of the record",
+    ]  # a wall is struck, never pressed
     assert "acceleration" in axes[0].get_ylabel()
     assert axes[3].get_xlabel() == "time (s)"
 

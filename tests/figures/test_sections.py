@@ -105,6 +105,42 @@ def test_bifurcations_of_branches_are_marked():
     assert "period doubling" in [t.get_text() for t in top.get_legend().get_texts()]
 
 
+def test_branches_are_drawn_with_their_bifurcations_on_them():
+    orbits = branch()
+    top, middle, _ = section_diagram(diagram(), branches=orbits)
+    assert {"stable branch", "unstable branch"} <= {
+        t.get_text() for t in top.get_legend().get_texts()
+    }
+    section = orbits["section"]
+    mine = section.sel(component="phase").values == 0.0
+    known = 1e3 * section.sel(component="displacement").values[mine]
+    thin = [line for line in top.lines if line.get_linewidth() == 0.7]
+    drawn = np.concatenate([line.get_ydata() for line in thin])
+    assert set(known) == set(drawn[np.isfinite(drawn)])
+    marks = [line for line in top.lines if line.get_marker() == "^" and len(line.get_xdata())]
+    (at,) = {float(y) for line in marks for y in line.get_ydata() if np.isfinite(y)} & set(
+        1e3 * orbits["bifurcation_section"].sel(component="displacement").values
+    )
+    low, high = top.get_ylim()
+    assert low < at < high
+    assert not any(
+        line.get_linewidth() == 0.7 for line in middle.lines if len(line.get_xdata()) > 2
+    )
+
+
+def test_in_another_phase_or_at_impacts_no_branch_is_drawn():
+    turned = branch().copy(deep=True)
+    turned["section"].loc[{"component": "phase"}] = 1.0
+    turned["bifurcation_section"].loc[{"component": "phase"}] = 1.0
+    top, *_ = section_diagram(diagram(), branches=turned)
+    assert not any(line.get_linewidth() == 0.7 for line in top.lines)
+    impacts = vi.bifurcation_diagram(
+        CASE, {"gap": (4.8e-3, 5e-3)}, 2, frequency=1.12, section="impacts", directions="up"
+    )
+    top, *_ = section_diagram(impacts, branches=branch())
+    assert "period doubling of a branch" in [t.get_text() for t in top.get_legend().get_texts()]
+
+
 def test_a_logarithmic_axis():
     data = vi.bifurcation_diagram(
         CASE, {"stops.stiffness": (1e4, 1e6)}, 5, frequency=3.5, log=True, directions="up"

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from formula_stops import formula_stops
 from vibroimpact.errors import InputError
-from vibroimpact.model.parameter_ranges import read_ranges, vary_all
+from vibroimpact.model.parameter_ranges import read_ranges
 from vibroimpact.model.parameters import PARAMETERS, parameter, set_values
 from vibroimpact.model.paths import put, walk
 from vibroimpact.model.quantities import MASS
@@ -44,6 +45,8 @@ def having(name: str) -> vi.Oscillator:
     """A rig that has the parameter."""
     found = RIG.replace(isolator=ISOLATORS.get(name.removeprefix("isolator."), RIG.isolator))
     stops = {"restitution": WALLS.right, "mass": POUNDING, "exponent": HERTZ, "dissipation": HERTZ}
+    for one in (RIG.right, *formula_stops(4e5, 7.5e-3).values()):
+        stops = {field: one for field in dict(one)} | stops
     stop = stops.get(name.rpartition(".")[2], RIG.right) if name.startswith("stops") else RIG.right
     return found.replace(right=stop, left=stop)
 
@@ -134,16 +137,18 @@ def test_paths_walk_mappings_and_models():
 
 
 def test_values_are_set_at_once_and_an_absent_stop_is_made():
-    moved = set_values(RIG, {"gap": "9 mm", "left": None, "isolator.damping": "2 kN s/m"})
+    rig = vi.Rig(RIG)
+    start = set_values(rig, {"gap": "9 mm", "left": None, "isolator.damping": "2 kN s/m"})
+    moved = start.oscillator
     assert (moved.right.gap, moved.left, moved.isolator.damping) == (9e-3, None, 2e3)
-    made = set_values(moved, {"left.stiffness": "1 MN/m", "left.damping": 0.0, "left.gap": "1 mm"})
-    assert made.left == vi.Bumper(1e6, 0.0, 1e-3)
+    made = set_values(start, {"left.stiffness": "1 MN/m", "left.damping": 0.0, "left.gap": "1 mm"})
+    assert made.oscillator.left == vi.Bumper(1e6, 0.0, 1e-3)
     with pytest.raises(vi.InputError, match=r"^left\.damping: missing"):
-        set_values(moved, {"left.stiffness": "1 MN/m", "left.gap": "1 mm"})
+        set_values(start, {"left.stiffness": "1 MN/m", "left.gap": "1 mm"})
     with pytest.raises(vi.InputError, match=r"^right\.gap: '1 kg' is a mass"):
-        set_values(RIG, {"right.gap": "1 kg"})
-    with pytest.raises(vi.InputError, match=r"^isolator\.nothing: unknown key"):
-        set_values(RIG, {"isolator.nothing": 1.0})
+        set_values(rig, {"right.gap": "1 kg"})
+    with pytest.raises(vi.InputError, match=r"'isolator\.nothing' is unknown; one of frequency"):
+        set_values(rig, {"isolator.nothing": 1.0})
 
 
 def test_sides_that_differ():
@@ -153,7 +158,7 @@ def test_sides_that_differ():
             parameter(name, uneven).read(vi.Rig(uneven, SHAKEN))
     assert parameter("left.damping", uneven).read(vi.Rig(uneven, SHAKEN)) == 1.0
     free = RIG.without_bumpers()
-    with pytest.raises(vi.InputError, match="the rig has no stop with a damping"):
+    with pytest.raises(vi.InputError, match="the rig has no stop with a stiffness"):
         parameter("relaxation_time", free).read(vi.Rig(free, SHAKEN))
 
 
@@ -249,15 +254,60 @@ def test_a_stiffness_at_restitution_is_that_of_bumpers_made_by_it():
     rig = one.vary(vi.Rig(begun, SHAKEN), 8e4).oscillator
     assert rig.right.stiffness == 8e4
     assert rig.right.damping == pytest.approx(wall(8e4).damping, rel=1e-14)
-    with pytest.raises(
-        vi.InputError, match=r"has the same restitution at any stiffness; use 'stops.st"
-    ):
-        one.read(vi.Rig(RIG.replace(right=HERTZ, left=HERTZ), SHAKEN))
-    # A damping that is named is had, whichever is named first.
-    pairs = [(parameter("stops.damping", begun), 700.0), (one, 8e4)]
-    for order in (pairs, pairs[::-1]):
-        rig = vary_all(vi.Rig(begun, SHAKEN), order).oscillator
-        assert (rig.right.stiffness, rig.right.damping) == (8e4, 700.0)
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["proportional_stiffness", "stiffness_at_restitution", "stiffness_ratio", "relaxation_time"],
+)
+@pytest.mark.parametrize("left", [HERTZ, RIG.left, None])
+def test_what_sets_the_damping_of_bumpers_refuses_another_law(name, left):
+    rig = vi.Rig(RIG.replace(right=HERTZ, left=left), SHAKEN)
+    one = parameter(name, rig)
+    for use in (one.read, lambda rig: one.vary(rig, 0.3), lambda rig: set_values(rig, {name: 0.3})):
+        with pytest.raises(vi.InputError, match=rf"(?=.*'{name}').*power"):
+            use(rig)
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ({"stops.damping": 700.0}, {"stiffness_at_restitution": 8e4}),
+        ({"stops.damping": 700.0}, {"stiffness_ratio": 5.0}),
+        ({"mass": 1000.0}, {"isolator_period": 2.5}),
+        ({"weight": "10 kN", "isolator_period": 2.5}, {"damping_ratio": 0.1}),
+        ({"gap_ratio": 0.4}, {"damping_ratio": 0.1, "amplitude": 0.7}),
+        ({"relaxation_time": 0.2}, {"stops.stiffness": 4e5, "isolator_period": 2.5}),
+    ],
+)
+def test_values_set_together_are_had_in_either_order(first, second):
+    rig = vi.Rig(RIG, SHAKEN)
+    made = set_values(rig, {**first, **second})
+    assert set_values(rig, {**second, **first}) == made
+    for name, value in {**first, **second}.items():
+        if name != "weight":
+            assert parameter(name, made).read(made) == pytest.approx(value, rel=1e-14)
+    if "damping_ratio" not in second and "isolator_period" in second:
+        assert made.oscillator.damping_ratio == pytest.approx(RIG.damping_ratio, rel=1e-14)
+
+
+def test_fields_are_set_at_once_so_that_none_of_them_is_refused_for_another():
+    rig = vi.Rig(RIG.replace(isolator=vi.BilinearIsolator(2e5, 1e5, 100, 0)))
+    values = {"isolator.post_yield_stiffness": 3e5, "isolator.elastic_stiffness": 6e5}
+    assert set_values(rig, values).oscillator.isolator == vi.BilinearIsolator(6e5, 3e5, 100, 0)
+
+
+@pytest.mark.parametrize(
+    ("values", "says"),
+    [
+        ({"right.gap": 1.0, "stops.right.gap": 2.0}, "'stops.right.gap' is given twice"),
+        ({"left": None, "left.gap": 1.0}, "left.gap: left is set, too"),
+        ({"damping_ratio": 0.1, "isolator.damping": 1.0}, "set the same quantity; remove one"),
+    ],
+)
+def test_values_that_contradict_each_other(values, says):
+    with pytest.raises(vi.InputError, match=says):
+        set_values(vi.Rig(RIG), values)
 
 
 @pytest.mark.parametrize(

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
+import random
 
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 
 from paper import fig15, study, table1
 from paper.curves import S3 as CODE
@@ -15,10 +14,12 @@ from paper.items import ITEMS
 from paper.study import GAPS, PublishedStudy
 from samples import sample
 from vibroimpact.figures.style import SCENARIOS
+from vibroimpact.model import laboratory
 
 STUDY = PublishedStudy(threads=2)
 DRAWN = [item for item in ITEMS if item.draw is not None]
-KEYS = [item.key for item in DRAWN]
+ITEM = {item.key: item for item in DRAWN}
+KEYS = [*ITEM]
 LONG = {f"refined-fig{k:02}" for k in (5, 6, 11, 14)}
 """Drawn from the whole campaign again, or as others are: on full samples only."""
 
@@ -30,12 +31,6 @@ def grids():
         patched.setattr(study, "STEP", sample(study.STEP, 0.02))
         patched.setattr(study, "MAP_NODES", sample(study.MAP_NODES, (5, 6)))
         yield
-
-
-@cache
-def drawn(key: str) -> Figure:
-    (item,) = (item for item in DRAWN if item.key == key)
-    return item.draw(STUDY)
 
 
 def outer(ax) -> tuple[bool, bool]:
@@ -69,7 +64,7 @@ def test_captions_stand_alone():
     sample(KEYS, [key for key in KEYS if key not in LONG][::7]),
 )
 def test_draws(key):
-    figure = drawn(key)
+    figure = ITEM[key].draw(STUDY)
     assert figure.get_layout_engine() is not None
     figure.draw_without_rendering()
     assert figure.axes
@@ -150,24 +145,35 @@ def test_the_branch_meets_the_sweeps_where_it_is_stable():
         assert float(branch["displacement_excursion"][end]) == pytest.approx(float(swept), rel=1e-6)
 
 
-def test_symbols_of_the_map_have_the_colour_of_their_own_scenario():
-    (ax,) = drawn("fig21").axes
+@pytest.fixture
+def coarse(monkeypatch):
+    """The study on the coarsest grid, where what a legend names is tested."""
+    monkeypatch.setattr(study, "STEP", sample(study.STEP, 0.1))
+    monkeypatch.setattr(study, "MAP_NODES", sample(study.MAP_NODES, (3, 4)))
+    return PublishedStudy(threads=2)
+
+
+def test_symbols_of_the_map_have_the_colour_of_their_own_scenario(coarse, monkeypatch):
+    """Whatever the scenarios are."""
+    named = random.Random(1).choices([*SCENARIOS], k=len(laboratory.campaign()))
+    codes = [case.code for case in laboratory.campaign()]
+    monkeypatch.setattr(coarse, "scenarios", lambda: dict(zip(codes, named, strict=True)))
+    (ax,) = ITEM["fig21"].draw(coarse).axes
     filled = {}
     for line in ax.lines:
         if line.get_linestyle() == "None" and len(line.get_xdata()):
             colour = line.get_markerfacecolor()
             filled[colour] = filled.get(colour, 0) + len(line.get_xdata())
-    named = list(STUDY.scenarios().values())
     assert filled == {SCENARIOS[s].line: named.count(s) for s in set(named)}
     texts = [text.get_text() for text in ax.get_legend().get_texts()]
     assert sum(text.startswith("tests with") for text in texts) == 4
 
 
-def test_curves_of_the_gaps_are_named_in_order():
-    (legend,) = drawn("fig19").legends
+def test_curves_of_the_gaps_are_named_in_order(coarse):
+    figure = ITEM["fig19"].draw(coarse)
+    (legend,) = figure.legends
     names = [text.get_text() for text in legend.get_texts()]
     assert names[0] == "0 mm, S5"
     assert names[len(GAPS) - 1] == "no bumpers, S0"
-    assert len({line.get_marker() for line in drawn("fig19").axes[0].lines} - {"", "None"}) == len(
-        GAPS
-    )
+    markers = {line.get_marker() for line in figure.axes[0].lines} - {"", "None"}
+    assert len(markers) == len(GAPS)

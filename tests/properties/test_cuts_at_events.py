@@ -64,7 +64,7 @@ def events(data: xr.Dataset) -> list[tuple[int, int]]:
     return [(int(kind), int(side)) for kind, side in pairs]
 
 
-@pytest.mark.parametrize(("law", "sides", "name", "isolator"), sample(RUNS, RUNS[::7]))
+@pytest.mark.parametrize(("law", "sides", "name", "isolator"), sample(RUNS, RUNS[::13]))
 def test_a_run_cut_at_any_event_goes_on(law: str, sides: str, name: str, isolator: str) -> None:
     gap = GAPS[name]
     if law in RIGID and sides == "both" and gap < 0.0:

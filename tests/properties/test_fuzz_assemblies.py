@@ -130,8 +130,6 @@ def faults(assembly: vi.Assembly, data: xr.Dataset, status: str) -> list[str]:
 def imbalance(assembly: vi.Assembly, data: xr.Dataset) -> list[str]:
     """Energy that is created or missing."""
     found = vi.totals(data)
-    if not np.isfinite(found["total_stored"]) or _holds(assembly, data):
-        return []
     supplied = float(found["total_supplied"])
     links, stops = (found[f"total_{one}"] for one in ("links", "stops"))
     damped = float(found["total_damping"]) if "total_damping" in found else 0.0
@@ -148,19 +146,14 @@ def imbalance(assembly: vi.Assembly, data: xr.Dataset) -> list[str]:
         for name, one in zip(kind.values.size * [kind.name], kind.values, strict=True)
         if one < -EXACT * through - ROUNDING * kinetic - nothing
     ]
-    missing = supplied - lost - change
+    held = float(found["total_stored"])
+    if abs(held - change) > EXACT * through + ROUNDING * kinetic + nothing:
+        wrong.append(f"{held:g} J are stored, not {change:g} J")
+    # The losses of several yielding links are not known one by one.
+    missing = supplied - lost - change if np.isfinite(links).all() else 0.0
     if abs(missing) > EXACT * through + ROUNDING * kinetic + nothing:
         wrong.append(f"{missing:g} of {through:g} J are missing")
     return wrong
-
-
-def _holds(assembly: vi.Assembly, data: xr.Dataset) -> bool:
-    """Whether a curved stop is pressed at the end: what it holds there counts as lost."""
-    pressed = data["final_state"].to_series()
-    return any(
-        pressed[f"touching.{name}"] and not isinstance(stop.law, vi.RigidStop | vi.Bumper)
-        for name, stop in assembly.stops.items()
-    )
 
 
 def unlike(rng: np.random.Generator, assembly: vi.Assembly, shaken: vi.Harmonic) -> list[str]:

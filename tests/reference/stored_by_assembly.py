@@ -33,12 +33,16 @@ def stored(assembly: vi.Assembly, state: xr.DataArray) -> float:
             case vi.ExponentialIsolator():
                 held += quad(law.elastic_force, 0.0, s, epsabs=1e-14, epsrel=1e-13)[0]
                 held += (law.reversal_stiffness - law.final_stiffness) * of("memory", name) ** 2
+            case vi.Law():
+                held += quad(law.static_force, 0.0, s, epsabs=1e-14, epsrel=1e-13)[0]
             case _:
                 held += law.stiffness * s**2 / 2
     for name, link in assembly.stops.items():
         depth, law = at(link.left) - at(link.right) - link.law.gap, link.law
         if isinstance(law, vi.Bumper):
             held += law.stiffness * of("deformation", name) ** 2 / 2
+        elif of("touching", name) and isinstance(law, vi.Law):
+            held += quad(law.read.value, 0.0, depth, (0.0,), epsabs=1e-14)[0]
         elif of("touching", name) and not isinstance(law, vi.RigidStop):
             power = getattr(law, "exponent", 1.5)
             held += law.stiffness * max(depth, 0.0) ** (power + 1) / (power + 1)

@@ -9,6 +9,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import vibroimpact as vi
+from reference.stored_by_assembly import stored
+from vibroimpact.response import assembly_rig
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*encountered:RuntimeWarning")
 """Without the compiler; terms that leave the range of numbers are found so."""
@@ -305,6 +307,26 @@ def test_more_parts_than_a_mode_has_bits_for_are_refused() -> None:
     assert "\n" not in str(error.value)
 
 
+def test_more_parts_than_a_state_has_room_for_are_refused(monkeypatch: Any) -> None:
+    """The engine's room of 1,024 numbers is made smaller: so many masses take long to build."""
+    linked = vi.Assembly(
+        {"a": 1.0, "b": 1.0},
+        {"x": vi.Link("ground", "a", LAWS["cubic"][0]), "y": vi.Link("ground", "b", LINEAR)},
+        {"z": vi.Link("a", "b", BUMPER)},
+    )
+    record = vi.Record([0.0, 1.0, 0.0], 0.01)
+    problem = (
+        r"masses: a state of 2 masses, 1 stops and 1 curved .* 6 numbers .* at most 5 are possible"
+    )
+    monkeypatch.setattr(assembly_rig, "MOST_PARTS", 6)
+    vi.simulate(vi.Rig(linked, record), samples=1)
+    monkeypatch.setattr(assembly_rig, "MOST_PARTS", 5)
+    with pytest.raises(vi.InputError, match=problem):
+        vi.simulate(vi.Rig(linked, record), samples=1)
+    with pytest.raises(vi.InputError, match=problem):
+        vi.demands(linked, record)
+
+
 @pytest.mark.parametrize("name", ["hunt-crossley", "bouc-wen", "friction"])
 def test_sweeps_of_one_mass_are_those_of_an_oscillator(name: str) -> None:
     isolator, right, left = LAWS[name]
@@ -353,3 +375,65 @@ def test_a_drag_is_nothing_while_friction_holds(exponent: float) -> None:
     assert found.attrs["message"] == "done"
     ends = [data["final_state"].values[:2] for data in (expected, found)]
     assert ends[1] == pytest.approx(ends[0], abs=1e-10)
+
+
+@pytest.mark.parametrize("cycles", [3.3, 3.62])
+@pytest.mark.parametrize("name", LAWS)
+def test_energies_of_one_mass_are_those_of_an_oscillator(name: str, cycles: float) -> None:
+    """Also of a motion that ends in a contact, whose stop still holds energy."""
+    isolator, right, left = LAWS[name]
+    sides = {"right": right, "left": left}
+    stops = {
+        side: vi.Link(*(("a", "ground") if side == "right" else ("ground", "a")), stop)
+        for side, stop in sides.items()
+        if stop is not None
+    }
+    one = vi.Oscillator(1.0, isolator, **sides)
+    several = vi.Assembly({"a": 1.0}, {"x": vi.Link("ground", "a", isolator)}, stops)
+    motions = [vi.simulate(vi.Rig(system, SHAKEN), cycles) for system in (one, several)]
+    expected, found = (vi.totals(motion) for motion in motions)
+    size = float(expected["total_isolator"] + expected["total_bumpers"])
+    for mine, theirs in (("links", "isolator"), ("stops", "bumpers"), ("supplied", "supplied")):
+        lost = float(found[f"total_{mine}"].sum())
+        assert lost == pytest.approx(float(expected[f"total_{theirs}"]), abs=1e-10 * size)
+    state = [stored(several, motions[1][f"{when}_state"]) for when in ("initial", "final")]
+    assert float(found["total_stored"]) == pytest.approx(state[1] - state[0], abs=1e-10 * size)
+
+
+def test_a_stop_that_is_pressed_at_the_end_has_lost_nothing() -> None:
+    """What an elastic contact holds comes back; the balance is closed with it."""
+    struck = vi.Assembly(
+        {"a": 1.0, "b": 2.0},
+        {"x": vi.Link("ground", "a", LINEAR), "y": vi.Link("ground", "b", LINEAR)},
+        {"z": vi.Link("a", "b", vi.PowerBumper(2e5, 0.0))},
+    )
+    rig = vi.Rig(struck, STILL)
+    start = vi.State(velocity={"a": 1.0})
+    whole = vi.simulate(rig, 0.2, start)
+    end = float(whole["event_time"][1])
+    motion = vi.simulate(rig, 1.6 * 0.6 * end, start, 512)
+    assert motion["final_state"].sel(component="touching.z") == 1.0
+    found = vi.totals(motion)
+    assert abs(float(found["total_stops"].item())) < 1e-13
+    spent = found["total_links"].sum() + found["total_stops"].sum() + found["total_stored"]
+    assert float(spent) == pytest.approx(0.0, abs=1e-13)
+    # It goes on from there: what was stored is given back, none of it a second time.
+    rest = vi.totals(vi.simulate(rig, 1.0, motion, 64))
+    assert abs(float(rest["total_stops"].item())) < 1e-13
+
+
+def test_losses_of_two_yielding_links_are_known_as_a_sum_only() -> None:
+    linked = vi.Assembly(
+        {"a": 1.0, "b": 2.0},
+        {
+            "x": vi.Link("ground", "a", BOUC_WEN),
+            "y": vi.Link("a", "b", FRICTION),
+            "z": vi.Link("ground", "b", LAWS["cubic"][0]),
+        },
+    )
+    motion = vi.simulate(vi.Rig(linked, SHAKEN), 3)
+    found = vi.totals(motion)
+    assert np.isnan(found["total_links"]).values.tolist() == [True, True, False]
+    assert "total_links of x, y is NaN" in found.attrs["notes"]
+    rest = found["total_supplied"] - found["total_links"].sel(link="z") - found["total_stored"]
+    assert float(rest) > 0.0

@@ -121,9 +121,6 @@ def test_a_sweep_goes_on_from_a_section() -> None:
 
 
 def test_what_is_not_computed_is_refused() -> None:
-    rig = vi.Rig(frame(), vi.Harmonic("1 m/s2", 1.0))
-    with pytest.raises(vi.InputError, match="outputs: own outputs are not computed"):
-        vi.sweep(rig, [1.0], outputs={"top": "max(velocity)"})
     many = vi.chain([1.0] * 40, [100.0] * 40)
     with pytest.raises(vi.InputError, match="twice the number of masses"):
         vi.sweep(vi.Rig(many, vi.Harmonic("1 m/s2", 1.0)), [1.0])
@@ -141,9 +138,7 @@ def test_many_assemblies_are_swept_as_one_at_a_time() -> None:
         for variable in alone.data_vars:
             np.testing.assert_array_equal(found[variable].sel(rig=name), alone[variable])
     other = vi.Rig(vi.chain([1.0], [30.0], 0.05), "1 m/s2")
-    with pytest.raises(vi.InputError, match=r"^rigs\[1\]: its masses are floor_1, not those of"):
+    with pytest.raises(vi.InputError, match=r"^rigs\['1'\]: its mass names are floor_1, not"):
         vi.sweeps([rigs["near"], other], frequencies)
     with pytest.raises(vi.InputError, match=r"^rigs\[.*\]: an Oscillator beside an Assembly"):
         vi.sweeps([rigs["near"], "B2-G1-A3"], frequencies)
-    with pytest.raises(vi.InputError, match=r"^outputs: own outputs are not computed"):
-        vi.sweeps(rigs, frequencies, outputs={"x": "max(u)"})

@@ -34,7 +34,7 @@ def basins(length):
 
 @pytest.mark.parametrize(
     ("compute", "length", "most"),
-    [(history, 4000, 2.0), (through_record, 3000, 1.75), (sweeps, 10_000, 2.0), (basins, 800, 4.0)],
+    [(history, 4000, 2.0), (through_record, 3000, 1.75), (sweeps, 5000, 2.0), (basins, 500, 4.0)],
 )
 def test_results_are_not_kept_several_times(compute, length, most):
     compute(20)

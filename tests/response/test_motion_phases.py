@@ -11,7 +11,6 @@ from vibroimpact.engine.observers import phases as layout
 from vibroimpact.engine.observers.phases import ONE_MASS
 from vibroimpact.engine.observers.record import IMPACT
 from vibroimpact.response.motion_phases import (
-    beginning,
     contact_intervals,
     parting_velocity,
     phases,
@@ -53,11 +52,11 @@ def test_they_are_those_between_the_events(motion):
     np.testing.assert_array_equal(rows[:-1, layout.KIND], motion["event_contact"])
     side = np.where(motion["event_stop"] == "right", 0, 1)
     np.testing.assert_array_equal(rows[:-1, layout.AT_STOP], side)
-    np.testing.assert_array_equal(every.of_mass(layout.ARRIVAL)[:-1], motion["event_velocity"])
+    np.testing.assert_array_equal(every.of_mass(layout.ARRIVAL)[:-1, 0], motion["event_velocity"])
     assert rows[-1, layout.KIND] == layout.NOTHING
     assert every.bounds[-1] == pytest.approx(6.4 / 2.0, rel=1e-12)
     np.testing.assert_allclose(np.diff(every.bounds), rows[:, layout.LENGTH], rtol=1e-9)
-    touched = np.column_stack([every.touched(number) for number in range(2)])
+    touched = every.pressed
     assert (np.abs(np.diff(touched.any(axis=1).astype(int))) == 1).all()  # flights between contacts
     assert every.notes == []
 
@@ -84,9 +83,8 @@ def test_an_instant_has_a_phase(motion):
 
 def test_whose_motion_it_is(motion):
     origin = recorded(motion)
-    assert (origin.oscillator, origin.excitation.phase) == (CASE.oscillator, 0.3)
+    assert (origin.oscillator, origin.shaking.phase) == (CASE.oscillator, 0.3)
     assert (origin.cycles, origin.periodic) == (6.4, False)
-    assert beginning(motion).phase == 0.3
     with pytest.raises(vi.InputError, match="this is not a recorded motion"):
         recorded(motion["displacement"])
     steady = vi.steady(vi.Rig(CASE.oscillator, SHAKEN))
@@ -100,12 +98,12 @@ def test_contacts_from_the_events_alone():
     data = vi.simulate(vi.Rig(rig, vi.Harmonic(4.0, 0.3)), 9.2, start, samples=64)
     every = phases(data, recorded(data))
     parting = parting_velocity(data, rig)
-    np.testing.assert_allclose(parting, every.of_mass(layout.PARTING)[:-1], rtol=1e-15)
+    np.testing.assert_allclose(parting, every.of_mass(layout.PARTING)[:-1, 0], rtol=1e-15)
     assert (every.rows[:, layout.KIND] == IMPACT).any()
     assert (every.rows[:, layout.TOUCHED] == BOTH).any()
     for number, side in enumerate(("right", "left")):
         held = contact_intervals(data, side, data["event_time"].values, float(data["time"][-1]))
-        touched = every.touched(number)
+        touched = every.pressed[:, number]
         assert touched.any()
         length = every.rows[touched, layout.LENGTH].sum()
         assert np.diff(held).sum() == pytest.approx(length, rel=1e-9)

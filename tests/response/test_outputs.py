@@ -11,7 +11,8 @@ import xarray as xr
 
 import vibroimpact as vi
 from vibroimpact import figures
-from vibroimpact.response.output_formula import HISTORIES, read_output_formula
+from vibroimpact.response.output_formula import read_output_formula
+from vibroimpact.response.outputs import histories_of
 
 RIG = vi.laboratory.case("B2-G1-A3").rig
 FREE = vi.Rig(vi.Oscillator(2.0, vi.Isolator(50.0, 3.0)), 1.5)
@@ -195,16 +196,90 @@ def test_a_formula_has_the_names_that_a_motion_has():
     for rig in (FREE, vi.Rig(FREE.oscillator, "2 N")):
         motion = vi.simulate(rig, 1, frequency=1.0)
         held = {name for name in motion.variables if motion[name].dims == ("time",)}
-        assert held - set(HISTORIES) == {"cycle"}
+        assert held - set(histories_of(rig)) == {"cycle"}
+
+
+def pounding(law: object) -> vi.Rig:
+    links = {
+        "first": vi.Link("ground", "west", law),
+        "second": vi.Link("ground", "east", vi.Isolator(3e5, 3e3)),
+    }
+    stops = {"between": vi.Link("west", "east", vi.Bumper(2e5, 3e3, "2 mm"))}
+    assembly = vi.Assembly({"west": 1500.0, "east": 1000.0}, links, stops)
+    return vi.Rig(assembly, vi.Harmonic("1 m/s2", 1.7))
+
+
+LAWS = {
+    "linear": vi.Isolator(2e5, 4e3),
+    "curved": vi.PolynomialIsolator(2e5, 4e3, 2e8),
+    "yields": vi.BilinearIsolator(2e5, 1e5, 800.0, 4e3),
+}
+OWN = {
+    "drag": vi.Output("mean(masses.west*velocity.west**2)", units="W"),
+    "push": "max(contact_force.between)",
+    "spread": lambda motion: float(motion["displacement"].max()),
+}
+
+
+def test_a_formula_has_the_names_that_a_motion_of_several_masses_has():
+    rig = pounding(LAWS["linear"])
+    motion = vi.simulate(rig, 1)
+    held = {
+        f"{name}.{part}" if dim != "time" else str(name)
+        for name in motion.variables
+        if "time" in motion[name].dims
+        for dim in [motion[name].dims[0]]
+        for part in (motion[dim].values if dim != "time" else [""])
+    }
+    assert held - set(histories_of(rig)) == {"cycle"}
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_outputs_of_several_masses_are_those_of_their_steady_motions(law):
+    rig = pounding(LAWS[law])
+    swept = vi.sweep(rig, [1.6, 1.7], "forward", outputs=OWN)
+    assert swept["drag"].attrs["units"] == "W"
+    several = vi.sweeps([rig, rig], [1.6, 1.7], "forward", outputs=OWN)
+    diagram = vi.bifurcation_diagram(
+        rig, {"frequency": (1.6, 1.7)}, 2, directions=["up"], outputs=OWN
+    )
+    motion = vi.steady(rig)
+    moved = motion["velocity"].sel(mass="west").values
+    expected = {
+        "drag": 1500.0 * np.trapezoid(moved**2, motion["time"]) / float(motion["time"][-1]),
+        "push": float(motion["contact_force"].max()),
+        "spread": float(motion["displacement"].max()),
+    }
+    assert expected["push"] > 0.0
+    for name, value in expected.items():
+        for found in (swept[name][0, 1], several[name][1, 0, 1], diagram[name][0, 1]):
+            assert float(found) == pytest.approx(value, rel=1e-6)
+
+
+def test_outputs_of_branches_of_several_masses():
+    rig = pounding(LAWS["linear"])
+    branch = vi.branch(rig, vary={"frequency": (1.65, 1.75)}, outputs={"push": OWN["push"]})
+    at = int(np.argmin(abs(branch["frequency"].values - 1.7)))
+    found = branch.isel(point=at)
+    expected = vi.orbit(rig, found["section"], frequency=float(found["frequency"]))[
+        "contact_force"
+    ].max()
+    assert float(found["push"]) == pytest.approx(float(expected), rel=1e-9)
+
+
+def test_names_that_several_masses_have_not():
+    rig = pounding(LAWS["linear"])
+    problem = r"outputs\['p'\]: 'velocity' is neither .* did you mean velocity.west"
+    with pytest.raises(vi.InputError, match=problem):
+        vi.sweep(rig, [1.7], outputs={"p": "max(velocity)"})
 
 
 def test_time_means_are_of_the_time_and_numbers_are_kept():
     time = np.array([0.0, 1.0, 3.0])
-    known = ("velocity", "mass")
 
     def value(text: str) -> float:
         values = {"velocity": np.array([0.0, 2.0, 0.0]), "mass": 4.0}
-        return read_output_formula(text, known).value(time, values)
+        return read_output_formula(text, ("velocity",), ("mass",)).value(time, values)
 
     assert value("mean(velocity)") == pytest.approx(1.0)
     assert value("integral(velocity)") == pytest.approx(3.0)

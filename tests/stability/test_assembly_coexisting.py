@@ -54,3 +54,25 @@ def test_a_chaotic_motion_has_fewer_exponents() -> None:
     )
     assert found.sizes["attractor"] >= 1
     assert "chaotic" in found["motion"].values
+
+
+@pytest.mark.parametrize("isolator", ["hardens", "yields"])
+def test_random_starts_of_curved_links_lead_to_their_motions(isolator: str) -> None:
+    law = {
+        "hardens": vi.PolynomialIsolator(2e5, 4e3, 2e9),
+        "yields": vi.BilinearIsolator(2e5, 2e4, 400.0, 4e3),
+    }[isolator]
+    linked = vi.Assembly(
+        {"west": 1500.0, "east": 1000.0},
+        {
+            "first": vi.Link("ground", "west", law),
+            "second": vi.Link("ground", "east", vi.Isolator(3e5, 3e3)),
+        },
+        {"between": vi.Link("west", "east", SOFT)},
+    )
+    rig = vi.Rig(linked, vi.Harmonic("1 m/s2", 1.7))
+    found = vi.coexisting_motions(rig, random=4, max_cycles=400)
+    assert "random 4" in " ".join(found["starts"].values)
+    one = found.isel(attractor=0)
+    again = vi.steady(rig, start=one)
+    np.testing.assert_allclose(again["displacement_max"], one["displacement_max"], rtol=1e-8)

@@ -97,5 +97,3 @@ def test_what_is_refused() -> None:
     rig = vi.Rig(frame(), vi.Harmonic("1 m/s2", 0.9))
     with pytest.raises(vi.InputError, match=r"^section: 'impacts'; for an Assembly, only 'strob"):
         vi.bifurcation_diagram(rig, vary={"gap": (0.01, 0.02)}, steps=2, section="impacts")
-    with pytest.raises(vi.InputError, match=r"^outputs: own outputs are not computed for an Ass"):
-        vi.bifurcation_diagram(rig, vary={"gap": (0.01, 0.02)}, steps=2, outputs={"x": "max(u)"})

@@ -267,12 +267,13 @@ def test_a_closed_client_is_refused():
 
 
 def test_workers_that_join_later_take_part():
+    joined = []
     with _local(1, processes=False) as (local, client):
         names = each(
             lambda item, _: time.sleep(0.3) or threading.get_ident(),
             range(24),
             threads=Cluster(client),
-            progress=lambda *_: local.scale(3),
+            progress=lambda *_: joined or joined.append(local.scale(3)),
         )
     assert len(set(names)) == 3
 

@@ -175,7 +175,7 @@ SWEEPS = partial(vi.sweeps, frequencies=[2.0])
         ({"distributions": {"isolator.damping": "normal:1kN*s/m:1kN*s/m"}}, "gives the value -"),
         (
             {"distributions": {"isolator_period": "normal:5%", "isolator.stiffness": "normal:5%"}},
-            "distributions: 'isolator_period' sets the same property of the rig as 'isolator.stiff",
+            "isolator_period and isolator.stiffness set the same quantity; remove one of the two",
         ),
         (
             {"distributions": {"frequency": "normal:5%"}},

@@ -15,8 +15,12 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_mapping
-from vibroimpact.attraction.attractor_variables import shares
-from vibroimpact.attraction.basin_metrics import entropies, uncertainty_exponent
+from vibroimpact.attraction.attractor_variables import (
+    basin_variables,
+    lattice_words,
+    ranked,
+    renamed,
+)
 from vibroimpact.attraction.find_attractors import MOST
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import MORE_CYCLES, Status
@@ -26,7 +30,7 @@ from vibroimpact.model import Assembly
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_contacts import coordinates
+from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
 from vibroimpact.stability.assembly_diagram import place_assembly
@@ -288,33 +292,10 @@ def _dataset(
     cycles: NDArray[np.int32],
     levels: NDArray[np.int8],
 ) -> xr.Dataset:
-    def size(number: int) -> tuple[float, float]:
-        one = search.known[number].motion
-        largest = float(one["displacement_excursion"].max())
-        # To nine digits, for of a mirrored pair rounding decides.
-        return -float(f"{largest:.9g}"), -float(one["eccentricity"][0])
-
-    order = sorted(range(len(search.known)), key=size)
-    renamed = labels.copy()
-    for new, old in enumerate(order):
-        renamed[labels == old] = new
+    order = ranked([one.motion for one in search.known])
     known = [search.known[number].motion for number in order]
     dims = (plane[1].name, plane[0].name)
-    step = plan.spacing(0)
-    drawn = max(int((renamed[::step, ::step] >= UNDECIDED).sum()), 1)
-    mixed, exponent = entropies(renamed), uncertainty_exponent(renamed)
-    variables: dict[str, Any] = {
-        "basin": (dims, renamed),
-        "capture_cycles": (dims, cycles),
-        "level": (dims, levels),
-        "motion": ("attractor", np.array([str(one["motion"].values) for one in known], dtype=str)),
-        "period": ("attractor", np.array([int(one["period"]) for one in known], dtype=np.int64)),
-        **shares(renamed, len(known), drawn),
-        "basin_entropy": mixed.basin,
-        "border_entropy": mixed.border,
-        "uncertainty_exponent": exponent.value,
-        "uncertainty_exponent_error": exponent.uncertainty,
-    }
+    variables = basin_variables(renamed(labels, order), cycles, levels, plan, dims, known)
     for name in _KEPT if known else ():
         columns = np.array([one[name].values for one in known])
         variables[name] = (("attractor", *known[0][name].dims), columns)
@@ -335,11 +316,5 @@ def _dataset(
             "component": search.states.names,
         },
     )
-    rows, across = (len(range(0, n, step)) for n in plan.shape)
-    data.attrs["lattice"] = f"each of {across} × {rows} states was computed" + (
-        f"; refined {plan.refine} times near borders, to {plan.shape[1]} × {plan.shape[0]}: "
-        "regions narrower than the spacing of the first grid may be missed"
-        if plan.refine
-        else ""
-    )
+    data.attrs["lattice"] = lattice_words(plan)
     return data

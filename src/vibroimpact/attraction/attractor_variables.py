@@ -6,11 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.attraction.attractors import Attractor
 from vibroimpact.attraction.basin_fractions import interval
+from vibroimpact.attraction.basin_metrics import entropies, uncertainty_exponent
 from vibroimpact.datasets.stops import stops_of
+from vibroimpact.grids.refinement import Nodes
 from vibroimpact.model import Oscillator
 from vibroimpact.response.sections import section_variables
 from vibroimpact.stability.equivalence import mirrors
@@ -24,16 +27,80 @@ POINTS = 1000
 """Points that are kept of a motion that does not repeat itself."""
 
 
-def ranked(known: Sequence[Attractor]) -> list[int]:
-    """Numbers of the motions, the largest first."""
+def ranked(motions: Sequence[xr.Dataset]) -> list[int]:
+    """Return the numbers of motions, the largest first."""
 
-    def size(number: int) -> tuple[float, ...]:
-        one = known[number].motion
-        excursion = float(one["displacement_excursion"])
+    def size(number: int) -> tuple[float, float]:
+        excursion = float(motions[number]["displacement_excursion"].max())
         # To nine digits, for of a mirrored pair rounding decides; then by the side.
-        return -float(f"{excursion:.9g}"), -float(one["eccentricity"])
+        return -float(f"{excursion:.9g}"), -float(motions[number]["eccentricity"].values.flat[0])
 
-    return sorted(range(len(known)), key=size)
+    return sorted(range(len(motions)), key=size)
+
+
+def renamed(labels: NDArray[np.int16], order: Sequence[int]) -> NDArray[np.int16]:
+    """Return labels in which a motion has its place in an order as its number."""
+    found = labels.copy()
+    for new, old in enumerate(order):
+        found[labels == old] = new
+    return found
+
+
+def basin_variables(
+    labels: NDArray[np.int16],
+    cycles: NDArray[np.int32],
+    levels: NDArray[np.int8],
+    plan: Nodes,
+    dims: tuple[str, str],
+    motions: Sequence[xr.Dataset],
+) -> dict[str, Any]:
+    """Return what a dataset says of basins, and the types and shares of their motions.
+
+    Parameters
+    ----------
+    labels, cycles, levels
+        Motion, cycles until it was identified, and level of refinement of each node.
+    plan
+        The nodes.
+    dims
+        Names of the rows and of the columns.
+    motions
+        In the order of their numbers.
+    """
+    step = plan.spacing(0)
+    drawn = max(int((labels[::step, ::step] >= -1).sum()), 1)
+    mixed, exponent = entropies(labels), uncertainty_exponent(labels)
+    return {
+        "basin": (dims, labels),
+        "capture_cycles": (dims, cycles),
+        "level": (dims, levels),
+        **kinds(motions),
+        **shares(labels, len(motions), drawn),
+        "basin_entropy": mixed.basin,
+        "border_entropy": mixed.border,
+        "uncertainty_exponent": exponent.value,
+        "uncertainty_exponent_error": exponent.uncertainty,
+    }
+
+
+def lattice_words(plan: Nodes) -> str:
+    """Describe the nodes of basins."""
+    step = plan.spacing(0)
+    rows, columns = (len(range(0, n, step)) for n in plan.shape)
+    return f"each of {columns} × {rows} states was computed" + (
+        f"; refined {plan.refine} times near borders, to {plan.shape[1]} × {plan.shape[0]}: "
+        "regions narrower than the spacing of the first grid may be missed"
+        if plan.refine
+        else ""
+    )
+
+
+def kinds(motions: Sequence[xr.Dataset]) -> dict[str, Any]:
+    """Return the types and periods of motions."""
+    return {
+        "motion": ("attractor", np.array([str(one["motion"].values) for one in motions], str)),
+        "period": ("attractor", np.array([int(one["period"]) for one in motions], np.int64)),
+    }
 
 
 def variables(oscillator: Oscillator, known: Sequence[Attractor]) -> dict[str, Any]:
@@ -42,8 +109,7 @@ def variables(oscillator: Oscillator, known: Sequence[Attractor]) -> dict[str, A
     shown = [one.points[: one.found.period or POINTS] for one in known]
     points = np.vstack([*shown, np.empty((0, 5))])
     return {
-        "motion": (along, np.array([str(one.motion["motion"].values) for one in known], dtype=str)),
-        "period": (along, np.array([int(one.motion["period"]) for one in known], dtype=np.int64)),
+        **kinds([one.motion for one in known]),
         **{name: (along, np.array([float(a.motion[name]) for a in known])) for name in _KEPT},
         "impacts": (
             (*along, "stop"),

@@ -146,7 +146,11 @@ def basin_stability(
         before = every_found[-1].known if every_found else []
         leads = search.label(_seeds(before)).owner
         found = search.label(points)
-        order = [n for n in ranked(search.known) if (found.owner == n).any() or (leads == n).any()]
+        order = [
+            n
+            for n in ranked([a.motion for a in search.known])
+            if (found.owner == n).any() or (leads == n).any()
+        ]
         known = [search.known[n] for n in order]
         places = [_places(one, ranges) for one in known]
         going = {

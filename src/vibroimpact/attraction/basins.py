@@ -10,8 +10,14 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.attraction.assembly_basins import assembly_basins, read_plane
-from vibroimpact.attraction.attractor_variables import ranked, shares, variables
-from vibroimpact.attraction.basin_metrics import border_distances, entropies, uncertainty_exponent
+from vibroimpact.attraction.attractor_variables import (
+    basin_variables,
+    lattice_words,
+    ranked,
+    renamed,
+    variables,
+)
+from vibroimpact.attraction.basin_metrics import border_distances
 from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import Stage
 from vibroimpact.attraction.state_grid import Lattice, lattice
@@ -269,40 +275,22 @@ def _dataset(
     cycles: NDArray[np.int32],
     levels: NDArray[np.int8],
 ) -> xr.Dataset:
-    order = ranked(search.known)
+    order = ranked([one.motion for one in search.known])
     # Motions that no state of the grid leads to, but one of the search's own, are left out.
     order = [number for number in order if (labels == number).any()]
-    renamed = labels.copy()
-    for new, old in enumerate(order):
-        renamed[labels == old] = new
     known = [search.known[number] for number in order]
     u, v = (np.linspace(*one, n) for one, n in zip(ranges, plan.shape[::-1], strict=True))
     omega = search.stage.excitation.angular_frequency
-    mixed = entropies(renamed)
-    exponent = uncertainty_exponent(renamed)
-    step = plan.spacing(0)
-    drawn = max(int((renamed[::step, ::step] >= UNDECIDED).sum()), 1)
+    labels = renamed(labels, order)
     points = [one.points[:, :2] / [1.0, omega] for one in known]
+    dims, motions = ("velocity", "displacement"), [one.motion for one in known]
     values: dict[str, Any] = {
-        "basin": (("velocity", "displacement"), renamed),
-        "capture_cycles": (("velocity", "displacement"), cycles),
-        "level": (("velocity", "displacement"), levels),
+        **basin_variables(labels, cycles, levels, plan, dims, motions),
         **variables(search.stage.oscillator, known),
-        **shares(renamed, len(known), drawn),
-        "border_distance": ("attractor", border_distances(renamed, u, v / omega, points)),
-        "basin_entropy": mixed.basin,
-        "border_entropy": mixed.border,
-        "uncertainty_exponent": exponent.value,
-        "uncertainty_exponent_error": exponent.uncertainty,
+        "border_distance": ("attractor", border_distances(labels, u, v / omega, points)),
     }
     data = xr.Dataset(
         values, {"velocity": v, "displacement": u, "attractor": np.arange(len(known))}
     )
-    rows, columns = (len(range(0, n, step)) for n in plan.shape)
-    data.attrs["lattice"] = f"each of {columns} × {rows} states was computed" + (
-        f"; refined {plan.refine} times near borders, to {plan.shape[1]} × {plan.shape[0]}: "
-        "regions narrower than the spacing of the first grid may be missed"
-        if plan.refine
-        else ""
-    )
+    data.attrs["lattice"] = lattice_words(plan)
     return data

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from vibroimpact import figures
 from vibroimpact.errors import InputError
 
@@ -48,7 +50,7 @@ def write_motion(
     cycles: float | None,
     animation: Animation | None = None,
 ) -> None:
-    """Save a motion, its histories, its contact forces and its envelopes.
+    """Save a motion, its histories, its contact forces and, of a frame, its envelopes.
 
     Parameters
     ----------
@@ -66,8 +68,18 @@ def write_motion(
         Format of an animation, if one is wanted.
     """
     stem = ending.removesuffix("-history")
-    written.write(motion, ending, figures.mass_histories, title, cycles=cycles)
+    pairs = between_masses(written.what)
+    written.write(motion, ending, figures.mass_histories, title, cycles=cycles, closing=pairs)
     draw_motion(written, motion, stem, title, cycles, animation)
+
+
+def between_masses(what: Subject) -> list[str]:
+    """Return the names of the stops that join two masses."""
+    from vibroimpact.model import Assembly
+    from vibroimpact.model.assembly.names import GROUND
+
+    stops = what.system.stops if isinstance(what.system, Assembly) else {}
+    return [name for name, stop in stops.items() if GROUND not in (stop.left, stop.right)]
 
 
 def draw_motion(
@@ -79,7 +91,10 @@ def draw_motion(
     animation: Animation | None = None,
     of: str = "",
 ) -> None:
-    """Draw the accelerations, the contact forces and the envelopes of a motion."""
+    """Draw the accelerations, the contact forces and, of a frame, the envelopes of a motion."""
+    from vibroimpact.figures.assembly_motion import chains
+    from vibroimpact.model import Assembly
+
     drawn = {
         "accelerations": figures.mass_histories(
             motion, quantity="acceleration", cycles=cycles, title=title
@@ -87,7 +102,9 @@ def draw_motion(
     }
     if motion.sizes["stop"]:
         drawn["forces"] = figures.contact_forces(motion, cycles=cycles, title=title)
-    drawn["envelopes"] = figures.mass_envelopes(motion, title=title)
+    system = written.what.system
+    if isinstance(system, Assembly) and any(len(row) > 1 for row in chains(system)):
+        drawn["envelopes"] = figures.mass_envelopes(motion, title=title)
     for name, figure in drawn.items():
         written.draw(f"{name}{of}", f"{stem}-{name}", figure)
     if animation is not None:
@@ -103,6 +120,22 @@ def draw_sweep(written: Results, data: xr.Dataset) -> None:
             continue
         figure = figures.mass_resonance(data, quantity=quantity, title=title)
         written.draw(name, f"sweep-{name}", figure)
+
+
+def draw_bands(written: Results, data: xr.Dataset, nominal: xr.Dataset) -> None:
+    """Draw the accelerations and the contact forces of an ensemble, after the displacements."""
+    forces = [
+        f"peak_force.{stop}"
+        if np.isfinite(data["peak_force"].sel(stop=stop)).all()
+        else f"peak_impulse.{stop}"  # of a rigid stop
+        for stop in data["stop"].values
+    ]
+    for name, drawn in (("accelerations", ["peak_acceleration"]), ("forces", forces)):
+        if drawn:
+            figure = figures.resonance_bands(
+                data, quantities=drawn, nominal=nominal, title=written.what.title
+            )
+            written.draw(name, f"ensemble-{name}", figure)
 
 
 def response_table(responses: dict[str, xr.Dataset]) -> xr.Dataset:

@@ -10,7 +10,7 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.states import ANY_STATES, StateOptions
+from vibroimpact.cli.states import ANY_STATES, StateOptions, fixed_frequency
 from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, NUMBER_HELP, Vary, read_one
 
 _STEPS = 25
@@ -49,6 +49,8 @@ def basin_stability(
     - NAME-PARAMETER-basin-stability.nc: the shares and the motions
     - NAME-PARAMETER-basin-stability.png: the shares over the parameter
 
+    Unless the frequency is varied, it stands after NAME, as in NAME-2Hz-gap-basin-stability.nc.
+
     For example:
 
         vibroimpact basin-stability B2-G1-A3 --vary frequency=1.5Hz:2.7Hz
@@ -63,7 +65,7 @@ def basin_stability(
     varied = read_one(what, vary)
     along = varied.name
     shaken, window = states.rig(what, along), states.window()
-    with results(what, output) as written:
+    with results(what, output, fixed_frequency(shaken, along)) as written:
         with progress_bar("computing shares") as progress:
             data = vi.basin_stability(
                 shaken,

@@ -66,15 +66,13 @@ def basins(
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.facts import basins as facts
-    from vibroimpact.model.frequency_text import forcing, forcing_slug
 
     what = subject(rig, changes, output.name, masses=True)
     if is_assembly(what):
         refuse(what, displacement=states.displacement, velocity=states.velocity)
     shaken, window = states.rig(what), states.window()
     chosen, start = plane(what, on), named_state("--start", begin)
-    hertz = shaken.harmonic.frequency
-    with results(what, output) as written:
+    with results(what, output, shaken.harmonic.frequency) as written:
         with progress_bar("computing basins") as progress:
             data = vi.basins(
                 shaken,
@@ -87,6 +85,5 @@ def basins(
                 where=where,
                 progress=progress,
             )
-        title = f"{what.title}, {forcing(hertz)}"
-        written.write(data, f"{forcing_slug(hertz)}-basins", figures.basin_portrait, title)
-    return written.tell({"frequency": hertz, **facts.facts(data)}, facts.text(data))
+        written.write(data, "basins", figures.basin_portrait)
+    return written.tell(facts.facts(data), facts.text(data))

@@ -11,7 +11,7 @@ from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
 from vibroimpact.cli.own_outputs import Compute, own_outputs
-from vibroimpact.cli.states import rig_at
+from vibroimpact.cli.states import fixed_frequency, rig_at
 from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, NUMBER_HELP, Vary, read_one
 
 _STEPS = 401
@@ -61,6 +61,8 @@ def bifurcation(
     - NAME-PARAMETER-diagram.nc: the section points, periods and exponents
     - NAME-PARAMETER-diagram.png: the bifurcation diagram
 
+    Unless the frequency is varied, it stands after NAME, as in NAME-2Hz-gap-diagram.nc.
+
     For a rig of several masses (table [assembly] of a study file), the figure shows the section of
     each mass.
 
@@ -87,7 +89,7 @@ def bifurcation(
         Default: the phase in the study file, or 0.
     branches
         Also follow the branches of stable and unstable periodic orbits, as vibroimpact branch does
-        (of several masses, one branch), and print their bifurcations and mark them in the figure.
+        (of several masses, one branch), draw them with their bifurcations, and print these.
     """
     from vibroimpact.cli.assembly import is_assembly
     from vibroimpact.cli.output import progress_bar
@@ -101,7 +103,7 @@ def bifurcation(
     along, span = varied.name, varied.span
     shaken = rig_at(what, frequency, phase, along)
     outputs = own_outputs(compute)
-    with results(what, output) as written:
+    with results(what, output, fixed_frequency(shaken, along)) as written:
         with progress_bar("computing motions") as progress:
             data = vi.bifurcation_diagram(
                 shaken,

@@ -9,7 +9,7 @@ from cyclopts import Parameter
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.states import rig_at
+from vibroimpact.cli.states import fixed_frequency, rig_at
 from vibroimpact.cli.vary import HELP, Vary, check_continuous, read_vary
 from vibroimpact.errors import InputError
 
@@ -54,6 +54,8 @@ def curve(
     - NAME-BIFURCATION-FIRST-SECOND.nc: the curves, with one NetCDF group per curve
     - NAME-BIFURCATION-FIRST-SECOND.png: the curves in the plane of the two parameters
 
+    Unless the frequency is varied, it stands after NAME, as in NAME-2Hz-fold-gap-damping-ratio.nc.
+
     For a rig of several masses (table [assembly] of a study file), the bifurcations are those of
     the branch of the motion that is reached from the equilibrium. Grazings are not followed.
 
@@ -91,9 +93,9 @@ def curve(
     kind, pair = _KINDS[bifurcation], (first.name, second.name)
     spans = {one.name: one.span for one in found}
     shaken = rig_at(what, frequency, along=first.name)
-    with results(what, output) as written:
+    with results(what, output, fixed_frequency(shaken, *pair)) as written:
         with progress_bar("following curves") as progress:
             curves = curves_of_kind(shaken, kind, vary=spans, progress=progress)
         ending = f"{bifurcation}-{first.ending}-{second.ending}"
-        written.write(curves, ending, figures.bifurcation_curves, f"{what.title}, {kind}")
+        written.write(curves, ending, figures.bifurcation_curves, f"{written.title}, {kind}")
     return written.tell(facts.facts(kind, pair, curves), facts.text(kind, pair, curves))

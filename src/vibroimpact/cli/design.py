@@ -59,6 +59,10 @@ def design(
     A design that exceeds a limit (--limit) is excluded from the Pareto front and from the search
     for the best bumper (--best).
 
+    For a rig of several masses (table [assembly] of a study file), the required gap of each stop is
+    printed, and designs are compared by the largest values of all masses. The path gap varies all
+    gaps, stops.NAME.gap that of one stop.
+
     For example:
 
         vibroimpact design building.toml
@@ -87,7 +91,9 @@ def design(
         not change the gap of the rig.
     limit
         Quantity and the value that it must not exceed, such as peak-force 5MN. The quantities are
-        peak-force, penetration (into a stop) and peak-displacement. The option may be repeated.
+        peak-force, penetration (into a stop) and peak-displacement; of several masses also
+        peak-drift (records), and each of them of one part, such as peak-drift.storey_1. The option
+        may be repeated.
         These limits are added to the limits in the study file (table [design]). Default: only the
         limits in the study file.
     fractile
@@ -102,27 +108,35 @@ def design(
         Highest frequency of the sines, such as 2Hz. Default: the value in the study file (table
         [sweep]), or a frequency above the primary resonance of each design.
     """
-    from vibroimpact.cli.frequency_grid import sine_span
+    from vibroimpact.cli.assembly import is_assembly, refuse
+    from vibroimpact.cli.frequency_grid import default_range, sine_span
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
     from vibroimpact.cli.study import DesignTable
+    from vibroimpact.design.limits import underscored
     from vibroimpact.design.usual_ranges import usual_ranges
     from vibroimpact.facts import design as facts
     from vibroimpact.facts import rig as rig_facts
 
     found = reading.read(records or records_of_design(rig))
-    what = subject(rig, changes, output.name, shaken=next(iter(found.values()), None))
+    what = subject(rig, changes, output.name, shaken=next(iter(found.values()), None), masses=True)
+    several = is_assembly(what)
+    if several:
+        refuse(what, best=best)
     suite = records_or_sines(what, found, scale, peak)
     table = what.study.design if what.study else DesignTable()
     ranges = {one.name: one.values(_VALUES) for one in read_vary(what, vary or table.vary or {})}
-    limits: dict[str, Any] = {name.replace("-", "_"): v for name, v in (table.limits or {}).items()}
+    limits: dict[str, Any] = {underscored(name): v for name, v in (table.limits or {}).items()}
     limits |= opt.by_name("--limit", limit)
-    designed = what.oscillator if suite else what.rig
+    designed = what.system if suite else what.rig
+    span: Any = sine_span(what, start, to)
+    if several and span is None:
+        span = default_range(what)[:2]
     options: dict[str, Any] = {
         **opt.stated(fractile=table.fractile if fractile is None else fractile),
         "records": suite,
-        "frequency_span": None if suite else sine_span(what, start, to),
+        "frequency_span": None if suite else span,
         "threads": threads,
         "where": where,
     }
@@ -130,17 +144,18 @@ def design(
     with results(what, output) as written:
         with progress_bar("computing designs") as progress:
             gap = vi.required_gap(designed, **options)
-            values = ranges or usual_ranges(what.oscillator, float(gap["common_gap"]))
+            widest = gap["required_gap"].max() if several else gap["common_gap"]
+            values = ranges or usual_ranges(what.system, float(widest))
             options |= {"limits": limits, "progress": progress}
             data = vi.design_chart(designed, values, **options)
             if best:
-                least = vi.least_acceleration(designed, **options)
+                least = vi.least_acceleration(what.oscillator if suite else what.rig, **options)
         written.files["data"] = vi.save(data, written.path("design", "nc"))
         written.files["table"] = vi.save(data, written.path("design", "csv"))
         if data["pareto"].ndim <= 2 and min(data["pareto"].shape) > 1:
             written.draw("chart", "design", figures.design_chart(data, title=what.title))
         written.draw("front", "pareto", figures.pareto_front(data, title=what.title))
     chosen = changes.gap is not None or any("gap" in one for one in changes.values)
-    text = facts.text(what.oscillator, gap, data, least, list(suite or ()), chosen=chosen)
+    text = facts.text(what.system, gap, data, least, list(suite or ()), chosen=chosen)
     about = rig_facts.text(what.rig, shaking=not suite)
     return written.tell(facts.facts(gap, data, least), *text, about=about, shaking=False)

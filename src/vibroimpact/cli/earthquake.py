@@ -21,7 +21,9 @@ from vibroimpact.cli.records import (
 )
 
 if TYPE_CHECKING:
-    from vibroimpact.cli.rig import Subject
+    import xarray as xr
+
+    from vibroimpact.cli.results import Results
 
 _FLOORS = 24
 """Largest number of floor spectra in a figure. Of more masses, every second or third is drawn."""
@@ -75,106 +77,101 @@ def earthquake(
         number affects the response spectrum of the mass. It does not affect the reported largest
         displacements, accelerations and forces.
     """
-    from rich.text import Text as Line
-
-    from vibroimpact.cli.assembly import is_assembly
+    from vibroimpact.cli.assembly import is_assembly, response_table
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
     from vibroimpact.cli.rig import subject
-    from vibroimpact.earthquakes.earthquake_response import (
-        earthquake_response,
-        response_without_stops,
-    )
+    from vibroimpact.earthquakes.earthquake_response import earthquake_response
     from vibroimpact.facts import earthquake as facts
     from vibroimpact.model.argument_types import whole
-    from vibroimpact.model.names import file_stem, literal
+    from vibroimpact.model.names import file_stem
 
     found = reading.read(records or records_of_design(rig, with_own_record=False))
     first = next(iter(found.values()), None)
     what = subject(rig, changes, output.name, shaken=first, masses=True)
     shaking = scale_records(found or record_of_study(what), scale, peak)
     samples = whole(samples, "samples")
-    if is_assembly(what):
-        return _of_masses(what, shaking, tail, samples, output)
+    show = _show_masses if is_assembly(what) else _show
     text: list[Any] = []
     told: list[dict[str, Any]] = []
     responses = {}
     with results(what, output) as written:
         for name, record in shaking.items():
-            shaken = vi.Rig(what.oscillator, record)
+            shaken = vi.Rig(what.system, record)
             with progress_bar("simulating") as progress:
                 groups = earthquake_response(shaken, tail=tail, samples=samples, progress=progress)
-                free = response_without_stops(shaken, tail=tail, progress=progress)
             ending = f"{file_stem(name)}-earthquake"
             written.files[f"data of {name}"] = vi.save(groups, written.path(ending, "nc"))
-            spectra = {"ground": groups["ground"], "mass": groups["floor"]}
-            title = f"{what.title}\n{literal(name)}"
-            page = figures.earthquake_page(groups["motion"], spectra, title=title)
-            written.draw(f"figure of {name}", ending, page)
             responses[name] = groups["response"]
-            about = (name, record, groups["response"], what.oscillator, free)
-            told.append(facts.facts(*about))
-            text += [Line(), facts.text(*about)]
-        table = facts.together(list(responses), list(responses.values()))
-        path = vi.save(table, written.path("earthquake", "csv"))
+            values, lines = show(written, name, shaken, groups, ending, tail)
+            told.append(values)
+            text += lines
+        join = response_table if is_assembly(what) else facts.together
+        path = vi.save(join(responses), written.path("earthquake", "csv"))
         written.files = {"table": path, **written.files}
     return written.tell({"records": told}, *text, shaking=False)
 
 
-def _of_masses(
-    what: Subject,
-    shaking: dict[str, vi.Record],
+def _show(
+    written: Results,
+    name: str,
+    shaken: vi.Rig,
+    groups: dict[str, xr.Dataset],
+    ending: str,
     tail: str | None,
-    samples: int,
-    output: opt.OutputOptions,
-) -> int:
-    """Shake several masses with records."""
+) -> tuple[dict[str, Any], list[Any]]:
+    """Draw the motion of one mass through a record, and return its facts and their text."""
     from rich.text import Text as Line
 
-    from vibroimpact.cli.assembly import draw_motion, response_table
     from vibroimpact.cli.output import progress_bar
-    from vibroimpact.cli.results import results
-    from vibroimpact.earthquakes.earthquake_response import earthquake_response
+    from vibroimpact.earthquakes.earthquake_response import response_without_stops
+    from vibroimpact.facts import earthquake as facts
+    from vibroimpact.model.names import literal
+
+    with progress_bar("simulating") as progress:
+        free = response_without_stops(shaken, tail=tail, progress=progress)
+    spectra = {"ground": groups["ground"], "mass": groups["floor"]}
+    title = f"{written.what.title}\n{literal(name)}"
+    page = figures.earthquake_page(groups["motion"], spectra, title=title)
+    written.draw(f"figure of {name}", ending, page)
+    about = (name, shaken.record, groups["response"], shaken.oscillator, free)
+    return facts.facts(*about), [Line(), facts.text(*about)]
+
+
+def _show_masses(
+    written: Results,
+    name: str,
+    shaken: vi.Rig,
+    groups: dict[str, xr.Dataset],
+    ending: str,
+    _tail: str | None,
+) -> tuple[dict[str, Any], list[Any]]:
+    """Do what `_show` does for several masses."""
+    from rich.text import Text as Line
+
+    from vibroimpact.cli.assembly import between_masses, draw_motion
     from vibroimpact.facts import assembly as facts
-    from vibroimpact.model.names import file_stem, literal
+    from vibroimpact.model.names import literal
     from vibroimpact.model.quantities import ACCELERATION
     from vibroimpact.model.units import pretty
 
-    text: list[Any] = []
-    told: list[dict[str, Any]] = []
-    responses = {}
-    with results(what, output) as written:
-        for name, record in shaking.items():
-            with progress_bar("simulating") as progress:
-                groups = earthquake_response(
-                    vi.Rig(what.system, record), tail=tail, samples=samples, progress=progress
-                )
-            ending = f"{file_stem(name)}-earthquake"
-            written.files[f"data of {name}"] = vi.save(groups, written.path(ending, "nc"))
-            title = f"{what.title}\n{literal(name)}"
-            motion = groups["motion"]
-            drawn = figures.mass_histories(motion, title=title)
-            written.draw(f"displacements of {name}", f"{ending}-displacements", drawn)
-            draw_motion(written, motion, ending, title, None, of=f" of {name}")
-            masses = groups["floor"]["mass"].values.tolist()
-            shown = masses[:: -(-len(masses) // _FLOORS)]
-            floors = {mass: groups["floor"].sel(mass=mass) for mass in shown}
-            spectra = {"ground": groups["ground"], **floors}
-            curves = figures.response_spectra(
-                spectra, quantity="spectral_acceleration", title=title
-            )
-            written.draw(f"spectra of {name}", f"{ending}-spectra", curves)
-            found = {
-                "record": name,
-                "peak": record.peak,
-                **facts.motion_facts(motion),
-                "floor_spectra": facts.floor_facts(groups["floor"]),
-            }
-            told.append(found)
-            responses[name] = groups["response"]
-            peak = pretty(record.peak, ACCELERATION, 4)
-            text += [Line(), Line(f"{name}, peak {peak}", style="bold"), facts.motion_text(found)]
-            text += [Line(), facts.floor_text(found["floor_spectra"])]
-        path = vi.save(response_table(responses), written.path("earthquake", "csv"))
-        written.files = {"table": path, **written.files}
-    return written.tell({"records": told}, *text, shaking=False)
+    title, motion = f"{written.what.title}\n{literal(name)}", groups["motion"]
+    drawn = figures.mass_histories(motion, closing=between_masses(written.what), title=title)
+    written.draw(f"displacements of {name}", f"{ending}-displacements", drawn)
+    draw_motion(written, motion, ending, title, None, of=f" of {name}")
+    masses = groups["floor"]["mass"].values.tolist()
+    shown = masses[:: -(-len(masses) // _FLOORS)]
+    floors = {mass: groups["floor"].sel(mass=mass) for mass in shown}
+    spectra = {"ground": groups["ground"], **floors}
+    curves = figures.response_spectra(spectra, quantity="spectral_acceleration", title=title)
+    written.draw(f"spectra of {name}", f"{ending}-spectra", curves)
+    peak = shaken.record.peak
+    found = {
+        "record": name,
+        "peak": peak,
+        **facts.motion_facts(motion),
+        "floor_spectra": facts.floor_facts(groups["floor"]),
+    }
+    heading = Line(f"{name}, peak {pretty(peak, ACCELERATION, 4)}", style="bold")
+    text = [Line(), heading, facts.motion_text(found)]
+    return found, [*text, Line(), facts.floor_text(found["floor_spectra"])]

@@ -51,6 +51,11 @@ def ensemble(
       The first index is the share that the parameter causes on its own. The second index also
       includes its interactions with other parameters.
 
+    For a rig of several masses (table [assembly] of a study file), the figure has a panel for each
+    mass, and shows displacements. NAME-ensemble-accelerations.png and NAME-ensemble-forces.png show
+    accelerations, and the force of each stop. The indices are those of the largest peak of all
+    masses or stops.
+
     For example:
 
         vibroimpact ensemble B2-G1-A3 --uncertain gap=normal:5% --uncertain mass=normal:2%
@@ -100,6 +105,9 @@ def ensemble(
         is normalised by the largest excursion of the same rig without stops. Default: --physical
         for a study file, and --normalised for a laboratory case.
     """
+    import numpy as np
+
+    from vibroimpact.cli.assembly import draw_bands, is_assembly, refuse
     from vibroimpact.cli.frequency_grid import default_range, list_frequencies
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import draws_physical, results
@@ -109,7 +117,10 @@ def ensemble(
     from vibroimpact.figures.ensembles import PANELS
     from vibroimpact.uncertainty.sensitivity import peak_sensitivity
 
-    what = subject(rig, changes, output.name)
+    what = subject(rig, changes, output.name, masses=True)
+    several = is_assembly(what)
+    if several:
+        refuse(what, normalised=physical is False)
     table = what.study.ensemble if what.study else EnsembleTable()
     given = opt.by_path("--uncertain", uncertain) or table.uncertain or {}
     if not given:
@@ -120,7 +131,7 @@ def ensemble(
         )
     default = default_range(what, _COARSER)
     grid = list_frequencies(start, stop, step, frequencies, what.sweep_table, default)
-    shaken = what.rig.with_parts(what.oscillator, what.repeated)
+    shaken = what.rig.with_parts(what.system, what.repeated)
     response = partial(vi.sweeps, frequencies=grid, threads=threads, where=where)
     chosen = opt.stated(seed=table.seed if seed is None else seed)
     indices = {}
@@ -135,10 +146,15 @@ def ensemble(
             **chosen,
             progress=progress,
         )
-        shown = PANELS[not draws_physical(data, physical)]
+        shown: tuple[str, ...] = PANELS[not (several or draws_physical(data, physical))]
         nominal = vi.sweep(shaken, grid)
         bands = figures.resonance_bands
-        written.write(data, "ensemble", bands, quantities=shown, nominal=nominal)
+        drawn = ("peak_displacement",) if several else shown
+        written.write(data, "ensemble", bands, quantities=drawn, nominal=nominal)
+        if several:
+            draw_bands(written, data, nominal)
+            if data.sizes["stop"] and bool(np.isfinite(data["peak_force"]).all()):
+                shown = (*shown, "peak_force")
         if sensitivity:
             count = data.sizes["sample"]
             indices = peak_sensitivity(

@@ -76,13 +76,11 @@ def manifolds(
     from vibroimpact.cli.rig import subject
     from vibroimpact.datasets.description import motion_parameters
     from vibroimpact.facts import manifolds as facts
-    from vibroimpact.model.frequency_text import forcing, forcing_slug
 
     what = subject(rig, changes, output.name)
     shaken, window = states.rig(what), states.window()
     near = [state("--saddle", text, shaken.harmonic.phase) for text in saddle]
-    hertz = shaken.harmonic.frequency
-    with results(what, output) as written:
+    with results(what, output, shaken.harmonic.frequency) as written:
         with progress_bar("computing manifolds") as progress:
             data = vi.manifolds(
                 shaken,
@@ -97,17 +95,10 @@ def manifolds(
             )
             sides = [motion_parameters(data)[name] for name in ("displacement", "velocity")]
             below = vi.basins(shaken, *sides, nodes=nodes, threads=threads, progress=progress)
-        written.write(
-            data,
-            f"{forcing_slug(hertz)}-manifolds",
-            figures.basin_portrait,
-            f"{what.title}, {forcing(hertz)}",
-            drawn=below,
-            manifolds=data,
-        )
+        written.write(data, "manifolds", figures.basin_portrait, drawn=below, manifolds=data)
     if "notes" in data.attrs:  # the file names arguments, and the summary options
         data.attrs["notes"] = re.sub(r"(?<=; raise )\w+", _option, data.attrs["notes"])
-    return written.tell({"frequency": hertz, **facts.facts(data)}, facts.text(data))
+    return written.tell(facts.facts(data), facts.text(data))
 
 
 def _option(argument: re.Match[str]) -> str:

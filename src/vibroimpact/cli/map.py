@@ -104,7 +104,7 @@ def scenario_map(
     from vibroimpact.scenarios.borders import jump_border
 
     what = subject(rig or _PUBLISHED, changes, output.name)
-    if rig is None and output.name is None:
+    if rig is None:
         what = what._replace(
             name=what.name.replace(_PUBLISHED, "published rig"),
             slug=what.slug.replace(_PUBLISHED, "published"),

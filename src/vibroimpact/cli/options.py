@@ -118,7 +118,8 @@ def by_name(option: str, pairs: tuple[tuple[str, str], ...]) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     for name, value in pairs:
-        key = name.replace("-", "_")
+        base, dot, part = name.partition(".")
+        key = base.replace("-", "_") + dot + part
         if key in found:
             raise InputError(f"{option}: {name!r} is given twice; remove one of the two")
         found[key] = value
@@ -221,8 +222,9 @@ class OutputOptions:
     output: OutputFolder = "out"
     """Folder for the written files (default: out). A missing folder is created."""
     name: Annotated[str | None, Parameter(group=OUTPUT)] = None
-    """Text with which all file names begin (NAME above). Default: the name of the rig. For the
-    command vibroimpact record, the default is the name of the record."""
+    """Text with which all file names begin (NAME above); titles keep the name of the rig. Default:
+    the name of the rig. For the command vibroimpact record, the default is the name of the
+    record."""
     figure: Annotated[Literal["png", "pdf", "svg"], Parameter(group=OUTPUT, show_default=False)] = (
         "png"
     )

@@ -116,7 +116,7 @@ def record(
         stem = folder / f"{file_stem(called or name.replace(' ', '-'))}-record"
         about = found.about
         where = ", ".join(part for part in (about.station, about.component) if part)
-        axes = figures.accelerogram(found, spectrum, title=literal(called or where or name))
+        axes = figures.accelerogram(found, spectrum, title=literal(where or name))
         files = {
             "data": vi.save({"record": accelerogram(found), "spectrum": spectrum}, f"{stem}.nc"),
             "figure": figures.save_figure(axes, f"{stem}.{output.figure}"),

@@ -21,15 +21,29 @@ if TYPE_CHECKING:
 class Results:
     """The files of a command about one rig, and the summary that lists them."""
 
-    def __init__(self, what: Subject, output: OutputOptions, folder: Folder) -> None:
+    def __init__(
+        self, what: Subject, output: OutputOptions, folder: Folder, frequency: float | None
+    ) -> None:
         self.what = what
+        self.frequency = frequency
         self.output = output
         self.folder = folder
         self.files: dict[str, Path] = {}
 
     def path(self, ending: str, suffix: str) -> Path:
-        """Return the path of the file NAME-ENDING.SUFFIX."""
-        return self.folder / f"{self.what.slug}-{ending}.{suffix}"
+        """Return the path of the file NAME-ENDING.SUFFIX, or NAME-FREQUENCY-ENDING.SUFFIX."""
+        from vibroimpact.model.frequency_text import forcing_slug
+
+        at = "" if self.frequency is None else f"-{forcing_slug(self.frequency)}"
+        return self.folder / f"{self.what.slug}{at}-{ending}.{suffix}"
+
+    @property
+    def title(self) -> str:
+        """Title of a figure: that of the rig, and the frequency if all results are at one."""
+        from vibroimpact.model.frequency_text import forcing
+
+        at = "" if self.frequency is None else f", {forcing(self.frequency, 10)}"
+        return f"{self.what.title}{at}"
 
     def write(
         self,
@@ -53,7 +67,7 @@ class Results:
         draw
             Function that draws the figure. It is called with the data, the title and the options.
         title
-            Title of the figure. Default: the title of the rig.
+            Title of the figure. Default: the title of the results.
         drawn
             Data of the figure, if they differ from the saved data. Default: the saved data.
         """
@@ -63,7 +77,7 @@ class Results:
             one.attrs["title"] = self.what.name
         self.files["data"] = save(data, self.path(ending, "nc"))
         shown = data if drawn is None else drawn
-        self.draw("figure", ending, draw(shown, title=title or self.what.title, **options))
+        self.draw("figure", ending, draw(shown, title=title or self.title, **options))
 
     def draw(self, name: str, ending: str, figure: Any) -> None:
         """Save a figure as NAME-ENDING in the chosen format. `name` appears in the summary."""
@@ -96,6 +110,8 @@ class Results:
         from vibroimpact.facts import rig
 
         own = rig.facts(self.what.rig)
+        if self.frequency is not None:
+            facts = {"frequency": self.frequency, **facts}
         if not shaking:
             own.pop("record", None)
         described = about or rig.text(self.what.rig, shaking, facts.get("frequency"))
@@ -115,10 +131,13 @@ def draws_physical(data: xr.Dataset, physical: bool | None) -> bool:
 
 
 @contextmanager
-def results(what: Subject, output: OutputOptions) -> Iterator[Results]:
+def results(
+    what: Subject, output: OutputOptions, frequency: float | None = None
+) -> Iterator[Results]:
     """Make the folder of the results before anything is computed.
 
-    Warnings do not end a command.
+    If all results are at one forcing frequency (Hz), pass it: it stands in the names of the files,
+    in the titles and in the summary. Warnings do not end a command.
 
     Raises
     ------
@@ -131,7 +150,7 @@ def results(what: Subject, output: OutputOptions) -> Iterator[Results]:
         warnings.catch_warnings(),
     ):
         warnings.simplefilter("always", RuntimeWarning)
-        yield Results(what, output, folder)
+        yield Results(what, output, folder, frequency)
 
 
 @contextmanager

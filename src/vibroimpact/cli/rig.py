@@ -2,44 +2,36 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from vibroimpact.cli.options import RigOptions, by_path
-from vibroimpact.cli.rig_changes import changes, joined
 from vibroimpact.cli.study import SimulateTable, Study, SweepTable, read_study
 from vibroimpact.errors import InputError
 from vibroimpact.model import (
     GRAVITY,
     Assembly,
     Harmonic,
-    Model,
     Oscillator,
     Periodic,
     Record,
     Repeated,
     laboratory,
 )
-from vibroimpact.model.assembly.names import check_known
-from vibroimpact.model.derived_parameters import DERIVED
-from vibroimpact.model.excitation import sized
+from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.laboratory import Case, Parameters
-from vibroimpact.model.names import check_name, file_stem, literal
-from vibroimpact.model.parameter_ranges import turn
-from vibroimpact.model.parameters import (
-    PARAMETERS,
-    canonical,
-    parameter,
-    parameters,
-    set_values,
-)
+from vibroimpact.model.names import check_name, file_stem, kept_letters, literal
+from vibroimpact.model.parameters import canonical, parameters, set_values
 from vibroimpact.model.periodic_shaking import as_periodic, is_nothing
-from vibroimpact.model.quantities import FORCE
+from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.rig import Rig, System, with_stated_units
 from vibroimpact.model.stated_units import has_unit
-from vibroimpact.model.units import to_si
-from vibroimpact.model.written_units import NONE, write_for
+from vibroimpact.model.units import pretty, to_si
+from vibroimpact.model.written_units import NONE, unitless, write_for
 from vibroimpact.response.plausibility import doubt_stops
 
 
@@ -170,18 +162,18 @@ def subject(
     if shaken is not None:
         found = found._replace(shaking=shaken)
 
-    def rig_of(given: RigOptions) -> tuple[System, Repeated | Record | None]:
-        shaking = found.shaking
-        if given.amplitude is not None:
-            shaking = _of_size(shaking, given.amplitude, found.system.units == NONE)
-        stated: dict[str, Any] = {"--amplitude": given.amplitude, "--gap": given.gap}
-        stated |= {f"--set: {k}": v for k, v in by_path("--set", given.values).items()}
-        scale = otherwise if shaking is None else shaking
-        if isinstance(found.system, Assembly):
-            return with_stated_units(changed_assembly(found.system, given), stated), shaking
-        return with_stated_units(changed(found.system, given, scale), stated), shaking
+    values = stated(options)
 
-    system, shaking = rig_of(options)
+    def rig_of(values: Mapping[str, str]) -> tuple[System, Repeated | Record | None]:
+        fields = dict(values)
+        amplitude, shaking = fields.pop("amplitude", None), found.shaking
+        if amplitude is not None:
+            shaking = _of_size(shaking, amplitude, found.system.units == NONE)
+        system = changed(found.system, fields, otherwise if shaking is None else shaking)
+        named = {f"--{k}" if k in _OWN else f"--set: {k}": text for k, text in values.items()}
+        return with_stated_units(system, named), shaking
+
+    system, shaking = rig_of(values)
     write_for(system)  # until the end of the command
     shaking = otherwise if shaking is None else shaking
     if shaking is None and unshaken:
@@ -193,10 +185,12 @@ def subject(
             "--amplitude, such as 0.05g (acceleration), 2mm (displacement) or 500N (force); for a "
             "free vibration, use vibroimpact simulate"
         )
-    made = changes(options, rig_of, system)
+    made = [_change(path, text, system) for path, text in _effective(values, rig_of).items()]
     what = Subject(
-        ", ".join((name or found.title, *(change.words for change in made))),
-        file_stem(check_name(name, "--name")) if name else joined(found.slug, made),
+        ", ".join((found.title, *(change.words for change in made))),
+        file_stem(
+            check_name(name, "--name") if name else "-".join((found.slug, *(c.slug for c in made)))
+        ),
         system,
         shaking,
         found.study,
@@ -205,6 +199,35 @@ def subject(
     if isinstance(system, Oscillator):
         doubt_stops(Rig(system, what.shaking))
     return what
+
+
+_OWN = ("amplitude", "gap")
+"""Paths that have an option of their own."""
+
+
+def stated(options: RigOptions) -> dict[str, str]:
+    """Return the values of the options by path."""
+    gap = () if options.gap is None else (f"gap={options.gap}",)
+    if options.gap is not None and options.gap.lower() != "none":
+        to_si(options.gap, LENGTH, "--gap")  # an error below would name a path
+    values = by_path("--set", (*gap, *options.values))
+    for path in values:
+        if (name := path.rpartition(".")[2]) in ("amplitude", "frequency"):
+            raise InputError(f"--set: {path!r} is that of the shaking; use --{name}")
+    return values if options.amplitude is None else {"amplitude": options.amplitude, **values}
+
+
+def _effective(
+    values: Mapping[str, str], rig_of: Callable[[Mapping[str, str]], object]
+) -> dict[str, str]:
+    """Return the values without which the rig would be another one."""
+    wanted, kept = rig_of(values), dict(values)
+    # Start with the last: if the value of all stops is set, that of one may be superfluous.
+    for path in reversed([*values]):
+        without = {other: text for other, text in kept.items() if other != path}
+        with suppress(InputError):  # a new stop requires all its values
+            kept = without if rig_of(without) == wanted else kept
+    return kept
 
 
 def _of_size(
@@ -277,43 +300,10 @@ def _of_study(path: str, study: Study, options: RigOptions) -> _Named:
     return _Named(title, first, system, shaking, study, study.case is not None)
 
 
-def changed_assembly(assembly: Assembly, options: RigOptions) -> Assembly:
-    """Return the assembly with the values that the options replace.
-
-    Raises
-    ------
-    InputError
-        If a path does not exist, or if a value is invalid.
-    """
-    values = new_values(assembly, options)
-    for path, value in values.items():
-        part, _, name = path.partition(".")
-        if value is None and "." not in name and part in ("links", "stops", "forces"):
-            continue  # a whole part is removed
-        if value is None:
-            raise InputError(
-                f"--set: {path}=none; only a link, a stop or a force can be removed, such as "
-                "stops.moat=none"
-            )
-        parameter(path, assembly, "--set")  # names the nearest
-    removed = {path for path, value in values.items() if value is None}
-    try:
-        for path in removed:
-            part, _, name = path.partition(".")
-            kept = getattr(assembly, part)
-            check_known(name, list(kept), part.removesuffix("s"), path)
-            assembly = assembly.replace(**{part: {k: v for k, v in kept.items() if k != name}})
-        return set_values(assembly, {k: v for k, v in values.items() if k not in removed})
-    except InputError as error:
-        raise InputError(f"--set: {error}") from None
-
-
 def changed(
-    oscillator: Oscillator, options: RigOptions, shaking: Repeated | Record | None = None
-) -> Oscillator:
-    """Return the oscillator with the values that the options replace.
-
-    A new period keeps the damping ratio, unless a damping is set. The shaking scales a gap ratio.
+    system: System, values: Mapping[str, str], shaking: Repeated | Record | None = None
+) -> System:
+    """Return the system with the values of options by path; "none" removes a part.
 
     Raises
     ------
@@ -321,93 +311,44 @@ def changed(
         If a path does not exist, if a value is invalid, or if a new stop is not described
         completely.
     """
-    values = new_values(oscillator, options)
-    for one, other in _SAME:
-        if one in values and other in values:
-            raise InputError(
-                f"--set: {one} and {other} set the same quantity; remove one of the two"
-            )
-    if "weight" in values:
-        values["mass"] = to_si(values.pop("weight"), FORCE, "--set: weight", above=0.0) / GRAVITY
-    derived = {name: text for name, text in values.items() if name in DERIVED}
-    fields = {name: text for name, text in values.items() if name not in DERIVED}
-    if "isolator_period" in derived and "mass" in fields and "isolator.damping" not in fields:
-        derived.setdefault("damping_ratio", oscillator.damping_ratio)  # that of the old mass
-    # A derived parameter keeps a damping ratio or a relaxation time, unless the damping is set.
-    late = {name for name in fields if derived and name.endswith(".damping")}
-    oscillator = _set(oscillator, {k: v for k, v in fields.items() if k not in late})
-    for name in sorted(derived, key=turn):
-        if turn(name) > 0:
-            oscillator = _set(oscillator, {k: fields[k] for k in late})
-            late = set()
-        rig = Rig.of_open_frequency(oscillator, shaking)
-        varied = parameter(name, rig, "--set")
-        limits: dict[str, Any] = {"minimum": varied.least} if varied.zero else {"above": 0.0}
-        value = to_si(derived[name], varied.quantity, f"--set: {name}", **limits)
-        try:
-            varied.read(rig)
-        except InputError as error:
-            raise InputError(f"--set: {str(error).removeprefix('parameter: ')}") from None
-        oscillator = varied.vary(rig, value).oscillator
-    return _set(oscillator, {k: fields[k] for k in late})
-
-
-_SAME = (
-    ("isolator_period", "isolator.stiffness"),
-    ("damping_ratio", "isolator.damping"),
-    ("weight", "mass"),
-)
-"""Pairs of paths that set the same quantity."""
-
-
-def new_values(system: System, options: RigOptions) -> dict[str, Any]:
-    """Return the values of the options by path. "none" removes a part.
-
-    Raises
-    ------
-    InputError
-        If a path is set twice.
-    """
-    found: dict[str, Any] = {}
-    known = list(parameters(Rig(system)))
-    known += [] if isinstance(system, Assembly) else PARAMETERS
-    for path, text in by_path("--set", options.values).items():
-        name = canonical(path, known)
-        if name in ("amplitude", "frequency"):
-            raise InputError(f"--set: {path!r} is that of the shaking; use --{name}")
-        if name in found or (name == "gap" and options.gap is not None):
-            raise InputError(f"--set: {path!r} is given twice; remove one of the two")
-        found[name] = None if text.lower() == "none" else text
-    for part in (path for path, value in found.items() if value is None):
-        for path in found:
-            if path.removeprefix("stops.").startswith(f"{part.removeprefix('stops.')}."):
-                raise InputError(
-                    f"--set: {path.removeprefix('stops.')}: the part is removed by {part}=none; "
-                    "remove one of the two"
-                )
-    # A value of one side replaces that of both.
-    both = {} if options.gap is None else {"gap": options.gap}
-    return {**both, **dict(sorted(found.items(), key=lambda item: item[0].count(".")))}
-
-
-def _set(oscillator: Oscillator, values: dict[str, Any]) -> Oscillator:
-    """Set values by path. Errors name the option."""
-    if not values:
-        return oscillator
-    rig = Rig(oscillator)
-    for path in values:
-        first, _, field = path.rpartition(".")
-        part = getattr(oscillator, first.removeprefix("stops."), None)
-        keys = type(part).table_keys() if isinstance(part, Model) else []
-        whole = path.removeprefix("stops.") in ("isolator", "right", "left")
-        absent = first in ("right", "left", "stops.right", "stops.left")
-        shared = path in PARAMETERS and (first == "stops" or path == "gap")
-        if not (whole or absent or shared or field in keys):
-            parameter(path, rig, "--set")  # names the nearest
+    read = {path: None if text.lower() == "none" else text for path, text in values.items()}
     try:
-        return set_values(oscillator, values)
+        return set_values(Rig.of_open_frequency(system, shaking), read).system
     except InputError as error:
-        path, _, rest = str(error).partition(": ")
-        if "gap" in values and path in ("right.gap", "left.gap") and f"stops.{path}" not in values:
-            raise InputError(f"gap: {rest}") from None
-        raise InputError(f"--set: {error}") from None
+        raise InputError(f"--set: {str(error).removeprefix('parameter: ')}") from None
+
+
+class _Change(NamedTuple):
+    """An option that changes the rig."""
+
+    words: str
+    """Text in titles, such as "left gap 9 mm"."""
+    slug: str
+    """Text in file names, such as "left-gap-9mm"."""
+
+
+def _change(path: str, value: str, system: System) -> _Change:
+    """Describe an option by its path, without the kind of a part that has a name of its own."""
+    known = parameters(Rig(system))
+    name = canonical(path, known)
+    kind, _, part = name.rpartition(".")
+    text = value
+    if value.lower() == "none":
+        of = _KINDS.get(kind, "stop" if part in ("right", "left") else "")
+        words, text = "no", f"{of} {part}" if isinstance(system, Assembly) else f"{part} {of}"
+        text = " ".join(re.split(r"[ _-]+", text.strip()))
+    elif name == "amplitude":
+        words, (size, of) = name, sized(value, None, path)
+        in_g = of == "acceleration" and not unitless()
+        text = f"{size / GRAVITY:.6g} g" if in_g else pretty(size, QUANTITIES[of])
+    else:
+        words = name.partition(".")[2] if "." in kind or kind == "forces" else name
+        words = re.sub(r"[._-]", " ", words.replace("masses.", "mass "))
+        if name in known:
+            text = pretty(to_si(value, known[name].quantity, path), known[name].quantity)
+    slug = f"{words} {text}" if words == "no" else f"{words} {text.replace(' ', '')}"
+    return _Change(f"{words} {text}", kept_letters(slug.replace(" ", "-")))
+
+
+_KINDS = {"masses": "mass", "links": "link", "stops": "stop", "forces": "force"}
+"""Parts of a rig in paths, and their names in titles."""

@@ -88,6 +88,11 @@ def rig_at(what: Subject, frequency: str | None, phase: str | None = None, along
     return rig
 
 
+def fixed_frequency(rig: Rig, *along: str) -> float | None:
+    """Return the forcing frequency (Hz), unless the frequency is among the varied parameters."""
+    return None if "frequency" in along else rig.periodic.frequency
+
+
 def state(option: str, text: str, phase: float | None = None) -> State:
     """Read ``DISPLACEMENT,VELOCITY``.
 

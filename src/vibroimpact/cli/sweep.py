@@ -105,7 +105,7 @@ def sweep(
 
     what = subject(rig, changes, output.name, masses=True)
     if is_assembly(what):
-        refuse(what, compute=compute, normalised=physical is False)
+        refuse(what, normalised=physical is False)
     table = what.sweep_table
     grid = list_frequencies(start, stop, step, frequencies, table, default_range(what))
     outputs = own_outputs(compute)

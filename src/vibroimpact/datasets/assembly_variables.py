@@ -32,7 +32,7 @@ ASSEMBLIES: dict[str, Variable] = {
     "total_stored": Variable(
         "J",
         "growth of the kinetic and potential energy during the whole motion",
-        "of links, bumpers and constant forces; relative to the base",
+        "of links, stops and constant forces; relative to the base",
     ),
     "mode": integer("number of the mode", "from 1, in the order of the natural frequencies"),
     "natural_frequency": Variable(

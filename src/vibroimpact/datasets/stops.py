@@ -81,8 +81,8 @@ def each_by_stop(oscillators: Sequence[Oscillator], both: NDArray[Any]) -> NDArr
 
 
 def plain_values(values: xr.DataArray) -> Any:
-    """Return a number or a text as Python has it; of stops or masses a mapping from their names."""
-    if values.dims in (("stop",), ("mass",)):
+    """Return a number or a text as Python has it; of the parts of a rig a mapping from names."""
+    if len(values.dims) == 1 and values.dims[0] in PARTS:
         names = values[values.dims[0]].values.tolist()
         return dict(zip(names, values.values.tolist(), strict=True))
     return values.item()

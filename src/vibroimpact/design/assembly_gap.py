@@ -17,7 +17,7 @@ from vibroimpact.engine.observers import phases
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Harmonic, Record, equilibrium
-from vibroimpact.response.assembly_contacts import coordinates
+from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.tasks.threads import Progress, Workers
 
 _Array = NDArray[np.float64]

@@ -29,7 +29,8 @@ from vibroimpact.model.parameter_ranges import Values
 from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import System
-from vibroimpact.response.assembly_contacts import coordinates
+from vibroimpact.response.assembly_rows import coordinates
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 
@@ -82,8 +83,9 @@ def design_chart(
     limits
         Largest accepted values, by name: ``"peak_force"`` (N) of each stop, ``"penetration"``,
         ``"peak_displacement"`` and ``"displacement_max"`` (m). ``"displacement_min"`` (m) is the
-        lowest accepted value, at most 0. Of an assembly, a limit holds for each mass, stop or link;
-        ``"peak_drift"`` is accepted for records, and ``"penetration"`` is not.
+        lowest accepted value, at most 0. Of an assembly, a limit holds for each mass, stop or link,
+        or for one of them, such as ``"peak_force.moat"``; ``"peak_drift"`` is accepted for records,
+        and ``"penetration"`` is not.
         A design that exceeds a limit is reported like the others, but it cannot be in the Pareto
         front ``pareto``.
     fractile
@@ -141,10 +143,13 @@ def design_chart(
     known = [name for name in PEAKS if isinstance(system, Oscillator) or name in DIMS]
     if isinstance(system, Assembly) and isinstance(what, ByRecords):
         known.append("peak_drift")
-    most = limits_of(limits, known)
+    parts: dict[str, list[str]] = {}
+    if isinstance(system, Assembly):
+        names = coordinates(system)
+        parts = {name: names[DIMS[name]].tolist() for name in known if name in DIMS}
+    most = limits_of(limits, known, parts)
     found = what.peaks(rigs, workers, progress)
-    oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
-    data = _dataset(plan, rigs, {**found, **_dampings(plan, oscillators)}, most)
+    data = _dataset(plan, rigs, {**found, **_dampings(plan, rigs)}, most)
     warn_given_up(data["status"].values, "design", "designs")
     parameters = {
         **system_parameters(system),
@@ -155,12 +160,13 @@ def design_chart(
     return describe(data, "vibroimpact.design_chart", parameters, what.notes(), plan.varied)
 
 
-def _dampings(plan: Runs, rigs: list[Oscillator]) -> dict[str, NDArray[Any]]:
-    """Return the damping of both bumpers along the varied stiffness, if they share one."""
+def _dampings(plan: Runs, rigs: list[System]) -> dict[str, NDArray[Any]]:
+    """Return the damping of all bumpers along the varied stiffness, if they share one."""
     names = {one.name for one in plan.varied}
     if "stops.damping" in names or not names & _STIFFNESSES:
         return {}
-    every = [{pair[1] for stop in rig.stops if (pair := stop.spring_and_dashpot)} for rig in rigs]
+    laws = [SectionStates(rig).laws for rig in rigs]
+    every = [{pair[1] for stop in some if (pair := stop.spring_and_dashpot)} for some in laws]
     if any(len(one) != 1 for one in every):
         return {}
     return {"stops.damping": np.array([one.pop() for one in every])}
@@ -173,9 +179,14 @@ def _dataset(
     limits: Mapping[str, float],
 ) -> xr.Dataset:
     """Return the results of all designs, over the parameters that were varied."""
-    within = np.ones(found["status"].shape, dtype=bool)
+    within, first = np.ones(found["status"].shape, dtype=bool), rigs[0]
     for name, limit in limits.items():
-        within &= severity(name, found[name]) <= severity(name, limit)
+        base, _, part = name.partition(".")
+        values: Any = found[base]
+        if part:
+            assert isinstance(first, Assembly)
+            values = values[:, coordinates(first)[DIMS[base]].tolist().index(part)]
+        within &= severity(name, values) <= severity(name, limit)
     u, a = (
         np.where(within, severity(name, found[name]), np.nan)
         for name in ("peak_displacement", "peak_acceleration")

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
@@ -22,7 +22,7 @@ from vibroimpact.errors import InputError, warn_of_input
 from vibroimpact.model import Oscillator
 from vibroimpact.model.argument_types import NonNegativeInt, Share
 from vibroimpact.model.parameter_ranges import Ranges, read_ranges, stated
-from vibroimpact.model.parameters import in_units, parameter
+from vibroimpact.model.parameters import in_units, parameter, set_values
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.read_rig import AnyRig
@@ -69,10 +69,9 @@ class _Space(NamedTuple):
 
     def rigs(self, x: _Array) -> list[Oscillator]:
         """Return the rig of each column."""
+        whole = Rig(self.rig)
         return [
-            runs(self.rig, {n: [v] for n, v in zip(self.names, one, strict=True)}).oscillator(
-                (0,) * len(self.names)
-            )
+            set_values(whole, dict(zip(self.names, one, strict=True))).oscillator
             for one in self.values(x).T.tolist()
         ]
 
@@ -225,7 +224,7 @@ def least_acceleration(
         {"stop": stops_of(oscillator)},
     )
     parameters = {
-        "oscillator": oscillator_parameters(oscillator),
+        **system_parameters(oscillator),
         "ranges": {
             name: [float(low), float(high)]
             for name, low, high in zip(space.names, space.low, space.high, strict=True)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from vibroimpact.arguments import check_mapping
-from vibroimpact.datasets.stops import has_stops, over_parts
+from vibroimpact.datasets.stops import has_stops, over_parts, quantity
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import PEAKS
 from vibroimpact.errors import InputError, unknown
@@ -21,8 +22,22 @@ _LEFT = "displacement_min"
 _EXAMPLE = 'a dict of limits by name, such as {"peak_force": "2 MN"}'
 
 
-def limits_of(limits: Any, known: Sequence[str] = PEAKS) -> dict[str, float]:
-    """Read limits by name, in SI units. `known` are the names of results.
+def limits_of(
+    limits: Any,
+    known: Sequence[str] = PEAKS,
+    parts: Mapping[str, Sequence[str]] = MappingProxyType({}),
+) -> dict[str, float]:
+    """Read limits by name, in SI units.
+
+    Parameters
+    ----------
+    limits
+        The limits.
+    known
+        Names of results.
+    parts
+        Names of the masses, links or stops of which a result has one each. Such a result may be
+        limited for one of them, such as ``"peak_drift.storey"``.
 
     Raises
     ------
@@ -30,15 +45,23 @@ def limits_of(limits: Any, known: Sequence[str] = PEAKS) -> dict[str, float]:
         If one is of nothing that is known of a design, or has a wrong unit.
     """
     accepted = [name for name in known if name != "peak_acceleration"]
+    accepted += [f"{name}.{part}" for name in accepted for part in parts.get(name, ())]
     found = {}
     given = check_mapping({} if limits is None else limits, "limits", _EXAMPLE)
     for name, value in given.items():
-        key = name.replace("-", "_")
+        key = underscored(name)
         if key not in accepted:
             raise InputError(f"limits: {unknown(name, accepted)}")
-        ends = {"maximum": 0.0} if key == _LEFT else {"minimum": 0.0}
-        found[key] = to_si(value, in_units(VARIABLES[key].units), f"limits[{name!r}]", **ends)
+        base = key.partition(".")[0]
+        ends = {"maximum": 0.0} if base == _LEFT else {"minimum": 0.0}
+        found[key] = to_si(value, in_units(VARIABLES[base].units), f"limits[{name!r}]", **ends)
     return found
+
+
+def underscored(name: str) -> str:
+    """Return the name of a result with underscores; the name of its part is kept."""
+    base, dot, part = name.partition(".")
+    return base.replace("-", "_") + dot + part
 
 
 def severity(name: str, values: Any) -> Any:
@@ -59,7 +82,7 @@ def severity(name: str, values: Any) -> Any:
 
 
 def _sense(name: str) -> float:
-    return -1.0 if name == _LEFT else 1.0
+    return -1.0 if name.partition(".")[0] == _LEFT else 1.0
 
 
 def excesses(data: xr.Dataset) -> list[xr.DataArray]:
@@ -70,7 +93,7 @@ def excesses(data: xr.Dataset) -> list[xr.DataArray]:
     """
     limits = json.loads(data.attrs.get("parameters", "{}")).get("limits", {})
     return [
-        (_sense(name) * (over_parts(data[name]) - most)) / (abs(most) or 1.0)
+        (_sense(name) * (over_parts(quantity(data, name)) - most)) / (abs(most) or 1.0)
         for name, most in limits.items()
-        if name in data
+        if name.partition(".")[0] in data
     ]

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from vibroimpact.errors import InputError
-from vibroimpact.model import Oscillator
+from vibroimpact.model.rig import System
+from vibroimpact.response.section_states import SectionStates
 
 
-def usual_ranges(oscillator: Oscillator, gap: float) -> dict[str, list[float]]:
+def usual_ranges(system: System, gap: float) -> dict[str, list[float]]:
     """Return gaps up to 14/12 of the required gap (m), and stiffnesses of the bumpers.
 
     The stiffnesses reach from a tenth to ten times that of the stiffer bumper.
@@ -16,7 +17,7 @@ def usual_ranges(oscillator: Oscillator, gap: float) -> dict[str, list[float]]:
     InputError
         If the rig has no stops.
     """
-    stops = oscillator.stops
+    stops = SectionStates(system).laws
     if not stops:
         raise InputError(
             "vary: missing; for a rig without stops there is no default; pass a parameter and its "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,21 +11,19 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes.free_vibration import free_tail
-from vibroimpact.earthquakes.run_plan import Runs
 from vibroimpact.engine import earthquakes, sections
 from vibroimpact.engine.assembly.plan import Drift
 from vibroimpact.engine.observers import phases
 from vibroimpact.engine.observers.phases import Layout
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Record, equilibrium
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_contacts import coordinates, energies, extremes
-from vibroimpact.response.assembly_phases import AssemblyPhases, PartColumns, phases_layout
 from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
+from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.assembly_state import assembly_vector
-from vibroimpact.response.motion_phases import Course, Followed
+from vibroimpact.response.motion_phases import Course, Followed, PartColumns, Phases, phases_layout
 from vibroimpact.response.record_history import straight
+from vibroimpact.response.totals import energies, extremes
 from vibroimpact.tasks.threads import Progress, Tally, Workers, each
 
 _Array = NDArray[np.float64]
@@ -149,73 +147,6 @@ def _nothing(assembly: Assembly) -> dict[str, Any]:
     }
 
 
-def check_alike(rigs: Runs) -> Assembly:
-    """Return the first of some assemblies, whose parts have the same names.
-
-    Raises
-    ------
-    InputError
-        If one has other names, or is an oscillator, or has laws that are not accepted.
-    """
-    first = next(iter(rigs.rigs.values()))
-    assert isinstance(first, Assembly)
-    for name, one in rigs.rigs.items():
-        if not isinstance(one, Assembly):
-            raise InputError(
-                f"rig[{name!r}]: an Oscillator beside an Assembly; pass rigs with the same parts"
-            )
-        check_laws(one)
-        for part, names in coordinates(first).items():
-            mine = coordinates(one)[part]
-            if mine.tolist() != names.tolist():
-                raise InputError(
-                    f"rig[{name!r}]: its {part} names are {', '.join(mine) or 'none'}, not those "
-                    f"of the first rig, {', '.join(names) or 'none'}; pass rigs with the same parts"
-                )
-    return first
-
-
-def demands_of_assemblies(
-    rigs: Runs,
-    records: Sequence[Record],
-    factors: _Array,
-    tail: float | None,
-    max_events: int,
-    workers: Workers,
-    progress: Progress | None,
-) -> tuple[dict[str, Any], Mapping[str, _Array]]:
-    """Compute the peaks of assemblies through scaled records.
-
-    Parameters
-    ----------
-    factors : ndarray, shape (record, scale)
-        What each record is multiplied by.
-    tail, max_events, workers, progress
-        As in `demands`.
-
-    Returns
-    -------
-    variables, coordinates
-        Variables with the dims ``record``, ``scale``, those of the rigs, and ``mass``, ``link`` or
-        ``stop``.
-    """
-    first = check_alike(rigs)
-    systems = [rigs.system(at) for at in np.ndindex(*rigs.shape)]
-    runs = [
-        AssemblyRuns(system, record, row)  # type: ignore[arg-type]
-        for record, row in zip(records, factors, strict=True)
-        for system in systems
-    ]
-    shape = (len(records), *rigs.shape, factors.shape[1])
-    scale, dims = len(shape) - 1, ("record", "scale", *rigs.dims)
-    variables: dict[str, Any] = {}
-    for name, values in peaks_of_assemblies(runs, tail, max_events, workers, progress).items():
-        dim = VARIABLES[name].part
-        whole = np.moveaxis(values.reshape(*shape, *values.shape[2:]), scale, 1)
-        variables[name] = ((*dims, dim) if dim else dims, whole)
-    return variables, coordinates(first)
-
-
 def peaks_of_assemblies(
     runs: Sequence[AssemblyRuns],
     tail: float | None,
@@ -253,7 +184,7 @@ def seismic_response_of_assembly(
     values = _nothing(assembly)
     if status is Status.DONE:
         nothing = np.empty(0)
-        found = AssemblyPhases(assembly, Followed(status, rows, nothing, nothing), begin, final)
+        found = Phases(assembly, Followed(status, rows, nothing, nothing), begin, final)
         peaks = extremes(found)
         values = {name: peaks[name] for name in PEAKS} | energies(found)
     data = xr.Dataset(values, coordinates(assembly))

@@ -15,8 +15,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.datasets.description import describe
-from vibroimpact.datasets.stops import by_stop, dims_of, has_stops, stops_of
-from vibroimpact.earthquakes.assembly_demands import demands_of_assemblies
+from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
+from vibroimpact.datasets.vocabulary import VARIABLES
+from vibroimpact.earthquakes import assembly_demands
+from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, peaks_of_assemblies
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import (
     MAX_EVENTS,
@@ -36,7 +38,7 @@ from vibroimpact.earthquakes.run_plan import (
     suite,
 )
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError, warn_of_result
+from vibroimpact.errors import warn_of_result
 from vibroimpact.model import Assembly, Oscillator, Record, to_si
 from vibroimpact.model.argument_types import (
     MOST_TAIL,
@@ -50,6 +52,7 @@ from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import Rig, System
 from vibroimpact.model.written_units import has_no_units
+from vibroimpact.response.assembly_rows import check_alike, coordinates
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
@@ -65,6 +68,7 @@ _Array = NDArray[np.float64]
 CREATED_BY = "vibroimpact.demands"
 _VALUES = (*PEAKS, *RESIDUALS)
 _KIND = Kind("set of demands", CREATED_BY, frozenset({*_VALUES, "status"}))
+_OF_ASSEMBLIES = Kind("set of demands", CREATED_BY, frozenset({*assembly_demands.PEAKS, "status"}))
 _PENDING = -1
 
 
@@ -118,7 +122,7 @@ def demands(
     store
         Folder in which the demands are stored as a Zarr group. It is written block by block. If the
         folder holds an unfinished computation of the same demands, that computation is resumed.
-        Default: the demands are kept in memory. Demands of assemblies cannot be stored.
+        Default: the demands are kept in memory.
     block
         Number of rigs and number of records in a block. A block contains all scales. If the
         computation is stopped, at most the unfinished blocks are lost.
@@ -157,10 +161,8 @@ def demands(
     levels = _levels(scales, scaled)
     known, factors = scaled.factors(list(shaking.values()), levels)
     several = any(isinstance(one, Assembly) for one in rigs.rigs.values())
-    if several and store is not None:
-        raise InputError(
-            "store: demands of an Assembly are kept in memory; remove store, and save the result"
-        )
+    if several:
+        check_alike(rigs.rigs, "rig", "mass", "link", "stop")
     task = _Task(
         rigs,
         list(shaking.values()),
@@ -181,7 +183,7 @@ def demands(
         "max_events": task.max_events,
         "block": block,
     }
-    coordinates = {
+    along = {
         "record": list(shaking),
         "scale": levels,
         **({"rig": list(rigs.rigs)} if rigs.several else {}),
@@ -190,24 +192,19 @@ def demands(
         "intensity": ("record", known),
     }
     notes = record_notes(shaking)
-    if several:
-        variables, names = demands_of_assemblies(
-            rigs, task.records, factors, task.tail, task.max_events, task.threads, progress
-        )
-        data = xr.Dataset(variables, {**coordinates, **names})
-        return _described(data, settings, notes, rigs, scaled)
     parts = (Part(((one.number,),), one.place) for one in blocks(task.shape, block))
-    with folder(store, _KIND, settings, partial(_make, task=task, most=block), parts) as group:
+    with folder(store, task.kind, settings, partial(_make, task=task, most=block), parts) as group:
         if not finished(group):
             _complete(group, task, block, progress)
             group.attrs["finished"] = True
-        found = {name: read(group, _KIND.word, name) for name in (*_VALUES, "status")}
+        found = {name: read(group, _KIND.word, name) for name in (*task.values, "status")}
     dims = ("record", "scale", *rigs.dims)
     data = xr.Dataset(
-        {name: (dims_of(name, dims), values) for name, values in found.items()},
-        {"stop": task.stops, **coordinates},
+        {name: ((*dims, *task.part_of(name)), values) for name, values in found.items()},
+        {**task.parts, **along},
     )
-    notes += _doubted(rigs.rigs, next(iter(shaking.values())), data)
+    if not several:
+        notes += _doubted(rigs.rigs, next(iter(shaking.values())), data)
     return _described(data, settings, notes, rigs, scaled)
 
 
@@ -246,9 +243,33 @@ class _Task(NamedTuple):
     threads: Workers
 
     @property
-    def stops(self) -> NDArray[np.str_]:
-        """Names of the stops that at least one of the rigs has."""
-        return stops_of(*(one for one in self.rigs.rigs.values() if isinstance(one, Oscillator)))
+    def assembly(self) -> Assembly | None:
+        """The first of several assemblies, whose parts have the same names."""
+        first = next(iter(self.rigs.rigs.values()))
+        return first if isinstance(first, Assembly) else None
+
+    @property
+    def kind(self) -> Kind:
+        """What a store of the results is."""
+        return _KIND if self.assembly is None else _OF_ASSEMBLIES
+
+    @property
+    def values(self) -> tuple[str, ...]:
+        """Names of the results."""
+        return _VALUES if self.assembly is None else assembly_demands.PEAKS
+
+    @property
+    def parts(self) -> Mapping[str, NDArray[Any]]:
+        """Names of the parts of the rigs, by dim: of oscillators the stops that one has."""
+        if self.assembly is not None:
+            return coordinates(self.assembly)
+        oscillators = (one for one in self.rigs.rigs.values() if isinstance(one, Oscillator))
+        return {"stop": stops_of(*oscillators)}
+
+    def part_of(self, name: str) -> tuple[str, ...]:
+        """Return the dim of the parts of which a result has one each, if it has one."""
+        dim = "" if name == "status" else VARIABLES[name].part or ""
+        return (dim,) if dim in self.parts else ()
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -259,8 +280,21 @@ class _Task(NamedTuple):
         """Compute the demands of a block."""
         count = self.factors.shape[1]
         places = list(itertools.product(*(range(s.start, s.stop) for s in one.rigs)))
-        rigs = [self.rigs.oscillator(at) for at in places]
         chosen = range(one.records.start, one.records.stop)
+        follow = self._of_oscillators if self.assembly is None else self._of_assemblies
+        found = follow(places, chosen, progress)
+        shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
+        scale = len(shape) - 1
+        return {
+            name: np.moveaxis(v.reshape(*shape, *v.shape[2:]), scale, 1)
+            for name, v in found.items()
+        }
+
+    def _of_oscillators(
+        self, places: list[tuple[int, ...]], chosen: range, progress: Progress | None
+    ) -> dict[str, NDArray[Any]]:
+        """Return the results of oscillators, shape (run, scale) and, if so, stop."""
+        rigs = [self.rigs.oscillator(at) for at in places]
         found = peaks(
             [Shaken(rig, self.records[n], self.factors[n]) for n in chosen for rig in rigs],
             tail=self.tail,
@@ -269,15 +303,24 @@ class _Task(NamedTuple):
             threads=self.threads,
             progress=progress,
         )
+        stops = self.parts["stop"]
         for name in filter(has_stops, found):
             own = zip(rigs * len(chosen), found[name], strict=True)
-            found[name] = np.array([by_stop(rig, both, self.stops) for rig, both in own])
-        shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
-        scale = len(shape) - 1
-        return {
-            name: np.moveaxis(v.reshape(*shape, *v.shape[2:]), scale, 1)
-            for name, v in found.items()
-        }
+            found[name] = np.array([by_stop(rig, both, stops) for rig, both in own])
+        return found
+
+    def _of_assemblies(
+        self, places: list[tuple[int, ...]], chosen: range, progress: Progress | None
+    ) -> dict[str, NDArray[Any]]:
+        """Return the results of assemblies, shape (run, scale) and, if so, part."""
+        systems = [self.rigs.system(at) for at in places]
+        runs_of = [
+            AssemblyRuns(one, self.records[n], self.factors[n])
+            for n in chosen
+            for one in systems
+            if isinstance(one, Assembly)
+        ]
+        return peaks_of_assemblies(runs_of, self.tail, self.max_events, self.threads, progress)
 
 
 def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | None) -> None:
@@ -309,10 +352,11 @@ def _make(group: zarr.Group, task: _Task, most: int) -> None:
     size, *further = chunks(task.shape, most)
     chunk = (size, levels, *further)
     dims = ("record", "scale", *task.rigs.dims)
-    for name in _VALUES:
-        stops = (len(task.stops),) if has_stops(name) else ()
-        sizes = (*shape, *stops), (*chunk, *(max(one, 1) for one in stops))
-        create(group, name, *sizes, "f8", np.nan, dims_of(name, dims))
+    for name in task.values:
+        dim = task.part_of(name)
+        each = tuple(len(task.parts[one]) for one in dim)
+        sizes = (*shape, *each), (*chunk, *(max(one, 1) for one in each))
+        create(group, name, *sizes, "f8", np.nan, (*dims, *dim))
     create(group, "status", shape, chunk, "i1", _PENDING, dims)
     count = sum(1 for _ in blocks(task.shape, most))
     create(group, "done", (count,), (1,), "i1", 0, ("block",))

@@ -6,10 +6,9 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Record, Repeated
+from vibroimpact.model import Oscillator, Record, Repeated
 from vibroimpact.model.assembly.names import check_known
-from vibroimpact.response.assembly_contacts import assembly_origin, has_assembly
-from vibroimpact.response.motion_phases import any_recorded
+from vibroimpact.response.motion_phases import recorded
 
 _GRID = 1e-6
 """Share of a step by which a sample may lie off the grid."""
@@ -74,13 +73,14 @@ def floor_record(motion: xr.Dataset, mass: str | None = None) -> Record:
 
 def _shaking(motion: xr.Dataset, mass: str | None) -> tuple[Repeated | Record, float]:
     """Return what shakes a motion, and by how much the mass moves with the base."""
-    if not has_assembly(motion):
+    origin = recorded(motion, masses=True, records=True)
+    system = origin.system
+    if isinstance(system, Oscillator):
         if mass is not None:
             raise InputError(f"mass: {shown(mass)}, but an Oscillator has only one; remove mass")
-        return any_recorded(motion).excitation, 1.0
-    origin = assembly_origin(motion)
-    names = origin.assembly.names
+        return origin.shaking, 1.0
+    names = system.names
     if mass is None:
         raise InputError(f"mass: missing; pass one of {', '.join(names)}")
     check_known(mass, names, "mass", "mass")
-    return origin.shaking, float(origin.assembly.influence[names.index(mass)])
+    return origin.shaking, float(system.influence[names.index(mass)])

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Oscillator, Record, Rig
-from vibroimpact.model.parameter_ranges import Values, Varied, read_values, stated, vary_all
-from vibroimpact.model.parameters import parameter
+from vibroimpact.model.parameter_ranges import Values, Varied, read_values, stated
+from vibroimpact.model.parameters import set_values
 from vibroimpact.model.read_rig import as_rigs, as_rigs_of_any_masses, is_one_rig
 from vibroimpact.model.rig import System, with_stated_units
 
@@ -65,8 +65,8 @@ class Runs(NamedTuple):
         rig = self.rigs[names[at[0] if self.several else 0]]
         values = dict(zip((one.name for one in self.varied), at[self.several :], strict=True))
         whole = Rig(rig)
-        pairs = [(parameter(v.name, whole), float(v.values[values[v.name]])) for v in self.varied]
-        return vary_all(whole, pairs).system
+        numbers = {one.name: float(one.values[values[one.name]]) for one in self.varied}
+        return set_values(whole, numbers).system
 
 
 def runs(

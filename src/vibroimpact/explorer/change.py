@@ -11,9 +11,9 @@ from vibroimpact.explorer.state import ON_DEMAND, PageState
 from vibroimpact.model import Harmonic, Oscillator, to_si
 from vibroimpact.model.excitation import sized
 from vibroimpact.model.frequency_text import forcing, forcings
-from vibroimpact.model.parameters import PARAMETERS
+from vibroimpact.model.parameters import set_values
 from vibroimpact.model.quantities import DIMENSIONLESS as NUMBER
-from vibroimpact.model.quantities import FORCE, FREQUENCY, MASS
+from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stated_units import has_unit
 from vibroimpact.model.written_units import unitless
@@ -21,9 +21,9 @@ from vibroimpact.model.written_units import unitless
 SIDES = ("right", "left")
 DIMENSIONLESS = ("stiffness_ratio", "gap_ratio", "relaxation_time")
 """Dimensionless parameters of a stop."""
+OF_RIG = ("isolator_period", "damping_ratio")
 ROUNDED = 1e-6
 """Relative error of a frequency that the page has rounded."""
-OF_RIG = ("isolator_period", "damping_ratio")
 
 
 def moved(state: PageState, path: str, value: float | str) -> PageState:
@@ -46,27 +46,16 @@ def moved(state: PageState, path: str, value: float | str) -> PageState:
     InputError
         If there is no such knob, or if the value is invalid.
     """
-    rig = state.oscillator
     part, _, name = path.rpartition(".")
     if path == "amplitude":
         return state._replace(shaking=_shaken(state.shaking, value))
-    if path in OF_RIG:
-        number = to_si(value, PARAMETERS[path].quantity, path, above=0.0)
-        moved = PARAMETERS[path].vary(state.rig, number)
-        return state._replace(oscillator=moved.oscillator)
-    if path in ("mass", "force"):
-        number = to_si(value, MASS if path == "mass" else FORCE, path)
-        return state._replace(oscillator=rig.replace(**{path: number}))
-    if part == "isolator" and name in type(rig.isolator).model_fields:
-        return state._replace(
-            oscillator=rig.replace(isolator=rig.isolator.replace(**{name: value}))
-        )
-    sides = SIDES if part == "stops" else (part,)
-    present = [side for side in sides if side in SIDES and getattr(rig, side) is not None]
-    if not present:
-        raise InputError(f"knob: {shown(path)} is not a parameter of this rig; reload the page")
-    for side in present:
-        rig = _stop_moved(state, rig, side, name, value)
+    if name not in DIMENSIONLESS:
+        return state._replace(oscillator=set_values(state.rig, {path: value}).oscillator)
+    rig = state.oscillator
+    for side in SIDES if part == "stops" else (part,):
+        if getattr(rig, side, None) is not None:
+            alone = Rig(one_sided(rig, side), state.shaking)
+            rig = rig.replace(**{side: getattr(set_values(alone, {name: value}).oscillator, side)})
     return state._replace(oscillator=rig)
 
 
@@ -80,22 +69,6 @@ def _shaken(shaking: Harmonic, value: float | str) -> Harmonic:
             raise
         size, of = sized(value, None, "amplitude", positive=True)
     return Harmonic(size, shaking.frequency, shaking.phase, of)
-
-
-def _stop_moved(
-    state: PageState, rig: Oscillator, side: str, name: str, value: float | str
-) -> Oscillator:
-    """The rig with one number of one stop at another value."""
-    stop = getattr(rig, side)
-    if name in DIMENSIONLESS:
-        number = to_si(value, PARAMETERS[name].quantity, name, minimum=0.0)
-        alone = PARAMETERS[name].vary(Rig(one_sided(rig, side), state.shaking), number)
-        return rig.replace(**{side: getattr(alone.oscillator, side)})
-    if name not in type(stop).model_fields:
-        raise InputError(
-            f"knob: {shown(name)} is not a parameter of the {side} stop; reload the page"
-        )
-    return rig.replace(**{side: stop.replace(**{name: value})})
 
 
 def one_sided(rig: Oscillator, side: str) -> Oscillator:

@@ -14,19 +14,21 @@ from rich.console import RenderableType
 from rich.text import Text
 
 from vibroimpact.datasets.description import noted
-from vibroimpact.datasets.stops import over_stops, plain_values
+from vibroimpact.datasets.stops import over_parts, over_stops, plain_values
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.facts.number_format import written
 from vibroimpact.facts.tables import Column, table_of
-from vibroimpact.model import GRAVITY, Oscillator
+from vibroimpact.model import GRAVITY, Assembly, Oscillator
 from vibroimpact.model.parameters import PARAMETERS, in_units, usual
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import unitless
+from vibroimpact.response.section_states import SectionStates
 
 _HEADS = {"stiffness_at_restitution": "stops.stiffness"}
+_GAPS = ("common_gap", "required_gap")
 _ROWS = 8
 """Largest number of designs of the front that are printed."""
 
@@ -34,7 +36,7 @@ _ROWS = 8
 def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[str, Any]:
     """Return every number, in SI units."""
     return {
-        **{name: plain_values(gap[name]) for name in ("common_gap", "required_gap")},
+        **{name: plain_values(gap[name]) for name in _GAPS if name in gap},
         **_records_facts(gap),
         "designs": int(data["pareto"].size),
         **_limits_facts(data),
@@ -51,7 +53,7 @@ def facts(gap: xr.Dataset, data: xr.Dataset, least: xr.Dataset | None) -> dict[s
 
 
 def text(
-    rig: Oscillator,
+    rig: Oscillator | Assembly,
     gap: xr.Dataset,
     data: xr.Dataset,
     least: xr.Dataset | None,
@@ -65,12 +67,10 @@ def text(
     """
     share = fractile_of(gap)
     yield Text()
-    if share is None:
-        yield Text(_needed(gap, records))
+    if isinstance(rig, Assembly):
+        yield from _gaps_of_stops(rig, gap, records, share)
     else:
-        yield Text(_needed_by_share(gap, records, share))
-    if rig.stops:
-        yield Text(_enough(rig, gap) if share is None else _enough_for_share(rig, gap, share))
+        yield from _gap_of_both(rig, gap, records, share)
     rows = list(_front(data))
     dims = [str(dim) for dim in data["pareto"].dims]
     size = " × ".join(str(n) for n in data["pareto"].shape)
@@ -110,10 +110,52 @@ def text(
             yield Text(f"Note on this design: {note}.")
 
 
+def _gap_of_both(
+    rig: Oscillator, gap: xr.Dataset, records: list[str], share: float | None
+) -> Iterator[Text]:
+    """Yield the gap that one mass requires, and whether that of the rig is sufficient."""
+    if share is None:
+        yield Text(_needed(gap, records))
+    else:
+        yield Text(_needed_by_share(gap, records, share))
+    if rig.stops:
+        yield Text(_enough(rig, gap) if share is None else _enough_for_share(rig, gap, share))
+
+
+def _gaps_of_stops(
+    assembly: Assembly, gap: xr.Dataset, records: list[str], share: float | None
+) -> Iterator[RenderableType]:
+    """Yield a table of the gap that each stop requires."""
+    under = f"under {', '.join(records)}" if records else "under the sines"
+    of = "" if share is None else f" ({_percent(share)} fractile)"
+    yield Text(f"Required gaps for no contact {under}{of}")
+    rows = []
+    for name, required in plain_values(gap["required_gap"]).items():
+        here = assembly.stops[name].stop.gap
+        row = {"stop": name, "gap": _length(here), "required": _length(required)}
+        row["short"] = "sufficient" if here >= required else f"{_length(required - here)} short"
+        if share is not None:
+            hits = int((gap["peak_closing"].sel(stop=name) > here).sum())
+            row["hits"] = f"{hits} of {gap.sizes['record']}"
+        rows.append(row)
+    columns = [
+        Column("stop", "stop", left=True),
+        Column("gap", "gap", units="1"),
+        Column("required", "required", units="1"),
+        Column("", "short", left=True),
+    ]
+    if share is not None:
+        columns.append(Column("records with contact", "hits", units="1"))
+    yield table_of(rows, columns)
+    yield Text()
+
+
 def _records_facts(gap: xr.Dataset) -> dict[str, Any]:
     """The share of the records that count, and what all of them need; nothing of sines."""
     if "record" not in gap.dims:
         return {}
+    if "peak_closing" in gap:
+        return {"fractile": json.loads(gap.attrs["parameters"])["fractile"]}
     every = _every(gap)
     return {
         "fractile": json.loads(gap.attrs["parameters"])["fractile"],
@@ -170,7 +212,7 @@ def _which(data: xr.Dataset, front: int) -> str:
     if not told:
         return best
     limits = " and ".join(
-        f"{_words(name)} {pretty(value, in_units(VARIABLES[name].units))}"
+        f"{_words(name)} {pretty(value, in_units(VARIABLES[name.partition('.')[0]].units))}"
         for name, value in told["limits"].items()
     )
     count = told["designs_within_limits"]
@@ -226,8 +268,8 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:g} %"
 
 
-def _gaps(rig: Oscillator) -> str:
-    gaps = list(dict.fromkeys(pretty(stop.gap, LENGTH) for stop in rig.stops))
+def _gaps(rig: Oscillator | Assembly) -> str:
+    gaps = list(dict.fromkeys(pretty(stop.gap, LENGTH) for stop in SectionStates(rig).laws))
     return f"the gap of {' and '.join(gaps)}"
 
 
@@ -240,7 +282,7 @@ def _table(rows: list[xr.Dataset], names: list[str]) -> RenderableType:
         "peak_force": ("contact force", partial(written, "peak_force")),
     }
     texts = [
-        {name: write(float(over_stops(rows[i][name]))) for name, (_, write) in columns.items()}
+        {name: write(float(over_parts(rows[i][name]))) for name, (_, write) in columns.items()}
         for i in picked
     ]
     return table_of(texts, [Column(head, name, units="1") for name, (head, _) in columns.items()])
@@ -250,7 +292,7 @@ def _front(data: xr.Dataset) -> Iterator[xr.Dataset]:
     """The designs that no other one beats, by displacement."""
     dims = [str(dim) for dim in data["pareto"].dims]
     at = np.argwhere(data["pareto"].values)
-    u = data["peak_displacement"].values[tuple(at.T)]
+    u = over_parts(data["peak_displacement"]).values[tuple(at.T)]
     for k in np.argsort(u, kind="stable"):
         yield data.isel(dict(zip(dims, map(int, at[k]), strict=True))).reset_coords()
 
@@ -264,7 +306,9 @@ def _demands(one: xr.Dataset) -> str:
 
 
 def _words(name: str) -> str:
-    return name.replace("_", " ")
+    base, _, part = name.partition(".")
+    words = base.replace("_", " ")
+    return f"{words} of {part}" if part and base in VARIABLES else name.replace("_", " ")
 
 
 def _value(name: str, value: float) -> str:

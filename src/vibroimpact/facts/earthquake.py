@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import xarray as xr
@@ -22,12 +22,12 @@ from vibroimpact.model.units import plain, pretty
 from vibroimpact.model.written_units import unit, unitless
 
 
-def together(names: list[str], responses: list[xr.Dataset]) -> xr.Dataset:
+def together(responses: Mapping[str, xr.Dataset]) -> xr.Dataset:
     """Return the responses to several records as one dataset."""
-    attributes = {**responses[0].attrs}
+    attributes = {**next(iter(responses.values())).attrs}
     del attributes["message"]  # that of the first record only
-    bare = [one.drop_attrs(deep=False) for one in responses]
-    data = xr.concat(bare, xr.DataArray(names, dims="record", name="record"))
+    bare = [one.drop_attrs(deep=False) for one in responses.values()]
+    data = xr.concat(bare, xr.DataArray(list(responses), dims="record", name="record"))
     return data.assign_attrs(attributes)
 
 

@@ -9,7 +9,7 @@ import xarray as xr
 from rich.console import Group, RenderableType
 from rich.text import Text
 
-from vibroimpact.datasets.stops import over_stops
+from vibroimpact.datasets.stops import quantities, quantity
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.facts.number_format import shown_in
 from vibroimpact.facts.tables import Column, table_of
@@ -60,8 +60,17 @@ def facts(
 
 def _peaks(data: xr.Dataset) -> dict[str, Any]:
     """The largest of each curve, over both directions; what is not known is left out."""
-    every = {name: over_stops(data[name]).max(("direction", "frequency")) for name in _PEAKS}
-    found = {name: one.dropna("sample").values for name, one in every.items()}
+    names = list(_PEAKS)
+    if "mass" in data.dims:  # of each mass and each stop
+        every = [one.partition(".") for one in quantities(data)]
+        names = [f"{name}.{part}" for name, _, part in every if part and name in _PEAKS]
+    found = {}
+    for name in names:
+        values = quantity(data, name)
+        if np.isinf(values).any():  # of a rigid stop
+            name = name.replace("peak_force", "peak_impulse")
+            values = quantity(data, name)
+        found[name] = values.max(("direction", "frequency")).dropna("sample").values
     return {name: values for name, values in found.items() if len(values)}
 
 
@@ -84,10 +93,12 @@ def text(data: xr.Dataset, given: dict[str, str], indices: dict[str, xr.Dataset]
 
 
 def _fractiles(name: str, values: list[float]) -> dict[str, str]:
+    name, _, part = name.partition(".")
     scale = shown_in(VARIABLES[name].units, values)
     texts = [plain(value / scale.size, 4) for value in values]
+    words = {**_PEAKS, "peak_impulse": "largest impulse"}[name]
     return {
-        "words": _PEAKS[name],
+        "words": f"{words}, {part}" if part else words,
         **dict(zip(map(str, _SHARES), texts, strict=True)),
         "symbol": scale.symbol,
     }

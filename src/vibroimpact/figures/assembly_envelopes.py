@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import chains, history
@@ -87,10 +88,11 @@ def mass_envelopes(
         ax.set_ylim(-0.5, count - 0.5)
         ax.set_yticks(range(count), [literal(name) for name in assembly.names])
         ax.grid(True, axis="y", linewidth=0.4, color="0.85")
-        ax.margins(x=0.08)
+        ax.xaxis.set_major_locator(MaxNLocator(4))
+        ax.margins(x=0.12)
     given[0].axvline(0.0, color=EDGE, linewidth=0.6, zorder=1)
     for ax in given[1:]:
-        ax.set_xlim(left=0.0)
+        ax.set_xlim(0.0, ax.get_xlim()[1])
         place = ax.get_subplotspec()
         if place is not None and axes is None and not place.is_first_col():
             ax.tick_params(labelleft=False)

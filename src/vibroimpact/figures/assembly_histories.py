@@ -7,10 +7,13 @@ from typing import Any, Literal
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import (
+    History,
     chosen,
     contact_legend,
     draw_contacts,
@@ -23,7 +26,9 @@ from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
+from vibroimpact.figures.record import mark_end
 from vibroimpact.figures.style import EDGE
+from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
 
 Quantity = Literal["displacement", "velocity", "acceleration"]
@@ -42,6 +47,7 @@ def mass_histories(
     *,
     quantity: Quantity = "displacement",
     masses: Sequence[str] | None = None,
+    closing: Sequence[str] = (),
     cycles: float | None = None,
     title: str | None = None,
 ) -> Panels:
@@ -49,20 +55,24 @@ def mass_histories(
 
     Each contact is a band between its exact start and end in the panels of the masses that it
     joins. If several stops of a mass are touched, each has its own strip of the panel. Dots are
-    impacts on rigid stops; of an acceleration, which is infinite there, they are left out.
+    impacts on rigid stops; of an acceleration, which is infinite there, they are left out. A dotted
+    line is the end of a record.
 
     Parameters
     ----------
     motion
         Dataset of `simulate`, `steady` or `orbit` with samples, of a rig with an `Assembly`.
     axes
-        One Axes per mass. Default: a new figure.
+        One Axes per mass, and one per stop of ``closing``. Default: a new figure.
     quantity
         ``"displacement"`` and ``"velocity"`` are relative to the base; ``"acceleration"`` is
         absolute.
     masses
         Names of the masses that are drawn, from the top. Default: all, in the order of the
         assembly.
+    closing
+        Names of stops whose closing displacement u_left − u_right has a panel below the masses,
+        with the gap as a dashed line. Default: none.
     cycles
         Number of forcing cycles that are drawn, up to the end of the motion. Default: all.
     title
@@ -71,7 +81,7 @@ def mass_histories(
     Returns
     -------
     tuple of Axes
-        One Axes per mass. ``axes[0].figure`` is the figure.
+        One Axes per mass, and one per stop of ``closing``. ``axes[0].figure`` is the figure.
 
     Raises
     ------
@@ -82,10 +92,14 @@ def mass_histories(
     if quantity not in LABELS:
         raise InputError(f"quantity: {quantity!r}; one of {', '.join(LABELS)} is accepted")
     names = chosen(masses, shown.assembly.names, "mass", "masses")
-    given = rows_of_panels(axes, names, 1.45, title)
+    pairs = chosen(closing, tuple(shown.assembly.stops), "stop", "closing") if closing else []
+    every = rows_of_panels(axes, [*names, *pairs], 1.45, title)
+    given, below = Panels(every[: len(names)]), every[len(names) :]
     factor, label = LABELS[quantity]
     factor, label = in_unit(factor), base_label(label, [motion])
     dots = False
+    for ax, name in zip(below, pairs, strict=True):
+        _closing(ax, shown, name)
     for ax, name in zip(given, names, strict=True):
         values = factor * shown.motion[quantity].sel(mass=name).values
         stops = touching(shown.assembly, name)
@@ -98,20 +112,38 @@ def mass_histories(
                 ax.scatter(shown.event_at[hit], seen, s=9, color="black", zorder=4)
                 dots = dots or len(hit) > 0
     share_scale(given)
-    label_values(given, axes, label)
-    for ax in given:
+    alike = quantity == "displacement"  # a closing displacement is one between two masses
+    label_values(every if alike else given, axes, label)
+    for ax in [] if alike else below:
+        ax.set_ylabel("closing (mm)")
+    for ax in every:
         ax.set_xlim(*shown.span)
-    given[-1].set_xlabel(shown.label)
+        ax.yaxis.set_major_locator(MaxNLocator(4, min_n_ticks=3, steps=[1, 2, 2.5, 5, 10]))
+    every[-1].set_xlabel(shown.label)
     of_shown = {stop for name in names for stop in touching(shown.assembly, name)}
     entries = contact_legend(
         shown.assembly, [s for s in shown.touched() if s in of_shown and shown.contacts(s)]
     )
     if dots:
         entries.append(_IMPACT)
+    entries += mark_end(every, motion)
     if entries:
         add_legend(given[0], entries)
-    fit_labels(*given)
-    return given
+    fit_labels(*every)
+    return every
+
+
+def _closing(ax: Axes, shown: History, name: str) -> None:
+    """Draw the closing displacement of a stop, with its gap."""
+    stop = shown.assembly.stops[name]
+    moved = shown.motion["displacement"].transpose(..., "mass").values
+    closing = moved @ shown.assembly.closing(stop)
+    draw_contacts(ax, shown, [name])
+    ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
+    ax.axhline(in_unit(1e3) * stop.stop.gap, color="black", linestyle="--", linewidth=0.8, zorder=2)
+    ax.plot(shown.at, in_unit(1e3) * closing, color="black", linewidth=0.9, zorder=3)
+    words = literal(f"{name}: closing (dashed: gap)")
+    ax.set_title(words, loc="left", fontsize="small")
 
 
 _IMPACT = Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
@@ -197,6 +229,8 @@ def contact_forces(
             for ax in alike:
                 ax.set_ylim(0.0, highest)
     given[-1].set_xlabel(shown.label)
+    if entries := mark_end(given, motion):
+        add_legend(given[0], entries)
     fit_labels(*given)
     return given
 

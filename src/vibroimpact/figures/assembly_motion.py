@@ -16,7 +16,7 @@ from vibroimpact.errors import InputError
 from vibroimpact.figures.notebook import Panels, new_axes
 from vibroimpact.figures.own_units import without_unit
 from vibroimpact.figures.sizes import columns_that_fit
-from vibroimpact.figures.style import EDGE, panels
+from vibroimpact.figures.style import BANDS, Band, panels
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.names import GROUND, check_known
 from vibroimpact.model.names import literal
@@ -24,15 +24,6 @@ from vibroimpact.model.written_units import unitless
 
 _Array = NDArray[np.float64]
 
-BANDS = (
-    ("#f7dc8b", ""),
-    ("#b9dcec", "\\\\"),
-    ("#c4e3c1", "//"),
-    ("#ecc3df", ".."),
-    ("#f3c6a5", "xx"),
-    ("#d9d3ee", "--"),
-)
-"""Colours and hatches of contacts, by stop, in turn."""
 BEGINS, HIT = 1, 2
 """Kinds of events: a contact begins, and an impact on a rigid stop."""
 _PAGE = 7.2
@@ -140,8 +131,8 @@ def touching(assembly: Assembly, mass: str) -> list[str]:
     return [name for name, stop in assembly.stops.items() if mass in (stop.left, stop.right)]
 
 
-def band_of(assembly: Assembly, stop: str) -> tuple[str, str]:
-    """Return colour and hatch of the contacts of a stop."""
+def band_of(assembly: Assembly, stop: str) -> Band:
+    """Return the style of the contacts of a stop."""
     return BANDS[list(assembly.stops).index(stop) % len(BANDS)]
 
 
@@ -149,27 +140,34 @@ def draw_contacts(ax: Axes, shown: History, stops: list[str]) -> None:
     """Draw the contacts of some stops as bands: one strip of the panel for each stop."""
     strip = 1.0 / max(len(stops), 1)
     for i, name in enumerate(stops):
-        colour, hatch = band_of(shown.assembly, name)
         ax.broken_barh(
             [(a, b - a) for a, b in shown.contacts(name)],
             (1.0 - (i + 1) * strip, strip),
             transform=ax.get_xaxis_transform(),
-            facecolor=colour,
-            edgecolor=EDGE,
-            hatch=hatch,
-            linewidth=0.3,  # so that a short contact is seen, too
             zorder=0,
+            **band_of(shown.assembly, name).style,
         )
 
 
 def contact_legend(assembly: Assembly, stops: list[str]) -> list[Any]:
     """Return the legend entries of the bands of some stops."""
-    entries = []
-    for name in stops:
-        colour, hatch = band_of(assembly, name)
-        label = f"contact, {literal(name)}"
-        entries.append(Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=label))
-    return entries
+    return [
+        Patch(label=f"contact, {literal(name)}", **band_of(assembly, name).style) for name in stops
+    ]
+
+
+def refuse_masses(data: Any, instead: str) -> None:
+    """Refuse a dataset of several masses, and name the figure that draws it.
+
+    Raises
+    ------
+    InputError
+        If the dataset is of an assembly.
+    """
+    if isinstance(data, xr.Dataset) and {"mass", "stop"} <= set(data.dims):
+        raise InputError(
+            f"data: it is of an Assembly of several masses; draw it with figures.{instead}"
+        )
 
 
 def chosen(given: Any, names: tuple[str, ...], what: str, field: str) -> list[str]:
@@ -233,6 +231,15 @@ def label_values(given: Panels, axes: Any, label: str) -> None:
     else:
         for ax in given:
             ax.set_ylabel(label)
+
+
+def label_each(given: Panels, axes: Any, labels: list[str]) -> None:
+    """Label the vertical axes: once for all panels of a new figure, if the labels are the same."""
+    if len(set(labels)) == 1:
+        label_values(given, axes, " ".join(labels[0].split("\n")))
+        return
+    for ax, label in zip(given, labels, strict=True):
+        ax.set_ylabel(label)
 
 
 def chains(assembly: Assembly) -> list[list[tuple[str, str]]]:

@@ -17,7 +17,6 @@ from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.portrait import SECTION
-from vibroimpact.figures.style import EDGE
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.names import literal
@@ -132,16 +131,11 @@ def _gaps(ax: Axes, assembly: Assembly, first: str, second: str, approach: bool)
     for name, stop in assembly.stops.items():
         if {stop.left, stop.right} != {first, second}:
             continue
-        colour, hatch = band_of(assembly, name)
+        band = band_of(assembly, name)
         gap = in_unit(1e3) * stop.stop.gap
         # The bodies meet at u_first − u_second = side · gap.
         side = 1.0 if stop.left == first else -1.0
-        how: dict[str, Any] = {
-            "facecolor": colour,
-            "edgecolor": EDGE,
-            "hatch": hatch,
-            "linewidth": 0.0,
-        }
+        how: dict[str, Any] = {**band.style, "linewidth": 0.0}
         if approach:
             end = max(right, side * gap) if side > 0 else min(left, side * gap)
             ax.axvspan(side * gap, end, zorder=0, **how)
@@ -152,9 +146,7 @@ def _gaps(ax: Axes, assembly: Assembly, first: str, second: str, approach: bool)
             edge = min(low, line.min()) if side > 0 else max(high, line.max())
             ax.fill_between(x, line, edge, zorder=0, **how)
             ax.plot(x, line, color="black", linestyle="--", linewidth=0.8, zorder=2)
-        entries.append(
-            Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=literal(name))
-        )
+        entries.append(Patch(label=literal(name), **band.style))
     ax.set_xlim(left, right)
     ax.set_ylim(low, high)
     return entries

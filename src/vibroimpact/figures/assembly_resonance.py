@@ -17,6 +17,7 @@ from vibroimpact.figures.assembly_motion import (
     assembly_of,
     chosen,
     grid_of_panels,
+    label_each,
     touching,
 )
 from vibroimpact.figures.axis_labels import axis_label
@@ -117,7 +118,7 @@ def mass_resonance(
         ax.set_xlim(frequency[0], max(frequency[-1], 1.001 * frequency[0]))
         if not (one.values < 0.0).any():
             ax.set_ylim(bottom=0.0)
-        ax.set_ylabel(one.label)
+    label_each(given, axes, [one.label for one in drawn])
     label_lowest(given, axes, "excitation frequency $f$ (Hz)")
     entries: list[Any] = []
     for direction, look in SWEEPS.items():
@@ -238,7 +239,7 @@ def mass_branches(
                 zorder=4,
             )[0]
         ax.set_xlim(x.min(), x.max() if x.max() > x.min() else None)
-        ax.set_ylabel(one.label)
+    label_each(given, axes, [one.label for one in drawn])
     label_lowest(given, axes, f"{data[parameter].attrs['long_name']} ({unit})")
     words = {True: "stable", False: "unstable"}
     entries = [

@@ -29,6 +29,10 @@ _LABELS = {
 
 def axis_label(values: xr.DataArray, quantity: str) -> tuple[float, str]:
     """Return factor and label of a quantity. Without an own label, its ``long_name`` is used."""
+    base, _, part = quantity.partition(".")
+    if quantity not in _LABELS and base in _LABELS and part and part not in SIDES:
+        factor, label = axis_label(values, base)
+        return factor, f"{part}: {label}"
     if quantity not in _LABELS:
         units = {"m": "mm", "m s-2": "m/s²", "1": "–"}
         unit = str(values.attrs.get("units", "1"))

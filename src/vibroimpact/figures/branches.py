@@ -15,6 +15,7 @@ from vibroimpact.datasets.description import motion_parameters, own_outputs
 from vibroimpact.datasets.stops import SIDES, of_stop, quantities
 from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.errors import InputError
+from vibroimpact.figures.assembly_motion import refuse_masses
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.labels import Names
 from vibroimpact.figures.legends import add_legend, fit_labels
@@ -97,6 +98,7 @@ def branch_diagram(
         if "start" in data.dims:
             wrong = "a bifurcation diagram; draw it with figures.section_diagram, or"
         raise InputError(f"data: this is {wrong} pass the result of branch or resonance_diagram")
+    refuse_masses(data, "mass_branches")
     if quantity is None:
         quantity = "eta_d" if draws_eta(data) else "peak_displacement"
     held = quantities(data)

@@ -15,14 +15,14 @@ from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import DrawnMotion, named, shown
 from vibroimpact.figures.notebook import Drawing, Panel, Panels
 from vibroimpact.figures.own_units import acceleration_text, in_own_units, in_unit
-from vibroimpact.figures.record import contact_bands, gap_lines, stops_legend, stops_of
+from vibroimpact.figures.record import contact_bands, gap_lines, mark_end, stops_legend, stops_of
 from vibroimpact.figures.sizes import columns_that_fit, size_of_new
 from vibroimpact.figures.style import EDGE, also_in_g, fit_x_axis, note_peak
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, fitting
 from vibroimpact.model.written_units import unit
-from vibroimpact.response.motion_phases import any_recorded
+from vibroimpact.response.motion_phases import recorded
 
 _DASHES = ("-", "--", "-.", ":")
 _COLOURS = ("black", "#c8102e", "#1f4fbf", "#00795c")
@@ -133,7 +133,7 @@ def _histories(
         size = float(values[at])
         words = acceleration_text(size) if "acc" in variable else f"{size:.4g}{unit(' mm')}"
         note_peak(ax, float(curve.at[at]), size, words)
-    handles = stops_legend(stops, motion)
+    handles = [*stops_legend(stops, motion), *mark_end(axes, motion)]
     begun = motion["event_contact"].values >= 1
     for side, (mark, colour) in _MARKS.items():
         here = begun & (motion["event_stop"].values == side)
@@ -166,7 +166,7 @@ def _histories(
 
 def _force(ax: Axes, motion: xr.Dataset, curve: DrawnMotion) -> None:
     """Draw the restoring force of isolator and stops. Its loops are the dissipated energy."""
-    rig = any_recorded(motion).oscillator
+    rig = recorded(motion, records=True).oscillator
     pull = rig.force - rig.mass * curve.values["acceleration"]
     _, scale, symbol = fitting([float(np.abs(pull).max())], FORCE.scales)
     for zero in (ax.axhline, ax.axvline):

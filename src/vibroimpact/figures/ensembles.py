@@ -21,7 +21,7 @@ from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import MOTIONS, SWEEPS, fit_x_axis, panels
-from vibroimpact.model import Oscillator
+from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.parameters import parameter
 
 _HATCHES = {"forward": "", "backward": "////"}
@@ -51,9 +51,10 @@ def resonance_bands(
     axes
         Axes to draw on, one per quantity. Default: a new figure.
     quantities
-        Variables of the sweeps. Each has its own panel. Default: ``("eta_a", "eta_d")`` for a
-        published case, and ``("peak_acceleration", "peak_displacement")`` for study files and other
-        rigs; also if the motion without stops is unbounded, so that η has no meaning.
+        Variables of the sweeps. Each has its own panel; of an assembly, each mass has one, unless
+        the name states it, such as ``"peak_displacement.roof"``. Default: ``("eta_a", "eta_d")``
+        for a published case, and ``("peak_acceleration", "peak_displacement")`` for study files and
+        other rigs; also if the motion without stops is unbounded, so that η has no meaning.
     shares
         Shares of the rigs that lie below the lower end and below the upper end of the band.
     nominal
@@ -75,6 +76,7 @@ def resonance_bands(
         )
     if quantities is None:
         quantities = PANELS[draws_eta(data)]
+    quantities = [one for name in quantities for one in _by_mass(data, name)]
     low, high = shares
     if not 0.0 <= low < 0.5 < high <= 1.0:
         raise InputError(f"shares: {shares}; pass one share below and one above 0.5")
@@ -131,6 +133,13 @@ def resonance_bands(
     drawn[-1].set_xlabel("excitation frequency (Hz)")
     fit_labels(*drawn)
     return drawn
+
+
+def _by_mass(data: xr.Dataset, name: str) -> list[str]:
+    """Return the names of a quantity of each mass, or its own if it has one value only."""
+    if name not in data or "mass" not in data[name].dims:
+        return [name]
+    return [f"{name}.{mass}" for mass in data["mass"].values]
 
 
 @in_own_units
@@ -235,5 +244,7 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
 
 def _words(data: xr.Dataset, name: str) -> str:
     """Return the name of a parameter in words, as it is in the rig of the dataset."""
-    rig = Oscillator.model_validate(json.loads(data.attrs["parameters"])["oscillator"])
-    return parameter(name, rig).long_name
+    given = json.loads(data.attrs["parameters"])
+    kind: type[Oscillator | Assembly] = Assembly if "assembly" in given else Oscillator
+    system = kind.model_validate(given["assembly" if kind is Assembly else "oscillator"])
+    return parameter(name, system).long_name

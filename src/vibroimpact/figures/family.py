@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import FancyArrowPatch
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.assembly_motion import refuse_masses
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
@@ -128,6 +129,7 @@ def resonance_family(
         raise InputError(
             "data: these are not sweeps of rigs; pass the result of vibroimpact.sweeps"
         )
+    refuse_masses(data, "mass_resonance, one rig at a time, such as data.isel(rig=0)")
     if quantity is None:
         quantity = "eta_d" if draws_eta(data) else "displacement_excursion"
     if quantity not in get_args(Quantity):

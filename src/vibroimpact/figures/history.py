@@ -26,7 +26,7 @@ from vibroimpact.figures.motion_style import (
 )
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
-from vibroimpact.figures.style import EDGE, panels
+from vibroimpact.figures.style import BANDS, EDGE, panels
 
 
 class _Panel(NamedTuple):
@@ -44,7 +44,6 @@ PANELS = (
 )
 _APPLIED: dict[str, Any] = {"color": "0.5", "linewidth": 0.9}
 """Style of the force on the mass."""
-BANDS = {"right": ("#f7dc8b", ""), "left": ("#b9dcec", r"\\")}
 
 
 @in_own_units
@@ -219,7 +218,7 @@ def history_legend(curves: list[DrawnMotion]) -> list[Artist]:
 
 
 def _band(curve: DrawnMotion, side: str, motions: int) -> tuple[Any, str]:
-    colour, hatch = BANDS[side]
+    colour, hatch, _ = BANDS[SIDES.index(side)]
     return ((curve.look.colour, 0.15) if motions > 1 else colour), hatch
 
 

@@ -25,7 +25,6 @@ from vibroimpact.model.quantities import FORCE, TIME, Scale
 from vibroimpact.model.units import pretty
 from vibroimpact.response.contacts import contacts
 from vibroimpact.response.motion_phases import (
-    any_recorded,
     contact_intervals,
     parting_velocity,
     recorded,
@@ -77,7 +76,7 @@ def named(
         )
     for motion in given.values():
         if not _seen(motion):
-            (any_recorded if records else recorded)(motion)
+            recorded(motion, records=records)
     return given
 
 
@@ -111,7 +110,7 @@ def cycles_label(motions: Mapping[str, xr.Dataset]) -> str:
     """Return the label of a time axis in cycles, which are not forcing cycles if nothing shakes."""
     periods = set()
     for motion in motions.values():
-        shaken = None if _seen(motion) else recorded(motion).excitation
+        shaken = None if _seen(motion) else recorded(motion).shaking
         if not isinstance(shaken, Harmonic) or shaken.amplitude != 0.0:
             return "time in forcing cycles $t/T$ (–)"
         periods.add(shaken.period)
@@ -219,8 +218,8 @@ def _measured(motion: xr.Dataset, look: Look, cycles: float) -> DrawnMotion:
 def _shown(motion: xr.Dataset, look: Look, cycles: float) -> DrawnMotion:
     if _seen(motion):
         return _measured(motion, look, cycles)
-    origin = any_recorded(motion)
-    shaken = origin.excitation
+    origin = recorded(motion, records=True)
+    shaken = origin.shaking
     if isinstance(shaken, Record):
         frequency, at = 1.0, motion["time"].values
         events = motion["event_time"].values

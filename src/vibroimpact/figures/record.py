@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -12,12 +13,14 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import motion_parameters
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError
-from vibroimpact.figures.history import BANDS, gap_entry
+from vibroimpact.figures.history import gap_entry
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
-from vibroimpact.figures.style import EDGE, also_in_g, panels
+from vibroimpact.figures.style import BANDS, EDGE, also_in_g, panels
 
 _ROWS = (
     ("base_acceleration", 1.0, "base acceleration\n$A_t$ (m/s²)"),
@@ -85,6 +88,7 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
         handles.append(
             Line2D([], [], linestyle="", marker="o", markersize=3, color="black", label="impact")
         )
+    handles += mark_end(given, motion)
     if handles:
         add_legend(given[1], handles)
     fit_labels(*given)
@@ -124,27 +128,35 @@ def stops_legend(stops: dict[str, dict[str, Any]], motion: xr.Dataset) -> list[A
     for side in stops:
         if not len(_spans(motion, side)):
             continue
-        colour, hatch = BANDS[side]
-        handles.append(
-            Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=f"{side} contact")
-        )
+        handles.append(Patch(label=f"{side} contact", **BANDS[SIDES.index(side)].style))
     return handles
+
+
+_END: dict[str, Any] = {"color": "0.35", "linestyle": ":", "linewidth": 1.0}
+
+
+def mark_end(axes: Iterable[Axes], motion: xr.Dataset) -> list[Any]:
+    """Draw a line at the end of the record, if the motion goes on, and return its legend entry."""
+    parameters = motion_parameters(motion)
+    if not parameters.get("tail") or "record" not in parameters:
+        return []
+    record = parameters["record"]
+    end = (record["samples"] - 1) * record["step"]
+    for ax in axes:
+        ax.axvline(end, zorder=1.5, **_END)
+    return [Line2D([], [], label="end of the record", **_END)]
 
 
 def contact_bands(ax: Axes, motion: xr.Dataset) -> None:
     """Draw bands where the mass touches a stop."""
     for side in _SIDES:
         spans = _spans(motion, side)
-        colour, hatch = BANDS[side]
         ax.broken_barh(
             [(float(a), float(b - a)) for a, b in spans],
             (0.0, 1.0),
             transform=ax.get_xaxis_transform(),
-            facecolor=colour,
-            edgecolor=EDGE,
-            hatch=hatch,
-            linewidth=0.3,  # so that a short contact is seen, too
             zorder=0,
+            **BANDS[SIDES.index(side)].style,
         )
 
 

@@ -14,6 +14,7 @@ from matplotlib.patches import FancyArrowPatch, Patch
 from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
+from vibroimpact.figures.assembly_motion import refuse_masses
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.measured import halves_of, measured_curves, measured_points
 from vibroimpact.figures.notebook import Panels
@@ -101,6 +102,7 @@ def resonance_curves(
     InputError
         If the dataset does not hold the sweep of one rig, or if the number of axes is wrong.
     """
+    refuse_masses(data, "mass_resonance")
     if is_measured(data) and "motion" not in data:
         return measured_curves(data, axes, title=title)
     found = features(data) if found is None else found

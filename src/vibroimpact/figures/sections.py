@@ -16,7 +16,7 @@ from vibroimpact.datasets.description import own_outputs
 from vibroimpact.errors import InputError, shown
 from vibroimpact.figures.assembly_motion import chosen
 from vibroimpact.figures.axis_labels import axis_label
-from vibroimpact.figures.branches import MARKS, axis_unit
+from vibroimpact.figures.branches import MARKS, axis_unit, stable_pieces
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.own_units import in_own_units, in_unit
@@ -76,7 +76,9 @@ def section_diagram(
         Names of the masses of an assembly that are drawn. Default: all.
     branches
         Dataset of `branch` or `resonance_diagram` over the same parameter. Its bifurcations are
-        drawn as vertical lines. Default: no lines.
+        vertical lines. In a stroboscopic section, the orbits are thin lines, dashed where they are
+        unstable, with marks at the bifurcations: one point of an orbit of several cycles, and
+        none of an orbit whose state is at another phase. Default: no branches.
     title
         Title of the figure, if a new one is made.
 
@@ -142,9 +144,11 @@ def section_diagram(
         for start in dict.fromkeys(s if s in _WAYS else "" for s in map(str, data["start"].values))
     ]
     if branches is not None:
-        handles += _lines(drawn, branches, scale)
-    # Above the marks of bifurcations, half of which stand above the panel.
-    add_legend(tops[0], handles, apart=6.0)
+        places, phase = _places(branches, quantity, list(sections)), _phase(data)
+        if places is not None:
+            handles += _orbits(tops, branches, places, phase, scale, factor)
+        handles += _lines(drawn, tops, branches, places, phase, scale, factor)
+    add_legend(tops[0], handles)
     for ax, mass in zip(tops, sections, strict=True):
         ax.set_ylabel(label if len(sections) == 1 else f"{literal(mass)}: {label}")
     for ax, output in zip(between, own, strict=True):
@@ -250,34 +254,83 @@ def _periods(ax: Axes, periods: NDArray[np.int64], rows: dict[str, float]) -> No
     ax.set_ylabel("period\n(cycles)")
 
 
-def _lines(drawn: Panels, branches: xr.Dataset, scale: float) -> list[Line2D]:
-    """Draw a line through all panels for each bifurcation, with its mark at the top."""
+def _places(branches: xr.Dataset, quantity: str, masses: Sequence[str]) -> list[str] | None:
+    """Return the components of the orbits' states that the panels show; None at impacts."""
+    part = quantity.removeprefix("section_")
+    components = set(branches["component"].values.tolist())
+    found = [part] if part in components else [f"{part}.{mass}" for mass in masses]
+    return found if components.issuperset(found) else None
+
+
+def _at_section(states: xr.DataArray, place: str, phase: float) -> _Array:
+    """Return a component of states; NaN for those at another phase of the forcing."""
+    same = np.isclose(states.sel(component="phase").values, phase, rtol=0.0, atol=1e-9)
+    return np.where(same, states.sel(component=place).values, np.nan)
+
+
+def _phase(data: xr.Dataset) -> float:
+    """Return the phase of the section of a diagram (rad)."""
+    return float(np.nanmedian(data["section"].sel(component="phase").values))
+
+
+def _orbits(
+    tops: Sequence[Axes],
+    branches: xr.Dataset,
+    places: Sequence[str],
+    phase: float,
+    scale: float,
+    factor: float,
+) -> list[Line2D]:
+    """Draw the section of each orbit: thin lines, dashed where the orbits are unstable."""
+    x = scale * branches[branches.attrs["parameter"]].values
+    pieces = stable_pieces(branches)
+    styles: dict[bool, dict[str, Any]] = {
+        True: {"color": "0.25", "linewidth": 0.7},
+        False: {"color": "0.25", "linewidth": 0.7, "linestyle": (0, (4, 2))},
+    }
+    drawn = set()
+    for ax, place in zip(tops, places, strict=True):
+        y = factor * _at_section(branches["section"], place, phase)
+        for part, stable in pieces:
+            if np.isfinite(y[part]).any():
+                drawn.add(stable)
+                ax.plot(x[part], y[part], zorder=1.5, **styles[stable])
+    words = {True: "stable branch", False: "unstable branch"}
+    return [Line2D([], [], label=words[one], **styles[one]) for one in words if one in drawn]
+
+
+def _lines(
+    drawn: Panels,
+    tops: Sequence[Axes],
+    branches: xr.Dataset,
+    places: Sequence[str] | None,
+    phase: float,
+    scale: float,
+    factor: float,
+) -> list[Line2D]:
+    """Draw a line through all panels for each bifurcation, and its mark where its orbit is."""
     handles = []
     kinds = branches["bifurcation_kind"].values
+    low, high = drawn[0].get_xlim()
+    values = scale * branches["bifurcation_value"].values
+    inside = (values >= low) & (values <= high)
     for kind, mark in MARKS.items():
-        values = scale * branches["bifurcation_value"].values[kinds == kind]
-        low, high = drawn[0].get_xlim()
-        values = values[(values >= low) & (values <= high)]
-        for value in values:
-            for ax in drawn:
-                ax.axvline(value, color=mark.colour, linestyle=":", linewidth=0.8, zorder=1)
-        if not len(values):
+        mine = inside & (kinds == kind)
+        if not mine.any():
             continue
-        style: dict[str, Any] = {
-            "color": mark.colour,
-            "marker": mark.marker,
-            "markersize": mark.size,
-            "markerfacecolor": mark.colour if mark.filled else "none",
-        }
-        drawn[0].plot(
-            values,
-            np.ones(len(values)),
-            linestyle="",
-            transform=drawn[0].get_xaxis_transform(),
-            clip_on=False,
-            zorder=5,
-            **style,
-        )
-        label = kind.replace("-", "–")
+        for ax in drawn:
+            for value in values[mine]:
+                ax.axvline(value, color=mark.colour, linestyle=":", linewidth=0.8, zorder=1)
+        style: dict[str, Any] = {"color": mark.colour}
+        if places is not None:
+            style |= {
+                "marker": mark.marker,
+                "markersize": mark.size,
+                "markerfacecolor": mark.colour if mark.filled else "none",
+            }
+            for ax, place in zip(tops, places, strict=True):
+                y = factor * _at_section(branches["bifurcation_section"], place, phase)
+                ax.plot(values[mine], y[mine], linestyle="", zorder=5, **style)
+        label = kind.replace("-", "–") + ("" if places is not None else " of a branch")
         handles.append(Line2D([], [], linestyle=":", linewidth=0.8, label=label, **style))
     return handles

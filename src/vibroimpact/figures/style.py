@@ -87,6 +87,31 @@ EDGE = "0.55"
 """Grey of hatches and edges on shaded ranges."""
 
 
+class Band(NamedTuple):
+    """How contacts of a stop are drawn. The edge alone is seen of a contact that is short."""
+
+    colour: str
+    hatch: str
+    edge: str
+
+    @property
+    def style(self) -> dict[str, Any]:
+        """Keywords of a patch."""
+        how = {"facecolor": self.colour, "edgecolor": self.edge, "hatch": self.hatch}
+        return {**how, "linewidth": 0.7}
+
+
+BANDS = (
+    Band("#f7dc8b", "", "#d09a10"),
+    Band("#b9dcec", "\\\\", "#4795b8"),
+    Band("#c4e3c1", "//", "#55a04e"),
+    Band("#ecc3df", "..", "#b5579a"),
+    Band("#f3c6a5", "xx", "#cc6a2b"),
+    Band("#d9d3ee", "--", "#7d6cc0"),
+)
+"""Bands of the contacts of stops, in turn."""
+
+
 def curve_style(look: Look, points: int, marks: int = 45) -> dict[str, Any]:
     """Return the keywords of `Axes.plot` for a curve. On a dense curve not every point has a mark.
 

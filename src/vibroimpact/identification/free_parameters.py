@@ -15,6 +15,7 @@ from vibroimpact.model.parameters import (
     canonical,
     parameter,
     parameters,
+    set_values,
     suggestion,
 )
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, Quantity
@@ -278,13 +279,13 @@ def written(
 ) -> tuple[Rig, dict[str, float]]:
     """The rig and shaking of a test, and its sensors, at some values of what is free."""
     sensors = {name: right for name, (_, right) in SENSORS.items()}
-    for one, value in zip(given, values, strict=True):
-        if one.test is not None and one.test != test:
-            continue
-        if one.name in SENSORS:
-            sensors[one.name] = float(value)
-        else:
-            rig = parameter(one.name, rig).vary(rig, float(value))
+    here = {
+        one.name: float(value)
+        for one, value in zip(given, values, strict=True)
+        if one.test in (None, test)
+    }
+    sensors |= {name: value for name, value in here.items() if name in SENSORS}
+    rig = set_values(rig, {name: value for name, value in here.items() if name not in SENSORS})
     for tied, to in ties.items():
         rig = parameter(tied, rig).vary(rig, parameter(to, rig).read(rig))
     return rig, sensors

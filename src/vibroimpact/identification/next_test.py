@@ -24,7 +24,7 @@ from vibroimpact.identification.results import rig_of
 from vibroimpact.model.argument_types import share as fraction
 from vibroimpact.model.excitation import Repeated, sized
 from vibroimpact.model.frequency_text import forcing
-from vibroimpact.model.parameters import parameter
+from vibroimpact.model.parameters import parameter, set_values
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import DIMENSIONLESS
 from vibroimpact.model.rig import Rig
@@ -200,11 +200,11 @@ def _slopes(
         part = float(min(1.0, np.min(most / np.maximum(np.abs(along), 1e-300))))
         ends = []
         for sign in (1.0, -1.0):
-            moved = rig
-            for (_, of), value in zip(own, now + sign * part * along, strict=True):
-                least = -np.inf if of.least is None else of.least
-                moved = of.vary(moved, max(float(value), least))
-            ends.append(_swept(moved, grid))
+            numbers = {
+                of.name: max(float(value), -np.inf if of.least is None else of.least)
+                for (_, of), value in zip(own, now + sign * part * along, strict=True)
+            }
+            ends.append(_swept(set_values(rig, numbers), grid))
         (above, settled), (below, also) = ends
         slopes[..., column] = (above - below) / (2.0 * part)
         bent = np.abs(above + below - 2.0 * here[0]) + np.abs(above - below)

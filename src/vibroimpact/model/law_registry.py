@@ -31,6 +31,8 @@ class Named(Model):
 
     kind: ClassVar[str]
     """Name of the law in a table."""
+    words: ClassVar[str] = ""
+    """Name of the law in the explorer, if it is not the kind."""
     usual: ClassVar[bool] = False
     """Whether a table without a kind describes this law."""
 

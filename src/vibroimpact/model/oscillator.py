@@ -111,7 +111,7 @@ class Oscillator(Model):
         if "mass" in data:
             raise InputError("weight: given together with mass; remove one of the two")
         rest = {name: value for name, value in data.items() if name != "weight"}
-        return {"mass": to_si(data["weight"], FORCE, "weight", above=0.0) / GRAVITY, **rest}
+        return {"mass": _mass_of(data["weight"]), **rest}
 
     @model_validator(mode="before")
     @classmethod
@@ -367,13 +367,16 @@ class Oscillator(Model):
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some fields changed. It is validated like a new object.
 
-        Units that were recognised stay so, and a unit that is stated later may still correct them.
+        A ``weight`` replaces the mass. Units that were recognised stay so, and a unit that is
+        stated later may still correct them.
 
         Raises
         ------
         InputError
             If a field is unknown, or if its new value is invalid.
         """
+        if "weight" in changes and "mass" not in changes:
+            changes["mass"] = _mass_of(changes.pop("weight"))
         made = super().replace(**changes)
         if not {"units"} & (self.model_fields_set | changes.keys()):
             made.model_fields_set.discard("units")
@@ -386,6 +389,10 @@ class Oscillator(Model):
     def without_bumpers(self) -> Oscillator:
         """Return a copy with the same mass and isolator, but without stops."""
         return self.replace(right=None, left=None)
+
+
+def _mass_of(weight: object) -> float:
+    return to_si(weight, FORCE, "weight", above=0.0) / GRAVITY
 
 
 def _is_one(mass: object) -> bool:

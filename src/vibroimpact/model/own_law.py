@@ -38,6 +38,7 @@ from vibroimpact.model.formula_terms import (
     terms,
 )
 from vibroimpact.model.formula_units import check_numbers, units_of_numbers
+from vibroimpact.model.integral import integral_of
 from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, STIFFNESS, TIME, Quantity
 from vibroimpact.model.units import plain, pretty, to_si_of_any
@@ -283,6 +284,10 @@ class Law(Named):
         if not self.is_stop:
             return self.read.value(displacement, 0.0)
         return max(self.read.value(displacement, 0.0), 0.0) if displacement > 0.0 else 0.0
+
+    def stored_energy(self, displacement: float, memory: float = 0.0) -> float:
+        """Return the energy (J) that a slow displacement or deformation (m) stores."""
+        return integral_of(self.static_force, displacement)
 
     def viscous_force(self, velocity: float) -> float:
         """Return the force (N) at u = 0 and a velocity (m/s)."""

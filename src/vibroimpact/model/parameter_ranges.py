@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -18,13 +18,6 @@ from vibroimpact.model.quantity_lists import read_span
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.size_checks import doubt_damping_ratio
 from vibroimpact.model.units import pretty, to_si
-
-_FIRST = ("proportional_stiffness", "stiffness_at_restitution")
-"""Parameters that also set a damping. They are set first, so that a varied damping replaces it."""
-
-_LAST = ("stiffness_ratio", "damping_ratio", "gap_ratio", "relaxation_time")
-"""Parameters that depend on others. They are set after all others, in this order."""
-
 
 Ranges: TypeAlias = Mapping[str, tuple[float | str, float | str]]
 """Lowest and highest value by parameter, in SI units or as texts with units."""
@@ -226,22 +219,3 @@ def _values(varied: Parameter, values: object, field: str, longest: int) -> Vari
             f"{field}: {pretty(twice[0], varied.quantity)} is given twice; remove one of the two"
         )
     return Varied(varied.name, np.array(numbers), varied.units, varied.long_name)
-
-
-def vary_all(rig: Rig, values: Iterable[tuple[Parameter, float]]) -> Rig:
-    """Return the rig with values of several parameters. Their order does not matter.
-
-    Raises
-    ------
-    InputError
-        If the rig does not have a parameter, or if a value is invalid.
-    """
-    for one, value in sorted(values, key=lambda pair: turn(pair[0].name)):
-        rig = one.vary(rig, value)
-        one.read(rig)  # refuses what the rig does not have
-    return rig
-
-
-def turn(name: str) -> int:
-    """When a parameter is set."""
-    return _LAST.index(name) + 1 if name in _LAST else -int(name in _FIRST)

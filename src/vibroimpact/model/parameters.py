@@ -13,12 +13,14 @@ The paths of an assembly have the names of its parts: ``masses.roof``, ``links.s
 
 from __future__ import annotations
 
+import itertools
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, NamedTuple
 
 from vibroimpact.errors import InputError, meant, shown
 from vibroimpact.model.assembly import Assembly
+from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.derived_parameters import DERIVED
 from vibroimpact.model.excitation import FREQUENCY_WORDS, Of, amplitude_of
 from vibroimpact.model.isolators import ISOLATORS
@@ -28,9 +30,7 @@ from vibroimpact.model.paths import Place, Steps, put, walk
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DAMPING,
-    DECAY,
     DIMENSIONLESS,
-    DISSIPATION,
     ENERGY,
     FORCE,
     FREQUENCY,
@@ -42,32 +42,28 @@ from vibroimpact.model.quantities import (
     UNBALANCE,
     VELOCITY,
     Quantity,
-    power_stiffness,
 )
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import STOPS
-from vibroimpact.model.validation import Accepts
+from vibroimpact.model.units import to_si
+from vibroimpact.model.validation import Accepts, Model
 
-_UNITS = {
-    FREQUENCY: "Hz",
-    ACCELERATION: "m s-2",
-    LENGTH: "m",
-    STIFFNESS: "N m-1",
-    DAMPING: "N s m-1",
-    DIMENSIONLESS: "1",
-    FORCE: "N",
-    UNBALANCE: "kg m",
-    MASS: "kg",
-    VELOCITY: "m s-1",
-    IMPULSE: "N s",
-    ENERGY: "J",
-    PERIOD: "s",
-    DISSIPATION: "s m-1",
-    DECAY: "m-1",
-    power_stiffness(3.0): "N m-3",
-    power_stiffness(5.0): "N m-5",
-}
-"""Units as they are written in datasets. For other quantities, the symbol is written, or 1."""
+_QUANTITIES = (
+    FREQUENCY,
+    ACCELERATION,
+    LENGTH,
+    STIFFNESS,
+    DAMPING,
+    DIMENSIONLESS,
+    FORCE,
+    UNBALANCE,
+    MASS,
+    VELOCITY,
+    IMPULSE,
+    ENERGY,
+    PERIOD,
+)
+"""Quantities of results."""
 
 _MASSES, _LINKS, _STOPS, _FORCES = "masses", "links", "stops", "forces"
 _LAW = "law"
@@ -77,14 +73,11 @@ _BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
 """Words in names of parameters that refer to the stops on both sides."""
 
 
-def written_units(quantity: Quantity) -> str:
-    """Return the SI unit of a quantity, as it is written in datasets."""
-    return _UNITS.get(quantity, quantity.symbol) or "1"
-
-
 def in_units(units: str) -> Quantity:
     """Return the quantity that has these units in a dataset."""
-    return next(quantity for quantity, text in _UNITS.items() if text == units)
+    of_fields = (one.quantity for one in PARAMETERS.values())
+    known = itertools.chain(_QUANTITIES, of_fields)
+    return next(quantity for quantity in known if quantity.units == units)
 
 
 class Parameter(NamedTuple):
@@ -105,7 +98,7 @@ class Parameter(NamedTuple):
     @property
     def units(self) -> str:
         """The SI unit, as it is written in datasets."""
-        return written_units(self.quantity)
+        return self.quantity.units
 
     def read(self, rig: Rig) -> float:
         """Return the value in a rig.
@@ -244,52 +237,126 @@ def _only(name: str) -> list[str]:
     return [f"{owners[0]}.{name}"] if len(owners) == 1 else []
 
 
-_S = TypeVar("_S", Oscillator, Assembly)
+def set_values(rig: Rig, values: Mapping[str, Any]) -> Rig:
+    """Return a rig with other values at some paths, in any order.
 
-
-def set_values(system: _S, values: Mapping[str, Any]) -> _S:
-    """Return an oscillator or an assembly with other values at some paths, all set at once.
-
-    The values are numbers in SI units, texts with units, or whole parts. A path may name any field,
-    and the fields of an absent stop, which is then made.
+    The values are numbers in SI units, texts with units, or whole parts; None removes a part. A
+    path may name any field, and the fields of an absent stop, which is then made. All fields are
+    set at once, that of one stop after that of all stops. Derived parameters follow. They keep what
+    their definitions keep, except a damping that is stated; a period keeps the damping ratio also
+    if the mass is changed.
 
     Raises
     ------
     InputError
-        If a path does not exist, or if a value is invalid.
+        If a path does not exist, if a value is invalid, or if two paths set the same quantity.
     """
-    changes: dict[Steps, Any] = {}
+    known = PARAMETERS if isinstance(rig.system, Oscillator) else _places(rig.system)
+    named: dict[str, Any] = {}
     for path, value in values.items():
-        for steps in _steps(system, path):
-            changes[steps] = value
-    return cast("_S", put(system, changes))
+        name = canonical(path, [*known, "frequency", "amplitude"])
+        if name in named:
+            raise InputError(f"parameter: {path!r} is given twice; remove one of the two")
+        named[name] = value
+    bare = [name.removeprefix("stops.") for name in named]
+    for whole, name in itertools.permutations(bare, 2):
+        if name.startswith(f"{whole}."):
+            raise InputError(f"parameter: {name}: {whole} is set, too; remove one of the two")
+    for pair in _SAME:
+        if all(name in named for name in pair):
+            raise InputError(
+                f"parameter: {' and '.join(pair)} set the same quantity; remove one of the two"
+            )
+    heavier = "mass" in named or "weight" in named
+    if heavier and "isolator_period" in named and "isolator.damping" not in named:
+        named.setdefault("damping_ratio", rig.oscillator.damping_ratio)
+    for name in ("frequency", "amplitude"):
+        if name in named:
+            rig = PARAMETERS[name].vary(rig, named.pop(name))
+    fields = {name: named[name] for name in sorted(named, key=_breadth) if name not in DERIVED}
+    rig = _with_fields(rig, fields)
+    for name in _ORDER:
+        if name == "damping" and len(fields) < len(named):  # which derived parameters have scaled
+            rig = _with_fields(rig, {k: v for k, v in fields.items() if k.endswith(".damping")})
+        elif name in named:
+            rig = _with_derived(rig, name, named[name])
+    return rig
 
 
-def _steps(system: Oscillator | Assembly, path: str) -> list[Steps]:
-    if isinstance(system, Assembly):
-        return _steps_of_parts(system, path)
-    oscillator, name = system, canonical(path, PARAMETERS)
-    first, _, rest = name.removeprefix("stops.").partition(".")
-    if first in ("right", "left"):
-        return [(first, *rest.split("."))] if rest else [(first,)]
-    if name != "gap" and not name.startswith("stops."):
-        return [tuple(name.split("."))]
-    field = name.removeprefix("stops.")
-    present = [side for side in ("right", "left") if getattr(oscillator, side) is not None]
-    having = [side for side in present if field in type(getattr(oscillator, side)).table_keys()]
-    return [(side, field) for side in having or present or ("right", "left")]
+_SAME = (
+    ("isolator_period", "isolator.stiffness"),
+    ("damping_ratio", "isolator.damping"),
+    ("weight", "mass"),
+)
+"""Pairs of paths that set the same quantity."""
+
+_ORDER = (
+    "proportional_stiffness",
+    "stiffness_at_restitution",
+    "isolator_period",
+    "stiffness_ratio",
+    "damping",
+    "damping_ratio",
+    "gap_ratio",
+    "relaxation_time",
+)
+"""Derived parameters in the order in which they depend on each other, and on stated dampings."""
 
 
-def _steps_of_parts(assembly: Assembly, path: str) -> list[Steps]:
-    places = _places(assembly)
-    name = canonical(path, places)
-    if name in places:
+def _breadth(name: str) -> int:
+    """Rank a path: that of all stops comes before that of one."""
+    return name.count(".")
+
+
+def _with_fields(rig: Rig, values: Mapping[str, Any]) -> Rig:
+    steps = {one: value for path, value in values.items() for one in _steps(rig, path)}
+    return rig.with_parts(put(rig.system, steps)) if steps else rig
+
+
+def _with_derived(rig: Rig, name: str, value: Any) -> Rig:
+    one = DERIVED[name]
+    limits: dict[str, Any] = {"minimum": one.least} if one.zero else {"above": 0.0}
+    number = to_si(value, one.quantity, name, **limits)
+    one.read(rig)  # refuses a rig that has no such parameter
+    return one.vary(rig, number)
+
+
+def _steps(rig: Rig, name: str) -> list[Steps]:
+    """Return where a field stands. A path of all stops stands for those that have the field."""
+    system = rig.system
+    if name in (places := _places(system)):
         return [one.steps for one in places[name]]
-    part, *rest = name.split(".")
-    if part in (_LINKS, _STOPS) and len(rest) > 1 and rest[1] not in ("left", "right"):
-        # A law has fields that are not numbers, such as its kind.
-        return [(part, rest[0], _LAW, *rest[1:])]
-    return [(part, *rest)]
+    if isinstance(system, Assembly):
+        part, *rest = name.split(".")
+        if part in (_LINKS, _STOPS) and len(rest) == 1:
+            check_known(rest[0], list(getattr(system, part)), part.removesuffix("s"), name)
+        if part in (_LINKS, _STOPS) and len(rest) > 1 and rest[1] not in ("left", "right"):
+            # A law has fields that are not numbers, such as its kind.
+            found: list[Steps] = [(part, rest[0], _LAW, *rest[1:])]
+        else:
+            found = [(part, *rest)]
+    else:
+        first, *rest = name.removeprefix("stops.").split(".")
+        found = [(first, *rest)]
+        if first not in ("right", "left") and (name == "gap" or name.startswith("stops.")):
+            present = [side for side in ("right", "left") if getattr(system, side) is not None]
+            each: list[Steps] = [(side, first) for side in present or ("right", "left")]
+            found = [one for one in each if _exists(system, one)]
+    if not found or not all(_exists(system, one) for one in found):
+        raise _unknown(name, rig, "parameter")
+    return found
+
+
+def _exists(part: Any, steps: Steps) -> bool:
+    """Return whether an object has a field. An absent part is made by its fields."""
+    if not steps or part is None:
+        return True
+    first, *rest = steps
+    if isinstance(part, Mapping):
+        return first in part and _exists(part[first], tuple(rest))
+    if not isinstance(part, Model) or first not in (*part.table_keys(), *part.knobs()):
+        return False
+    return _exists(getattr(part, first, None), tuple(rest))
 
 
 def _places(system: Oscillator | Assembly) -> dict[str, list[Place]]:

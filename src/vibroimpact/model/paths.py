@@ -57,8 +57,8 @@ def _of_items(annotation: Any) -> Accepts | None:
 def put(part: Any, values: Mapping[Steps, Any]) -> Any:
     """Return an object with other values at some paths, all set at once and validated.
 
-    The values are numbers in SI units, texts with units, or whole parts. An absent part becomes a
-    table of its values, which the object that has it reads.
+    The values are numbers in SI units, texts with units, or whole parts; None removes a part. An
+    absent part becomes a table of its values, which the object that has it reads.
 
     Raises
     ------
@@ -71,7 +71,7 @@ def put(part: Any, values: Mapping[Steps, Any]) -> Any:
     changed = {name: _child(part, name, rest) for name, rest in below.items()}
     if isinstance(part, Model):
         return part.replace(**changed)
-    return {**(part or {}), **changed}
+    return {name: one for name, one in {**(part or {}), **changed}.items() if one is not None}
 
 
 def _child(part: Any, name: str, values: Mapping[Steps, Any]) -> Any:

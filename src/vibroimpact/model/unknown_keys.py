@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from vibroimpact.errors import similar
 
 MOST = 5
@@ -26,7 +28,7 @@ _ELSEWHERE = (
 """Keys that users expect in a table, a key by which the table is recognised, and what to do."""
 
 
-def listed(keys: list[str]) -> str:
+def listed(keys: Sequence[str]) -> str:
     """Return keys as a list in words, such as ``"mass, right and left"``."""
     return " and ".join(filter(None, (", ".join(keys[:-1]), keys[-1])))
 
@@ -35,7 +37,7 @@ LIKENESS = 0.7
 """Least similarity of a misspelt key to the key that is suggested."""
 
 
-def unknown_key(keys: list[str], name: str) -> str:
+def unknown_key(keys: Sequence[str], name: str) -> str:
     """Describe the error of an unknown key, with the accepted keys and a suggestion."""
     for names, beside, advice in _ELSEWHERE:
         if name in names and beside in keys:

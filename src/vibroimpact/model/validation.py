@@ -7,6 +7,7 @@ for a change of an existing object.
 
 from __future__ import annotations
 
+import functools
 import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
@@ -279,21 +280,19 @@ class Model(BaseModel, metaclass=_Listed):
     @classmethod
     def table_keys(cls) -> list[str]:
         """Return the keys that a table of this class may have."""
-        return in_order(cls)
+        return list(in_order(cls))
 
     def accepts(self, name: str) -> Accepts | None:
         """Return what a field accepts, given the other values, if it is a quantity."""
-        metadata = type(self).model_fields[name].metadata
-        found = next((m for m in metadata if isinstance(m, Accepts)), None)
-        return None if found is None else found.of(dict(self))
+        found = _quantities(type(self)).get(name)
+        return None if found is None else found.of(vars(self))
 
     def knobs(self) -> dict[str, tuple[float, Accepts]]:
         """Return the numbers that can be varied, by name: their values and what they accept."""
         found = {}
-        for name in in_order(type(self)):
-            value, accepts = getattr(self, name), self.accepts(name)
-            if accepts is not None and isinstance(value, float):
-                found[name] = value, accepts
+        for name, accepts in _quantities(type(self)).items():
+            if isinstance(value := getattr(self, name), float):
+                found[name] = value, accepts.of(vars(self))
         return found
 
     def rows(self) -> list[tuple[str, str]]:
@@ -319,10 +318,22 @@ class Model(BaseModel, metaclass=_Listed):
             yield name, value, text
 
 
-def in_order(model: type[BaseModel]) -> list[str]:
+@functools.cache
+def in_order(model: type[BaseModel]) -> tuple[str, ...]:
     """Return the names of the fields, in the order of the arguments of the constructor."""
     said = [n for n in inspect.signature(model.__init__).parameters if n in model.model_fields]
-    return [*said, *(name for name in model.model_fields if name not in said)]
+    return (*said, *(name for name in model.model_fields if name not in said))
+
+
+@functools.cache
+def _quantities(model: type[BaseModel]) -> dict[str, Accepts]:
+    """Return what the fields of a class accept that are quantities, in the same order."""
+    fields = {name: model.model_fields[name].metadata for name in in_order(model)}
+    return {
+        name: next(one for one in metadata if isinstance(one, Accepts))
+        for name, metadata in fields.items()
+        if any(isinstance(one, Accepts) for one in metadata)
+    }
 
 
 def validate(model: type[_ModelType], data: object, where: str = "") -> _ModelType:

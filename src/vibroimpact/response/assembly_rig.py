@@ -21,7 +21,7 @@ from vibroimpact.engine.assembly.plan import (
     partners,
     record_motion,
 )
-from vibroimpact.engine.state import LARGEST
+from vibroimpact.engine.state import LARGEST, MOST_PARTS
 from vibroimpact.errors import InputError
 from vibroimpact.law_numbers import OwnStop, PowerLaw
 from vibroimpact.model import (
@@ -37,20 +37,26 @@ _Array = NDArray[np.float64]
 
 
 def check_laws(assembly: Assembly) -> None:
-    """Raise an error if an assembly has more parts than a contact mode has bits for.
+    """Raise an error if an assembly has more parts than a motion of the engine has room for.
 
     Raises
     ------
     InputError
-        If so.
+        If a contact mode has too few bits, or a state too few numbers.
     """
     rows = _rows(assembly)
+    stops, curved = len(assembly.stops), len(rows) - len(assembly.stops)
     if (count := bits(rows)) > layout.MOST_STOPS:
-        curved = len(rows) - len(assembly.stops)
         raise InputError(
-            f"stops: {len(assembly.stops)} stops and {curved} curved parts of links need {count} "
+            f"stops: {stops} stops and {curved} curved parts of links need {count} "
             f"bits of a contact mode; at most {layout.MOST_STOPS} are possible (one for each stop "
             "and each curved part, two more for each part that has branches)"
+        )
+    if (parts := 2 * len(assembly.names) + len(rows)) > MOST_PARTS:
+        raise InputError(
+            f"masses: a state of {len(assembly.names)} masses, {stops} stops and {curved} curved "
+            f"parts of links has {parts} numbers (two for each mass); at most {MOST_PARTS} are "
+            "possible, so reduce the number of masses"
         )
 
 

@@ -1,18 +1,22 @@
-"""What the engine measures of an assembly, as variables by mass and stop."""
+"""What the engine measures of motions, as variables by mass and stop."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.stops import by_stop, stops_of
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.assembly import measures
 from vibroimpact.engine.state import MODE
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly
-from vibroimpact.response.hold_rows import MAX_EVENTS, results_of
+from vibroimpact.errors import InputError
+from vibroimpact.model import Assembly, Oscillator
+from vibroimpact.model.rig import System
+from vibroimpact.response.hold_rows import MAX_EVENTS, HoldRows, results_of
 
 if TYPE_CHECKING:
     from vibroimpact.response.prepared_rig import PreparedRig
@@ -20,22 +24,108 @@ if TYPE_CHECKING:
 _Array = NDArray[np.float64]
 
 
-def measured_variables(
-    assembly: Assembly, rows: _Array, dims: tuple[str, ...], prefix: str = ""
-) -> dict[str, Any]:
-    """Return extremes, forces and impacts as variables of a dataset.
+def coordinates(system: System) -> dict[str, _Array]:
+    """Return the names of masses, links and stops as coordinates; an oscillator has none."""
+    if not isinstance(system, Assembly):
+        return {}
+    names = {"mass": system.names, "link": system.links, "stop": system.stops}
+    return {dim: np.array(list(found), dtype=np.str_) for dim, found in names.items()}
+
+
+def names_of_parts(system: System) -> dict[str, Any]:
+    """Return the names of masses and stops as coordinates; an oscillator has its stops alone."""
+    if not isinstance(system, Assembly):
+        return {"stop": stops_of(system)}
+    names = coordinates(system)
+    return {"mass": names["mass"], "stop": names["stop"]}
+
+
+def check_alike(systems: Mapping[str, System], field: str, *parts: str) -> None:
+    """Raise an error unless all are assemblies with parts of the same names.
 
     Parameters
     ----------
-    assembly
-        The assembly.
-    rows : ndarray, shape (*dims, hold.MEASURED + measures.count(...))
+    systems
+        What vibrates, by the names of the rigs.
+    field
+        Name of the argument in messages.
+    parts
+        ``"mass"``, ``"link"`` and ``"stop"``, as far as they have to agree.
+
+    Raises
+    ------
+    InputError
+        If one of them differs from the first.
+    """
+    first = coordinates(next(iter(systems.values())))
+    for name, one in systems.items():
+        mine = coordinates(one)
+        if not (first and mine):
+            raise InputError(
+                f"{field}[{name!r}]: an Oscillator beside an Assembly; pass rigs with the same "
+                "parts"
+            )
+        for part in parts:
+            if mine[part].tolist() != first[part].tolist():
+                raise InputError(
+                    f"{field}[{name!r}]: its {part} names are {', '.join(mine[part]) or 'none'}, "
+                    f"not those of the first rig, {', '.join(first[part]) or 'none'}; pass rigs "
+                    "with the same parts"
+                )
+
+
+def measured_variables(
+    system: System,
+    rows: _Array,
+    dims: tuple[str, ...],
+    prefix: str = "",
+    stops: NDArray[np.str_] | None = None,
+) -> dict[str, Any]:
+    """Return extremes, forces and impacts as variables of a dataset, by mass and stop.
+
+    Parameters
+    ----------
+    system
+        The oscillator or the assembly.
+    rows : ndarray, shape (*dims, hold.RESULTS or hold.MEASURED + measures.count(...))
         Rows that the engine writes of holds and orbits.
     dims
         Names of the dims of the rows.
     prefix
         Of the names of the variables.
+    stops
+        Of an oscillator: names of the stops, as in `by_stop`. Default: those that it has.
     """
+    found = (
+        _by_mass(system, rows, dims)
+        if isinstance(system, Assembly)
+        else _of_one_mass(system, HoldRows(rows), dims, stops)
+    )
+    return {f"{prefix}{name}": value for name, value in found.items()}
+
+
+def _of_one_mass(
+    oscillator: Oscillator, rows: HoldRows, dims: tuple[str, ...], stops: NDArray[np.str_] | None
+) -> dict[str, Any]:
+    mass = oscillator.mass
+    low, high = rows.displacement_min, rows.displacement_max
+    carried = mass * rows.transmitted_min, mass * rows.transmitted_max
+    values = {
+        **range_variables("displacement", low, high, dims),
+        **range_variables("acceleration", rows.acceleration_min, rows.acceleration_max, dims),
+        **range_variables("transmitted_force", *carried, dims),
+        "eccentricity": (dims, 0.5 * (high + low)),
+    }
+    for name, both in (
+        ("impacts", rows.impacts),
+        ("peak_force", mass * rows.peak_force),
+        ("peak_impulse", mass * rows.peak_impulse),
+    ):
+        values[name] = ((*dims, "stop"), by_stop(oscillator, both, stops))
+    return values
+
+
+def _by_mass(assembly: Assembly, rows: _Array, dims: tuple[str, ...]) -> dict[str, Any]:
     n, stops = len(assembly.names), len(assembly.stops)
     seen = rows[..., hold.MEASURED :]
     base = measures.OF_MASS * n
@@ -64,7 +154,7 @@ def measured_variables(
         ("peak_impulse", measures.STRUCK),
     ):
         values[name] = ((*dims, "stop"), of_stops[..., column])
-    return {f"{prefix}{name}": value for name, value in values.items()}
+    return values
 
 
 def measured_over(engine: PreparedRig, state: _Array, cycles: int) -> _Array:

@@ -39,7 +39,7 @@ def remembering(assembly: Assembly) -> tuple[str, ...]:
     return tuple(name for name, link in assembly.links.items() if link.isolator.remembers)
 
 
-def _memories(assembly: Assembly) -> dict[str, int]:
+def memory_places(assembly: Assembly) -> dict[str, int]:
     """Return where the memory of each such link stands in an engine's state."""
     rows = link_parts(assembly)
     first = layout.PARTS + 2 * len(assembly.names) + len(assembly.stops)
@@ -56,7 +56,7 @@ def state_components(assembly: Assembly, vector: _Array, phase: float) -> _Array
     mode = int(vector[layout.STATE_MODE])
     touching = [float(mode >> f & 1) for f in range(count)]
     deformations = np.maximum(vector[end : end + count], 0.0)
-    memories = [vector[place] for place in _memories(assembly).values()]
+    memories = [vector[place] for place in memory_places(assembly).values()]
     angle = phase % (2.0 * math.pi)
     found = [*vector[layout.PARTS : end], *deformations, *touching, *memories, angle]
     return np.array(found) + 0.0  # no negative zeros
@@ -74,7 +74,7 @@ def assembly_state_from(assembly: Assembly, vector: _Array, phase: float) -> Ass
         velocity=dict(zip(assembly.names, v.tolist(), strict=True)),
         deformation=dict(zip(stops, d.tolist(), strict=True)),
         touching=[name for f, name in enumerate(stops) if mode >> f & 1],
-        memory={name: float(vector[place]) for name, place in _memories(assembly).items()},
+        memory={name: float(vector[place]) for name, place in memory_places(assembly).items()},
         phase=phase,
     )
 
@@ -184,7 +184,7 @@ def assembly_vector(assembly: Assembly, state: AssemblyState) -> _Array:
     vector = np.zeros(state_width(n, len(assembly.stops) + len(rows)))
     vector[layout.STATE_MODE] = float(mode)
     vector[layout.STATE_FRESH] = _packed(zeros) + (NEW if rows else 0.0)
-    for name, place in _memories(assembly).items():
+    for name, place in memory_places(assembly).items():
         vector[place] = state.memory.get(name, 0.0)
     vector[layout.PARTS : layout.PARTS + n] = u
     vector[layout.PARTS + n : layout.PARTS + 2 * n] = v

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.datasets.stops import stop_names
 from vibroimpact.engine.observers import phases as layout
-from vibroimpact.engine.observers.record import IMPACT
-from vibroimpact.model import Record, Repeated, to_si
+from vibroimpact.model import Assembly, Record, Repeated, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.response.assembly_contacts import assembly_contacts, has_assembly
-from vibroimpact.response.motion_phases import SIDES, Phases, Recorded, any_recorded, phases
+from vibroimpact.response.assembly_rows import coordinates
+from vibroimpact.response.motion_phases import Origin, Phases, phases, recorded
 
 _Array = NDArray[np.float64]
 _Numbers = NDArray[np.int64]
@@ -65,59 +63,65 @@ def contacts(motion: xr.Dataset, grazing: float = GRAZING) -> xr.Dataset:
         If the dataset does not hold a motion with samples, or if ``grazing`` is negative.
     """
     share = to_si(grazing, DIMENSIONLESS, "grazing", minimum=0.0)
-    if has_assembly(motion):
-        return assembly_contacts(motion, share)
-    origin = any_recorded(motion)
-    every = phases(motion, origin)
-    data = contact_log(motion, origin, every, share)
-    notes = [*noted(motion), *every.notes]
+    origin = recorded(motion, masses=True, records=True)
+    found = phases(motion, origin)
+    data = contact_log(motion, origin, found, share)
+    notes = [*noted(motion), *found.notes]
     return describe(data, "vibroimpact.contacts", motion_parameters(motion), notes)
 
 
 def contact_log(
-    motion: xr.Dataset, origin: Recorded[Any], every: Phases, share: float = GRAZING
+    motion: xr.Dataset, origin: Origin, found: Phases, share: float = GRAZING
 ) -> xr.Dataset:
     """List the contacts of a motion whose phases were measured.
 
     Parameters
     ----------
-    motion, origin, every
+    motion, origin, found
         The motion, its origin, and its phases.
     share
         As ``grazing`` of `contacts`.
     """
-    every_kind = [_lasting(every, origin, number) for number in range(len(SIDES))]
-    chosen = _Contacts(*map(np.concatenate, zip(*every_kind, _impacts(every), strict=True)))
+    stops = range(len(found.stops))
+    every_kind = [_impacts(found), *(_lasting(found, origin, stop) for stop in stops)]
+    chosen = _Contacts(*map(np.concatenate, zip(*every_kind, strict=True)))
     chosen = chosen.take(np.argsort(chosen.order, kind="stable"))
-    mass = origin.oscillator.mass
-    begin, closing, parting = chosen.begin, chosen.arrival, chosen.parting
-    fastest = np.abs(
-        np.concatenate([motion["velocity"].values, motion["event_velocity"].values])
-    ).max()
+    ahead, behind = (
+        (found.closing[chosen.stop] * v).sum(axis=1) for v in (chosen.arrival, chosen.parting)
+    )
+    fastest = max(
+        float(np.abs(motion[name].values).max(initial=0.0))
+        for name in ("velocity", "event_velocity")
+    )
+    several = isinstance(origin.system, Assembly)
     values = {
-        "stop": stop_names(chosen.side),
-        "start": begin,
-        "end": begin + chosen.length,
-        **_in_the_cycle(chosen, origin.excitation),
+        "stop": np.array(found.stops, dtype=np.str_)[chosen.stop],
+        "start": chosen.begin,
+        "end": chosen.begin + chosen.length,
+        **_in_the_cycle(chosen, origin.shaking),
         "duration": chosen.length,
-        "start_velocity": closing,
-        "end_velocity": parting,
-        "peak_force": mass * chosen.force,
-        "impulse": mass * chosen.impulse,
+        "start_velocity": chosen.arrival if several else chosen.arrival[:, 0],
+        "end_velocity": chosen.parting if several else chosen.parting[:, 0],
+        "peak_force": chosen.force,
+        "impulse": chosen.impulse,
         "penetration": chosen.penetration,
-        "dissipated": mass * chosen.dissipated,
-        "dissipated_relaxing": mass * chosen.relaxing,
-        "peak_acceleration": chosen.peak,
-        "peak_time": begin + chosen.peak_time,
+        "dissipated": chosen.dissipated,
+        "dissipated_relaxing": chosen.relaxing,
         "closing_speed": chosen.closing,
-        # Of a mass that recedes as the bumper catches up with it there is none.
+        # Of bodies that recede as the bumper catches up with them there is none.
         "restitution": np.divide(
-            -parting, closing, out=np.full(len(closing), np.nan), where=chosen.side * closing > 0.0
+            -behind, ahead, out=np.full(len(ahead), np.nan), where=ahead > 0.0
         ),
         "grazing": chosen.closing < share * fastest,
     }
+    if not several:
+        values |= {"peak_acceleration": chosen.peak, "peak_time": chosen.begin + chosen.peak_time}
     return xr.Dataset(
-        {f"contact_{name}": ("contact_number", value) for name, value in values.items()}
+        {
+            f"contact_{name}": (("contact_number", "mass")[: value.ndim], value)
+            for name, value in values.items()
+        },
+        {dim: names for dim, names in coordinates(origin.system).items() if dim == "mass"},
     )
 
 
@@ -134,18 +138,18 @@ def _in_the_cycle(chosen: _Contacts, shaken: Repeated | Record) -> dict[str, _Ar
 
 
 class _Contacts(NamedTuple):
-    """Arrays with one value per contact; force, impulse and energies per unit mass."""
+    """Arrays with one value per contact."""
 
-    order: _Numbers
-    """Index of the phase in which the contact begins."""
-    side: _Numbers
+    order: _Array
+    """Index of the phase in which the contact begins; of an impact, between two."""
+    stop: _Numbers
     begin: _Array
     angle: _Array
     length: _Array
     arrival: _Array
-    """Velocity at the start."""
+    """Velocities at the start, shape (contact, mass)."""
     parting: _Array
-    """Velocity at the end."""
+    """Velocities at the end."""
     closing: _Array
     force: _Array
     impulse: _Array
@@ -153,7 +157,7 @@ class _Contacts(NamedTuple):
     dissipated: _Array
     relaxing: _Array
     peak: _Array
-    """Largest absolute acceleration."""
+    """Largest absolute acceleration, of one mass."""
     peak_time: _Array
     """Time since the start of the contact."""
 
@@ -163,9 +167,9 @@ class _Contacts(NamedTuple):
         return _Contacts(**parts)
 
 
-def _lasting(every: Phases, origin: Recorded[Any], number: int) -> _Contacts:
-    """Find the contacts with a bumper, or rests on a rigid stop, of one side."""
-    runs = _runs(every, origin, number)
+def _lasting(found: Phases, origin: Origin, stop: int) -> _Contacts:
+    """Find the complete contacts with a bumper, or rests on a rigid stop."""
+    runs = _runs(found, origin, stop)
     count = len(runs)
     part = np.array([i for run in runs for i in run], dtype=np.int64)
     owner = np.repeat(np.arange(count), [len(run) for run in runs])
@@ -179,8 +183,9 @@ def _lasting(every: Phases, origin: Recorded[Any], number: int) -> _Contacts:
     def total(values: _Array) -> _Array:
         return np.bincount(owner, values[part], count).astype(np.float64)
 
-    length = every.rows[:, layout.LENGTH]
-    peaks = np.maximum(-every.of_mass(layout.A_LEAST), every.of_mass(layout.A_MOST))
+    length = found.rows[:, layout.LENGTH]
+    low, high = found.of_mass(layout.A_LEAST)[:, 0], found.of_mass(layout.A_MOST)[:, 0]
+    peaks = np.maximum(-low, high)
     peak = most(peaks)
     # The first phase of each contact that reaches its peak.
     reaches = np.flatnonzero(~(peaks[part] < peak[owner]))
@@ -188,37 +193,40 @@ def _lasting(every: Phases, origin: Recorded[Any], number: int) -> _Contacts:
     np.minimum.at(at, owner[reaches], reaches)
     earlier = np.arange(len(part)) < at[owner]
     before = np.bincount(owner, np.where(earlier, length[part], 0.0), count)
+    # The event with which it begins ends the phase before it; a rest begins behind it.
+    ahead, closing = found.of_mass(layout.PARTING)[first - 1], found.of_stop(layout.CLOSING)
+    system = found.system
+    rests = isinstance(system, Assembly) and list(system.stops.values())[stop].stop.rigid
     return _Contacts(
-        first,
-        np.full(count, SIDES[number]),
-        every.bounds[first],
-        every.angle[first],
+        first.astype(np.float64),
+        np.full(count, stop),
+        found.bounds[first],
+        found.angle[first],
         total(length),
-        # The event with which it begins ends the phase before it.
-        every.of_mass(layout.PARTING)[first - 1],
-        every.of_mass(layout.ARRIVAL)[last],
-        every.of_stop(layout.CLOSING, number)[first - 1],
-        most(every.of_stop(layout.FORCE, number)),
-        total(every.of_stop(layout.IMPULSE, number)),
-        most(every.of_stop(layout.DEPTH, number)),
-        total(every.of_stop(layout.LOSES, number)),
-        _relaxing(every, origin, number, runs),
+        ahead,
+        found.of_mass(layout.ARRIVAL)[last],
+        ahead @ found.closing[stop] if rests else closing[first - 1, stop],
+        most(found.of_stop(layout.FORCE)[:, stop]),
+        total(found.of_stop(layout.IMPULSE)[:, stop]),
+        most(found.of_stop(layout.DEPTH)[:, stop]),
+        total(found.of_stop(layout.LOSES)[:, stop]),
+        _relaxing(found, origin, stop, runs),
         peak,
-        before + every.of_mass(layout.A_TIME)[part[at]],
+        before + found.of_mass(layout.A_TIME)[part[at], 0],
     )
 
 
-def _runs(every: Phases, origin: Recorded[Any], number: int) -> list[_Numbers]:
+def _runs(found: Phases, origin: Origin, stop: int) -> list[_Numbers]:
     """Find the phases of each complete contact with a stop."""
-    touched = every.touched(number)
+    touched = found.pressed[:, stop]
     begins = np.flatnonzero(touched & ~np.append(False, touched[:-1]))
     ends = np.flatnonzero(touched & ~np.append(touched[1:], False))
     runs = [np.arange(i, j + 1) for i, j in zip(begins, ends, strict=True)]
     if not origin.periodic:
         # The end of the motion may lie exactly at an event.
-        cut = every.rows[-1, layout.KIND] == layout.NOTHING
+        cut = len(touched) > 0 and found.rows[-1, layout.KIND] == layout.NOTHING
         return [run for run in runs if run[0] > 0 and not (cut and run[-1] == len(touched) - 1)]
-    if touched[0] and touched[-1]:
+    if len(touched) and touched[0] and touched[-1]:
         # One contact, cut in two by the section: the end of the motion is its beginning.
         joined = [np.append(runs[-1], runs[0])] if len(runs) > 1 else []
         runs = [*runs[1:-1], *joined]
@@ -226,39 +234,34 @@ def _runs(every: Phases, origin: Recorded[Any], number: int) -> list[_Numbers]:
     return runs
 
 
-def _impacts(every: Phases) -> _Contacts:
+def _impacts(found: Phases) -> _Contacts:
     """Find the impacts on rigid stops: contacts of no duration, whose force has no finite peak."""
-    at = np.flatnonzero(every.rows[:, layout.KIND] == IMPACT)
-    number = every.rows[at, layout.AT_STOP].astype(np.int64)
-    before, behind = every.of_mass(layout.ARRIVAL)[at], every.of_mass(layout.PARTING)[at]
-    lost, closing = (
-        np.choose(number, [every.of_stop(column, stop)[at] for stop in range(len(SIDES))])
-        for column in (layout.HIT, layout.CLOSING)
-    )
+    at = found.impacts
+    stop = found.rows[at, layout.AT_STOP].astype(np.int64)
     none = np.zeros(len(at))
     return _Contacts(
-        at + 1,
-        np.take(SIDES, number),
-        every.bounds[at + 1],
-        every.angle[at + 1],
+        at.astype(np.float64) + 0.5,
+        stop,
+        found.bounds[at + 1],
+        found.angle[at + 1],
         none,
-        before,
-        behind,
-        closing,
+        found.of_mass(layout.ARRIVAL)[at],
+        found.of_mass(layout.PARTING)[at],
+        found.of_stop(layout.CLOSING)[at, stop],
         np.full(len(at), np.nan),
-        every.rows[at, layout.STRUCK],
+        found.rows[at, layout.STRUCK],
         none,
-        lost,
+        found.of_stop(layout.HIT)[at, stop],
         none,
-        every.of_mass(layout.A_EVENT)[at],
+        found.of_mass(layout.A_EVENT)[at, 0],
         none,
     )
 
 
-def _relaxing(every: Phases, origin: Recorded[Any], number: int, runs: list[_Numbers]) -> _Array:
+def _relaxing(found: Phases, origin: Origin, stop: int, runs: list[_Numbers]) -> _Array:
     """Compute the energy that the free bumper loses after each contact, until the next one."""
     lost = np.zeros(len(runs))
-    touched = every.touched(number)
+    touched = found.pressed[:, stop]
     owners = np.full(len(touched), -1)
     for n, run in enumerate(runs):
         owners[run] = n
@@ -267,5 +270,5 @@ def _relaxing(every: Phases, origin: Recorded[Any], number: int, runs: list[_Num
         before[before < 0] = np.flatnonzero(touched)[-1]
     owner = np.where(before < 0, -1, owners[before])
     known = (owner >= 0) & ~touched  # others are of a contact before the motion
-    np.add.at(lost, owner[known], every.of_stop(layout.LOSES, number)[known])
+    np.add.at(lost, owner[known], found.of_stop(layout.LOSES)[known, stop])
     return lost

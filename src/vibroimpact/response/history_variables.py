@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.stops import by_stop, stop_names
+from vibroimpact.engine.assembly import record as several
 from vibroimpact.engine.motion import LEFT, RIGHT
 from vibroimpact.engine.observers import record
+from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT
+from vibroimpact.model import Assembly
+from vibroimpact.model.assembly import numbers
 from vibroimpact.model.oscillator import Oscillator
 
-EVENTS_AT_ONCE = 20_000
-"""Room for events between two calls of the engine."""
+_Array = NDArray[np.float64]
 
 
-def sampled(out: NDArray[np.float64], oscillator: Oscillator) -> dict[str, Any]:
+def sampled(out: _Array, oscillator: Oscillator) -> dict[str, Any]:
     """The samples; what the isolator remembers, if it does.
 
     Deformations are positive when compressed. The engine has the opposite sign on the left, which
@@ -49,8 +53,8 @@ def sampled(out: NDArray[np.float64], oscillator: Oscillator) -> dict[str, Any]:
 def transmitted(
     variables: dict[str, Any],
     oscillator: Oscillator,
-    force: NDArray[np.float64] | float = 0.0,
-    event_force: NDArray[np.float64] | float = 0.0,
+    force: _Array | float = 0.0,
+    event_force: _Array | float = 0.0,
 ) -> dict[str, Any]:
     """The force of isolator and stops on the base (N): F(t) + F_0 − M times the acceleration.
 
@@ -76,9 +80,7 @@ def transmitted(
     return made
 
 
-def listed(
-    parts: list[NDArray[np.float64]], period: float, oscillator: Oscillator
-) -> dict[str, Any]:
+def listed(parts: list[_Array], period: float, oscillator: Oscillator) -> dict[str, Any]:
     """The contacts and detachments, in cycles or steps of this length (s).
 
     Columns are joined one by one, so that the parts are not kept a third time.
@@ -96,7 +98,7 @@ def listed(
         **({"event_isolator_memory": record.E_MEMORY} if oscillator.isolator.remembers else {}),
     }
 
-    def column(at: int) -> NDArray[np.float64]:
+    def column(at: int) -> _Array:
         return np.concatenate([part[:, at] for part in parts])
 
     time = column(record.E_CYCLE) * period + column(record.E_TIME)
@@ -108,3 +110,105 @@ def listed(
         **{name: ("event", column(at).astype(np.int64)) for name, at in integers.items()},
         **{name: ("event", column(at) + 0.0) for name, at in columns.items()},  # no -0.0
     }
+
+
+def sampled_by_mass(
+    out: _Array, assembly: Assembly, force: _Array, on: str | None
+) -> dict[str, Any]:
+    """Return the samples of an assembly by mass and stop, and the force on the base (N).
+
+    Parameters
+    ----------
+    out
+        What the engine wrote down.
+    assembly
+        The assembly.
+    force, on
+        Force at the samples on a mass (N), and the name of the mass; None if the base moves.
+    """
+    n, stops = len(assembly.names), len(assembly.stops)
+    found: dict[str, Any] = {
+        one: (("mass", "time"), out[i * n : (i + 1) * n] + 0.0)
+        for i, one in enumerate(("displacement", "velocity", "acceleration"))
+    }
+    for i, one in enumerate(("clearance", "contact_force", "deformation")):
+        first = 3 * n + i * stops
+        found[one] = (("stop", "time"), out[first : first + stops] + 0.0)
+    # The force that would balance the masses if the base moved them as a rigid body.
+    of = numbers(assembly)
+    _, acceleration = found["acceleration"]
+    carried = -(of.mass @ of.influence) @ acceleration + of.influence @ of.force
+    if on is not None:
+        carried += of.influence[assembly.names.index(on)] * force
+    found["transmitted_force"] = ("time", carried + 0.0)
+    return found
+
+
+def listed_by_mass(rows: _Array, period: float, assembly: Assembly) -> dict[str, Any]:
+    """Return the contacts and detachments of an assembly, in cycles or steps of this length (s)."""
+    events = list(_events(rows, assembly))
+    section = np.array([one.section for one in events], dtype=np.int64)
+    since = np.array([one.time for one in events], dtype=float)
+    stops = list(assembly.stops)
+    found: dict[str, Any] = {
+        "event_time": ("event", section * period + since),
+        "event_contact": ("event", np.array([one.kind for one in events], dtype=np.int64)),
+        "event_stop": ("event", np.array([stops[one.stop] for one in events], dtype=np.str_)),
+        "event_cycle": ("event", section),
+        "event_cycle_time": ("event", since),
+    }
+    for name in ("displacement", "velocity"):
+        values = np.array([getattr(one, name) for one in events]).reshape(-1, len(assembly.names))
+        found[f"event_{name}"] = (("event", "mass"), values + 0.0)
+    return found
+
+
+class _Event(NamedTuple):
+    section: int
+    time: float
+    """Since the section began (s)."""
+    stop: int
+    kind: float
+    displacement: _Array
+    velocity: _Array
+
+
+def _events(rows: _Array, assembly: Assembly) -> Iterator[_Event]:
+    """Yield what happens at the stops, with the states just before it."""
+    n, rigid = len(assembly.names), [one.stop.rigid for one in assembly.stops.values()]
+    for row in rows:
+        section, stop = int(row[several.E_CYCLE]), int(row[several.E_STOP])
+        time, kind = float(row[several.E_TIME]), row[several.E_KIND]
+        u, v, behind = np.split(row[several.E_MASSES :], [n, 2 * n])
+        before, after = int(row[several.E_BEFORE]), int(row[several.E_BEHIND])
+        rests = rigid[stop] and after >> stop & 1 > 0
+        if kind != DETACHMENT:
+            # Other rests of bodies that are hit end.
+            for g in range(len(rigid)):
+                if g != stop and rigid[g] and before & ~after & 1 << g:
+                    yield _Event(section, time, g, DETACHMENT, u, v)
+        if not (rests and kind == CONTACT_BEGINS):
+            yield _Event(section, time, stop, kind, u, v)
+        if rests:
+            # The impact after which the bodies rest is followed by the rest.
+            yield _Event(section, time, stop, CONTACT_BEGINS, u, behind)
+
+
+def doubts_by_mass(rows: _Array, undecided: bool, section: str) -> list[str]:
+    """What the engine decided by a rule, or could not decide."""
+    notes = []
+    by_rule = rows[rows[:, several.E_ORDERED] > 0.0]
+    if ordered := len(by_rule):
+        first = int(by_rule[0, several.E_CYCLE])
+        where = f" (the first in {section} {first})"
+        notes.append(
+            f"{ordered} impact{'s' if ordered > 1 else ''} at the same instant as another impact "
+            f"or rest of the same mass{where}; their order is that of the stops in the assembly, "
+            "because restitution alone does not determine the result"
+        )
+    if undecided:
+        notes.append(
+            "the search for an event was given up and counted as no event; check the orders of "
+            "magnitude of the input"
+        )
+    return notes

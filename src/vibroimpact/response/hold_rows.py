@@ -139,12 +139,6 @@ class HoldRows:
         return found
 
     @property
-    def peak_transmitted(self) -> _Array:
-        """Largest force on the base per unit mass, without sign (m/s²)."""
-        found: _Array = np.maximum(np.abs(self.transmitted_max), np.abs(self.transmitted_min))
-        return found
-
-    @property
     def period(self) -> NDArray[np.int64]:
         """Period in forcing cycles; 0 where the motion did not settle."""
         return self.array[..., hold.PERIOD].astype(np.int64)

@@ -8,15 +8,17 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
-from typing import Any, Generic, NamedTuple, TypeVar
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import excitation_from
+from vibroimpact.datasets.stops import SIDES
 from vibroimpact.engine import sections
+from vibroimpact.engine.assembly.layout import PARTS
 from vibroimpact.engine.motion import U
 from vibroimpact.engine.observers import fourier
 from vibroimpact.engine.observers import phases as layout
@@ -25,22 +27,19 @@ from vibroimpact.engine.observers.record import CONTACT_BEGINS, DETACHMENT, IMPA
 from vibroimpact.engine.phases import measure_motion
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_result
-from vibroimpact.model import Oscillator, Record, Repeated, State, validate
+from vibroimpact.model import Assembly, Oscillator, Record, Repeated, validate
 from vibroimpact.model.argument_types import MOST_EVENTS
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, System
+from vibroimpact.response.assembly_rig import assembly_numbers
+from vibroimpact.response.assembly_state import as_assembly_state, assembly_vector
 from vibroimpact.response.engine_input import as_state, engine_rig, engine_state
 from vibroimpact.response.record_history import straight
 from vibroimpact.tasks.interruptible import Calls
 from vibroimpact.tasks.threads import Progress
 
-_Shaking = TypeVar("_Shaking", bound=Repeated | Record, covariant=True)
-
 _Array = NDArray[np.float64]
 
 _NONE = np.empty(0)
-
-SIDES = (1, -1)
-"""Of the stops, in the order of their numbers: right, left."""
 
 INSTANT = 1e-300
 """Cycles of a motion of a single sample."""
@@ -50,51 +49,159 @@ _ON_GRID = 1e-6
 """Share of a record's step by which a sample may lie off its grid."""
 
 
-class Recorded(NamedTuple, Generic[_Shaking]):
+class Origin(NamedTuple):
     """Origin of the motion of a dataset."""
 
-    oscillator: Oscillator
-    excitation: _Shaking
+    system: System
+    shaking: Repeated | Record
     """Its phase is that at the beginning of the motion."""
     cycles: float
     """Length of the motion; NaN through a `Record`, which has no cycles."""
     periodic: bool
     """Whether the motion is one period of a periodic one: its end is its beginning."""
 
+    @property
+    def oscillator(self) -> Oscillator:
+        """The system, of a motion of one mass."""
+        assert isinstance(self.system, Oscillator)
+        return self.system
 
-class Phases(NamedTuple):
-    """Phases of a motion, in the order of time."""
+    @property
+    def repeated(self) -> Repeated:
+        """The shaking, if it is not a record.
+
+        Raises
+        ------
+        InputError
+            If it is.
+        """
+        if isinstance(self.shaking, Record):
+            raise InputError(
+                "motion: this is the response to a Record, which has no cycles; pass a motion "
+                "under a Harmonic or a Periodic, or use contacts, totals, record_history, "
+                "phase_portrait or hysteresis_cycle"
+            )
+        return self.shaking
+
+
+class PartColumns:
+    """Rows of phases, or of whole motions, by what vibrates."""
 
     rows: _Array
-    """What the engine measured of them (`observers.phases`), per unit mass."""
-    bounds: _Array
-    """When they begin, and when the last one ends (s), shape (phase + 1,)."""
-    angle: _Array
-    """The forcing's phase there (rad), counted in each cycle anew; NaN through a `Record`."""
-    notes: list[str]
-    """Doubt about whether they are those of the recorded motion."""
+    layout: Layout
 
     def of_mass(self, column: int) -> _Array:
-        """Return a column of the mass."""
-        return self.rows[:, ONE_MASS.mass(column)]
+        """Return a column of each mass, shape (row, mass)."""
+        of = self.layout
+        return self.rows[:, of.mass(column) : of.mass(0, of.masses) : layout.MASS]
 
-    def of_stop(self, column: int, number: int) -> _Array:
-        """Return a column of a stop."""
-        return self.rows[:, ONE_MASS.stop(column, number)]
+    def of_stop(self, column: int) -> _Array:
+        """Return a column of each stop, shape (row, stop)."""
+        of = self.layout
+        return self.rows[:, of.stop(column, 0) : of.stop(0, of.stops) : layout.STOP]
 
-    def touched(self, number: int) -> NDArray[np.bool_]:
-        """Return whether a stop is touched."""
-        touched: NDArray[np.bool_] = self.rows[:, layout.TOUCHED].astype(np.int64) >> number & 1 > 0
-        return touched
+    def of_drift(self, column: int) -> _Array:
+        """Return a column of each drift, shape (row, drift)."""
+        of = self.layout
+        return self.rows[:, of.drift(column, 0) : of.drift(0, of.drifts) : layout.DRIFT]
 
 
-def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
-    """Whose motion a dataset holds.
+class Phases(PartColumns):
+    """Phases of a motion, in the order of time.
+
+    Parameters
+    ----------
+    system
+        What vibrates.
+    followed
+        Its motion.
+    begin, final : ndarray
+        The engine's states at its begin and at its end.
+    notes
+        Doubt about whether they are those of the recorded motion.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        followed: Followed,
+        begin: _Array,
+        final: _Array,
+        notes: Sequence[str] = (),
+    ) -> None:
+        self.system = system
+        self.status, self.rows, self.bounds, self.angle = followed
+        self.begin, self.final, self.notes = begin, final, list(notes)
+        self.layout = phases_layout(system)
+        self.stops: tuple[str, ...] = SIDES
+        self.closing = np.array([[1.0], [-1.0]])
+        if isinstance(system, Assembly):
+            self.stops = tuple(system.stops)
+            rates = [system.closing(stop) for stop in system.stops.values()]
+            self.closing = np.array(rates).reshape(len(rates), len(system.names))
+        else:
+            self.rows = _in_si(self.rows, system)
+
+    @property
+    def pressed(self) -> NDArray[np.bool_]:
+        """Which stops are touched, shape (phase, stop)."""
+        bits = self.rows[:, layout.TOUCHED].astype(np.int64)[:, np.newaxis]
+        touched: NDArray[np.bool_] = bits >> np.arange(self.layout.stops) & 1 > 0
+        if isinstance(self.system, Oscillator):
+            return touched
+        # At a single instant a stop is touched if it pushes.
+        lasts = self.rows[:, layout.LENGTH] > 0.0
+        found: NDArray[np.bool_] = touched & (
+            lasts[:, np.newaxis] | (self.of_stop(layout.FORCE) != 0.0)
+        )
+        return found
+
+    @property
+    def impacts(self) -> NDArray[np.int64]:
+        """Phases that end in an impact on a rigid stop."""
+        return np.flatnonzero(self.rows[:, layout.KIND] == IMPACT)
+
+
+def phases_layout(system: System) -> Layout:
+    """Return where in a row of a phase the columns are."""
+    if isinstance(system, Oscillator):
+        return ONE_MASS
+    return Layout(len(system.names), len(system.stops), len(system.links))
+
+
+def _in_si(rows: _Array, oscillator: Oscillator) -> _Array:
+    """Return the rows of one mass, which are per unit mass and without the constant force, in SI.
+
+    The force on the base is F_0 − M (ü + A_t), F_0 the constant force and A_t the acceleration of
+    the base, or what stands for a force on the mass.
+    """
+    mass, found = oscillator.mass, rows.copy()
+    of_stops = [
+        ONE_MASS.stop(column, number)
+        for column in (layout.FORCE, layout.IMPULSE, layout.LOSES, layout.HIT)
+        for number in range(ONE_MASS.stops)
+    ]
+    found[:, [layout.LOST, layout.STRUCK, *of_stops]] *= mass
+    found[:, layout.WORK] *= -mass
+    carried = [layout.CARRIED_LEAST, layout.CARRIED_MOST]
+    found[:, carried] = oscillator.force - mass * rows[:, carried[::-1]]
+    return found
+
+
+def recorded(motion: xr.Dataset, *, masses: bool = False, records: bool = False) -> Origin:
+    """Return whose motion a dataset holds.
+
+    Parameters
+    ----------
+    motion
+        The dataset.
+    masses, records
+        Whether the motion of several masses, and a motion through a `Record`, are accepted.
 
     Raises
     ------
     InputError
-        If it is not the dataset of a motion with samples and events.
+        If it is not the dataset of such a motion with samples and events.
     """
     held = isinstance(motion, xr.Dataset) and {"event_time", "velocity"} <= set(motion.variables)
     if not held or motion.sizes["time"] < ("cycle" not in motion) + 1:
@@ -103,49 +210,23 @@ def any_recorded(motion: xr.Dataset) -> Recorded[Repeated | Record]:
             "simulate with samples greater than 0"
         )
     parameters = json.loads(motion.attrs["parameters"])
-    if "assembly" in parameters:
+    kind: type[System] = Assembly if "assembly" in parameters else Oscillator
+    if kind is Assembly and not masses:
         raise InputError(
-            "motion: the motion of an Assembly of several masses is not accepted by this function; "
-            "pass that of an Oscillator"
+            "motion: it is of an Assembly of several masses, which this function does not accept; "
+            "draw it with figures.mass_histories, contact_forces or pair_portrait"
         )
-    oscillator = validate(Oscillator, parameters["oscillator"], "motion.oscillator")
-    assert isinstance(oscillator, Oscillator)
+    name = kind.__name__.lower()
+    system: System = validate(kind, parameters[name], f"motion.{name}")
     if "record" in parameters:
-        return Recorded(oscillator, shaken_by(motion, parameters["record"]), math.nan, False)
+        origin = Origin(system, shaken_by(motion, parameters["record"]), math.nan, False)
+        if not records:
+            _ = origin.repeated  # which says what is wrong
+        return origin
     first, cycles = (float(motion["cycle"].values[end]) for end in (0, -1))
     # What was cut out of one period is no period.
     periodic = "period" in motion and first == 0.0 and cycles == int(motion["period"])
-    return Recorded(oscillator, excitation_from(parameters), cycles, periodic)
-
-
-def recorded(motion: xr.Dataset) -> Recorded[Repeated]:
-    """Whose motion under a repeated forcing a dataset holds.
-
-    Raises
-    ------
-    InputError
-        If it is not the dataset of such a motion with samples and events.
-    """
-    origin = any_recorded(motion)
-    shaken = check_repeated(origin.excitation)
-    return Recorded(origin.oscillator, shaken, origin.cycles, origin.periodic)
-
-
-def check_repeated(shaking: Repeated | Record) -> Repeated:
-    """Return what shakes a motion, if it is repeated.
-
-    Raises
-    ------
-    InputError
-        If it is a record.
-    """
-    if isinstance(shaking, Record):
-        raise InputError(
-            "motion: this is the response to a Record, which has no cycles; pass a motion under a "
-            "Harmonic or a Periodic, or use contacts, totals, record_history, phase_portrait or "
-            "hysteresis_cycle"
-        )
-    return shaking
+    return Origin(system, excitation_from(parameters), cycles, periodic)
 
 
 def shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
@@ -171,11 +252,6 @@ def shaken_by(motion: xr.Dataset, given: dict[str, Any]) -> Record:
         rest = time[-1] - time[(len(known) - 1) * each]
         known = np.append(known, known[-1] + (values[-1] - known[-1]) * (step / rest))
     return Record(known[: given["samples"]], step)
-
-
-def beginning(motion: xr.Dataset) -> State:
-    """The state at the beginning of a motion, with the forcing's phase."""
-    return as_state(motion["initial_state"])
 
 
 class Course(NamedTuple):
@@ -276,8 +352,9 @@ class Followed(NamedTuple):
     status: Status
     rows: _Array
     bounds: _Array
-    """As of `Phases`."""
+    """When they begin, and when the last one ends (s), shape (phase + 1,)."""
     angle: _Array
+    """The forcing's phase there (rad), counted in each cycle anew; NaN through a `Record`."""
 
 
 def record_course(
@@ -307,30 +384,53 @@ def repeated_course(
     return Course(rig, shaken.amplitude, turns, shaken.phase, row, False, state, cycles, of)
 
 
-def _course(motion: xr.Dataset, origin: Recorded[Any]) -> Course:
-    """How the engine follows the motion of a dataset, as `simulate` has done."""
-    oscillator, shaken = origin.oscillator, origin.excitation
-    rig = engine_rig(Rig(oscillator, shaken))
-    state = engine_state(oscillator, beginning(motion))
+def _course(motion: xr.Dataset, origin: Origin) -> Course:
+    """Return how the engine follows the motion of a dataset, as `simulate` has done."""
+    system, shaken, begin = origin.system, origin.shaking, motion["initial_state"]
+    if isinstance(system, Assembly):
+        rig = assembly_numbers(system, shaken)
+        state = assembly_vector(system, as_assembly_state(begin, system))
+    else:
+        rig, state = engine_rig(Rig(system, shaken)), engine_state(system, as_state(begin))
+    of = phases_layout(system)
     if isinstance(shaken, Record):
-        return record_course(motion, shaken, rig, state)
-    return repeated_course(shaken, origin.cycles, rig, state)
+        return record_course(motion, shaken, rig, state, of)
+    return repeated_course(shaken, origin.cycles, rig, state, of)
 
 
-def phases(motion: xr.Dataset, origin: Recorded[Any]) -> Phases:
+def phases(motion: xr.Dataset, origin: Origin) -> Phases:
     """Follow a recorded motion, and measure its phases.
 
     Of a motion whose first samples were cut off, the phases begin with what is left of the first.
     """
     course = _course(motion, origin)
-    status, rows, bounds, angle = course.again(motion)
-    apart = abs(course.state[U] - float(motion["displacement"].values[-1]))
-    return Phases(rows, bounds, angle, doubts(motion, status, apart))
+    begin = course.state.copy()
+    followed = course.again(motion)
+    held = motion["displacement"].transpose(..., "time").values[..., -1]
+    at = slice(PARTS, PARTS + held.size) if held.ndim else U
+    apart = float(np.abs(course.state[at] - held).max())
+    notes = doubts(motion, followed.status, apart)
+    return Phases(origin.system, followed, begin, course.state, notes)
 
 
-def fourier_integrals(motion: xr.Dataset, origin: Recorded[Repeated], lines: _Array) -> _Array:
-    """Return the integrals of a motion times exp(−iνt), as `observers.fourier` writes them."""
-    return _course(motion, origin).integrated(lines)
+def fourier_integrals(motion: xr.Dataset, origin: Origin, rates: _Array) -> NDArray[np.complex128]:
+    """Return the integrals of a periodic motion over its length times exp(−iνt).
+
+    Parameters
+    ----------
+    motion, origin
+        The motion and its origin.
+    rates
+        ν (1/s).
+
+    Returns
+    -------
+    ndarray, shape (3, rate, mass)
+        Of displacement, velocity and absolute acceleration, impulses left out.
+    """
+    found = _course(motion, origin).integrated(rates).reshape(3, 2, -1, len(rates))
+    integrals: NDArray[np.complex128] = found[:, 0] + 1j * found[:, 1]
+    return integrals.swapaxes(1, 2)
 
 
 def doubts(motion: xr.Dataset, outcome: Status, apart: float) -> list[str]:

@@ -16,7 +16,6 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, meant, shown
 from vibroimpact.model.parameters import canonical, suggestion
 
@@ -25,20 +24,6 @@ _Value = NDArray[np.float64]
 _LONGEST = 300
 """Largest number of characters of a formula."""
 
-OF_STOPS = ("deformation", "clearance", "touching")
-"""Time histories of stops, such as ``clearance.right``."""
-HISTORIES = (
-    "displacement",
-    "velocity",
-    "acceleration",
-    "base_acceleration",
-    "applied_force",
-    "transmitted_force",
-    *(f"{name}.{stop}" for name in OF_STOPS for stop in SIDES),
-    "isolator_memory",
-    "time",
-)
-"""Time histories in a dataset of `simulate`."""
 CONSTANTS = {"pi": math.pi}
 
 _ELEMENTWISE: dict[str, Callable[..., Any]] = {
@@ -73,8 +58,9 @@ class OutputFormula(NamedTuple):
     """A formula that has been checked."""
 
     text: str
-    names: tuple[str, ...]
-    """Names of time histories and parameters that it contains."""
+    histories: tuple[str, ...]
+    """Names of time histories that it contains."""
+    parameters: tuple[str, ...]
 
     def value(self, time: _Value, values: Mapping[str, Any]) -> float:
         """Return the number.
@@ -101,14 +87,16 @@ class OutputFormula(NamedTuple):
         return float(result)
 
 
-def read_output_formula(text: str, known: tuple[str, ...]) -> OutputFormula:
+def read_output_formula(
+    text: str, histories: tuple[str, ...], parameters: tuple[str, ...]
+) -> OutputFormula:
     """Parse a formula and check its names.
 
     Parameters
     ----------
     text
         The formula, such as ``"mean(isolator.damping*velocity**2)"``.
-    known
+    histories, parameters
         Names of the time histories and parameters that the rig has.
 
     Raises
@@ -130,13 +118,15 @@ def read_output_formula(text: str, known: tuple[str, ...]) -> OutputFormula:
         raise InputError(
             f"{shown(text)} cannot be read; a formula such as 'max(abs(velocity))' is accepted"
         ) from None
-    made = OutputFormula(text, tuple(dict.fromkeys(_names(tree, known))))
+    names = tuple(dict.fromkeys(_names(tree, histories, parameters)))
+    held = tuple(name for name in names if name in histories)
+    made = OutputFormula(text, held, tuple(name for name in names if name not in histories))
     some = np.array([0.0, 1.0])
-    made.value(some, {name: some if name in HISTORIES else 1.0 for name in made.names})
+    made.value(some, {name: some if name in histories else 1.0 for name in names})
     return made
 
 
-def _names(part: ast.AST, known: tuple[str, ...]) -> list[str]:
+def _names(part: ast.AST, histories: tuple[str, ...], parameters: tuple[str, ...]) -> list[str]:
     """Return the names in a part of the tree, and refuse what formulas do not accept."""
     match part:
         case ast.Constant(value=bool()):
@@ -147,22 +137,25 @@ def _names(part: ast.AST, known: tuple[str, ...]) -> list[str]:
             name = ast.unparse(part)
             if name in CONSTANTS:
                 return []
+            known = (*histories, *parameters)
             if name not in known and canonical(name, known) not in known:
-                histories = [one for one in known if one in HISTORIES]
+                some = [*[one for one in parameters if one != "frequency"][:2], "frequency"]
+                parts = [one for one in known if one.startswith(f"{name}.")]
+                near = f"did you mean {parts[0]}? " if parts else suggestion(name, known)
                 raise InputError(
                     f"{name!r} is neither a time history nor a parameter of the rig; "
-                    f"{suggestion(name, known)}{', '.join(histories)}, and parameters such as "
-                    "mass, isolator.damping and frequency are accepted"
+                    f"{near}{', '.join(histories)}, and parameters such as "
+                    f"{', '.join(some)} are accepted"
                 )
             return [name]
         case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=one):
-            return _names(one, known)
+            return _names(one, histories, parameters)
         case ast.BinOp(op=ast.BitXor()):
             raise InputError(f"{ast.unparse(part)!r}: ^ is not a power here; write **")
         case ast.BinOp(left=one, op=op, right=other) if type(op) in _OPERATORS:
-            return [*_names(one, known), *_names(other, known)]
+            return [*_names(one, histories, parameters), *_names(other, histories, parameters)]
         case ast.Compare(left=one, ops=[op], comparators=[other]) if type(op) in _OPERATORS:
-            return [*_names(one, known), *_names(other, known)]
+            return [*_names(one, histories, parameters), *_names(other, histories, parameters)]
         case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
             if name not in FUNCTIONS:
                 raise InputError(
@@ -171,7 +164,7 @@ def _names(part: ast.AST, known: tuple[str, ...]) -> list[str]:
                 )
             if not (len(args) == 1 or (name in ("max", "min") and len(args) > 1)):
                 raise InputError(f"{ast.unparse(part)!r}: {name} has one argument")
-            return [found for one in args for found in _names(one, known)]
+            return [found for one in args for found in _names(one, histories, parameters)]
         case _:
             pass
     raise InputError(

@@ -10,17 +10,12 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 import xarray as xr
 
-from vibroimpact.datasets.stops import SIDES, quantity, stops_of
+from vibroimpact.datasets.stops import quantity, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Rig, State
+from vibroimpact.model import Assembly, AssemblyState, Rig, State
 from vibroimpact.model.parameters import parameter, parameters
-from vibroimpact.response.output_formula import (
-    HISTORIES,
-    OF_STOPS,
-    OutputFormula,
-    read_output_formula,
-)
+from vibroimpact.response.output_formula import OutputFormula, read_output_formula
 from vibroimpact.response.simulate import compute_history
 
 SAMPLES = 256
@@ -44,7 +39,8 @@ class Output:
           ``mean``, ``rms`` and ``integral`` (over the time) make a number of a time history.
           Further functions are ``abs``, ``sqrt``, ``exp``, ``log``, ``sin``, ``cos``, ``tanh`` and
           ``sign``. An example is
-          ``"mean(isolator.damping*velocity**2)"``, the mean power of the dashpot.
+          ``"mean(isolator.damping*velocity**2)"``, the mean power of the dashpot. Of an assembly,
+          the time histories have names such as ``velocity.roof`` and ``contact_force.moat_right``.
         - A function receives the dataset of `simulate` over one period, and returns a number.
     units
         Units of the result, such as ``"W"``. Default: ``"1"``, no units.
@@ -161,7 +157,7 @@ def read_outputs(outputs: Outputs | None, rig: Rig) -> tuple[NamedOutput, ...]:
         try:
             one = given if isinstance(given, Output) else Output(given)
             function = (
-                read_output_formula(one.function, _known(rig))
+                read_output_formula(one.function, histories_of(rig), _parameters_of(rig))
                 if isinstance(one.function, str)
                 else one.function
             )
@@ -174,7 +170,7 @@ def read_outputs(outputs: Outputs | None, rig: Rig) -> tuple[NamedOutput, ...]:
 
 
 def computed(
-    outputs: tuple[NamedOutput, ...], rig: Rig, start: State, cycles: int
+    outputs: tuple[NamedOutput, ...], rig: Rig, start: State | AssemblyState, cycles: int
 ) -> tuple[float, ...]:
     """Compute own outputs of the motion of a rig from a state over some forcing cycles.
 
@@ -206,18 +202,27 @@ def about(outputs: tuple[NamedOutput, ...]) -> dict[str, Any]:
     return {"outputs": {one.name: one.comment for one in outputs}}
 
 
-def _known(rig: Rig) -> tuple[str, ...]:
-    """Return the names that a formula may contain."""
-    moves, remembers = rig.hardest.periodic.moves_base, rig.oscillator.isolator.remembers
-    absent = {"applied_force" if moves else "base_acceleration"}
-    if not remembers:
-        absent.add("isolator_memory")
-    held = stops_of(rig.oscillator)
-    absent |= {f"{name}.{side}" for name in OF_STOPS for side in SIDES if side not in held}
-    return (
-        *(name for name in HISTORIES if name not in absent),
-        *(name for name in parameters(rig) if name == "frequency" or _has(rig.hardest, name)),
-    )
+def histories_of(rig: Rig) -> tuple[str, ...]:
+    """Return the names of the time histories of `simulate` that a formula may contain."""
+    system = rig.system
+    of_masses, of_stops = ["displacement", "velocity", "acceleration"], ["deformation", "clearance"]
+    of_rig = ["base_acceleration" if rig.hardest.periodic.moves_base else "applied_force"]
+    of_rig.append("transmitted_force")
+    if isinstance(system, Assembly):
+        of_masses = [f"{name}.{mass}" for name in of_masses for mass in system.names]
+        of_stops.append("contact_force")
+        stops = list(system.stops)
+    else:
+        of_stops.append("touching")
+        stops = stops_of(system).tolist()
+        of_rig += ["isolator_memory"] if system.isolator.remembers else []
+    each = [f"{name}.{stop}" for name in of_stops for stop in stops]
+    return (*of_masses, *of_rig, *each, "time")
+
+
+def _parameters_of(rig: Rig) -> tuple[str, ...]:
+    """Return the names of the parameters that a formula may contain."""
+    return tuple(name for name in parameters(rig) if name == "frequency" or _has(rig.hardest, name))
 
 
 def _has(rig: Rig, name: str) -> bool:
@@ -230,10 +235,6 @@ def _has(rig: Rig, name: str) -> bool:
 
 def _values(output: NamedOutput, rig: Rig, motion: xr.Dataset) -> dict[str, Any]:
     assert isinstance(output.function, OutputFormula)
-    found: dict[str, Any] = {}
-    for name in output.function.names:
-        if name in HISTORIES:
-            found[name] = quantity(motion, name).values * 1.0
-        else:
-            found[name] = parameter(name, rig).read(rig)
-    return found
+    made = output.function
+    histories = {name: quantity(motion, name).values * 1.0 for name in made.histories}
+    return histories | {name: parameter(name, rig).read(rig) for name in made.parameters}

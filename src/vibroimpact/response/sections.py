@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
-from vibroimpact.datasets.stops import by_stop, stops_of
+from vibroimpact.datasets.stops import by_stop
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
@@ -19,10 +19,10 @@ from vibroimpact.model.argument_types import PositiveInt, check_samples
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.rig import Rig, System
-from vibroimpact.response.assembly_contacts import coordinates
 from vibroimpact.response.assembly_rig import check_size
+from vibroimpact.response.assembly_rows import names_of_parts
 from vibroimpact.response.contacts import contacts
-from vibroimpact.response.cyclic_motion import cyclic_motion
+from vibroimpact.response.motion_phases import recorded
 from vibroimpact.response.prepared_rig import prepare
 from vibroimpact.response.section_states import SectionStates
 
@@ -59,7 +59,7 @@ def stroboscopic_section(
     InputError
         If the dataset does not hold a motion with samples, or if a value is invalid.
     """
-    origin = cyclic_motion(motion)
+    origin = recorded(motion, masses=True)
     if isinstance(origin.system, Assembly):
         check_size(origin.system)
     angle = to_si(phase, ANGLE, "phase")
@@ -68,7 +68,7 @@ def stroboscopic_section(
     engine = prepare(Rig(origin.system, origin.shaking))
     states = engine.states
     state = engine.state(states.read(motion["initial_state"]))
-    ahead = ((angle - origin.shaking.phase) / (2.0 * math.pi)) % 1.0
+    ahead = ((angle - origin.repeated.phase) / (2.0 * math.pi)) % 1.0
     status = Status.DONE
     if ahead > 0.0:
         status, state = engine.propagate(state, ahead, _MAX_EVENTS)
@@ -122,14 +122,6 @@ def section_variables(
     }
 
 
-def names_of_parts(system: System) -> dict[str, Any]:
-    """Return the names of masses and stops as coordinates of a dataset."""
-    if isinstance(system, Oscillator):
-        return {"stop": stops_of(system)}
-    names = coordinates(system)
-    return {"mass": names["mass"], "stop": names["stop"]}
-
-
 def impact_section(motion: xr.Dataset) -> xr.Dataset:
     """Compute the impact section: forcing phase and velocity at the start of each contact.
 
@@ -149,7 +141,7 @@ def impact_section(motion: xr.Dataset) -> xr.Dataset:
     InputError
         If the dataset does not hold a motion with samples.
     """
-    cyclic_motion(motion)  # its phases are asked for
+    recorded(motion, masses=True)  # its phases are asked for
     log = contacts(motion)
     chosen = log[["contact_stop", "contact_start", "contact_start_phase", "contact_start_velocity"]]
     chosen.attrs["created_by"] = "vibroimpact.impact_section"

@@ -10,19 +10,25 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import (
-    COMPONENTS,
     describe,
     excitation_parameters,
     noted,
-    oscillator_parameters,
+    system_parameters,
 )
-from vibroimpact.datasets.stops import stops_of
-from vibroimpact.engine import batch
+from vibroimpact.engine.assembly.record import E_ORDERED
 from vibroimpact.engine.motion import U
-from vibroimpact.engine.observers import record
+from vibroimpact.engine.observers import record as observed
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_result
-from vibroimpact.model import Assembly, AssemblyState, Record, Repeated, State, equilibrium, to_si
+from vibroimpact.model import (
+    Assembly,
+    AssemblyState,
+    Oscillator,
+    Record,
+    Repeated,
+    State,
+    to_si,
+)
 from vibroimpact.model.argument_types import (
     MOST_TAIL,
     MaxEvents,
@@ -32,20 +38,26 @@ from vibroimpact.model.argument_types import (
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses
-from vibroimpact.model.rig import Rig
+from vibroimpact.model.rig import Rig, System
 from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.assembly_motion import compute_assembly_history
-from vibroimpact.response.engine_input import as_state, components, engine_rig, engine_state
+from vibroimpact.response.assembly_rig import check_laws
+from vibroimpact.response.assembly_rows import names_of_parts
+from vibroimpact.response.assembly_state import assembly_vector
+from vibroimpact.response.engine_input import engine_state
 from vibroimpact.response.history_variables import (
-    EVENTS_AT_ONCE,
+    doubts_by_mass,
     listed,
+    listed_by_mass,
     sampled,
+    sampled_by_mass,
     transmitted,
 )
 from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops
-from vibroimpact.response.record_history import through
+from vibroimpact.response.record_dataset import record_parameters
+from vibroimpact.response.record_history import base_acceleration
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.softening_limit import ended
-from vibroimpact.tasks.interruptible import Calls
+from vibroimpact.response.written_motion import WrittenMotion
 from vibroimpact.tasks.threads import Progress
 
 
@@ -156,11 +168,7 @@ def compute_history(
                 "time after the record, pass tail)"
             )
         behind = 0.0 if tail is None else to_si(tail, TIME, "tail", minimum=0.0, maximum=MOST_TAIL)
-        if isinstance(rig.system, Assembly):
-            return compute_assembly_history(
-                rig, excitation, behind, start, samples, max_events, progress
-            )
-        return through(rig, behind, start, samples, max_events, progress)
+        return _history(rig.system, excitation, behind, start, samples, max_events, progress)
     if tail is not None:
         raise InputError(
             f"tail: {tail!r}, but no Record shakes this rig; remove tail, and set the duration by "
@@ -170,86 +178,116 @@ def compute_history(
         raise InputError("cycles: missing; pass the number of forcing cycles, such as 100")
     length = to_si(cycles, DIMENSIONLESS, "cycles", above=0.0)
     check_samples(length, samples, "cycles")
+    data = _history(rig.system, excitation, length, start, samples, max_events, progress)
     if isinstance(rig.system, Assembly):
-        return compute_assembly_history(
-            rig, excitation, length, start, samples, max_events, progress
-        )
-    oscillator = rig.oscillator
-    if oscillator.isolator.linear:  # in closed form about its steady motion, which is none there
-        check_bounded(Rig(oscillator, excitation))
-    state = equilibrium(oscillator) if start is None else as_state(start)
-    phase = excitation.phase if state.phase is None else state.phase
-    vector = engine_state(oscillator, state)
-    first = components(vector, phase)
+        return data
+    notes = [*noted(data), *note_stiff_stops(rig, excitation.frequency)]
+    return describe(data, "vibroimpact.simulate", notes=notes)
 
-    count = math.ceil(length * samples - 1e-9) + 1 if samples else 0
-    out = np.empty((record.SAMPLE, count))
-    capacity = max_events + 1 + (EVENTS_AT_ONCE if samples else 0)
-    buffer = np.empty((capacity, record.EVENT))
-    found = []
-    vector_of_rig = engine_rig(Rig(oscillator, excitation))
-    at = 0
-    outcome = int(Status.DONE)
-    calls = Calls(length, progress)
-    while at < length and outcome == Status.DONE:
-        at, events, outcome = batch.trajectory(
-            vector_of_rig,
-            excitation.amplitude,
-            excitation.frequency,
-            phase,
-            vector,
-            float(at),
-            calls.end(at),
-            samples,
-            max_events,
-            out,
-            buffer,
-        )
-        if samples:
-            found.append(buffer[:events].copy())
-    status = Status(outcome)
-    told = ended(oscillator, status, out[record.DISPLACEMENT], vector[U])
-    if status is not Status.DONE:
-        # The cycle that was given up is left out; its events until then are kept.
-        finished = max(at - 1, 0)
-        warn_of_result(f"simulate stopped in cycle {finished}: {told.advice}")
-        out = out[:, : finished * samples]
-        length = float(finished)
+
+def _history(
+    system: System,
+    shaking: Repeated | Record,
+    length: float,
+    start: State | AssemblyState | xr.DataArray | xr.Dataset | None,
+    samples: int,
+    max_events: int,
+    progress: Progress | None,
+) -> xr.Dataset:
+    """Follow a motion, and return what was written down of it; ``length`` as of `WrittenMotion`."""
+    record = shaking if isinstance(shaking, Record) else None
+    if isinstance(system, Assembly):
+        check_laws(system)
+    elif record is None and system.isolator.linear:
+        check_bounded(Rig(system, shaking))  # in closed form about its steady motion
+    states = SectionStates(system)
+    state: Any = states.read(start)
+    phase, ends = 0.0, length
+    if isinstance(shaking, Record):
+        ends = shaking.duration + length
+    else:
+        phase = shaking.phase if state.phase is None else state.phase
+    vector = (
+        assembly_vector(system, state)
+        if isinstance(system, Assembly)
+        else engine_state(system, state)
+    )
+    first = states.components(vector, phase)
+    run = WrittenMotion(system, shaking, length, phase, vector, samples, max_events)
+    finished = run.follow(progress)
+    told = run.status
+    if isinstance(system, Oscillator):
+        told = ended(system, run.status, run.out[observed.DISPLACEMENT], vector[U])
+    if run.status is not Status.DONE:
+        run.cut(finished)
+        ends = finished * (record.step if record else 1.0)
+        where = f"{ends:g} s into the record" if record else f"in cycle {finished}"
+        warn_of_result(f"simulate stopped {where}: {told.advice}")
+    elif told is not run.status:
+        warn_of_result(f"simulate: {told.advice}")
+    reached = 0.0 if record else phase + 2.0 * math.pi * (ends % 1.0)
     variables: dict[str, Any] = {
-        "final_state": ("component", components(vector, phase + 2.0 * math.pi * (length % 1.0))),
+        "final_state": ("component", states.components(run.state, reached))
     }
-    coordinates: dict[str, Any] = {"component": COMPONENTS}
+    coordinates: dict[str, Any] = {"component": states.names}
+    notes: list[str] = [] if record is None else [*record.about.notes]
+    if isinstance(system, Assembly):
+        rows = np.concatenate(run.events)
+        variables["simultaneous_impacts"] = int(rows[:, E_ORDERED].sum())
+        doubts = doubts_by_mass(rows, run.undecided, run.section)
+        for one in doubts:
+            warn_of_result(f"simulate: {one}")
+        notes += doubts
     if samples:
-        complete = status is Status.DONE
-        cycle = _cycles(out.shape[1], samples, length if complete else None)
-        coordinates["stop"] = stops_of(oscillator)
-        coordinates["time"] = cycle / excitation.frequency
-        coordinates["cycle"] = ("time", cycle)
         variables["initial_state"] = ("component", first)
-        variables |= sampled(out, oscillator)
-        name, values = _shaking(excitation, phase, cycle, samples)
-        variables[name] = ("time", values)
-        variables |= listed(found, 1.0 / excitation.frequency, oscillator)
-        forces: tuple[Any, ...] = ()
-        if not excitation.moves_base:
-            _, since = variables["event_cycle_time"]
-            forces = values, excitation.at(excitation.angular_frequency * since + phase)
-        variables |= transmitted(variables, oscillator, *forces)
+        coordinates |= names_of_parts(system)
+        variables |= _variables(run, system, ends, coordinates)
     variables["status"] = int(told)
     data = xr.Dataset(variables, coordinates)
-    if status is Status.DONE and told is not status:
-        warn_of_result(f"simulate: {told.advice}")
     data.attrs["message"] = told.advice
-    return describe(
-        data,
-        "vibroimpact.simulate",
-        {
-            "oscillator": oscillator_parameters(oscillator),
-            **excitation_parameters(excitation.replace(phase=phase)),
-            "cycles": length,
-        },
-        note_stiff_stops(rig, excitation.frequency),
-    )
+    parameters = system_parameters(system)
+    if isinstance(shaking, Record):
+        parameters |= {"record": record_parameters(shaking), "tail": length}
+    else:
+        parameters |= {**excitation_parameters(shaking.replace(phase=phase)), "cycles": ends}
+    return describe(data, "vibroimpact.simulate", parameters, notes)
+
+
+def _variables(
+    run: WrittenMotion, system: System, ends: float, coordinates: dict[str, Any]
+) -> dict[str, Any]:
+    """Return samples and events, and write the times of the samples into the coordinates."""
+    shaking, samples, count = run.shaking, run.samples, run.out.shape[1]
+    name = "base_acceleration"
+    if isinstance(shaking, Record):
+        time = np.minimum(np.arange(count) * (shaking.step / samples), ends)
+        coordinates["time"] = time
+        values = base_acceleration(shaking, time, samples)
+    else:
+        cycle = _cycles(count, samples, ends if run.status is Status.DONE else None)
+        coordinates["time"] = cycle / shaking.frequency
+        coordinates["cycle"] = ("time", cycle)
+        name, values = _shaking(shaking, run.phase, cycle, samples)
+    if isinstance(system, Assembly):
+        on = None
+        if name == "applied_force":
+            assert not isinstance(shaking, Record)
+            on = shaking.on or system.names[0]
+        found = sampled_by_mass(run.out, system, values, on)
+        events = listed_by_mass(np.concatenate(run.events), run.interval, system)
+    else:
+        found = sampled(run.out, system)
+        events = listed(run.events, run.interval, system)
+    if isinstance(shaking, Record):  # a record has steps, not cycles
+        events = {name: one for name, one in events.items() if "cycle" not in name}
+    found |= {name: ("time", values), **events}
+    if isinstance(system, Oscillator):
+        forces: tuple[Any, ...] = ()
+        if not isinstance(shaking, Record) and not shaking.moves_base:
+            _, since = found["event_cycle_time"]
+            forces = values, shaking.at(shaking.angular_frequency * since + run.phase)
+        found |= transmitted(found, system, *forces)
+    return found
 
 
 def _cycles(count: int, samples: int, length: float | None) -> NDArray[np.float64]:

@@ -12,9 +12,7 @@ from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, to_si
 from vibroimpact.model.quantities import DIMENSIONLESS
-from vibroimpact.response.assembly_contacts import fourier_integrals_by_mass
-from vibroimpact.response.cyclic_motion import CyclicMotion, cyclic_motion
-from vibroimpact.response.motion_phases import fourier_integrals, recorded
+from vibroimpact.response.motion_phases import Origin, fourier_integrals, recorded
 from vibroimpact.response.sine_fit import forcing_sine
 
 _Complex = NDArray[np.complex128]
@@ -62,7 +60,7 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     check_variables(motion, (), "motion", "the result of simulate or steady")
     if motion.attrs.get("kind") == "history" and "event_time" not in motion:
         return _of_measured(motion, limit)
-    origin = cyclic_motion(motion)
+    origin = recorded(motion, masses=True)
     if origin.periodic:
         n = int(motion["period"])
         if limit * n > MOST_LINES:
@@ -75,7 +73,7 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
         order, lines, cycles = _windowed(motion, origin, limit)
         method = f"Hann window over {cycles} forcing cycles"
     data = xr.Dataset(coords={"order": order})
-    data.coords["line_frequency"] = ("order", order * origin.shaking.frequency)
+    data.coords["line_frequency"] = ("order", order * origin.repeated.frequency)
     dims = ("order", "mass") if "mass" in motion.dims else ("order",)
     for name, values in zip(_QUANTITIES, lines, strict=True):
         data[f"{name}_amplitude"] = (dims, np.abs(values))
@@ -86,19 +84,16 @@ def fourier_spectrum(motion: xr.Dataset, highest: float = 50.0) -> xr.Dataset:
     return describe(data, "vibroimpact.fourier_spectrum", motion_parameters(motion), noted(motion))
 
 
-def _exact(motion: xr.Dataset, origin: CyclicMotion, order: NDArray[np.float64]) -> list[_Complex]:
+def _exact(motion: xr.Dataset, origin: Origin, order: NDArray[np.float64]) -> list[_Complex]:
     """Compute complex amplitudes of u, u̇ and ü + A_t at the given orders."""
-    rates = order * origin.shaking.angular_frequency
-    scale = np.where(order == 0.0, 1.0, 2.0) / (origin.cycles * origin.shaking.period)
-    if isinstance(origin.system, Assembly):
-        several = fourier_integrals_by_mass(motion, rates)
-        return [(part.T * scale).T for part in several]
-    found = fourier_integrals(motion, recorded(motion), rates)
-    return [(real + 1j * imaginary) * scale for real, imaginary in found.reshape(3, 2, -1)]
+    rates = order * origin.repeated.angular_frequency
+    scale = np.where(order == 0.0, 1.0, 2.0) / (origin.cycles * origin.repeated.period)
+    found = fourier_integrals(motion, origin, rates) * scale[:, np.newaxis]
+    return [*(found if isinstance(origin.system, Assembly) else found[..., 0])]
 
 
 def _windowed(
-    motion: xr.Dataset, origin: CyclicMotion, highest: float
+    motion: xr.Dataset, origin: Origin, highest: float
 ) -> tuple[NDArray[np.float64], list[_Complex], int]:
     """Compute orders, complex amplitudes, and the number of cycles used (the first whole ones)."""
     samples = int(np.searchsorted(motion["cycle"].values, 1.0 - 1e-9))

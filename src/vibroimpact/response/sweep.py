@@ -6,9 +6,8 @@ motion at the next frequency starts from the final state and phase.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -16,15 +15,13 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list
 from vibroimpact.datasets.description import (
-    COMPONENTS,
     describe,
     rig_parameters,
 )
-from vibroimpact.engine import batch, hold
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine import batch
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, AssemblyState, State, to_si
+from vibroimpact.model import Assembly, State, to_si
 from vibroimpact.model.argument_types import (
     MaxEvents,
     PositiveInt,
@@ -34,31 +31,21 @@ from vibroimpact.model.periodic_shaking import as_periodic
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.quantity_lists import read_rising
-from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, as_rigs, as_rigs_of_any_masses
+from vibroimpact.model.read_rig import AnyRig, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_sweep import sweep_assemblies, sweep_assembly
-from vibroimpact.response.engine_input import as_state, state_from
+from vibroimpact.response.assembly_rows import check_alike, notes_on
 from vibroimpact.response.hold_rows import HoldRows, Settling
-from vibroimpact.response.outputs import (
-    NamedOutput,
-    Outputs,
-    about,
-    add_outputs,
-    computed,
-    read_outputs,
-)
+from vibroimpact.response.outputs import Outputs, about, read_outputs
 from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops, note_unbounded
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.response.sweep_arrays import plan_sweep, rows
 from vibroimpact.response.sweep_dataset import sweep_dataset
+from vibroimpact.response.sweep_outputs import add_sweep_outputs
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress, each
 
 DIRECTIONS = ("forward", "backward")
-_NO_OUTPUTS = (
-    "outputs: own outputs are not computed for an Assembly of several masses so far; remove outputs"
-)
 
 
 @public
@@ -117,19 +104,6 @@ def sweep(
     InputError
         If a value is invalid.
     """
-    rig = as_rig_of_any_masses(rig)
-    if isinstance(rig.system, Assembly):
-        return _of_several_masses(
-            rig,
-            frequencies,
-            directions,
-            start,
-            phase,
-            Settling(tolerance, max_cycles, window, max_events),
-            outputs,
-            threads,
-            progress,
-        )
     data = sweeps(
         [rig],
         frequencies,
@@ -147,35 +121,6 @@ def sweep(
     data = data.isel(rig=0, drop=True)
     data.attrs["created_by"] = "vibroimpact.sweep"
     return data
-
-
-def _of_several_masses(
-    rig: Rig,
-    frequencies: Iterable[float | str],
-    directions: Sequence[str],
-    start: Any,
-    phase: float | str,
-    settling: Settling,
-    outputs: Outputs | None,
-    threads: int | None,
-    progress: Progress | None,
-) -> xr.Dataset:
-    """Return the sweep of an assembly, the arguments read."""
-    as_periodic(rig.shaking, "shaking")
-    if outputs is not None:
-        raise InputError(_NO_OUTPUTS)
-    state = SectionStates(rig.system).read(start)
-    assert isinstance(state, AssemblyState)
-    return sweep_assembly(
-        rig,
-        check_frequencies(frequencies),
-        _directions(directions),
-        state,
-        to_si(phase, ANGLE, "phase") if state.phase is None else state.phase,
-        settling,
-        workers_for(threads),
-        progress,
-    )
 
 
 @public
@@ -248,33 +193,21 @@ def sweeps(
         If a value is invalid.
     """
     named = periodic_rigs(rigs, any_masses=True)
-    if any(isinstance(rig.system, Assembly) for rig in named.values()):
-        if outputs is not None:
-            raise InputError(_NO_OUTPUTS)
-        starts = {name: SectionStates(rig.system).read(start) for name, rig in named.items()}
-        begin = next(iter(starts.values())).phase
-        return sweep_assemblies(
-            named,
-            check_frequencies(frequencies),
-            _directions(directions),
-            starts,  # type: ignore[arg-type]
-            to_si(phase, ANGLE, "phase") if begin is None else begin,
-            Settling(tolerance, max_cycles, window, max_events),
-            workers_for(threads, where),
-            progress,
-        )
+    several = any(isinstance(rig.system, Assembly) for rig in named.values())
+    if several:
+        check_alike({k: rig.system for k, rig in named.items()}, "rigs", "mass", "stop")
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     directions = _directions(directions)
     angle = to_si(phase, ANGLE, "phase")
-    state = None if start is None else as_state(start)
-    if state is not None and state.phase is not None:
-        angle = state.phase
+    starts = [None if start is None else SectionStates(rig.system).read(start) for rig in pairs]
+    if starts[0] is not None and starts[0].phase is not None:
+        angle = starts[0].phase
     settling = Settling(tolerance, max_cycles, window, max_events)
     workers = workers_for(threads, where)
 
     own = [read_outputs(outputs, rig) for rig in pairs]
-    ready = [plan_sweep(rig, grid, state) for rig in pairs]
+    ready = [plan_sweep(rig, grid, one) for rig, one in zip(pairs, starts, strict=True)]
 
     batch.sweep.prepare(*(one.rig for one in ready))  # once, before the threads would queue for it
     items = [(one, direction) for one in ready for direction in directions]
@@ -288,11 +221,19 @@ def sweeps(
         progress=progress and (lambda done, _: progress(done, total)),
     )
     shape = (len(pairs), len(directions), len(grid))
-    results = np.array([found for found, _ in done]).reshape(*shape, hold.RESULTS)
-    states = np.array([reached for _, reached in done]).reshape(*shape, layout.STATE)
+    results = np.array([found for found, _ in done]).reshape(*shape, -1)
+    states = np.array([reached for _, reached in done]).reshape(*shape, -1)
     del done  # as large as both
+    about_sweeps = {
+        "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
+        "phase": angle,
+        **settling._asdict(),
+        **about(own[0]),
+    }
     doubts: list[str] = []
     for r, rig in enumerate(pairs):
+        if isinstance(rig.system, Assembly):
+            continue
         oscillator, held, hardest = rig.oscillator, HoldRows(results[r]), rig.hardest
         swing = held.peak_displacement
         held.status[...] = judged(oscillator, held.status, swing)
@@ -301,67 +242,14 @@ def sweeps(
             *note_unbounded(hardest),
             *note_stiff_stops(hardest, float(grid[0])),
         ]
-    free = np.stack([one.free for one in ready], axis=1)
-    largest = np.stack([one.largest for one in ready], axis=1)
-    exciting = np.array([one.exciting for one in ready])
-    data = sweep_dataset(
-        [rig.oscillator for rig in pairs], results, states, free, largest, exciting, angle
-    )
-    data = data.assign_coords(
-        rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
-    )
+    if isinstance(pairs[0].system, Assembly):
+        doubts = notes_on(pairs[0].system, results, "motions")
+    data = sweep_dataset([rig.system for rig in pairs], ready, results, states, angle)
+    data = data.assign_coords(rig=names, direction=list(directions), frequency=grid)
     if outputs:
-        holds = [
-            _Hold(r, rig, float(ready[r].levels[i]), float(grid[i]), angle, states[r, d, i])
-            for r, rig in enumerate(pairs)
-            for d in range(len(directions))
-            for i in range(len(grid))
-        ]
-        rows_of = HoldRows(results.reshape(-1, hold.RESULTS))
-        lengths = np.where(rows_of.period > 0, rows_of.period, window)
-        lengths[~np.isin(rows_of.status, (Status.DONE, Status.NOT_SETTLED))] = 0
-        # Functions travel to other processes with the task, which may be any code; items may not.
-        values = each(
-            lambda item, _: item[0].outputs(own[item[0].number], item[1]),
-            list(zip(holds, lengths.tolist(), strict=True)),
-            threads=workers,
-            progress=progress and (lambda done, _: progress(steps + done, total)),
-        )
-        add_outputs(data, own[0], np.reshape(values, (*shape, len(own[0]))))
-    return describe(
-        data,
-        "vibroimpact.sweeps",
-        {
-            "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
-            "phase": angle,
-            **settling._asdict(),
-            **about(own[0]),
-        },
-        dict.fromkeys(doubts),
-        own[0],
-    )
-
-
-class _Hold(NamedTuple):
-    """The motion at which a hold of a sweep ended."""
-
-    number: int
-    """Number of the rig."""
-    rig: Rig
-    amplitude: float
-    frequency: float
-    phase: float
-    state: NDArray[np.float64]
-
-    def outputs(self, own: tuple[NamedOutput, ...], cycles: int) -> tuple[float, ...]:
-        """Compute own outputs over some forcing cycles; NaN if there are none."""
-        if not cycles:
-            return (math.nan,) * len(own)
-        shaken = self.rig.hardest.periodic.replace(
-            amplitude=self.amplitude, frequency=self.frequency, phase=self.phase
-        )
-        start = state_from(self.state, self.phase)
-        return computed(own, Rig(self.rig.oscillator, shaken), start, cycles)
+        levels = [one.levels for one in ready]
+        add_sweep_outputs(data, own, pairs, levels, angle, states, window, workers, progress)
+    return describe(data, "vibroimpact.sweeps", about_sweeps, dict.fromkeys(doubts), own[0])
 
 
 def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]:

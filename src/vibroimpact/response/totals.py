@@ -6,11 +6,17 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, motion_parameters, noted
 from vibroimpact.engine.observers import phases as layout
-from vibroimpact.response.assembly_contacts import assembly_totals, has_assembly
-from vibroimpact.response.motion_phases import SIDES, Phases, Recorded, any_recorded, phases
+from vibroimpact.model import Assembly
+from vibroimpact.model.rig import System
+from vibroimpact.response.assembly_rows import coordinates, range_variables
+from vibroimpact.response.motion_phases import Phases, phases, recorded
+from vibroimpact.response.stored_energy import StoredEnergy
+
+_Array = NDArray[np.float64]
 
 
 def totals(motion: xr.Dataset) -> xr.Dataset:
@@ -46,19 +52,12 @@ def totals(motion: xr.Dataset) -> xr.Dataset:
     InputError
         If the dataset does not hold a motion with samples.
     """
-    if has_assembly(motion):
-        return assembly_totals(motion)
-    origin = any_recorded(motion)
-    every = phases(motion, origin)
-    supplied, isolator, bumpers = energies(origin, every)
-    values = {
-        **extremes(origin, every),
-        "total_supplied": supplied,
-        "total_isolator": isolator,
-        "total_bumpers": bumpers,
-    }
-    notes = [*noted(motion), *_begins_with_an_impact(motion), *every.notes]
-    return describe(xr.Dataset(values), "vibroimpact.totals", motion_parameters(motion), notes)
+    origin = recorded(motion, masses=True, records=True)
+    found = phases(motion, origin)
+    data = xr.Dataset({**extremes(found), **energies(found)}, coordinates(origin.system))
+    begins = [] if "mass" in motion.dims else _begins_with_an_impact(motion)
+    notes = [*noted(motion), *begins, *found.notes, *energy_notes(origin.system)]
+    return describe(data, "vibroimpact.totals", motion_parameters(motion), notes)
 
 
 def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
@@ -75,48 +74,85 @@ def _begins_with_an_impact(motion: xr.Dataset) -> list[str]:
     ]
 
 
-def extremes(origin: Recorded[Any], every: Phases) -> dict[str, float]:
-    """Return extremes and excursions of a motion.
+def energy_notes(system: System) -> list[str]:
+    """Say which energies are not known, if so."""
+    if not isinstance(system, Assembly):
+        return []
+    lossy = StoredEnergy(system).lossy
+    if lossy.sum() < 2:
+        return []
+    names = [name for name, loses in zip(system.links, lossy, strict=True) if loses]
+    return [
+        f"links: total_links of {', '.join(names)} is NaN; only the sum of their losses is known, "
+        "from the balance of the other energies"
+    ]
 
-    The force on the base is F_0 − M (ü + A_t), F_0 the constant force and A_t the acceleration of
-    the base, or what stands for a force on the mass.
-    """
-    low, high, bottom, top = (
-        float(end(every.of_mass(column)))
-        for column, end in (
-            (layout.U_LEAST, np.min),
-            (layout.U_MOST, np.max),
-            (layout.A_LEAST, np.min),
-            (layout.A_MOST, np.max),
-        )
-    )
-    mass, load = origin.oscillator.mass, origin.oscillator.force
-    least_force = load - mass * float(every.rows[:, layout.CARRIED_MOST].max())
-    most_force = load - mass * float(every.rows[:, layout.CARRIED_LEAST].min())
+
+def extremes(found: Phases) -> dict[str, Any]:
+    """Return the extremes of a motion, of an assembly also forces, impulses and impacts by stop."""
+
+    def spread(name: str, low: _Array, high: _Array, *dims: str) -> dict[str, Any]:
+        return range_variables(name, low.min(axis=0), high.max(axis=0), dims)
+
+    rows = found.rows
+    low, high = found.of_mass(layout.U_LEAST), found.of_mass(layout.U_MOST)
+    values = {
+        **spread("displacement", low, high, "mass"),
+        **spread(
+            "acceleration", found.of_mass(layout.A_LEAST), found.of_mass(layout.A_MOST), "mass"
+        ),
+        **spread("transmitted_force", rows[:, layout.CARRIED_LEAST], rows[:, layout.CARRIED_MOST]),
+        "eccentricity": ("mass", 0.5 * (low.min(axis=0) + high.max(axis=0))),
+    }
+    system = found.system
+    if not isinstance(system, Assembly):
+        return {
+            name: float(np.squeeze(value))
+            for name, (_, value) in values.items()
+            if not name.startswith("peak_")
+        }
+    at, count = found.impacts, len(found.stops)
+    stop = rows[at, layout.AT_STOP].astype(np.int64)
+    struck = np.bincount(stop, rows[at, layout.STRUCK], count)
+    pressed = found.pressed
+    begun = (pressed[1:] & ~pressed[:-1]).sum(axis=0)
+    rigid = np.array([one.stop.rigid for one in system.stops.values()], dtype=bool)
+    hit, force = np.bincount(stop, minlength=count), found.of_stop(layout.FORCE).max(axis=0)
+    drift = found.of_drift(layout.D_LEAST), found.of_drift(layout.D_MOST)
     return {
-        "displacement_max": high,
-        "displacement_min": low,
-        "displacement_excursion": high - low,
-        "acceleration_max": top,
-        "acceleration_min": bottom,
-        "acceleration_excursion": top - bottom,
-        "transmitted_force_max": most_force,
-        "transmitted_force_min": least_force,
-        "transmitted_force_excursion": most_force - least_force,
-        "eccentricity": 0.5 * (high + low),
+        **values,
+        **spread("drift", *drift, "link"),
+        "peak_force": ("stop", np.where(struck > 0.0, np.inf, force)),
+        "impact_count": ("stop", np.where(rigid, hit, begun)),
+        "impulse": ("stop", found.of_stop(layout.IMPULSE).sum(axis=0) + struck),
     }
 
 
-def energies(origin: Recorded[Any], every: Phases) -> tuple[float, float, float]:
-    """Return the energy (J) supplied, lost in the isolator and lost in the stops."""
-    mass = origin.oscillator.mass
-    stops = sum(
-        float(every.of_stop(column, number).sum())
-        for number in range(len(SIDES))
-        for column in (layout.LOSES, layout.HIT)
-    )
-    return (
-        -mass * float(every.rows[:, layout.WORK].sum()),
-        mass * float(every.rows[:, layout.LOST].sum()),
-        mass * stops,
-    )
+def energies(found: Phases) -> dict[str, Any]:
+    """Return the energies (J) of a motion; of an assembly by link and stop, and in balance.
+
+    The loss of one link beyond that of its dashpot follows from the balance; those of several do
+    not (NaN).
+    """
+    system, supplied = found.system, float(found.rows[:, layout.WORK].sum())
+    lost = float(found.rows[:, layout.LOST].sum())
+    stops = (found.of_stop(layout.LOSES) + found.of_stop(layout.HIT)).sum(axis=0)
+    if not isinstance(system, Assembly):
+        return {
+            "total_supplied": supplied,
+            "total_isolator": lost,
+            "total_bumpers": float(stops.sum()),
+        }
+    energy, links = StoredEnergy(system), found.of_drift(layout.D_LOST).sum(axis=0)
+    # The engine counts what a stop without memory takes up while it is touched, lost or not.
+    stops = stops - (energy.of_pressed(found.final) - energy.of_pressed(found.begin))
+    stored, damping = energy.of(found.final) - energy.of(found.begin), lost - links.sum()
+    rest = supplied - lost - stops.sum() - stored
+    links[energy.lossy] += rest if energy.lossy.sum() == 1 else np.nan
+    return {
+        "total_supplied": supplied,
+        "total_links": ("link", links),
+        "total_damping": float(damping),
+        "total_stops": ("stop", stops),
+        "total_stored": stored,
+    }

@@ -18,7 +18,7 @@ from vibroimpact.model.derived_parameters import scale_of
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.largest_free_response import peak_displacement
 from vibroimpact.model.parameter_ranges import entries, field_of
-from vibroimpact.model.parameters import PARAMETERS, canonical, usual
+from vibroimpact.model.parameters import PARAMETERS, canonical, set_values, usual
 from vibroimpact.model.periodic_shaking import ANY_FREQUENCY, as_periodic
 from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.rig import Rig
@@ -186,11 +186,6 @@ def one_sine(rig: Rig, where: str = "shaking") -> Rig:
     return Rig.of_open_frequency(oscillator, open_sine, rig.name)
 
 
-def _turn(name: str) -> int:
-    """When a parameter is set: before others, among them, or last."""
-    return int(name in ("relaxation_time", "gap_ratio")) - int(name == "isolator_period")
-
-
 def _peak(rig: Rig) -> float:
     return peak_displacement(rig.oscillator, scale_of(rig))
 
@@ -212,11 +207,7 @@ class Base(NamedTuple):
             If there is no stop to set, or the base has no dimensionless parameters.
         """
         self._check(values)
-        made = self.base
-        # Ratios are over the stiffness that the period sets; the gap ratio scales by what else is
-        # set, and the relaxation time sets the damping last.
-        for name in sorted(values, key=_turn):
-            made = PARAMETERS[name].vary(made, values[name])
+        made = set_values(self.base, values)
         physical = any(PARAMETERS[name].physical for name in values)
         if physical or "gap_ratio" in values or "damping_ratio" not in values:
             return made

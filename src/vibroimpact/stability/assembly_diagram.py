@@ -1,13 +1,11 @@
-"""Bifurcation diagrams of assemblies: states at each value, and their dataset."""
+"""States of assemblies from which bifurcation diagrams and basins begin."""
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.engine import hold
@@ -16,13 +14,10 @@ from vibroimpact.engine.state import FIRST
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, AssemblyState
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_rows import measured_variables, notes_on
 from vibroimpact.response.section_states import SectionStates
-from vibroimpact.response.sections import names_of_parts, section_variables
 from vibroimpact.stability.settled_motion import reach_at_rest
 
 if TYPE_CHECKING:
-    from vibroimpact.stability.diagram_point import Seen
     from vibroimpact.stability.parameter_sweep import Held
 
 _Array = NDArray[np.float64]
@@ -96,53 +91,3 @@ def _of_masses(held: Held, n: int) -> _Array:
     of_masses = held.measured.array[hold.MEASURED :][: measures.OF_MASS * n].reshape(n, -1)
     found: _Array = of_masses[:, [measures.U_LEAST, measures.U_MOST]]
     return found
-
-
-def assembly_diagram(
-    assembly: Assembly,
-    name: str,
-    values: _Array,
-    found: Mapping[str, list[Seen]],
-    phase: float,
-) -> tuple[xr.Dataset, list[str]]:
-    """Return a diagram with its names, and what was doubted of it."""
-    states = SectionStates(assembly)
-    seen = list(itertools.chain.from_iterable(found.values()))
-    shape, dims = (len(found), len(values)), ("start", name)
-    most = max((len(one.points) for one in seen), default=0)
-    points: _Array = np.full((len(seen), most, states.parts), np.nan)
-    for row, one in zip(points, seen, strict=True):
-        row[: len(one.points)] = one.points
-    points = points.reshape(*shape, most, states.parts)
-    measured = np.array([one.held.measured.array for one in seen])
-    measured[[one.status not in (Status.DONE, Status.NOT_SETTLED) for one in seen]] = np.nan
-    measured = measured.reshape(*shape, -1)
-    frequency = np.array([[one.held.found.excitation.frequency] for one in seen])
-    rates = {
-        "exponents": frequency * np.array([one.kind.exponents[:2] for one in seen]),
-        "exponents_uncertainty": frequency * np.array([one.kind.uncertainty[:2] for one in seen]),
-    }
-    scalars = {
-        "motion": np.array([one.kind.motion for one in seen]),
-        "period": np.array([one.kind.period for one in seen], dtype=np.int64),
-        "cycles": np.array([one.held.found.cycles for one in seen], dtype=np.int64),
-        "status": np.array([int(one.status) for one in seen], dtype=np.int64),
-    }
-    ends = np.array([states.components(one.held.found.state, phase) for one in seen])
-    variables: dict[str, Any] = {
-        **measured_variables(assembly, measured, dims),
-        **{key: (dims, value.reshape(shape)) for key, value in scalars.items()},
-        **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
-        **section_variables(assembly, points, (*dims, "section_point")),
-        "section": ((*dims, "component"), ends.reshape(*shape, -1)),
-    }
-    data = xr.Dataset(
-        variables,
-        {
-            "start": list(found),
-            name: values,
-            "component": states.names,
-            **names_of_parts(assembly),
-        },
-    )
-    return data, notes_on(assembly, measured, "motions")

@@ -19,16 +19,15 @@ from vibroimpact.arguments import (
     check_name,
 )
 from vibroimpact.datasets.description import (
-    COMPONENTS,
     describe,
     excitation_parameters,
     system_parameters,
 )
-from vibroimpact.datasets.stops import dims_of, stop_names, stops_of
+from vibroimpact.datasets.stops import stop_names
 from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Assembly, Oscillator, Rig, State
+from vibroimpact.model import Assembly, Rig, State
 from vibroimpact.model.argument_types import (
     MaxEvents,
     NonNegativeInt,
@@ -43,13 +42,12 @@ from vibroimpact.model.public import public
 from vibroimpact.model.read_rig import AnyRig, as_rig_of_any_masses, from_lowest
 from vibroimpact.model.rig import System
 from vibroimpact.response.assembly_rig import check_size
-from vibroimpact.response.engine_input import components, engine_rig
-from vibroimpact.response.hold_rows import HoldRows, Settling
+from vibroimpact.response.assembly_rows import measured_variables, names_of_parts, notes_on
+from vibroimpact.response.engine_input import engine_rig
+from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.outputs import Outputs, about, add_outputs, read_outputs
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sections import section_variables
-from vibroimpact.response.sweep_dataset import sizes
-from vibroimpact.stability.assembly_diagram import assembly_diagram
 from vibroimpact.stability.diagram_point import POINT, Kind, Look, Seen, look_at
 from vibroimpact.stability.parameter_sweep import random_states, rigs_along, stepped
 from vibroimpact.tasks.executors import THREADS, workers_for
@@ -172,11 +170,6 @@ def bifurcation_diagram(
             raise InputError(
                 f"section: {shown(section)}; for an Assembly, only 'stroboscopic' is accepted"
             )
-        if outputs is not None:
-            raise InputError(
-                "outputs: own outputs are not computed for an Assembly of several masses so far; "
-                "remove outputs"
-            )
     (along,) = read_ranges(vary, rig)
     rig, varied, ends = from_lowest(rig, along), along.parameter, along.ends
     excitation = as_periodic(rig.harmonic, "shaking")[0]
@@ -239,15 +232,11 @@ def bifurcation_diagram(
         **look._asdict(),
         **about(own),
     }
-    if isinstance(system, Assembly):
-        data, notes = assembly_diagram(system, varied.name, values, found, excitation.phase)
-        data.attrs["parameter"] = varied.name
-        return describe(data, CREATED_BY, about_motions, notes, varied=[varied])
-    data = _dataset(system, varied.name, values, found, section, excitation.phase)
+    data, notes = _dataset(system, varied.name, values, found, section, excitation.phase)
     numbers = [one.outputs for some in found.values() for one in some]
     add_outputs(data, own, np.reshape(numbers, (*data["period"].shape, len(own))))
     data.attrs["parameter"] = varied.name
-    return describe(data, CREATED_BY, about_motions, varied=[varied, *own])
+    return describe(data, CREATED_BY, about_motions, notes, varied=[varied, *own])
 
 
 class _Part(NamedTuple):
@@ -292,57 +281,62 @@ def _parts(ways: Mapping[str, _Array | None], count: int) -> list[_Part]:
 
 
 def _dataset(
-    oscillator: Oscillator,
+    system: System,
     name: str,
     values: _Array,
     found: Mapping[str, list[Seen]],
     section: Kind,
     phase: float,
-) -> xr.Dataset:
-    """Return a dataset with names; the points of each value are padded with NaN."""
+) -> tuple[xr.Dataset, list[str]]:
+    """Return a dataset with names, and what was doubted of it.
+
+    The points of each value are padded with NaN.
+    """
+    states = SectionStates(system)
     seen = list(itertools.chain.from_iterable(found.values()))
     shape, dims = (len(found), len(values)), ("start", name)
     most = max((len(one.points) for one in seen), default=0)
-    padded = np.full((len(seen), most, len(POINT[section])), np.nan)
+    width = states.parts if isinstance(system, Assembly) else len(POINT[section])
+    padded: _Array = np.full((len(seen), most, width), np.nan)
     for row, one in zip(padded, seen, strict=True):
         row[: len(one.points)] = one.points
+    padded = padded.reshape(*shape, most, width)
     measured = np.array([one.held.measured.array for one in seen])
     measured[[one.status not in (Status.DONE, Status.NOT_SETTLED) for one in seen]] = np.nan
+    measured = measured.reshape(*shape, -1)
     frequency = np.array([[one.held.found.excitation.frequency] for one in seen])
     scalars = {
-        **sizes(oscillator, HoldRows(measured)),
         "motion": np.array([one.kind.motion for one in seen]),
         "period": np.array([one.kind.period for one in seen], dtype=np.int64),
         "cycles": np.array([one.held.found.cycles for one in seen], dtype=np.int64),
         "status": np.array([int(one.status) for one in seen], dtype=np.int64),
     }
     rates = {
-        "exponents": frequency * np.array([one.kind.exponents for one in seen]),
-        "exponents_uncertainty": frequency * np.array([one.kind.uncertainty for one in seen]),
+        "exponents": frequency * np.array([one.kind.exponents[:2] for one in seen]),
+        "exponents_uncertainty": frequency * np.array([one.kind.uncertainty[:2] for one in seen]),
     }
-    states = components(np.array([one.held.found.state for one in seen]), phase)
+    ends = states.components(np.array([one.held.found.state for one in seen]), phase)
     variables: dict[str, Any] = {
-        **{
-            key: (dims_of(key, dims), value.reshape(*shape, *value.shape[1:]))
-            for key, value in scalars.items()
-        },
+        **measured_variables(system, measured, dims),
+        **{key: (dims, value.reshape(shape)) for key, value in scalars.items()},
         **{key: ((*dims, "exponent"), v.reshape(*shape, 2)) for key, v in rates.items()},
-        **_points(oscillator, padded.reshape(*shape, *padded.shape[1:]), (*dims, "section_point")),
-        "section": ((*dims, "component"), states.reshape(*shape, -1)),
+        **_points(system, padded, section, (*dims, "section_point")),
+        "section": ((*dims, "component"), ends.reshape(*shape, -1)),
     }
     coordinates = {
         "start": list(found),
         name: values,
-        "component": COMPONENTS,
-        "stop": stops_of(oscillator),
+        "component": states.names,
+        **names_of_parts(system),
     }
-    return xr.Dataset(variables, coordinates)
+    doubts = notes_on(system, measured, "motions") if isinstance(system, Assembly) else []
+    return xr.Dataset(variables, coordinates), doubts
 
 
-def _points(oscillator: Oscillator, points: _Array, dims: tuple[str, ...]) -> dict[str, Any]:
+def _points(system: System, points: _Array, section: Kind, dims: tuple[str, ...]) -> dict[str, Any]:
     """Return the points of a section as variables; of those that are padded nothing is known."""
-    if points.shape[-1] == len(POINT["stroboscopic"]):
-        return section_variables(oscillator, points, dims)
+    if section == "stroboscopic":
+        return section_variables(system, points, dims)
     side, phase, velocity = np.moveaxis(points, -1, 0)
     return {
         "contact_stop": (dims, np.where(np.isnan(side), "", stop_names(side))),

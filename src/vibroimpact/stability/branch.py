@@ -6,8 +6,7 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.continuation import arclength
-from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly, Rig, State
+from vibroimpact.model import Rig, State
 from vibroimpact.model.argument_types import Period, PositiveInt
 from vibroimpact.model.parameter_ranges import Range, Ranges, read_ranges
 from vibroimpact.model.public import public
@@ -111,11 +110,6 @@ def branch(
         If a value is invalid, or if Newton's method finds no orbit near the start.
     """
     rig = as_rig_of_any_masses(rig, frequency=frequency)
-    if outputs is not None and isinstance(rig.system, Assembly):
-        raise InputError(
-            "outputs: own outputs are not computed for an Assembly of several masses so far; "
-            "remove outputs"
-        )
     (along,) = read_ranges(vary, rig)
     fam, first = _first_orbit(from_lowest(rig, along), start, along, period)
     own = () if outputs is None else read_outputs(outputs, rig)

@@ -9,16 +9,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import describe, rig_parameters
-from vibroimpact.datasets.stops import dims_of, stops_of
-from vibroimpact.engine import hold, orbit
+from vibroimpact.engine import orbit
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import warn_of_result
-from vibroimpact.model import Assembly, Oscillator
-from vibroimpact.response import sweep_dataset
+from vibroimpact.model import Assembly
 from vibroimpact.response.analytic_free_response import exciting_excursion, reference_excursions
-from vibroimpact.response.assembly_rows import measured_variables, notes_on
-from vibroimpact.response.engine_input import state_from
-from vibroimpact.response.hold_rows import HoldRows, results_of
+from vibroimpact.response.assembly_rows import measured_variables, names_of_parts, notes_on
+from vibroimpact.response.hold_rows import results_of
 from vibroimpact.response.outputs import NamedOutput, about, add_outputs, computed
 from vibroimpact.response.plausibility import note_unbounded
 from vibroimpact.stability import bifurcations
@@ -65,12 +62,10 @@ def as_dataset(
         for s in bifurcations.with_critical(one.stations, one.bifurcations)
     ]
     orbits = [s.orbit for _, s in stations]
-    several = fam.of_several_masses
-    sizes = {} if several else _sizes(fam.oscillator, orbits)
+    rows = _rows(fam, orbits)
     multipliers = np.array([one.multipliers for one in orbits])
     values = {
         "arclength": [s.arclength for _, s in stations],
-        **sizes,
         "period": [one.section.period for one in orbits],
         "antisymmetric": [one.section.mirror for one in orbits],
         "stable": np.array(
@@ -80,7 +75,8 @@ def as_dataset(
         "piece": np.array([s.piece for _, s in stations], dtype=np.int64),
     }
     variables: dict[str, Any] = {
-        **{key: (dims_of(key, ("point",)), np.asarray(value)) for key, value in values.items()},
+        **_sizes(fam, orbits, rows, "point"),
+        **{key: ("point", np.asarray(value)) for key, value in values.items()},
         "multiplier_real": (("point", "multiplier"), multipliers.real),
         "multiplier_imag": (("point", "multiplier"), multipliers.imag),
         "section": (("point", "component"), np.array([state_of(one) for one in orbits])),
@@ -90,11 +86,13 @@ def as_dataset(
         name: ("point", [one.value for one in orbits]),
         "component": fam.layout.names,
     }
-    doubts = note_unbounded(fam.rig) if not several else []
-    if several:
-        doubts = _by_mass(fam, orbits, variables, coordinates)
-    else:
-        coordinates["stop"] = stops_of(fam.oscillator)
+    coordinates |= names_of_parts(fam.layout.system)
+    assembly = fam.layout.system
+    doubts = (
+        notes_on(assembly, rows, "orbits")
+        if isinstance(assembly, Assembly)
+        else note_unbounded(fam.rig)
+    )
     data = xr.Dataset(variables, coordinates)
     data.attrs["parameter"] = name
     add_outputs(data, own, _output_values(own, orbits))
@@ -130,19 +128,6 @@ def as_dataset(
     )
 
 
-def _by_mass(
-    fam: Family, orbits: list[Orbit], variables: dict[str, Any], coordinates: dict[str, Any]
-) -> list[str]:
-    """Add what orbits of an assembly measure, by mass and stop; return the doubts about it."""
-    assembly = fam.layout.system
-    assert isinstance(assembly, Assembly)
-    rows = np.array([_measured(one) for one in orbits])
-    variables |= measured_variables(assembly, rows, ("point",))
-    coordinates["mass"] = np.array(assembly.names, dtype=np.str_)
-    coordinates["stop"] = np.array(list(assembly.stops), dtype=np.str_)
-    return notes_on(assembly, rows, "orbits")
-
-
 def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Array:
     """Own outputs of orbits over one period each."""
     if not outputs:
@@ -151,7 +136,7 @@ def _output_values(outputs: tuple[NamedOutput, ...], orbits: list[Orbit]) -> _Ar
         computed(
             outputs,
             one.rig,
-            state_from(vector_of(one), one.section.family.phase),
+            one.section.family.layout.state(vector_of(one), one.section.family.phase),
             one.section.period,
         )
         for one in orbits
@@ -164,18 +149,8 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
     found = [(i, b) for i, one in enumerate(followed) for b in one.bifurcations]
     multipliers = np.array([b.orbit.multipliers for _, b in found]).reshape(-1, fam.states)
     orbits = [b.orbit for _, b in found]
-    assembly = fam.layout.system
-    if isinstance(assembly, Assembly):
-        rows = np.array([_measured(one) for one in orbits])
-        rows = rows.reshape(-1, results_of(fam.base))
-        measured = measured_variables(assembly, rows, ("bifurcation",), "bifurcation_")
-        sizes = {f"bifurcation_{name}": measured[f"bifurcation_{name}"] for name in _OF_MASSES}
-    else:
-        known = _sizes(assembly, orbits)
-        sizes = {
-            f"bifurcation_{name}": (dims_of(name, ("bifurcation",)), known[name])
-            for name in VARIABLES
-        }
+    several = fam.of_several_masses
+    sizes = _sizes(fam, orbits, _rows(fam, orbits), "bifurcation")
     values: dict[str, Any] = {
         "kind": np.array([b.kind for _, b in found], dtype=str),
         "value": [b.orbit.value for _, b in found],
@@ -188,7 +163,7 @@ def _bifurcations(followed: list[Followed], fam: Family) -> dict[str, Any]:
     }
     sections = np.array([state_of(b.orbit) for _, b in found]).reshape(-1, len(fam.layout.names))
     return {
-        **sizes,
+        **{f"bifurcation_{name}": sizes[name] for name in (_OF_MASSES if several else VARIABLES)},
         **{
             f"bifurcation_{key}": ("bifurcation", np.asarray(value))
             for key, value in values.items()
@@ -226,19 +201,26 @@ def state_of(one: Orbit) -> list[float]:
     return found
 
 
-def _sizes(oscillator: Oscillator, orbits: list[Orbit]) -> dict[str, _Array]:
-    """Extremes, excursions, contacts per cycle and contact forces of orbits."""
-    measured = np.array([_measured(one) for one in orbits]).reshape(-1, hold.RESULTS)
+def _rows(fam: Family, orbits: list[Orbit]) -> _Array:
+    """Return what the engine measures of orbits."""
+    return np.array([_measured(one) for one in orbits]).reshape(-1, results_of(fam.base))
+
+
+def _sizes(fam: Family, orbits: list[Orbit], rows: _Array, dim: str) -> dict[str, Any]:
+    """Return extremes, excursions, contacts per cycle and contact forces of orbits."""
+    # Neither the mass nor whether a stop is rigid changes along a branch.
+    found = measured_variables(fam.layout.system, rows, (dim,))
+    if fam.of_several_masses:
+        return found
     free = np.array([_reference(one) for one in orbits]).reshape(-1, 2)
     exciting = np.array([_exciting(one) for one in orbits])
-    # Neither the mass nor whether a stop is rigid changes along a branch.
-    found = sweep_dataset.sizes(oscillator, HoldRows(measured))
-    return {
-        **found,
-        "eta_d": found["displacement_excursion"] / free[:, 0],
-        "eta_a": found["acceleration_excursion"] / free[:, 1],
-        "transmissibility": found["transmitted_force_excursion"] / exciting,
-    }
+    for name, of, scale in (
+        ("eta_d", "displacement_excursion", free[:, 0]),
+        ("eta_a", "acceleration_excursion", free[:, 1]),
+        ("transmissibility", "transmitted_force_excursion", exciting),
+    ):
+        found[name] = (dim, found[of][1] / scale)
+    return found
 
 
 def _measured(one: Orbit) -> _Array:

@@ -239,7 +239,8 @@ def _start_of(rig: Rig, drawn: NDArray[np.float64]) -> _Start:
     u, v = drawn[:n], drawn[n:] * excitation.angular_frequency
     if isinstance(system, Assembly):
         states = SectionStates(system)
-        parts = np.concatenate([u, v, np.zeros(states.stops)])
+        parts = np.zeros(states.parts)
+        parts[: 2 * n] = [*u, *v]
         return place_assembly(rig, states.vector(parts, 0.0))
     at = min(max(float(u[0]), -_wall(system.left)), _wall(system.right))
     return State(at, float(v[0]), phase=excitation.phase)

@@ -12,8 +12,8 @@ from vibroimpact.engine import batch, lyapunov
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Oscillator
-from vibroimpact.response.engine_input import state_from
 from vibroimpact.response.outputs import NamedOutput, computed
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_exponents import judge_orbit
 from vibroimpact.stability.motion_type import Judgement, judge
@@ -66,7 +66,7 @@ def look_at(held: Held, look: Look, outputs: tuple[NamedOutput, ...] = ()) -> Se
     if not outputs:
         return seen
     found = seen.held.found
-    start = state_from(found.state, found.excitation.phase)
+    start = SectionStates(found.rig.system).state(found.state, found.excitation.phase)
     cycles = seen.kind.period or look.points
     return seen._replace(outputs=computed(outputs, found.rig, start, cycles))
 

@@ -21,8 +21,8 @@ from vibroimpact.model.argument_types import (
     PositiveInt,
     whole,
 )
-from vibroimpact.model.parameter_ranges import Values, Varied, read_values, vary_all
-from vibroimpact.model.parameters import parameter
+from vibroimpact.model.parameter_ranges import Values, Varied, read_values
+from vibroimpact.model.parameters import set_values
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import ANGLE
 from vibroimpact.model.read_rig import AnyRig
@@ -255,10 +255,10 @@ def _rig_at(
     values: Iterable[tuple[Varied, int]],
 ) -> Rig:
     """Return the rig at one of the frequencies and one value of each parameter."""
-    numbers = [(parameter(one.name, rig), float(one.values[k])) for one, k in values]
+    numbers = {one.name: float(one.values[k]) for one, k in values}
     size = float(rig.levels(len(grid))[i])
     here = rig.hardest.periodic.replace(amplitude=size, frequency=float(grid[i]), phase=phase)
-    moved = vary_all(Rig(rig.system, here), numbers)
+    moved = set_values(Rig(rig.system, here), numbers)
     if isinstance(moved.system, Oscillator):
         check_bounded(moved, f"frequencies[{i}]")
     return moved

@@ -29,7 +29,7 @@ from vibroimpact.response.analytic_free_response import exciting_excursion
 from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.assembly_rows import measured_over, measured_variables
 from vibroimpact.response.contacts import contact_log
-from vibroimpact.response.motion_phases import Recorded, phases
+from vibroimpact.response.motion_phases import Origin, phases
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.simulate import compute_history
@@ -254,13 +254,12 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
     if isinstance(found.states.system, Assembly):
         return _measured_by_mass(data, found, scalars)
     periodic = scalars["period"] > 0
-    origin = Recorded(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
+    origin = Origin(found.oscillator, found.excitation, float(data["cycle"].values[-1]), periodic)
     every = phases(data, origin)
     log = contact_log(data, origin, every)
     cycles = max(origin.cycles, 1.0)
     counts = Counter(log["contact_stop"].values.tolist())
-    supplied, isolator, bumpers = energies(origin, every)
-    sizes = extremes(origin, every)
+    total, sizes = energies(every), extremes(every)
     exciting = found.oscillator.mass * float(
         exciting_excursion(found.rig, np.array([found.excitation.frequency]))[0]
     )
@@ -268,9 +267,9 @@ def _measured(data: xr.Dataset, found: Settled, scalars: dict[str, Any]) -> xr.D
         **sizes,
         "transmissibility": sizes["transmitted_force_excursion"] / (exciting or math.nan),
         "impacts": ("stop", [counts.get(one, 0) / cycles for one in data["stop"].values.tolist()]),
-        "energy_supplied": supplied / cycles,
-        "energy_isolator": isolator / cycles,
-        "energy_bumpers": bumpers / cycles,
+        "energy_supplied": total["total_supplied"] / cycles,
+        "energy_isolator": total["total_isolator"] / cycles,
+        "energy_bumpers": total["total_bumpers"] / cycles,
     }
     data = data.assign({**scalars, **values, **{str(name): log[name] for name in log}})
     data.attrs["created_by"] = "vibroimpact.steady"

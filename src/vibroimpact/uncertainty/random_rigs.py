@@ -9,11 +9,10 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import rig_parameters
+from vibroimpact.datasets.description import rig_parameters, system_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Oscillator, Repeated
-from vibroimpact.model.parameter_ranges import vary_all
-from vibroimpact.model.parameters import Parameter, parameter
+from vibroimpact.model.parameters import Parameter, parameter, set_values
 from vibroimpact.model.read_rig import RigOrSystem, one_system
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.written_units import as_first_argument
@@ -73,10 +72,7 @@ class Uncertain(NamedTuple):
         InputError
             If the values are invalid together.
         """
-        pairs = [
-            (varied, float(value)) for varied, value in zip(self.parameters, values, strict=True)
-        ]
-        return vary_all(self.base, pairs)
+        return set_values(self.base, dict(zip(self.names, map(float, values), strict=True)))
 
     def rigs(self, values: _Array) -> list[Rig]:
         """Return one rig per row of values.
@@ -100,8 +96,7 @@ class Uncertain(NamedTuple):
     def about(self) -> dict[str, Any]:
         """Return the attributes for a dataset."""
         if self.shaken is None:
-            name = "assembly" if isinstance(self.base.system, Assembly) else "oscillator"
-            rig = {name: self.base.system.model_dump()}
+            rig = system_parameters(self.base.system)
         else:
             rig = rig_parameters(self.base)
         return {**rig, "distributions": self.texts}

@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_name
 from vibroimpact.datasets.description import describe
+from vibroimpact.datasets.stops import over_parts
+from vibroimpact.datasets.stops import quantities as quantities_of
+from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.model.argument_types import (
     MOST_RESAMPLES,
     Draws,
@@ -58,8 +61,9 @@ def sensitivity(
     rig, distributions, response, block
         As in `ensemble`.
     quantity
-        Name of a variable of the response. The result has the dims of this variable, except the dim
-        of the rigs.
+        Name of a variable of the response, also of one stop, mass or link, such as
+        ``"peak_force.right"``. The result has the dims of this variable, except the dim of the
+        rigs.
     draws
         Number of points in each of the two sets of random rigs. It must be a power of 2.
     seed
@@ -97,12 +101,10 @@ def sensitivity(
     # Of each parameter the first set with that column of the second one.
     sets = [a, b, *(np.where(np.arange(columns) == i, b, a) for i in range(columns))]
     data = responded(drawn, drawn.values(np.concatenate(sets)), response, block, progress)
-    check_name(
-        quantity,
-        [str(key) for key, one in data.variables.items() if "sample" in one.dims],
-        "quantity",
-    )
-    values = data[quantity].transpose(..., "sample").astype(float)
+    known = [one for one in quantities_of(data) if "sample" in of_quantity(data, one).dims]
+    check_name(quantity, [*known, *drawn.names], "quantity")
+    held = data[quantity] if quantity in data else of_quantity(data, quantity)
+    values = held.transpose(..., "sample").astype(float)
     one = values.isel(sample=0, drop=True)
     found = values.values.reshape(*one.shape, columns + 2, draws)
 
@@ -158,10 +160,13 @@ def peak_sensitivity(
     seed: int = 0,
     progress: Progress | None = None,
 ) -> dict[str, xr.Dataset]:
-    """Compute `sensitivity` of the peaks of resonance curves, for each quantity, with intervals."""
+    """Compute `sensitivity` of the peaks of resonance curves, for each quantity, with intervals.
+
+    Of an assembly, a peak is the largest one of all masses or stops.
+    """
 
     def peaks(rigs: list[Any]) -> xr.Dataset:
-        data = response(rigs)[list(quantities)]
+        data = response(rigs)[list(quantities)].map(over_parts, keep_attrs=True)
         return data.max(("direction", "frequency"), keep_attrs=True)
 
     return {

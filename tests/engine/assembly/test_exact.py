@@ -53,7 +53,7 @@ def test_states_and_times(name: str, tables: bool, exact_motion) -> None:
         assert state[2 + 2 * n + f] == pytest.approx(true, rel=1e-9, abs=1e-30)
 
 
-CYCLES = 20 if samples.full else 8
+CYCLES = samples.sample(20, 3)
 
 
 @pytest.fixture(scope="module")

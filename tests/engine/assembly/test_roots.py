@@ -27,10 +27,12 @@ def room() -> Vector:
 
 
 def basis(x: Any) -> Any:
-    d = at.DEGREE
-    x = np.atleast_1d(x)[:, None]
-    j = np.arange(d + 1)
-    return np.array([float(comb(d, i)) for i in j], x.dtype) * x**j * (1 - x) ** (d - j)
+    """Bernstein's polynomials; powers as products, which is fast in extended precision, too."""
+    powers = np.ones((2, at.DEGREE + 1, len(x)), x.dtype)
+    powers[:, 1:] = np.stack((x, 1 - x))[:, None]
+    powers = np.cumprod(powers, axis=1)
+    times = np.array([comb(at.DEGREE, i) for i in range(at.DEGREE + 1)], x.dtype)
+    return (times[:, None] * powers[0] * powers[1, ::-1]).T
 
 
 def test_near_touches() -> None:
@@ -40,7 +42,7 @@ def test_near_touches() -> None:
     fit = np.linalg.inv(basis(nodes))
     kinds: dict[tuple[bool, bool], int] = {}
     plan = room()
-    for _ in range(2500 if samples.full else 600):
+    for _ in range(samples.sample(2500, 200)):
         touch = rng.uniform(0.05, 0.95)
         depth = rng.choice([-1, 1]) * 10.0 ** rng.uniform(-14, -3)
         size, rate = 0.0, 0.0
@@ -72,7 +74,7 @@ def test_near_touches() -> None:
             assert grid[crossed[0]] - slack <= found <= grid[crossed[0] + 1] + slack
         else:
             assert least < 3e-15 * max(1.0, size)
-    assert min(kinds.values()) > 60
+    assert min(kinds.values()) > 30
     assert len(kinds) == 4
     assert plan[at.UNDECIDED] == 0
 

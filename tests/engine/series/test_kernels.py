@@ -62,7 +62,7 @@ SHAPES += [
     for single in (True, False)
 ]
 # Each is compiled for itself.
-SHAPES = sample(SHAPES, SHAPES[::7])
+SHAPES = sample(SHAPES, SHAPES[::12])
 NUMBERS = {
     "drag": 0.2,
     "drag_exponent": 0.6,

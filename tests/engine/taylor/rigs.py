@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from itertools import cycle, product
 
 import numpy as np
 
 import vibroimpact as vi
+from formula_stops import formula_stops
+from samples import sample
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.observers import record
@@ -36,7 +39,15 @@ STOPS = {
     "hunt-crossley": vi.PowerBumper(40.0, 0.5, dissipation=0.3),
     "flores": vi.PowerBumper(40.0, 0.5, restitution=0.6, relation="flores"),
     "pounding": vi.JankowskiBumper(40.0, 0.5, 0.6, 1.0),
+    **formula_stops(40.0, 0.5),
 }
+
+
+def pairs(*without: str) -> list[tuple[str, str]]:
+    """Isolators and stops, but without some of these: all pairs, or each isolator and each stop."""
+    stops = [name for name in STOPS if name not in without]
+    return sample([*product(ISOLATORS, stops)], [*zip(ISOLATORS, cycle(stops), strict=False)])
+
 
 SHAKEN = vi.Harmonic(0.6, 0.9 / math.tau, 0.4)
 

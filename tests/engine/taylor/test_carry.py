@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.linalg import expm
 
 import vibroimpact as vi
-from engine.taylor.rigs import HYSTERETIC, ISOLATORS, SHAKEN, STOPS, between, followed, started
+from engine.taylor.rigs import HYSTERETIC, SHAKEN, between, followed, pairs, started
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.motion import ISOLATOR, LEFT_BUMPER, MODE, RIGHT_BUMPER, U, V
 from vibroimpact.engine.observers.tangent import DISTURBANCE, MEMORY
@@ -31,8 +31,7 @@ def carried(rig, state, cycles, shaken=SHAKEN):
     return rows, float(damping[0]), end
 
 
-@pytest.mark.parametrize("stop", [name for name in STOPS if name != "pounding"])
-@pytest.mark.parametrize("isolator", ISOLATORS)
+@pytest.mark.parametrize(("isolator", "stop"), pairs("pounding"))
 def test_derivative_agrees_with_central_differences(isolator: str, stop: str) -> None:
     """Over a cycle with contacts, turns and yields; in flight at its start."""
     rig = between(isolator, stop)

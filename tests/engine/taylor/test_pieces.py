@@ -8,14 +8,13 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from engine.taylor.rigs import ISOLATORS, SHAKEN, STOPS, between, followed, started
+from engine.taylor.rigs import ISOLATORS, SHAKEN, between, followed, pairs, started
 
 FREQUENCY = 0.9 / math.tau
 SAMPLES = 4096
 
 
-@pytest.mark.parametrize("stop", [name for name in STOPS if name != "pounding"])
-@pytest.mark.parametrize("isolator", ISOLATORS)
+@pytest.mark.parametrize(("isolator", "stop"), pairs("pounding"))
 def test_extremes_are_just_above_those_of_dense_samples(isolator: str, stop: str) -> None:
     rig = between(isolator, stop)
     held = vi.sweep(vi.Rig(rig, 0.6), [FREQUENCY]).isel(direction=0, frequency=0)
@@ -30,8 +29,7 @@ def test_extremes_are_just_above_those_of_dense_samples(isolator: str, stop: str
         assert 1.0 - loose <= seen / float(held[f"{name}_excursion"]) <= 1.0 + 1e-9
 
 
-@pytest.mark.parametrize("stop", [name for name in STOPS if name != "pounding"])
-@pytest.mark.parametrize("isolator", ISOLATORS)
+@pytest.mark.parametrize(("isolator", "stop"), pairs("pounding"))
 def test_samples_lie_on_the_motion(isolator: str, stop: str) -> None:
     rig = between(isolator, stop)
     data = vi.simulate(vi.Rig(rig, SHAKEN), 2, vi.State(0.1, 0.3), 37)

@@ -8,6 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import vibroimpact as vi
+from samples import sample
 from vibroimpact.errors import InputError
 from vibroimpact.model import equilibrium
 
@@ -49,13 +50,15 @@ STOPS = [
     vi.JankowskiBumper(5000.0, 0.01, 0.6, 2.0),
     vi.Law("k*d + q*d**2", k=300.0, q=1000.0, gap=0.01),
 ]
+PAIRS = sample([*product(STOPS, STOPS)], [*product(STOPS, STOPS)][::5])
+"""Of a right and a left stop; the small sample has each stop on each side, too."""
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: law.kind)
 @pytest.mark.parametrize("force", [0.0, 1.0, 5.0, -9.0])
 def test_one_mass_rests_where_the_oscillator_does(law, force):
     tried = 0
-    for right, left in product(STOPS, STOPS):
+    for right, left in PAIRS:
         try:
             one = vi.Oscillator(2.0, law, right, left, force)
         except InputError:
@@ -69,7 +72,7 @@ def test_one_mass_rests_where_the_oscillator_does(law, force):
         ), (right, left)
         memory = found.memory.get("isolator", 0.0)
         assert memory == pytest.approx(expected.isolator, rel=1e-7, abs=1e-12)
-    assert tried >= 60
+    assert tried >= 0.9 * len(PAIRS)
 
 
 def test_two_masses_under_forces_by_hand():

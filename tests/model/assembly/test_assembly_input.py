@@ -102,7 +102,21 @@ BAD = {
     ),
     "period": (
         lambda: building(links=linked(period="2 s", damping_ratio=0.1)),
-        r"^links\.storey\.period: a link between two bodies has no period",
+        r"^links\.storey\.period: only a link between 'ground' and a mass of",
+    ),
+    "period of no mass": (
+        lambda: building(links={"x": {"left": GROUND, "right": "bas", "period": 1}}),
+        r"^links\.x\.period: only a link between 'ground' and a mass of",
+    ),
+    "no damping ratio": (
+        lambda: building(links={"x": {"left": GROUND, "right": "base", "period": 1}}),
+        r"^links\.x\.damping_ratio: missing, but period requires it",
+    ),
+    "period and stiffness": (
+        lambda: building(
+            links={"x": {"left": GROUND, "right": "base", "stiffness": 1, "damping_ratio": 0.1}}
+        ),
+        r"^links\.x\.damping_ratio: given together with stiffness",
     ),
     "restitution twice": (
         lambda: building(stops=stopped(stiffness=1, damping=1, restitution=0.5, gap=1)),
@@ -314,6 +328,40 @@ def test_functions_of_one_mass_refuse_an_assembly(name, make):
     ) as caught:
         REFUSED[name](make())
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "ends", [{"left": GROUND, "right": "base"}, {"left": "base", "right": GROUND}]
+)
+def test_a_link_to_the_ground_has_the_period_of_its_mass(ends):
+    made = vi.Assembly(
+        {"base": "300 t", "roof": "250 t"},
+        {
+            "feet": {**ends, "period": "0.4 s", "damping_ratio": 0.05},
+            "lead": {
+                "left": GROUND,
+                "right": "roof",
+                "kind": "bilinear",
+                "strength": 0.05,
+                "yield_displacement": "10 mm",
+                "post_yield_period": "2.5 s",
+            },
+        },
+    )
+    law = vi.Isolator.from_period("300 t", period="0.4 s", damping_ratio=0.05)
+    assert made.links["feet"].law == law
+    assert made.links["lead"].law == vi.BilinearIsolator.from_strength(
+        "250 t", strength=0.05, yield_displacement="10 mm", post_yield_period="2.5 s"
+    )
+    assert made.natural_frequencies[-1] == pytest.approx(2.5)
+
+
+def test_the_period_of_a_mass_that_carries_others_is_doubted():
+    feet = {"left": GROUND, "right": "base", "period": "2 s", "damping_ratio": 0.1}
+    with pytest.warns(
+        vi.InputWarning, match=r"^links\.feet\.period: .*'base' alone .*'storey' join"
+    ):
+        building(links={"storey": LINKS["storey"], "feet": feet})
 
 
 def test_states_are_by_name():

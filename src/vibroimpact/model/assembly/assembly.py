@@ -17,12 +17,14 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import ConfigDict, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from vibroimpact.arguments import check_path
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, shown, warn_of_input
 from vibroimpact.model.assembly.damping import DAMPINGS, AnyDamping, Modes
 from vibroimpact.model.assembly.link import Link, read_link
 from vibroimpact.model.assembly.matrices import Matrices
 from vibroimpact.model.assembly.names import GROUND, check_body, check_known, check_part_name
 from vibroimpact.model.frozen_mapping import FrozenMapping
+from vibroimpact.model.isolators import IsolatorLaw
+from vibroimpact.model.isolators.design import design_keys
 from vibroimpact.model.oscillator import Units
 from vibroimpact.model.quantities import FORCE, MASS
 from vibroimpact.model.stated_units import check_no_units
@@ -53,7 +55,9 @@ class Assembly(Model):
         ``"300 t"``.
     links
         Mapping from names to objects `Link` with the law of an isolator. A mapping with the keys
-        ``left``, ``right`` and those of the law is also accepted. Default: no links.
+        ``left``, ``right`` and those of the law is also accepted. Between ``"ground"`` and one of
+        the masses, it may have a period and a damping ratio, or other design values of the law:
+        those of this mass alone on the link. Default: no links.
     stops
         Mapping from names to objects `Link` with the law of a stop, or such mappings. A
         `JankowskiBumper` without a mass has m₁ m₂/(m₁ + m₂) of the two bodies. A mapping of a
@@ -239,14 +243,21 @@ class Assembly(Model):
                 return 1.0 / sum(1.0 / masses[one] for one in where)
             return _meeting(np.array(matrices.mass), _closing(left, right, list(names)))
 
+        def alone(left: str, right: str) -> float | None:
+            if GROUND not in (left, right):
+                return None
+            return masses.get(right if left == GROUND else left)
+
         for part, is_stop in (("links", False), ("stops", True)):
             found = {}
             for name, value in given[part].items():
                 where = f"{part}.{check_part_name(name, part)}"
-                found[name] = read_link(value, where, is_stop=is_stop, mass=meeting)
+                mass = meeting if is_stop else alone
+                found[name] = read_link(value, where, is_stop=is_stop, mass=mass)
                 for end in ("left", "right"):
                     check_body(getattr(found[name], end), names, f"{where}.{end}")
             read[part] = FrozenMapping(found)
+        _doubt_periods(given["links"], read["links"])
         return read
 
     @model_validator(mode="after")
@@ -491,6 +502,32 @@ def _closing(left: str, right: str, names: list[str]) -> NDArray[np.float64]:
         if end != GROUND:
             found[names.index(end)] += sign
     return found
+
+
+def _doubt_periods(tables: Mapping[str, Any], links: Mapping[str, Link]) -> None:
+    """Issue a warning if a link has a design value of a mass that further links join to others."""
+    for name, table in tables.items():
+        law = links[name].law
+        if not isinstance(table, Mapping) or not isinstance(law, IsolatorLaw):
+            continue
+        by = [key for key in design_keys(type(law)) if key in table]
+        by = [key for key in by if key not in type(law).model_fields]
+        ends = {links[name].left, links[name].right} - {GROUND}
+        joined = [
+            other
+            for other, link in links.items()
+            if other != name and GROUND not in (link.left, link.right)
+            if ends & {link.left, link.right}
+        ]
+        if by and joined:
+            (mass,) = ends
+            warn_of_input(
+                f"links.{name}.{by[0]}",
+                [
+                    f"it is that of {mass!r} alone on this link, without the masses that "
+                    f"{', '.join(map(repr, joined))} join to it"
+                ],
+            )
 
 
 def _table(value: Any, part: str) -> Mapping[str, Any]:

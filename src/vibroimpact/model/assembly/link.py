@@ -11,7 +11,7 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.built_in_laws import as_isolator, as_stop
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
-from vibroimpact.model.isolators.design import design_keys
+from vibroimpact.model.isolators.design import design_keys, designed
 from vibroimpact.model.law_registry import Kinds
 from vibroimpact.model.own_law import Law
 from vibroimpact.model.stops import STOPS, Bumper, Stop
@@ -128,8 +128,10 @@ def read_link(value: Any, where: str, *, is_stop: bool, mass: Any) -> Link:
     is_stop
         Whether a stop is expected.
     mass
-        Function of the left and the right body that returns the mass (kg) that meets there, by
-        which the ``restitution`` of a table of a `Bumper` determines its damping.
+        Function of the left and the right body that returns a mass (kg). Of a stop, the mass that
+        meets there, by which the ``restitution`` of a table of a `Bumper` determines its damping.
+        Of a link, the mass on it, by which design values such as a period determine its law; None
+        if the link does not join one mass to the base.
 
     Raises
     ------
@@ -157,7 +159,7 @@ def read_link(value: Any, where: str, *, is_stop: bool, mass: Any) -> Link:
     ends = (value["left"], value["right"])
     table = {name: one for name, one in value.items() if name not in ("left", "right")}
     try:
-        law = _law(table, STOPS if is_stop else ISOLATORS, where, mass(*ends) if is_stop else None)
+        law = _law(table, STOPS if is_stop else ISOLATORS, mass(*ends))
     except InputError as error:
         # A law names its own fields; the path of the law stands before them.
         raise InputError(f"{where}.{error}") from None
@@ -167,17 +169,20 @@ def read_link(value: Any, where: str, *, is_stop: bool, mass: Any) -> Link:
         raise InputError(f"{where}.{error}") from None
 
 
-def _law(table: Mapping[str, Any], kinds: Kinds, where: str, mass: float | None) -> Any:
+def _law(table: Mapping[str, Any], kinds: Kinds, mass: float | None) -> Any:
     kind = kinds.kind_of(table)
     law = kinds.classes.get(kind)
     if law is None:
         raise InputError(f"kind: {kinds.unknown(table)}")
     if issubclass(law, IsolatorLaw):
+        if mass is not None:
+            return law.model_validate(designed(table, law, mass))
         for key in design_keys(law):
             if key in table and key not in law.model_fields:
                 raise InputError(
-                    f"{key}: a link between two bodies has no period or strength of its own; write "
-                    "the fields of its law, such as stiffness and damping"
+                    f"{key}: only a link between {GROUND!r} and a mass of [assembly.masses] has a "
+                    "period or a strength, those of this mass alone on it; write the fields of the "
+                    "law, such as stiffness and damping"
                 )
     if law is Bumper and "restitution" in table:
         table = returning(table, mass)

@@ -10,6 +10,7 @@ from pydantic import model_validator
 
 from vibroimpact.errors import InputError
 from vibroimpact.law_numbers import IsolatorNumbers
+from vibroimpact.model.integral import integral_of
 from vibroimpact.model.isolators.law import IsolatorLaw
 from vibroimpact.model.quantities import DECAY, FORCE, STIFFNESS
 from vibroimpact.model.units import pretty
@@ -146,6 +147,11 @@ class ExponentialIsolator(IsolatorLaw):
         return self.elastic_force(displacement) + math.copysign(
             self.hysteretic_force * faded, displacement
         )
+
+    def stored_energy(self, displacement: float, memory: float = 0.0) -> float:
+        """Return the energy (J) of the elastic force and of the memory z."""
+        yielding = (self.reversal_stiffness - self.final_stiffness) * memory**2
+        return integral_of(self.elastic_force, displacement) + yielding
 
     @property
     def remembers(self) -> bool:

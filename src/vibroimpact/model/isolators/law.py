@@ -66,6 +66,10 @@ class IsolatorLaw(Named):
         """Return the force (N) of a first, slow displacement (m) from rest: an odd function."""
         raise NotImplementedError
 
+    def stored_energy(self, displacement: float, memory: float = 0.0) -> float:
+        """Return the energy (J) of the springs at a displacement (m) and a memory z (m)."""
+        raise NotImplementedError
+
     @property
     def remembers(self) -> bool:
         """Whether the force also depends on an internal variable z (memory)."""
@@ -218,6 +222,10 @@ class SpringLaw(IsolatorLaw):
         """Stiffness K (N/m)."""
         return self.stiffness
 
+    def stored_energy(self, displacement: float, memory: float = 0.0) -> float:
+        """Return the energy K u²/2 (J) at a displacement (m)."""
+        return 0.5 * self.stiffness * displacement**2
+
 
 def spring_and_dashpot(mass: float, period: float, damping_ratio: float) -> dict[str, float]:
     """Return the K (N/m) and C (N s/m) that give a mass (kg) a period (s) and a damping ratio."""
@@ -355,6 +363,11 @@ class YieldingLaw(IsolatorLaw):
         """Return the force (N) of a first loading to a displacement (m): k_p u + (k_e - k_p) z."""
         held = self.hysteretic_stiffness * self._loaded(displacement)
         return self.post_yield_stiffness * displacement + held
+
+    def stored_energy(self, displacement: float, memory: float = 0.0) -> float:
+        """Return the energy (k_p u² + (k_e - k_p) z²)/2 (J)."""
+        yielding = self.hysteretic_stiffness * memory**2
+        return 0.5 * (self.post_yield_stiffness * displacement**2 + yielding)
 
     @property
     def remembers(self) -> bool:

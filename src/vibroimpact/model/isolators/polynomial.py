@@ -67,6 +67,12 @@ class PolynomialIsolator(SpringLaw):
         square = displacement * displacement
         return displacement * (self.stiffness + square * (self.cubic + square * self.quintic))
 
+    def stored_energy(self, displacement: float, memory: float = 0.0) -> float:
+        """Return the energy K u²/2 + k_3 u⁴/4 + k_5 u⁶/6 (J) at a displacement (m)."""
+        square = displacement**2
+        rest = square * (self.cubic / 4.0 + square * self.quintic / 6.0)
+        return square * (0.5 * self.stiffness + rest)
+
     @property
     def linear_and_bounded(self) -> tuple[float, float] | None:
         """The pair (K, 0) if k₃ and k₅ are 0; otherwise None."""

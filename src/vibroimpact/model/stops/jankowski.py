@@ -47,6 +47,7 @@ class JankowskiBumper(StopLaw):
     """
 
     kind: ClassVar[str] = "jankowski"
+    words: ClassVar[str] = "Jankowski"
     exponent: ClassVar[float] = 1.5
     _quiet: ClassVar = {"mass": None}
 
@@ -104,6 +105,10 @@ class JankowskiBumper(StopLaw):
         assert self.mass is not None  # which an oscillator requires
         damping = 2.0 * self.damping_ratio * np.sqrt(self.mass * self.stiffness * np.sqrt(d))
         return np.asarray(self.stiffness * d**1.5 + damping * np.maximum(v, 0.0))
+
+    def stored_energy(self, deformation: float) -> float:
+        """Return the energy k δ^2.5/2.5 (J) of a deformation (m)."""
+        return self.static_force(deformation) * deformation / 2.5
 
     def static_force(self, deformation: float) -> float:
         """Return the force k δ^1.5 (N) of a stop that is slowly compressed by a deformation (m)."""

@@ -70,6 +70,7 @@ class PowerBumper(StopLaw):
     """
 
     kind: ClassVar[str] = "power"
+    words: ClassVar[str] = "power law (Hertz)"
     _quiet: ClassVar = {"dissipation": None, "restitution": None, "relation": "exact"}
 
     # The exponent stands first, for the unit of the stiffness depends on it.
@@ -141,6 +142,10 @@ class PowerBumper(StopLaw):
         number, closing = self.dissipation_number, float(v[0])
         chi = self.dissipation if number is None else number / closing if closing else 0.0
         return np.maximum(self.stiffness * d**self.exponent * (1.0 + (chi or 0.0) * v), 0.0)
+
+    def stored_energy(self, deformation: float) -> float:
+        """Return the energy k δⁿ⁺¹/(n + 1) (J) of a deformation (m)."""
+        return self.static_force(deformation) * deformation / (self.exponent + 1.0)
 
     def static_force(self, deformation: float) -> float:
         """Return the force k δⁿ (N) of a stop that is slowly compressed by a deformation (m)."""
