@@ -34,7 +34,7 @@ help:
 	@echo 'make docs     build the documentation, gallery included; it begins at out/site/index.html'
 	@echo 'make bench    compare speed and accuracy with other solvers (benchmarks/README.md)'
 	@echo 'make kernels  make machine code of the engine for this machine and the explorer; ARGS="linux-x86_64-v3.so ..." for others'
-	@echo 'make dist     build wheel and sdist into dist/, and try them out; PYTHONS="python3.11 python3.13"'
+	@echo 'make dist     build sdist and a wheel for each system into dist/, and try them out; PYTHONS="python3.11 python3.13"'
 	@echo 'make pins     renew constraints.txt (CONTRIBUTING.md)'
 	@echo 'make clean    remove .venv, all caches and the built documentation; the rest of out/ stays'
 	@echo 'PYTHON=...    which python makes the environment, 3.11 or newer; python3'
@@ -84,6 +84,7 @@ kernels: $(VENV)/.installed-release
 	$(BIN)/python -m native $(ARGS)
 
 dist: $(VENV)/.installed-release
+	$(BIN)/python -m native release
 	rm -rf dist
 	$(BIN)/python -m build --outdir dist .
 	@for platform in $$(cd src/vibroimpact/engine/libraries && ls | sed -n 's/-v[0-9]*\..*//p' | sort -u); do \

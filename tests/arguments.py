@@ -14,6 +14,7 @@ import pandas as pd
 import xarray as xr
 
 import vibroimpact as vi
+from formula_stops import formula_stops
 
 Call = tuple[Callable[..., Any], dict[str, Any]]
 
@@ -179,6 +180,11 @@ def calls(folder: Path) -> Mapping[str, Call]:
             "damping_exponent": 1.0,
         },
         "Bumper": {"stiffness": 1.0, "damping": 1.0, "gap": 0.1},
+        **{
+            type(one).__name__: dict(one)
+            for one in formula_stops(1.0, 0.1).values()
+            if type(one).__name__ in vi.__all__
+        },
         "Dimensionless": {"damping_ratio": 0.1, "right": None, "left": None},
         "ExponentialIsolator": {
             "reversal_stiffness": 100.0,

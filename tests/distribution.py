@@ -3,7 +3,8 @@
 ``python tests/distribution.py dist python3.11 python3.13``: their contents are the repository's
 files and no others; then, with each interpreter, the wheel is installed into a fresh environment
 in which nothing can be compiled, sweeps a rig, is type-checked from outside, and passes the
-tests that take little time.
+tests that take little time. Where the engine is machine code, numba is removed, and no cache can be
+written.
 """
 
 from __future__ import annotations
@@ -30,6 +31,8 @@ QUICK = (
 )
 # Make's constraints are a relative path; here they are named in full.
 WITHHELD = ("PYTHON", "PIP_CONSTRAINT", "PIP_BUILD_CONSTRAINT")
+SHIPPED = ("tests/engine/test_native.py::test_numba_is_not_imported",)
+"""Without numba."""
 NEEDED = ("pytest", "hypothesis", "mpmath", "pyyaml", "mypy")
 
 
@@ -62,43 +65,56 @@ def check_contents(wheel: Path, sdist: Path) -> None:
     with tarfile.open(sdist) as packed:
         names = {one.name.partition("/")[2] for one in packed.getmembers() if one.isfile()}
     assert names == tracked() | {"PKG-INFO"}, names ^ tracked()
-    print(f"{wheel.name}: {len(code)} files; {sdist.name}: {len(names)} files; none else")
+    size = wheel.stat().st_size / 1e6
+    print(f"{wheel.name}: {size:.1f} MB, {len(inside | about)} files; {sdist.name}: {len(names)}")
 
 
 def try_out(wheel: Path, python: str) -> None:
     """Install the wheel with an interpreter, and use it."""
+    shipped = not wheel.name.endswith("-any.whl")
     with tempfile.TemporaryDirectory() as made:
         place = Path(made)
+        (place / "in-the-way").touch()
         outside = {
             # No compiler is found, and nothing of what is installed here.
             **dict.fromkeys(("CC", "CXX", "FC"), "/bin/false"),
             "PATH": f"{place / 'env' / 'bin'}:/usr/bin:/bin",
             "HOME": str(place),
-            "VIBROIMPACT_CACHE_DIR": str(place / "compiled"),
+            "VIBROIMPACT_CACHE_DIR": str(place / ("in-the-way" if shipped else "compiled")),
         }
         environment = {
             **{name: v for name, v in os.environ.items() if not name.startswith(WITHHELD)},
             **outside,
         }
 
-        def run(*words: object, where: Path = place) -> None:
-            done = subprocess.run([str(w) for w in words], cwd=where, env=environment)
+        def run(*words: object, where: Path = place) -> str:
+            called = [str(w) for w in words]
+            done = subprocess.run(
+                called, cwd=where, env=environment, stdout=subprocess.PIPE, text=True
+            )
+            print(done.stdout, end="", flush=True)
             if done.returncode:
-                sys.exit(f"{python}: {' '.join(map(str, words))} failed")
+                sys.exit(f"{python}: {' '.join(called)} failed")
+            return done.stdout
 
         subprocess.run([python, "-m", "venv", place / "env"], check=True)
         binary = place / "env" / "bin"
         pip = [binary / "python", "-m", "pip", "install", "--quiet", "--only-binary=:all:"]
         run(*pip, "-c", ROOT / "constraints.txt", wheel)
+        if shipped:
+            run(binary / "python", "-m", "pip", "uninstall", "--quiet", "--yes", "numba")
         (place / "empty").mkdir()
         run(binary / "vibroimpact", "--version", where=place / "empty")
         run(binary / "vibroimpact", "sweep", "B2-G1-A3", where=place / "empty")
         written = {path.name for path in (place / "empty" / "out").iterdir()}
         assert {"B2-G1-A3-sweep.nc", "B2-G1-A3-sweep.png"} <= written, written
+        used = run(binary / "vibroimpact", "cache", where=place / "empty").splitlines()[0]
+        assert used.startswith("engine: compiled by numba") != shipped, used
         run(*pip, "-c", ROOT / "constraints.txt", *NEEDED)
         (place / "user.py").write_bytes((ROOT / "tests" / "typing" / "user.py").read_bytes())
         run(binary / "mypy", "--strict", "user.py")
-        run(binary / "python", "-m", "pytest", "-p", "no:cacheprovider", *QUICK, where=ROOT)
+        tests = (*QUICK, *(SHIPPED if shipped else ()))
+        run(binary / "python", "-m", "pytest", "-p", "no:cacheprovider", *tests, where=ROOT)
     print(f"{python}: installed without a compiler, sweeps, is typed and passes its quick tests")
 
 

@@ -12,6 +12,7 @@ import xarray as xr
 
 import arguments
 import vibroimpact as vi
+from formula_stops import FORMULA_STOPS
 from samples import sample
 
 LONGEST = 320
@@ -23,6 +24,7 @@ QUICK = [
     "BilinearIsolator",
     "BoucWenIsolator",
     "Bumper",
+    *sorted({law.__name__ for law in FORMULA_STOPS.values()} & set(vi.__all__)),
     "Dimensionless",
     "ExponentialIsolator",
     "FrictionIsolator",

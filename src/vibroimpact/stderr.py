@@ -4,10 +4,21 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager, redirect_stderr, redirect_stdout, suppress
+from collections.abc import Callable, Iterator
+from contextlib import (
+    AbstractContextManager,
+    ExitStack,
+    contextmanager,
+    nullcontext,
+    redirect_stderr,
+    redirect_stdout,
+    suppress,
+)
 
 from vibroimpact.errors import printable
+
+busy: Callable[[str], AbstractContextManager[object]] = nullcontext
+"""Entered with a description while something takes seconds; commands show a bar on a terminal."""
 
 
 def print_line(text: str) -> None:

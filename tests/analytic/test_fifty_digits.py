@@ -22,7 +22,7 @@ from reference.paper_signs import in_paper_signs
 from reference.rig import Rig, Stop
 from samples import sample
 
-CYCLES = sample(20, 2)
+CYCLES = sample(20, 3)
 TOLERANCE = 1e-12
 
 MASS, STIFFNESS, AMPLITUDE = 550.0, 26.29e3, 0.49  # the published rig in test A3

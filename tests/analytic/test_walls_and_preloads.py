@@ -24,7 +24,7 @@ from reference.public_motion import (
 )
 from samples import sample
 
-CYCLES = sample(20, 4)
+CYCLES = sample(20, 6)
 TOLERANCE = 1e-11
 Wall, Bumper = vi.RigidStop, vi.Bumper
 

@@ -355,6 +355,50 @@ def test_earthquake(run, tmp_path):
     assert saved["motion"].sizes["mass"] == 2
 
 
+SINK = """
+name = "sink"
+[assembly]
+units = "none"
+[assembly.masses]
+host = 1.0
+ball = 0.05
+[assembly.links]
+spring = { left = "ground", right = "host", stiffness = 1.0, damping = 0.02 }
+[assembly.stops]
+right = { left = "ball", right = "host", kind = "rigid", restitution = 0.75, gap = 15.0 }
+left = { left = "host", right = "ball", kind = "rigid", restitution = 0.75, gap = 15.0 }
+[excitation]
+of = "force"
+on = "host"
+amplitude = 1.0
+[simulate]
+frequency = 0.15915494309189535
+cycles = 400
+"""
+
+
+def test_an_impact_damper_starts_from_a_state(run, tmp_path):
+    """Its closed form: two impacts a cycle, the speed of the ball in between V."""
+    (tmp_path / "sink.toml").write_text(SINK, encoding="utf-8")
+    speed = 14.78340654
+    words = ("motion", "sink.toml", "--start", "velocity.ball=14", "--start", "velocity.host=3")
+    code, _, errors = run(*words)
+    assert (code, errors) == (0, "")
+    found = vi.load(tmp_path / "out/sink-omega1-motion.nc")
+    assert float(abs(found["velocity"].sel(mass="ball")).max()) == pytest.approx(speed, rel=1e-6)
+    code, _, errors = run("simulate", "sink.toml", *words[2:], "--cycles", "1")
+    assert (code, errors) == (0, "")
+    motion = vi.load(tmp_path / "out/sink-omega1-history.nc")
+    assert float(motion["velocity"].sel(mass="ball")[0]) == 14.0
+    names = [f"{part}.{mass}" for part in ("displacement", "velocity") for mass in ("host", "ball")]
+    end = found["final_state"]
+    near = ",".join(f"{name}={float(end.sel(component=name)):.3g}" for name in names)
+    varied = ("--vary", "amplitude=0.9:1.1")
+    code, out, errors = run("branch", "sink.toml", "--start", near, *varied)
+    assert (code, errors) == (0, "")
+    assert "Branch 0: period 1" in out
+
+
 def test_design(run, tmp_path):
     quake = noise(3, 4.0, 180)
     columns = np.column_stack([quake.time, quake.acceleration])
@@ -433,7 +477,10 @@ def test_ensemble(run, tmp_path):
         (("simulate", "neighbours", "--displacement", "2mm"), "--displacement: '2mm', but"),
         (("sweep", "neighbours", "--compute", "p = mean(velocity)"), "velocity.west"),
         (("sweep", "neighbours", "--normalised"), "--normalised: set, but"),
-        (("branch", "neighbours", "--start", "1mm,0"), "--start: '1mm,0', but"),
+        (("branch", "neighbours", "--start", "1mm,0"), "--start: '1mm'"),
+        (("simulate", "neighbours", "--start", "velocity.wes=1"), "start.velocity: 'wes'"),
+        (("simulate", "B2-G1-A3", "--start", "velocity.a=1", "--frequency", "2Hz"), "has one mass"),
+        (("motion", "B2-G1-A3", "--start", "velocity.a=1", "--frequency", "2Hz"), "has one mass"),
         (("simulate", "neighbours", "--set", "stops.pound.gap=1cm"), "did you mean stops.pounding"),
         (
             ("simulate", "neighbours", "--set", "stops.moat=none"),

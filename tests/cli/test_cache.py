@@ -42,6 +42,14 @@ def kept(tmp_path, monkeypatch) -> Path:
     return own
 
 
+def test_without_numba_the_folders_are_listed(run, kept, monkeypatch):
+    monkeypatch.setitem(sys.modules, "numba", None)
+    code, out, errors = run()
+    assert (code, errors) == (0, "")
+    assert f"{kept.parent}: 2 folders, 6.0 MB" in out
+    assert "of this version" not in out
+
+
 def compiled(folder: Path) -> int:
     return len(list(folder.rglob("*.nb[ic]")))
 

@@ -79,7 +79,7 @@ def test_json_says_which_motions_there_are(two, settled):
         assert motion["mirror_pair"] is False
         assert motion["status"] == "done"
     # The same as a sweep on its way up and down.
-    swept = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), np.arange(0.5, 4.0, 0.1))
+    swept = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), np.arange(0.5, 4.0, 0.05))
     there = swept.sel(frequency=2.0, method="nearest")
     for motion, direction in ((forward, "forward"), (backward, "backward")):
         assert motion["name"] == f"{direction} branch"

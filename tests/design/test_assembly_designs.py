@@ -145,3 +145,11 @@ def test_a_limit_of_one_part() -> None:
     np.testing.assert_array_equal(excess <= 0.0, found["within_limits"])
     with pytest.raises(vi.InputError, match=r"limits: 'peak_drift\.attic'; .* peak_drift\.storey"):
         vi.design_chart(frame(), VARY, records=RECORDS, limits={"peak_drift.attic": 1.0})
+
+
+def test_required_gaps_are_a_table() -> None:
+    rig = vi.Rig(frame(), SINE)
+    gap = vi.required_gap(rig)
+    table = vi.to_table(gap)
+    assert table["stop"].tolist() == ["right", "left"]
+    np.testing.assert_array_equal(table["required_gap"], gap["required_gap"])

@@ -7,7 +7,7 @@
 - ``sh`` and other blocks are only read.
 
 In what a page shows, a line of three dots stands for any lines. Blocks that take long, and those
-that need their results, follow a line ``<!-- full run -->``: the daily run leaves them out.
+that need their results, follow a line ``<!--full-run-->``: the daily run leaves them out.
 
 After a change that changes what is printed: ``python tests/docs/snippets.py`` writes it into all
 pages, except where a block has such dots, and what a page draws and shows to where it is shown.
@@ -41,7 +41,7 @@ PAGES = sorted(
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PICTURE = re.compile(r"!\[[^\]]+\]\(([^)\s]+)\)")
-LATER = "<!-- full run -->\n\n"
+LATER = "<!--full-run-->\n\n"
 """What stands before a block of the full run."""
 _FILE = re.compile(r"# ([\w.-]+\.toml)\n")
 

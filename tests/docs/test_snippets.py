@@ -91,7 +91,7 @@ def test_a_wrong_page_is_noticed(tmp_path, monkeypatch):
     assert [shown.agrees for shown in run_page(page.format("..."))] == [True]
     assert [shown.agrees for shown in run_page(page.format("1\n3"))] == [False]
     assert [shown.agrees for shown in run_page("```python\nprint(1)\n```\n")] == [False]
-    later = f"<!-- full run -->\n\n{page.format('3')}"
+    later = f"<!--full-run-->\n\n{page.format('3')}"
     assert [shown.agrees for shown in run_page(later)] == [False]
     assert list(run_page(later, full=False)) == []
     wrong = "```console\n$ vibroimpact sweep B9-G1-A3\n{}```\n"

@@ -10,14 +10,17 @@ import importlib
 import pkgutil
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor, wait
+from functools import partial
 
 from vibroimpact import engine
-from vibroimpact.engine import flow_tables, jit
+from vibroimpact.engine import flow_tables, jit, native
 from vibroimpact.engine.entry import Entry
 from vibroimpact.engine.flow_tables import plan_of
 from vibroimpact.engine.parameters import Drive, free_rig, rig_vector
 from vibroimpact.law_numbers import IsolatorNumbers
+from vibroimpact.tasks.progress import progress_bar
 from vibroimpact.tasks.threads import available
 
 _YIELDS = IsolatorNumbers(friction=1.0)
@@ -55,17 +58,40 @@ def entries() -> list[Entry]:
     ]
 
 
+def parts(flow: str) -> list[Callable[[], object]]:
+    """What compiles or loads each group of the functions of a flow, or each entry."""
+    if flow == ENTRIES:
+        return [partial(entry.of, plan_of(RIGS["Apart"], ())) for entry in entries()]
+    groups = GROUPS.get(flow, tuple(flow_tables.GROUPS))
+    return [partial(plan_of, RIGS[flow], (group,)) for group in groups]
+
+
 def compile_for(flow: str) -> None:
     """Compile the functions of a flow, or the entries."""
-    if flow == ENTRIES:
-        for entry in entries():
-            entry.of(plan_of(RIGS["Apart"], ()))
-    else:
-        plan_of(RIGS[flow], GROUPS.get(flow, tuple(flow_tables.GROUPS)))
+    for part in parts(flow):
+        part()
 
 
-def compiled(flow: str) -> int:
-    return subprocess.call([sys.executable, __file__, flow])
+def compiled(flow: str, finished: list[str]) -> int:
+    """Compile in a process of its own, which writes a line for each part."""
+    command = [sys.executable, __file__, flow]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        finished.extend(process.stdout)
+    return process.returncode
+
+
+def compile_all() -> int:
+    """Compile all flows side by side, with a bar; whether one failed."""
+    flows, finished = [*RIGS, ENTRIES], []
+    total = sum(len(parts(flow)) for flow in flows)
+    show = progress_bar("compiling the engine")
+    with ThreadPoolExecutor(available()) as pool:
+        running = {pool.submit(compiled, flow, finished) for flow in flows}
+        while any(not one.done() for one in running):
+            show(len(finished), total)
+            wait(running, timeout=0.5)
+    show(total, total)
+    return any(one.result() for one in running)
 
 
 ENTRIES = "entries"
@@ -74,7 +100,8 @@ if __name__ == "__main__":
     if sys.argv[1:]:
         if sys.argv[1] != next(iter(RIGS)):
             jit.announce = lambda text: None  # it is said once
-        compile_for(sys.argv[1])
-    else:
-        with ThreadPoolExecutor(available()) as pool:
-            sys.exit(any(pool.map(compiled, [*RIGS, ENTRIES])))
+        for part in parts(sys.argv[1]):
+            part()
+            print("done", flush=True)
+    elif native.find_library() is None:
+        sys.exit(compile_all())

@@ -122,8 +122,9 @@ def test_a_library_of_other_sources_is_not_used_and_that_is_announced(
     monkeypatch.setattr(jit, "_announced", threading.Event())
     made = choice()
     monkeypatch.setattr(native, "choose", lambda: made)
-    compilation._say()
-    compilation._say()
+    for _ in range(2):
+        with compilation.Compiled(choice, "f8(f8)")._announced("Alone"):
+            pass
     (line,) = lines
     assert "was made of other sources (make kernels)" in line
 

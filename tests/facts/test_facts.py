@@ -1,6 +1,7 @@
 """What was found, as plain values and in words: the same for command line, page and reports."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -98,3 +99,17 @@ def test_tables_as_text_have_no_marks_of_a_terminal():
     assert lines[0].strip() == "Jumps"
     assert "\x1b" not in "".join(lines)
     assert all(line == line.rstrip() for line in lines)
+
+
+def test_another_number_of_a_motion_is_written_without_an_entry():
+    plain = vi.steady("B2-G1-A3", frequency=2.0)
+    data = plain.assign(peak_force=("stop", [1.5e3, math.inf]), peak_transmitted_force=250.0)
+    (table,) = motions.facts({2.0: {"one": data}})
+    assert table["peak_force"] == {"right": 1500.0, "left": math.inf}
+    assert table["peak_transmitted_force"] == 250.0
+    lines = as_text(motions.text({2.0: {"one": data}})).splitlines()
+    row = next(line for line in lines if line.startswith("peak force"))
+    assert row.split(maxsplit=2)[2].rstrip() == "1.5 kN right, infinite left"
+    assert any(line.split() == ["peak", "transmitted", "force", "250", "N"] for line in lines)
+    before = as_text(motions.text({2.0: {"one": plain}})).splitlines()
+    assert len(lines) == len(before) + 2

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
@@ -9,18 +10,9 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact.model.law_registry import Kinds
-from vibroimpact.model.quantities import LENGTH, STIFFNESS, Quantity, Scale
+from vibroimpact.model.quantities import LENGTH, STIFFNESS, quantity
 from vibroimpact.model.stops import Bumper, FormulaStop, StopLaw
 from vibroimpact.model.validation import Accepts, Model
-
-DRAG = Quantity(
-    "drag coefficient",
-    (("kilogram", 1), ("meter", -2), ("second", -1)),
-    "N s/m³",
-    "5 kN s/m^3",
-    5e3,
-    (Scale(0.0, 1.0, "N s/m³"),),
-)
 
 
 class DraggedBumper(FormulaStop):
@@ -30,7 +22,7 @@ class DraggedBumper(FormulaStop):
     formula: ClassVar[str] = "stiffness*d + drag*d**2*v"
 
     stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
-    drag: Annotated[float, Accepts(DRAG, minimum=0.0)]
+    drag: Annotated[float, Accepts(quantity("N s/m^3"), minimum=0.0)]
     gap: Annotated[float, Accepts(LENGTH)]
 
 
@@ -56,7 +48,7 @@ def test_it_is_read_from_a_table_and_written_as_one() -> None:
     stop = read()
     assert dict(stop) == {"stiffness": 4e4, "drag": 5e3, "gap": 7.5e-3}
     assert Side(stop=stop).model_dump()["stop"] == {"kind": "dragged", **dict(stop)}
-    assert stop.summary() == "dragged, stiffness 40 kN/m, drag 5000 N s/m³, gap 7.5 mm"
+    assert stop.summary() == "dragged, stiffness 40 kN/m, drag 5 kN s/m³, gap 7.5 mm"
     with pytest.raises(vi.InputError, match=r"stop\.drag: -1\.0 is less than 0"):
         read(drag=-1.0)
 
@@ -64,6 +56,34 @@ def test_it_is_read_from_a_table_and_written_as_one() -> None:
 def test_the_engine_follows_it_as_the_law_that_a_user_writes() -> None:
     law = vi.Law("max(k*d + c*d**2*v, 0)", "7.5 mm", k="40 kN/m", c="5 kN s/m^3")
     assert read().engine_numbers() == law.engine_numbers()
+
+
+def test_its_fields_are_arguments_in_their_order() -> None:
+    stop = DraggedBumper("40 kN/m", "5 kN s/m³", gap="7.5 mm")
+    assert stop == read()
+    assert list(inspect.signature(DraggedBumper).parameters) == ["stiffness", "drag", "gap"]
+    with pytest.raises(vi.InputError, match=r"^stiffness: passed twice, by position and by name"):
+        DraggedBumper(1.0, 2.0, 0.1, stiffness=3.0)
+    with pytest.raises(vi.InputError, match=r"4 values .* by position.*stiffness, drag and gap"):
+        DraggedBumper(1.0, 2.0, 0.1, 3.0)
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.01, -0.01])
+def test_another_law_of_the_same_force_is_made_of_its_units(gap: float) -> None:
+    stop = DraggedBumper.like(1e3, 2e-3, gap, 0.6, 7.0, 550.0)
+    assert stop is not None
+    assert stop.gap == gap
+    assert stop.static_force(2e-3) == pytest.approx(1e3, rel=1e-14)
+    # The force of the drag is that of the spring at the speed omega d.
+    assert stop.force([2e-3], [7.0 * 2e-3])[0] == pytest.approx(2e3, rel=1e-14)
+
+
+def test_units_of_its_fields_are_written_and_read() -> None:
+    drag = quantity("N s/m^3")
+    assert (drag.units, drag.symbol) == ("N s m-3", "N s/m³")
+    assert quantity("N/m^1.5").units == "N/m^1.5"
+    with pytest.raises(ValueError, match="'lb/s' is not a product of powers of kg, m, s"):
+        quantity("lb/s")
 
 
 def test_it_pushes_and_never_pulls() -> None:

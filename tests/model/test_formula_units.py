@@ -18,7 +18,7 @@ RIG = vi.Rig(vi.Oscillator("550 kg", ISOLATOR, STOP, STOP), "0.05 g")
 @pytest.mark.parametrize(
     ("law", "units"),
     [
-        (ISOLATOR, {"k": "N m-1", "q": "N/m^7", "c": "N s m-1"}),
+        (ISOLATOR, {"k": "N m-1", "q": "N m-7", "c": "N s m-1"}),
         (STOP, {"ks": "N m-1", "k5": "N m-5", "cs": "N s m-1"}),
         (vi.Law("k*u/(1 + abs(u)/a) + c*v", k=3.0, a=2.0, c=1.0), {"k": "N m-1", "a": "m"}),
         (vi.Law("f*tanh(u/a) + c*v", f=3.0, a=2.0, c=1.0), {"f": "N", "a": "m"}),

@@ -12,10 +12,13 @@ from vibroimpact.model import (
     RigidStop,
     validate,
 )
+from vibroimpact.model.stops import STOPS
 
 ISOLATOR = {"stiffness": "26.8 kN/m", "damping": "1.1 kN s/m"}
 BUMPER = {"stiffness": 510e3, "damping": 900, "gap": "7.5 mm"}
 WALL = {"kind": "rigid", "restitution": 0.8, "gap": "9 mm"}
+*FIRST, LAST = map(repr, STOPS.classes)
+KINDS = f"{', '.join(FIRST)} or {LAST}"
 
 
 def rig(**sides):
@@ -47,13 +50,11 @@ def test_only_an_unusual_kind_is_written():
     [
         (
             {"right": {"kind": "hertz", "stiffness": 1}},
-            "rig.right.kind: 'hertz' is unknown; 'kelvin-voigt', 'rigid', 'power', 'jankowski' or "
-            "'formula' is accepted",
+            f"rig.right.kind: 'hertz' is unknown; {KINDS} is accepted",
         ),
         (
             {"left": {"kind": 3}},
-            "rig.left.kind: 3 is unknown; 'kelvin-voigt', 'rigid', 'power', 'jankowski' or "
-            "'formula' is accepted",
+            f"rig.left.kind: 3 is unknown; {KINDS} is accepted",
         ),
         (
             {"isolator": {"kind": "rubber"}},
@@ -68,6 +69,16 @@ def test_only_an_unusual_kind_is_written():
         (
             {"right": {**WALL, "gapp": 2}},
             "rig.right.gapp: unknown key; restitution and gap are accepted; did you mean gap?",
+        ),
+        (
+            {"isolator": {**ISOLATOR, "cubic": 2}},
+            "rig.isolator.cubic: unknown key; stiffness, damping, damping_exponent, period and "
+            "damping_ratio are accepted; PolynomialIsolator (kind 'polynomial') has this key",
+        ),
+        (
+            {"right": {**WALL, "exponent": 2}},
+            "rig.right.exponent: unknown key; restitution and gap are accepted; PowerBumper "
+            "(kind 'power') has this key",
         ),
         (
             {"right": {"kind": "rigid", "gap": 2}},
@@ -88,6 +99,11 @@ def test_mistakes_are_named_by_their_path(table, message):
     with pytest.raises(InputError) as caught:
         rig(**table)
     assert str(caught.value) == message
+
+
+def test_the_law_with_a_misplaced_argument_is_named():
+    with pytest.raises(InputError, match=r"^cubic: .*; PolynomialIsolator \(kind 'polynomial'\)"):
+        Isolator(26e3, 1e3, cubic=1.0)
 
 
 def test_a_table_of_another_kind_is_refused():

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from formula_stops import formula_stops
 from vibroimpact.errors import InputError
 from vibroimpact.model.parameter_ranges import read_ranges
 from vibroimpact.model.parameters import PARAMETERS, parameter, set_values
@@ -44,6 +45,8 @@ def having(name: str) -> vi.Oscillator:
     """A rig that has the parameter."""
     found = RIG.replace(isolator=ISOLATORS.get(name.removeprefix("isolator."), RIG.isolator))
     stops = {"restitution": WALLS.right, "mass": POUNDING, "exponent": HERTZ, "dissipation": HERTZ}
+    for one in (RIG.right, *formula_stops(4e5, 7.5e-3).values()):
+        stops = dict.fromkeys(dict(one), one) | stops
     stop = stops.get(name.rpartition(".")[2], RIG.right) if name.startswith("stops") else RIG.right
     return found.replace(right=stop, left=stop)
 
@@ -155,7 +158,7 @@ def test_sides_that_differ():
             parameter(name, uneven).read(vi.Rig(uneven, SHAKEN))
     assert parameter("left.damping", uneven).read(vi.Rig(uneven, SHAKEN)) == 1.0
     free = RIG.without_bumpers()
-    with pytest.raises(vi.InputError, match="the rig has no stop with a damping"):
+    with pytest.raises(vi.InputError, match="the rig has no stop with a stiffness"):
         parameter("relaxation_time", free).read(vi.Rig(free, SHAKEN))
 
 
@@ -251,10 +254,19 @@ def test_a_stiffness_at_restitution_is_that_of_bumpers_made_by_it():
     rig = one.vary(vi.Rig(begun, SHAKEN), 8e4).oscillator
     assert rig.right.stiffness == 8e4
     assert rig.right.damping == pytest.approx(wall(8e4).damping, rel=1e-14)
-    with pytest.raises(
-        vi.InputError, match=r"has the same restitution at any stiffness; use 'stops.st"
-    ):
-        one.read(vi.Rig(RIG.replace(right=HERTZ, left=HERTZ), SHAKEN))
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["proportional_stiffness", "stiffness_at_restitution", "stiffness_ratio", "relaxation_time"],
+)
+@pytest.mark.parametrize("left", [HERTZ, RIG.left, None])
+def test_what_sets_the_damping_of_bumpers_refuses_another_law(name, left):
+    rig = vi.Rig(RIG.replace(right=HERTZ, left=left), SHAKEN)
+    one = parameter(name, rig)
+    for use in (one.read, lambda rig: one.vary(rig, 0.3), lambda rig: set_values(rig, {name: 0.3})):
+        with pytest.raises(vi.InputError, match=rf"(?=.*'{name}').*power"):
+            use(rig)
 
 
 @pytest.mark.parametrize(

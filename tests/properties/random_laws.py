@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 import vibroimpact as vi
+from formula_stops import formula_stops
 
 RELATIONS = ("exact", "hunt-crossley", "lankarani-nikravesh", "flores", "gonthier")
 
@@ -39,7 +40,10 @@ def random_isolator(rng: np.random.Generator):
 def random_stop(rng: np.random.Generator):
     gap = float(rng.choice([0.0, rng.uniform(0.05, 1.5), rng.uniform(0.05, 1.5)]))
     stiffness = 10.0 ** rng.uniform(-1, 5)
-    kind = int(rng.integers(6))
+    others = list(formula_stops(stiffness, gap).values())
+    kind = int(rng.integers(6 + len(others)))
+    if kind > 5:
+        return others[kind - 6]
     if kind == 0:
         return None
     if kind == 1:

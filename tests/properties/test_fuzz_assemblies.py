@@ -204,7 +204,7 @@ def _ends(data: xr.Dataset, assembly: vi.Assembly) -> tuple[Any, Any]:
 
 @pytest.mark.parametrize("seed", range(sample(20, 1)))
 def test_random_assemblies(seed: int) -> None:
-    outcomes, wrong = survey(sample(1000, 15), seed)
+    outcomes, wrong = survey(sample(1000, 25), seed)
     assert not wrong, "\n".join(wrong)
     assert outcomes["done"] > 0.9 * sum(outcomes.values())
 

@@ -5,10 +5,14 @@
 
 A rig is stored if two runs of other orders and digits agree to 1e-27, if it touches both stops
 late in the motion, and if a disturbance of 1e-12 grows by less than 1e2. It takes some 10 s a rig.
+
+Each state is added to its file as soon as it is known, so that several runs can store different
+rigs. States of rigs that exist no more are removed.
 """
 
 from __future__ import annotations
 
+import runpy
 import sys
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,7 +23,7 @@ if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parents[1]))
 
 import vibroimpact as vi
-from reference import law_cases, law_states, shaken_cases, shaken_states
+from reference import law_cases, shaken_cases
 from reference.any_law import Motion, follow
 from reference.law_cases import Case
 
@@ -35,7 +39,6 @@ class Store(NamedTuple):
     name: str
     about: str
     cases: dict[str, Case]
-    known: dict[str, States]
 
 
 STORES = (
@@ -43,13 +46,11 @@ STORES = (
         "law_states.py",
         "the rigs of `law_cases` after 1, 5 and 20 cycles from rest",
         law_cases.CASES,
-        law_states.STATES,
     ),
     Store(
         "shaken_states.py",
         "the rigs of `shaken_cases` at their `marks`, from rest",
         shaken_cases.CASES,
-        shaken_states.STATES,
     ),
 )
 
@@ -103,8 +104,16 @@ def states(one: Case) -> States:
         return tuple((mp.nstr(u, DIGITS), mp.nstr(v, DIGITS)) for u, v in stored)
 
 
-def write(store: Store, known: dict[str, States]) -> None:
-    """The file, in the order of its cases."""
+def put(store: Store, name: str, state: States | None) -> None:
+    """Change one state in the file, where another run may have changed others; None removes it."""
+    path = Path(__file__).with_name(store.name)
+    known: dict[str, States] = runpy.run_path(str(path))["STATES"]
+    kept = {one: states for one, states in known.items() if one != name}
+    path.write_text(written(store, kept if state is None else {**kept, name: state}))
+
+
+def written(store: Store, known: dict[str, States]) -> str:
+    """The text of the file, in the order of its cases."""
     lines = [
         f'"""u (m) and v (m/s) of {store.about}.',
         "",
@@ -118,22 +127,20 @@ def write(store: Store, known: dict[str, States]) -> None:
             lines.append(f'    "{name}": (')
             lines += [f'        ("{u}", "{v}"),' for u, v in known[name]]
             lines.append("    ),")
-    Path(__file__).with_name(store.name).write_text("\n".join([*lines, "}", ""]))
+    return "\n".join([*lines, "}", ""])
 
 
 def main(words: str) -> None:
     """Store the rigs whose names have these words."""
     for store in STORES:
-        known = dict(store.known)
         for name, one in store.cases.items():
             if words in name:
                 print(name, flush=True)
                 try:
-                    known[name] = states(one)
+                    put(store, name, states(one))
                 except (ValueError, ArithmeticError) as error:
                     print(f"  NOT STORED: {error}", flush=True)
-                    known.pop(name, None)
-                write(store, known)
+                    put(store, name, None)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import xarray as xr
 from scipy.integrate import quad
 
 import vibroimpact as vi
+from vibroimpact.model import Stop
 
 
 def stored(oscillator: vi.Oscillator, data: xr.Dataset, at: int) -> float:
@@ -37,9 +38,13 @@ def stored(oscillator: vi.Oscillator, data: xr.Dataset, at: int) -> float:
         if isinstance(stop, vi.Bumper):
             x = float(data["deformation"].sel(stop=name)[at])
             held += stop.stiffness * x**2 / 2
-        elif touched and isinstance(stop, vi.Law):
-            held += quad(stop.read.value, 0.0, depth, (0.0,), epsabs=1e-14)[0]
         elif touched and not isinstance(stop, vi.RigidStop):
-            power = getattr(stop, "exponent", 1.5)
-            held += stop.stiffness * depth ** (power + 1) / (power + 1)
+            held += stored_by_stop(stop, depth)
     return held
+
+
+def stored_by_stop(stop: Stop, depth: float) -> float:
+    """Energy (J) that a deformable stop without memory returns, if it is left slowly."""
+    if isinstance(stop, vi.PowerBumper | vi.JankowskiBumper):
+        return stop.stiffness * depth ** (stop.exponent + 1) / (stop.exponent + 1)
+    return float(quad(stop.static_force, 0.0, depth, epsabs=1e-14, epsrel=1e-13)[0])

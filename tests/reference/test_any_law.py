@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from mpmath import mp, mpf
 
 import vibroimpact as vi
-from reference import fifty_digits, law_states, shaken_cases, shaken_states
+from formula_stops import FORMULA_STOPS
+from reference import fifty_digits, law_states, shaken_cases, shaken_states, store_law_states
 from reference import laws_mpmath as laws
 from reference import rig as rig_reference
 from reference.any_law import Step, follow
 from reference.jets import value
-from reference.law_cases import CASES, CYCLES
+from reference.law_cases import CASES, CYCLES, hertz
 from reference.law_series import law_of
 from reference.public_motion import reference_shaking
-from reference.store_law_states import States, difference, marks
+from reference.store_law_states import STORES, States, Store, difference, marks
 from samples import sample
 from vibroimpact.model.isolators import ISOLATORS
 from vibroimpact.model.stops import STOPS, Stop
@@ -35,6 +38,7 @@ ONE_EACH = (
     "drag 0.5 and friction",
 )
 ALL = {**CASES, **shaken_cases.CASES}
+STATES_OF = {"law_states.py": law_states.STATES, "shaken_states.py": shaken_states.STATES}
 STATES: dict[str, States] = {**law_states.STATES, **shaken_states.STATES}
 SHAKEN_EACH = tuple(shaken_cases.CASES)[1::19]
 """One of each kind of shaking but two."""
@@ -108,8 +112,25 @@ def test_stored_states_are_those_of_a_fresh_run(name: str) -> None:
                     assert abs(one - digits) <= mpf("1e-23") * abs(digits)
 
 
-BUILT_IN = {kinds: set(kinds.classes.values()) - {vi.Law} for kinds in (ISOLATORS, STOPS)}
+BY_FORMULA = {vi.Law, *FORMULA_STOPS.values()}
+BUILT_IN = {kinds: set(kinds.classes.values()) - BY_FORMULA for kinds in (ISOLATORS, STOPS)}
 """A law given as a formula equals one of these to the bit: tests/engine/taylor/test_own_laws.py."""
+
+
+@pytest.mark.parametrize("store", STORES, ids=lambda one: one.name)
+def test_storing_one_rig_keeps_the_others(
+    store: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = Path(store_law_states.__file__).with_name(store.name).read_text()
+    monkeypatch.setattr(store_law_states, "__file__", str(tmp_path / "store.py"))
+    (tmp_path / store.name).write_text(text)
+    (first, state), (second, other) = [*STATES_OF[store.name].items()][3:5]
+    for name in (second, first):
+        store_law_states.put(store, name, None)
+    assert f'"{first}"' not in (tmp_path / store.name).read_text()
+    for name, known in ((first, state), (second, other)):
+        store_law_states.put(store, name, known)
+    assert (tmp_path / store.name).read_text() == text
 
 
 def test_every_law_has_three_stored_rigs_and_more() -> None:
@@ -118,6 +139,14 @@ def test_every_law_has_three_stored_rigs_and_more() -> None:
     assert all(laws_seen.count(law) >= 3 for law in BUILT_IN[ISOLATORS])
     stops = [type(stop) for one in CASES.values() for stop in one.rig.stops]
     assert all(stops.count(law) >= 3 for law in BUILT_IN[STOPS])
+
+
+def test_another_stop_changes_no_stored_rig() -> None:
+    found = shaken_cases.cases({"one": hertz, "two": hertz})
+    assert found.items() >= shaken_cases.CASES.items()
+    more = found.keys() - shaken_cases.CASES.keys()
+    assert len(more) == 4 * len(shaken_cases.SHAKEN)
+    assert more >= shaken_cases.cases({"one": hertz}).keys() - shaken_cases.CASES.keys()
 
 
 def test_every_law_is_under_every_shaking_on_either_side() -> None:
@@ -138,7 +167,7 @@ def test_every_law_is_under_every_shaking_on_either_side() -> None:
     isolators = {(type(one), one.damping_exponent) for one in shaken_cases.ISOLATORS.values()}
     stops = {
         (type(stop), getattr(stop, "relation", None))
-        for stop in (made(0.01) for made in shaken_cases.STOPS.values())
+        for stop in (made(0.01) for made in (shaken_cases.STOPS | shaken_cases.LATER).values())
     }
     assert {law for law, _ in isolators} == BUILT_IN[ISOLATORS]
     assert {law for law, _ in stops} == BUILT_IN[STOPS]

@@ -8,8 +8,8 @@ from identification.twins import curves
 from vibroimpact.cli.study import read_study
 from vibroimpact.figures import fit_history, fit_profiles, fit_residuals
 from vibroimpact.identification.comparison import hertzian, softening
+from vibroimpact.model.study import study_text
 from vibroimpact.reports.identification import measured_of, parameter_rows
-from vibroimpact.reports.study import study_text
 
 
 @pytest.fixture(scope="module")
@@ -47,7 +47,9 @@ def test_the_report_and_the_rig(fit, tmp_path):
 def test_a_study_file_of_any_law(case, tmp_path):
     rig = softening(hertzian(case.oscillator, 3e-3)).replace(left=vi.RigidStop(0.5, "9 mm"))
     path = tmp_path / "any.toml"
-    path.write_text(study_text('a "name"', rig, 0.4, "first\nsecond"), encoding="utf-8")
+    path.write_text(
+        study_text(vi.Rig(rig, 0.4, name='a "name"'), "first\nsecond"), encoding="utf-8"
+    )
     assert read_study(path).oscillator == rig
     assert read_study(path).name == 'a "name"'
 

@@ -564,6 +564,14 @@ def test_a_motion_is_saved_and_resumed(tmp_path: Any) -> None:
     xr.testing.assert_identical(*ends)
 
 
+@pytest.mark.parametrize("cycles", [1, 5])
+def test_a_motion_in_parts_of_whole_cycles_has_the_same_digits(cycles: int) -> None:
+    whole = vi.simulate(RIG, 12, samples=0)
+    part = vi.simulate(RIG, cycles, samples=0)
+    rest = vi.simulate(RIG, 12 - cycles, part, samples=0)
+    np.testing.assert_array_equal(rest["final_state"], whole["final_state"])
+
+
 def test_a_study_file_and_a_rig_without_units(tmp_path: Any) -> None:
     path = tmp_path / "rig.toml"
     path.write_text(

@@ -138,7 +138,7 @@ def test_many_assemblies_are_swept_as_one_at_a_time() -> None:
         for variable in alone.data_vars:
             np.testing.assert_array_equal(found[variable].sel(rig=name), alone[variable])
     other = vi.Rig(vi.chain([1.0], [30.0], 0.05), "1 m/s2")
-    with pytest.raises(vi.InputError, match=r"^rigs\[1\]: its masses are floor_1, not those of"):
+    with pytest.raises(vi.InputError, match=r"^rigs\['1'\]: its mass names are floor_1, not"):
         vi.sweeps([rigs["near"], other], frequencies)
     with pytest.raises(vi.InputError, match=r"^rigs\[.*\]: an Oscillator beside an Assembly"):
         vi.sweeps([rigs["near"], "B2-G1-A3"], frequencies)

@@ -22,7 +22,7 @@ from vibroimpact.stores import zarr_store
 
 # What is kept does not depend on how much it is.
 AXES = {"stiffness_ratio": [1.0, 16.0], "gap_ratio": [0.2, 0.6, 0.9]}
-OPTIONS = {"refine": 1, "block": 2, "step": 0.05}
+OPTIONS = {"refine": 1, "block": 2, "step": 0.1}
 
 
 def test_a_finished_map_is_read_and_not_computed(tmp_path):

@@ -24,10 +24,11 @@ from typing import Any
 
 from cyclopts import App, CycloptsError
 
+from vibroimpact import stderr
 from vibroimpact._version import __version__
 from vibroimpact.cli.error_text import in_words
 from vibroimpact.cli.garbage_collection import search_no_more, search_seldom
-from vibroimpact.cli.output import font_warnings_once, warnings_in_lines
+from vibroimpact.cli.output import busy, font_warnings_once, warnings_in_lines
 from vibroimpact.cli.terminal import (
     flush,
     give_up_stdout,
@@ -147,6 +148,7 @@ def _terminable() -> Iterator[None]:
 def _run(words: list[str]) -> int:
     """Run a command, and return its exit code."""
     take_any_encoding()
+    stderr.busy = busy
     try:
         with _terminable(), warnings_in_lines(), font_warnings_once():
             # In a context of its own: the rig of a command may be written without units.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
@@ -11,7 +11,7 @@ from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
 from vibroimpact.cli.own_outputs import Compute, own_outputs
-from vibroimpact.cli.states import fixed_frequency, rig_at, state
+from vibroimpact.cli.states import fixed_frequency, named_state, rig_at, state
 from vibroimpact.cli.vary import FREQUENCY_HELP, HELP, Vary, read_one
 from vibroimpact.stability.branch_styles import Quantity
 
@@ -99,7 +99,8 @@ def branch(
         Number of values of the parameter at which basins of attraction are computed. The basins
         help to find isolated branches to which only few initial states lead.
     begin
-        State (displacement and velocity) near a periodic orbit, such as 5mm,100mm/s. Only the
+        State (displacement and velocity) near a periodic orbit, such as 5mm,100mm/s; of several
+        masses, values such as velocity.ball=0.1m/s,displacement.host=2cm. Only the
         branch of this orbit is followed. Default: all branches are followed.
     period
         Period of the orbits of one branch, in forcing cycles. Only this branch is followed.
@@ -117,7 +118,7 @@ def branch(
     what = subject(rig, changes, output.name, masses=True)
     several = is_assembly(what)
     if several:
-        refuse(what, start=begin, normalised=physical is False, basins=basins or None)
+        refuse(what, normalised=physical is False, basins=basins or None)
     varied = read_one(what, vary, number=False)
     along, span = varied.name, varied.span
     is_one = begin is not None or period is not None or several
@@ -126,7 +127,9 @@ def branch(
     if several and not of_orbit:
         # Without a frequency, the branch starts at the lower end of the range.
         shaken = shaken.with_parts(what.system, what.at(span[0]), keep_open=False)
-    near = None if begin is None else state("--start", begin)
+    near: Any = None
+    if begin is not None:
+        near = named_state("--start", begin.split(",")) if several else state("--start", begin)
     swept, outputs = None, own_outputs(compute)
     with results(what, output, fixed_frequency(shaken, along)) as written:
         with progress_bar("following branches") as progress:

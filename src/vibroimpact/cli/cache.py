@@ -33,12 +33,11 @@ def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = Fal
     from json import dumps
 
     from vibroimpact.engine import native
-    from vibroimpact.engine.compiled_code import list_compiled_code, remove
-    from vibroimpact.engine.jit import cache_directory
+    from vibroimpact.engine.compiled_code import list_compiled_code, own_folder, remove
     from vibroimpact.facts.compiled_code import text
     from vibroimpact.facts.tables import as_text
 
-    own = cache_directory()
+    own = own_folder()
     before = list_compiled_code(own)
     in_use = [one.folder.name for one in before if clean and not remove(one, clean)]
     after = list_compiled_code(own) if clean else before

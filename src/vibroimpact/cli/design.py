@@ -60,8 +60,8 @@ def design(
     for the best bumper (--best).
 
     For a rig of several masses (table [assembly] of a study file), the required gap of each stop is
-    printed, and designs are compared by the largest values of all masses. --vary gap sets all gaps,
-    --vary stops.NAME.gap that of one stop.
+    printed, and designs are compared by the largest values of all masses. The path gap varies all
+    gaps, stops.NAME.gap that of one stop.
 
     For example:
 

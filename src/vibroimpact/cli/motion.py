@@ -8,11 +8,12 @@ import vibroimpact as vi
 from vibroimpact import figures
 from vibroimpact.cli import options as opt
 from vibroimpact.cli.function_options import calls
-from vibroimpact.cli.states import rig_at
+from vibroimpact.cli.states import named_state, rig_at
 from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
+    from vibroimpact.model import AssemblyState
     from vibroimpact.model.rig import Rig
 
 MOST_COLUMNS = 6
@@ -29,6 +30,7 @@ def motion(
     random: opt.Whole,
     window: opt.Whole,
     samples: opt.Whole = 256,
+    start: opt.Paths = (),
     changes: opt.RigOptions = opt.AS_DESCRIBED,
     output: opt.OutputOptions = opt.DEFAULT_OUTPUT,
 ) -> int:
@@ -43,8 +45,9 @@ def motion(
     - NAME-FREQUENCY-motion.png: phase portraits, spectra and time histories
 
     For a rig of several masses (table [assembly] of a study file), the command finds the steady
-    motion that is reached from the equilibrium, at one frequency, and draws histories, contact
-    forces, the largest values over the order of the masses, and the spectra of their accelerations.
+    motion that is reached from the equilibrium, or from --start, at one frequency. It draws
+    histories, contact forces, the largest values over the order of the masses, and the spectra of
+    their accelerations.
 
     For example:
 
@@ -68,6 +71,9 @@ def motion(
         states.
     samples
         Number of samples per forcing cycle. It affects only the time history in the files.
+    start
+        Of several masses, an initial value, COORDINATE=VALUE, such as velocity.ball=0.1m/s. The
+        option may be repeated. Default: the static equilibrium.
     """
     from vibroimpact.cli.assembly import is_assembly
     from vibroimpact.cli.output import progress_bar
@@ -80,7 +86,12 @@ def motion(
     what = subject(rig, changes, output.name, masses=True)
     shaken = _rigs(what, frequency)
     if is_assembly(what):
-        return _of_masses(what, shaken, samples, output)
+        return _of_masses(what, shaken, samples, named_state("--start", start), output)
+    if start:
+        raise InputError(
+            f"--start: {start[0]!r}, but {what.name!r} has one mass, whose motions are found from "
+            "several initial states; remove --start"
+        )
     options = {"random": random, "window": window, "samples": samples}
     with results(what, output) as written:
         found = {}
@@ -109,9 +120,13 @@ def motion(
 
 
 def _of_masses(
-    what: Subject, shaken: dict[float, Rig], samples: int, output: opt.OutputOptions
+    what: Subject,
+    shaken: dict[float, Rig],
+    samples: int,
+    start: AssemblyState | None,
+    output: opt.OutputOptions,
 ) -> int:
-    """Find, draw and print the steady motion of several masses that is reached from rest."""
+    """Find, draw and print the steady motion of several masses that is reached from a state."""
     from vibroimpact.cli.assembly import write_motion
     from vibroimpact.cli.output import progress_bar
     from vibroimpact.cli.results import results
@@ -127,7 +142,7 @@ def _of_masses(
     ((hertz, one),) = shaken.items()
     with results(what, output) as written:
         with progress_bar("finding motions") as progress:
-            data = with_spectrum(vi.steady(one, samples=samples, progress=progress))
+            data = with_spectrum(vi.steady(one, start, samples, progress=progress))
         title, ending = f"{what.title}, {forcing(hertz, 10)}", f"{forcing_slug(hertz)}-motion"
         write_motion(written, data, ending, title, None)
         lines = figures.spectrum_lines(data, title=title)

@@ -21,6 +21,7 @@ from vibroimpact.stderr import print_line
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
+    from rich.progress import Progress
 
 WIDTH = 100
 """Number of columns of a summary in a file."""
@@ -98,17 +99,53 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int | None], None]]:
 
 @contextmanager
 def _bar_or_lines(what: str) -> Iterator[Callable[[int, int | None], None]]:
-    if not (sys.stderr and sys.stderr.isatty()):
+    if not _is_terminal():
         from vibroimpact.tasks.progress import progress_lines
 
         yield progress_lines(what)
         return
-    from rich.console import Console
-    from rich.progress import Progress
+    with _bars() as bars:
+        task = bars.add_task(what, total=None)
+        yield lambda done, total: bars.update(task, completed=done, total=total)
 
-    with Progress(console=Console(file=sys.stderr), transient=True) as bar:
-        task = bar.add_task(what, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+@contextmanager
+def busy(what: str) -> Iterator[None]:
+    """Show on a terminal, below the progress of the command, that something takes seconds."""
+    if not _is_terminal():
+        yield
+        return
+    with _bars() as bars:
+        task = bars.add_task(what, total=None)
+        try:
+            yield
+        finally:
+            bars.remove_task(task)
+
+
+def _is_terminal() -> bool:
+    return bool(sys.stderr and sys.stderr.isatty())
+
+
+_shown: list[Progress] = []
+"""The bars on the terminal, which has room for one list of them."""
+
+
+@contextmanager
+def _bars() -> Iterator[Progress]:
+    from rich.console import Console
+    from rich.progress import Progress, TimeElapsedColumn
+
+    if _shown:
+        yield _shown[0]
+        return
+    columns = (*Progress.get_default_columns(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(file=sys.stderr), transient=True) as bars:
+        _shown.append(bars)
+        try:
+            yield bars
+        finally:
+            _shown.clear()
 
 
 def tell(

@@ -14,6 +14,7 @@ from vibroimpact.errors import InputError
 
 if TYPE_CHECKING:
     from vibroimpact.cli.rig import Subject
+    from vibroimpact.model import AssemblyState
 
 
 _CYCLES = 100.0
@@ -30,6 +31,7 @@ def simulate(
     samples: opt.Whole | None = None,
     displacement: opt.Text = None,
     velocity: opt.Text = None,
+    start: opt.Paths = (),
     tail: opt.Text = None,
     shown: float = 3.0,
     animation: Annotated[Literal["gif", "html"] | None, Parameter(group=opt.OUTPUT)] = None,
@@ -75,6 +77,9 @@ def simulate(
     velocity
         Initial velocity, such as 100mm/s. Default: the value in the study file (table [simulate]),
         or 0.
+    start
+        Of several masses, an initial value, COORDINATE=VALUE, such as velocity.ball=0.1m/s or
+        displacement.base=1cm. The option may be repeated. Default: the static equilibrium.
     tail
         Duration of free vibration after a record, such as 10s. Default: the duration in the study
         file (table [simulate]), or 0.
@@ -99,7 +104,7 @@ def simulate(
 
     what = subject(rig, changes, output.name, unshaken=True, masses=True)
     table = what.simulate_table
-    start = _start(what, displacement, velocity)
+    begin = _start(what, displacement, velocity, start)
     if animation is not None and not is_assembly(what):
         raise InputError(
             f"--animation: {animation!r}, but {what.name!r} has one mass; animations are made of "
@@ -121,7 +126,7 @@ def simulate(
             data = vi.simulate(
                 shaken,
                 cycles,
-                start,
+                begin,
                 samples,
                 tail=table.tail if tail is None else tail,
                 progress=progress,
@@ -151,12 +156,15 @@ def simulate(
     return written.tell(facts.facts(data), facts.text(data))
 
 
-def _start(what: Subject, displacement: str | None, velocity: str | None) -> vi.State | None:
+def _start(
+    what: Subject, displacement: str | None, velocity: str | None, start: tuple[str, ...]
+) -> vi.State | AssemblyState | None:
     """Return the initial state of the options, of the study, or at rest at the equilibrium.
 
     Several masses start at the equilibrium, which is the default of the library function.
     """
     from vibroimpact.cli.assembly import is_assembly, refuse
+    from vibroimpact.cli.states import named_state
     from vibroimpact.model import State, equilibrium, to_si
     from vibroimpact.model.quantities import LENGTH, VELOCITY
 
@@ -165,10 +173,15 @@ def _start(what: Subject, displacement: str | None, velocity: str | None) -> vi.
         refuse(what, displacement=displacement, velocity=velocity)
         if u is not None or v:
             raise InputError(
-                "simulate.displacement, simulate.velocity: the rig has several masses, which start "
-                "at rest at the equilibrium; remove them, or pass a State by names in Python"
+                "simulate.displacement, simulate.velocity: the rig has several masses; remove "
+                "them, and pass --start, such as --start velocity.NAME=0.1m/s"
             )
-        return None
+        return named_state("--start", start)
+    if start:
+        raise InputError(
+            f"--start: {start[0]!r}, but {what.name!r} has one mass; use --displacement and "
+            "--velocity"
+        )
     if displacement is not None:
         u = to_si(displacement, LENGTH, "--displacement")
     elif u is None:

@@ -12,9 +12,8 @@ from vibroimpact._version import __version__
 from vibroimpact.datasets.variable import Described, Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
+from vibroimpact.model import Assembly, Harmonic, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
-from vibroimpact.model.parameters import written_units
 from vibroimpact.model.rig import System
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
 
@@ -70,7 +69,7 @@ def describe(
     for name, which in (("amplitude", ""), ("candidate_amplitude", " of the next test")):
         if name in dataset.variables and parameters and "of" in parameters:
             of = amplitude_of(parameters["of"])
-            units = written_units(of.quantity)
+            units = of.quantity.units
             dataset[name].attrs.update(units=units, long_name=f"{of.meaning}{which}")
     for name, variable in known.items():
         dataset[name].attrs.update(units=variable.units, long_name=variable.long_name)
@@ -190,8 +189,3 @@ def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:
     kind = Periodic if "amplitudes" in parameters else Harmonic
     given = {k: parameters[k] for k in kind.model_fields if k in parameters}
     return kind.model_validate({**given, **others})
-
-
-def oscillator_parameters(oscillator: Oscillator) -> dict[str, Any]:
-    """Return an oscillator as plain nested numbers (SI units), for the attributes of a dataset."""
-    return oscillator.model_dump()

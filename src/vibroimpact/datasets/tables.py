@@ -56,7 +56,9 @@ def to_table(dataset: xr.Dataset, rows: str | None = None) -> pd.DataFrame:
         )
     along = [variable.dims for variable in dataset.data_vars.values() if variable.dims]
     main = [tuple(dim for dim in dims if dim not in _COLUMNS) for dims in along]
-    about = next((dims for dims in main if dims), ("component",))
+    # Of a dataset of nothing but stops, such as that of `required_gap`, these are the rows.
+    alone = [dims for dims in along if "component" not in dims] or [("component",)]
+    about = next((dims for dims in main if dims), alone[0])
     dims = about if rows is None else (rows,)
     is_name = rows is None or isinstance(rows, str)
     if not is_name or not any(set(dims) <= set(given) for given in along):

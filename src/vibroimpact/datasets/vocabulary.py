@@ -9,8 +9,14 @@ unknown one.
 An output is an entry, and the place that computes it: `response/simulate.py` for histories; `sizes`
 of `response/sweep_dataset.py` for steady motions (sweeps, branches, diagrams, maps), and
 `_measured` of `stability/steady.py` (also for `coexisting_motions` and `basins`). Tables of the
-reference, dims and attributes follow from the entry. An entry of `_WORDS` of `facts/largest.py`
-prints its largest value. CONTRIBUTING states what the engine needs.
+reference, dims and attributes follow from the entry. What Python computes from one motion is a
+module of `response/`, which follows the contacts of the motion again (example: `totals.py`); the
+first velocity of a contact is the closing speed of a law with a coefficient of restitution.
+CONTRIBUTING states what the engine needs.
+
+The command ``motion`` prints each number of `_measured` (by stop, if it has this dim); its rows are
+in `_motion` of `facts/motions.py`, those of an assembly in `_LARGEST` and `largest` of
+`facts/assembly.py`. An entry of `_WORDS` of `facts/largest.py` prints the largest value of sweeps.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.design.design_shaking import AnyRecords, Asked, design_rig
@@ -224,7 +224,7 @@ def least_acceleration(
         {"stop": stops_of(oscillator)},
     )
     parameters = {
-        "oscillator": oscillator_parameters(oscillator),
+        **system_parameters(oscillator),
         "ranges": {
             name: [float(low), float(high)]
             for name, low, high in zip(space.names, space.low, space.high, strict=True)

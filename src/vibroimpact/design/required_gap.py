@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.assembly_gap import gaps_for_records, gaps_for_sines
 from vibroimpact.design.design_shaking import (
@@ -97,7 +97,7 @@ def required_gap(
             "shaking: without stops the motion of the mass grows without bound, so no gap is wide "
             "enough; give the isolator more damping or stiffness, or reduce the shaking"
         )
-    parameters = {"oscillator": oscillator_parameters(oscillator), **what.parameters()}
+    parameters = {**system_parameters(oscillator), **what.parameters()}
     return describe(found, "vibroimpact.required_gap", parameters, what.notes())
 
 
@@ -116,7 +116,7 @@ def _of_assembly(
             )
         sines = what.sines
         found = gaps_for_sines(assembly, sines.shaken, (sines.low, sines.high))
-    parameters = {"assembly": assembly.model_dump(), **what.parameters()}
+    parameters = {**system_parameters(assembly), **what.parameters()}
     return describe(found, "vibroimpact.required_gap", parameters, what.notes())
 
 

@@ -11,13 +11,11 @@ from numpy.typing import NDArray
 
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes.free_vibration import free_tail
-from vibroimpact.earthquakes.run_plan import Runs
 from vibroimpact.engine import earthquakes, sections
 from vibroimpact.engine.assembly.plan import Drift
 from vibroimpact.engine.observers import phases
 from vibroimpact.engine.observers.phases import Layout
 from vibroimpact.engine.status import Status
-from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Record, equilibrium
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rig import assembly_numbers, check_laws
@@ -147,32 +145,6 @@ def _nothing(assembly: Assembly) -> dict[str, Any]:
         for name in names
         for dim in [VARIABLES[name].part]
     }
-
-
-def check_alike(rigs: Runs) -> Assembly:
-    """Return the first of some assemblies, whose parts have the same names.
-
-    Raises
-    ------
-    InputError
-        If one has other names, or is an oscillator, or has laws that are not accepted.
-    """
-    first = next(iter(rigs.rigs.values()))
-    assert isinstance(first, Assembly)
-    for name, one in rigs.rigs.items():
-        if not isinstance(one, Assembly):
-            raise InputError(
-                f"rig[{name!r}]: an Oscillator beside an Assembly; pass rigs with the same parts"
-            )
-        check_laws(one)
-        for part, names in coordinates(first).items():
-            mine = coordinates(one)[part]
-            if mine.tolist() != names.tolist():
-                raise InputError(
-                    f"rig[{name!r}]: its {part} names are {', '.join(mine) or 'none'}, not those "
-                    f"of the first rig, {', '.join(names) or 'none'}; pass rigs with the same parts"
-                )
-    return first
 
 
 def peaks_of_assemblies(

@@ -18,7 +18,7 @@ from vibroimpact.datasets.description import describe
 from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes import assembly_demands
-from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, check_alike, peaks_of_assemblies
+from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, peaks_of_assemblies
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import (
     MAX_EVENTS,
@@ -52,7 +52,7 @@ from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import RigOrSystem
 from vibroimpact.model.rig import Rig, System
 from vibroimpact.model.written_units import has_no_units
-from vibroimpact.response.assembly_rows import coordinates
+from vibroimpact.response.assembly_rows import check_alike, coordinates
 from vibroimpact.response.plausibility import doubt_stops
 from vibroimpact.response.record_dataset import record_notes
 from vibroimpact.stores.zarr_store import Block as Part
@@ -162,7 +162,7 @@ def demands(
     known, factors = scaled.factors(list(shaking.values()), levels)
     several = any(isinstance(one, Assembly) for one in rigs.rigs.values())
     if several:
-        check_alike(rigs)
+        check_alike(rigs.rigs, "rig", "mass", "link", "stop")
     task = _Task(
         rigs,
         list(shaking.values()),

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from vibroimpact.datasets.description import describe, oscillator_parameters
+from vibroimpact.datasets.description import describe, system_parameters
 from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.earthquakes.assembly_demands import seismic_response_of_assembly
 from vibroimpact.earthquakes.free_vibration import free_tail
@@ -95,7 +95,7 @@ def seismic_response(
     if isinstance(system, Assembly):
         status, data = seismic_response_of_assembly(rig, behind, max_events, progress)
         notes = [*record.about.notes, *energy_notes(system)]
-        return _described(data, status, rig, {"assembly": system.model_dump()}, behind, notes)
+        return _described(data, status, rig, behind, notes)
     oscillator = rig.oscillator
     found = peaks(
         [Shaken(oscillator, record, np.ones(1))],
@@ -112,20 +112,22 @@ def seismic_response(
         values[name] = ("stop", by_stop(oscillator, values[name]))
     data = xr.Dataset(values, {"stop": stops_of(oscillator)})
     notes = [*record.about.notes, *doubt_stops(Rig(oscillator, record), data["peak_displacement"])]
-    given = {"oscillator": oscillator_parameters(oscillator)}
-    return _described(data, Status(int(data["status"])), rig, given, behind, notes)
+    return _described(data, Status(int(data["status"])), rig, behind, notes)
 
 
 def _described(
     data: xr.Dataset,
     status: Status,
     rig: Rig,
-    system: dict[str, Any],
     tail: float,
     notes: list[str],
 ) -> xr.Dataset:
     if status is not Status.DONE:
         warn_of_result(f"seismic_response: {status.advice}")
     data.attrs["message"] = status.advice
-    parameters = {**system, "record": record_parameters(rig.record), "tail": tail}
+    parameters = {
+        **system_parameters(rig.system),
+        "record": record_parameters(rig.record),
+        "tail": tail,
+    }
     return describe(data, "vibroimpact.seismic_response", parameters, notes)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import gc
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
 from filelock import FileLock
 
+from vibroimpact import stderr
 from vibroimpact.engine import cache, jit, native
 from vibroimpact.engine.compiler import PLAIN
 
@@ -24,11 +25,6 @@ def _uncollected() -> Iterator[None]:
     finally:
         if running:
             gc.enable()
-
-
-def _say() -> None:
-    choice = native.choose()
-    jit.say(choice.why if choice.unexpected else "")
 
 
 class Compiled:
@@ -91,25 +87,23 @@ class Compiled:
                 if others is None:
                     lock.acquire()
             except OSError:  # nowhere to write
-                self._compiled[flow] = self._for_this_process(signature)
+                self._compiled[flow] = self._for_this_process(flow.__name__, signature)
                 return
             if others is not None:
                 jit.say_unsafe(others)
-                self._compiled[flow] = self._for_this_process(signature)
+                self._compiled[flow] = self._for_this_process(flow.__name__, signature)
                 return
             try:
                 self._compiled[flow] = self._from_cache(directory, signature)
             except Exception:  # a damaged file, a full disk: numba raises whatever it meets
                 cache.remove(directory.rglob("*.nb[ic]"))
-                self._compiled[flow] = self._for_this_process(signature)
+                self._compiled[flow] = self._for_this_process(flow.__name__, signature)
             finally:
                 lock.release()
 
     def _from_cache(self, directory: Path, signature: Any) -> Callable[..., Any]:
         if unsafe := cache.remove_damaged(directory, self.__name__):
             jit.say_refused(unsafe)
-        if not any(directory.glob(f"**/*.{self.__name__}-*.nbi")):
-            _say()
         import numba
         from numba.core import config
 
@@ -120,16 +114,26 @@ class Compiled:
             dispatcher = numba.njit(cache=True, **jit.OPTIONS)(self.function)
         finally:
             config.CACHE_DIR = before  # type: ignore[attr-defined]
-        compiled = self._compiled_for(signature, dispatcher)
+        there = any(directory.glob(f"**/*.{self.__name__}-*.nbi"))
+        with nullcontext() if there else self._announced(directory.name):
+            compiled = self._compiled_for(signature, dispatcher)
         if dispatcher.stats.cache_misses:
             cache.seal(directory, self.__name__)
         return compiled
 
-    def _for_this_process(self, signature: Any) -> Callable[..., Any]:
+    def _for_this_process(self, flow: str, signature: Any) -> Callable[..., Any]:
         import numba
 
-        _say()
-        return self._compiled_for(signature, numba.njit(**jit.OPTIONS)(self.function))
+        with self._announced(flow):
+            return self._compiled_for(signature, numba.njit(**jit.OPTIONS)(self.function))
+
+    @contextmanager
+    def _announced(self, flow: str) -> Iterator[None]:
+        """Announce the first part that is compiled; show each while it is."""
+        choice = native.choose()
+        jit.say(choice.why if choice.unexpected else "")
+        with stderr.busy(f"compiling {self.__name__.lstrip('_')} for {flow}"):
+            yield
 
     def _compiled_for(self, signature: Any, dispatcher: Any) -> Callable[..., Any]:
         """Compile for this signature and refuse others, which would take half a minute unseen."""

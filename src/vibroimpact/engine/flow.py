@@ -43,7 +43,8 @@ _WORD = ir.IntType(64)
 SIGNATURES: dict[str, Any] = {}
 """Of each function, by name, in the order of the table."""
 GROUPS: dict[str, list[str]] = {}
-"""Names of the functions that are compiled together, when an entry first needs one of them."""
+"""Names of the functions that are compiled together, when an entry first needs one of them: an
+entry names its groups (`entry`), `flow_tables` compiles them."""
 
 _compiled_code = attrgetter("library", "fndesc")
 """Of a compiled kernel: its machine code, and what its function is called."""

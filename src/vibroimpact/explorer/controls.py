@@ -13,14 +13,7 @@ from vibroimpact.explorer.state import PageState
 from vibroimpact.model import Model, Oscillator
 from vibroimpact.model.excitation import Of
 from vibroimpact.model.parameters import PARAMETERS
-from vibroimpact.model.quantities import (
-    DAMPING,
-    DISSIPATION,
-    FORCE,
-    LENGTH,
-    Quantity,
-    power_stiffness,
-)
+from vibroimpact.model.quantities import DAMPING, FORCE, LENGTH, Quantity
 from vibroimpact.model.quantities import (
     DIMENSIONLESS as NUMBER,
 )
@@ -147,19 +140,12 @@ class _Sizes:
     def __init__(self, state: PageState) -> None:
         rig = state.oscillator
         u, k = free_displacement(state), rig.isolator.initial_stiffness
-        self._known: dict[Quantity, float] = {
-            FORCE: k * u,
-            LENGTH: 1.2 * u,
-            DAMPING: (k * rig.mass) ** 0.5,
-            DISSIPATION: 1.0 / (rig.angular_frequency * u),
-            power_stiffness(3.0): k / u**2,
-            power_stiffness(5.0): k / u**4,
-            NUMBER: 1.0,
-        }
+        self._units = (rig.mass, u, 1.0 / rig.angular_frequency)
+        self._known = {FORCE: k * u, LENGTH: 1.2 * u, DAMPING: (k * rig.mass) ** 0.5}
 
     def of(self, quantity: Quantity, value: float) -> float:
         """Return a large value of a quantity: at least twice the initial value of the knob."""
-        return max(self._known.get(quantity, 1.0), 2.0 * abs(value))
+        return max(self._known.get(quantity) or quantity.size(*self._units), 2.0 * abs(value))
 
 
 def _ends(

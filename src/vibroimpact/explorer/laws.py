@@ -32,6 +32,11 @@ def stop_laws() -> list[str]:
     return [NONE, *(kind for kind, law in STOPS.classes.items() if law.like(*[0.5] * 6))]
 
 
+def words_of_stops() -> dict[str, str]:
+    """Return the names of stops that are not their kinds."""
+    return {kind: law.words for kind, law in STOPS.classes.items() if law.words}
+
+
 def free_displacement(state: PageState) -> float:
     """Return the displacement (m) at which laws are compared: the largest one without stops."""
     rig = state.oscillator

@@ -71,6 +71,7 @@ def _known() -> Table:
             name: table(presets.preset(name)) for _, names in presets.names() for name in names
         },
         "stops": STOPS,
+        "words": laws.words_of_stops(),
         "quantities": {name: _quantity(one) for name, one in quantities.items()},
         "amplitudes": {
             of: [*controls.AMPLITUDES[of], one.name, accepted(one, above=0.0)]

@@ -16,7 +16,7 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.explorer import change, presets, share
 from vibroimpact.explorer.controls import controls
 from vibroimpact.explorer.files import made
-from vibroimpact.explorer.laws import isolator_laws, stop_laws
+from vibroimpact.explorer.laws import isolator_laws, stop_laws, words_of_stops
 from vibroimpact.explorer.pictures import basins, branch, curves, motion, numbers, plane, scenario
 from vibroimpact.explorer.state import ON_DEMAND, History, PageState
 from vibroimpact.figures.style import SCENARIOS
@@ -81,6 +81,7 @@ class Session:
             "presets": presets.names(),
             "isolators": isolator_laws(),
             "stops": stop_laws(),
+            "words": words_of_stops(),
             "scenarios": {name: area.colour for name, area in SCENARIOS.items()},
             "meanings": {one.label: one.meaning for one in Scenario},
             "plane": {"x": plane.STIFFNESS, "y": plane.GAP},

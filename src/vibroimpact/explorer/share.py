@@ -17,9 +17,9 @@ from vibroimpact.model.excitation import QUANTITIES, sized
 from vibroimpact.model.frequency_text import forcings
 from vibroimpact.model.quantities import FREQUENCY
 from vibroimpact.model.rig import Rig
-from vibroimpact.model.toml_text import quoted, toml
+from vibroimpact.model.study import study_text
 from vibroimpact.model.units import pretty
-from vibroimpact.model.written_units import as_first_argument, unitless, written_for
+from vibroimpact.model.written_units import as_first_argument, written_for
 from vibroimpact.scenarios.axes import one_sine
 
 MOST = 8000
@@ -120,17 +120,10 @@ def _from_table(table: Any) -> PageState:
 @as_first_argument
 def study(state: PageState) -> str:
     """Return the study file of a state, which all commands accept."""
-    lines = [f"name = {quoted(state.name)}", "", "[oscillator]"]
-    for key, value in state.oscillator.model_dump(exclude_none=True).items():
-        lines.append(f"{key} = {toml(value)}")
     low, high = state.span
     step = (high - low) / (FINE - 1)
-    lines += [
-        "",
-        "[excitation]",
-        *_amplitude(state),
-        *([f"phase = {state.shaking.phase!r}"] if state.shaking.phase else []),
-        "",
+    lines = [
+        study_text(Rig(state.oscillator, state.shaking, name=state.name)),
         "[sweep]",
         f"from = {low!r}",
         f"to = {high!r}",
@@ -140,16 +133,6 @@ def study(state: PageState) -> str:
         f"frequency = {state.shaking.frequency!r}",
     ]
     return "\n".join(lines) + "\n"
-
-
-def _amplitude(state: PageState) -> list[str]:
-    """The lines of the amplitude: a number in SI units, with what it is one of if no unit tells."""
-    size, of = state.shaking.amplitude, state.shaking.of
-    if of == "acceleration":
-        return [f"amplitude = {size!r}"]
-    if unitless():
-        return [f"amplitude = {size!r}", f"of = {quoted(of)}"]
-    return [f"amplitude = {json.dumps(f'{size!r} {QUANTITIES[of].symbol}')}"]
 
 
 @as_first_argument

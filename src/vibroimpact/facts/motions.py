@@ -22,7 +22,7 @@ from vibroimpact.response.plausibility import STIFF
 _MOST_CONTACTS = 12
 """Contacts that are printed of a motion; the file has them all."""
 
-_SCALARS = (
+_KNOWN = (
     "motion",
     "period",
     "stable",
@@ -47,6 +47,8 @@ _SCALARS = (
     "exponents_cycles",
     "mirror_pair",
 )
+"""Numbers of a motion that `_motion` writes in rows of its own, or leaves to the JSON output."""
+_STATUS = ("status", "mirror_distance")
 
 _SPEEDS = ("contact_start_velocity", "contact_end_velocity")
 _CONTACTS = (
@@ -109,7 +111,8 @@ def _only(motions: dict[str, xr.Dataset]) -> str:
 
 
 def _facts(data: xr.Dataset) -> dict[str, Any]:
-    values: dict[str, Any] = {name: plain_values(data[name]) for name in _SCALARS if name in data}
+    scalars = [*(name for name in _KNOWN if name in data), *_others(data)]
+    values: dict[str, Any] = {name: plain_values(data[name]) for name in scalars}
     values["exponents"] = data["exponents"].values.tolist()
     values["exponents_uncertainty"] = data["exponents_uncertainty"].values.tolist()
     values |= {**status_facts(data), "evidence": data.attrs["evidence"]}
@@ -117,6 +120,26 @@ def _facts(data: xr.Dataset) -> dict[str, Any]:
     values["mirrored_starts"] = data.attrs.get("mirrored_starts", "")
     values["contacts"] = values_along(data, "contact_number", prefix="contact_")
     return values
+
+
+def _others(data: xr.Dataset) -> list[str]:
+    """Return the other numbers of a motion, by stop or of the whole motion."""
+    return [
+        str(name)
+        for name, values in data.data_vars.items()
+        if set(values.dims) <= {"stop"} and name not in (*_KNOWN, *_STATUS)
+    ]
+
+
+def _by_stop(data: xr.Dataset, name: str) -> str:
+    """Return a number of a motion with its unit, or that of each stop."""
+    found = plain_values(data[name])
+    values = found if isinstance(found, dict) else {"": found}
+    finite = [one for one in values.values() if math.isfinite(one)]
+    return ", ".join(
+        f"{written(name, one, like=finite or (one,))} {stop}".rstrip()
+        for stop, one in values.items()
+    )
 
 
 def words(data: xr.Dataset) -> str:
@@ -161,6 +184,7 @@ def _motion(name: str, data: xr.Dataset) -> list[RenderableType]:
             ", ".join(f"{plain(n, 4)} {side}" for n, side in zip(impacts, SIDES, strict=True))
             + f" per cycle{_pressed(data)}",
         ),
+        *((name.replace("_", " "), _by_stop(data, name)) for name in _others(data)),
         ("energy", f"{supplied} per cycle, {lost} of it lost in the {stop_word(data)}s"),
         ("reached from", data.attrs["starts"]) if data.attrs.get("starts") else (),
         ("mirror image", f"reached from {data.attrs['mirrored_starts']}")

@@ -13,7 +13,7 @@ from vibroimpact.datasets.description import (
     describe,
     excitation_from,
     excitation_parameters,
-    oscillator_parameters,
+    system_parameters,
 )
 from vibroimpact.identification import finding_texts
 from vibroimpact.identification.equivalent_rigs import Rival, came_to, outside
@@ -100,7 +100,7 @@ def labelled(fit: Fit, samples: dict[str, Array | None], confidence: float) -> x
     for test in problem.tests:
         rig, sensors = problem.rig_of(x, test)
         rigs[test.name] = {
-            "oscillator": oscillator_parameters(rig.oscillator),
+            **system_parameters(rig.oscillator),
             "excitation": excitation_parameters(rig.periodic),
             "sensors": sensors,
         }

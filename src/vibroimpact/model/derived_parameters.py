@@ -94,11 +94,31 @@ def _common(oscillator: Oscillator, name: str) -> float:
     return values[0]
 
 
-def _bumpers(oscillator: Oscillator) -> dict[str, dict[str, float]]:
-    """Return the numbers of the stops with a spring and a dashpot, by side."""
-    return {
-        side: one for side, one in _numbers(oscillator, "stiffness").items() if "damping" in one
-    }
+def _bumpers(oscillator: Oscillator, name: str) -> dict[str, tuple[float, float]]:
+    """Return stiffness and damping of the bumpers, by side.
+
+    Raises
+    ------
+    InputError
+        If there is none, or if another law has a stiffness.
+    """
+    found = {}
+    for side in _numbers(oscillator, "stiffness"):
+        stop = getattr(oscillator, side)
+        pair = stop.spring_and_dashpot
+        if pair is None:
+            raise InputError(
+                f"parameter: {name!r} sets stiffness and damping of bumpers, but the {side} stop "
+                f"has the law {stop.kind!r}; use 'stops.{side}.stiffness'"
+            )
+        found[side] = pair
+    return found
+
+
+def _stiffness(oscillator: Oscillator, name: str) -> float:
+    """Return the stiffness of the bumpers."""
+    _bumpers(oscillator, name)
+    return _common(oscillator, "stiffness")
 
 
 def _with_stops(rig: Rig, changes: dict[str, dict[str, float]]) -> Rig:
@@ -107,16 +127,13 @@ def _with_stops(rig: Rig, changes: dict[str, dict[str, float]]) -> Rig:
     return rig.with_parts(oscillator.replace(**changed))
 
 
-def _with_stiffness(rig: Rig, stiffness: float) -> Rig:
+def _with_stiffness(rig: Rig, stiffness: float, name: str) -> Rig:
     """Return the rig with another stiffness of the bumpers at a constant C_j/K_j."""
     return _with_stops(
         rig,
         {
-            side: {
-                "stiffness": stiffness,
-                "damping": stiffness * (one["damping"] / one["stiffness"]),
-            }
-            for side, one in _bumpers(rig.oscillator).items()
+            side: {"stiffness": stiffness, "damping": stiffness * (damping / before)}
+            for side, (before, damping) in _bumpers(rig.oscillator, name).items()
         },
     )
 
@@ -127,25 +144,13 @@ def _spring(rig: Rig) -> float:
     return rig.oscillator.isolator.initial_stiffness
 
 
-def _at_restitution(rig: Rig) -> float:
-    for side, one in _numbers(rig.oscillator, "stiffness").items():
-        if "damping" not in one:
-            raise InputError(
-                f"parameter: {getattr(rig.oscillator, side)} has the same restitution at any "
-                "stiffness; use 'stops.stiffness'"
-            )
-    return _common(rig.oscillator, "stiffness")
-
-
 def _vary_at_restitution(rig: Rig, value: float) -> Rig:
+    bumpers = _bumpers(rig.oscillator, "stiffness_at_restitution")
     return _with_stops(
         rig,
         {
-            side: {
-                "stiffness": value,
-                "damping": one["damping"] * math.sqrt(value / one["stiffness"]),
-            }
-            for side, one in _bumpers(rig.oscillator).items()
+            side: {"stiffness": value, "damping": damping * math.sqrt(value / before)}
+            for side, (before, damping) in bumpers.items()
         },
     )
 
@@ -162,8 +167,8 @@ def _vary_gap_ratio(rig: Rig, value: float) -> Rig:
 def _relaxation_time(rig: Rig) -> float:
     oscillator = rig.oscillator
     oscillator.check_linear("'relaxation_time'")
-    numbers = _numbers(oscillator, "damping").values()
-    times = sorted(one["damping"] / one["stiffness"] for one in numbers)
+    bumpers = _bumpers(oscillator, "relaxation_time").values()
+    times = sorted(damping / stiffness for stiffness, damping in bumpers)
     if not math.isclose(times[0], times[-1], rel_tol=1e-12):
         raise InputError(
             "parameter: 'relaxation_time' applies to both bumpers, but their ratios of damping to "
@@ -175,12 +180,10 @@ def _relaxation_time(rig: Rig) -> float:
 
 def _vary_relaxation_time(rig: Rig, value: float) -> Rig:
     omega = rig.oscillator.angular_frequency
+    bumpers = _bumpers(rig.oscillator, "relaxation_time")
     return _with_stops(
         rig,
-        {
-            side: {"damping": value * one["stiffness"] / omega}
-            for side, one in _bumpers(rig.oscillator).items()
-        },
+        {side: {"damping": value * stiffness / omega} for side, (stiffness, _) in bumpers.items()},
     )
 
 
@@ -222,14 +225,14 @@ DERIVED = {
     "proportional_stiffness": Derived(
         STIFFNESS,
         "stiffness of both bumpers, with damping in proportion",
-        lambda rig: _common(rig.oscillator, "stiffness"),
-        _with_stiffness,
+        lambda rig: _stiffness(rig.oscillator, "proportional_stiffness"),
+        lambda rig, value: _with_stiffness(rig, value, "proportional_stiffness"),
         zero=False,
     ),
     "stiffness_at_restitution": Derived(
         STIFFNESS,
         "stiffness of both bumpers, with constant restitution",
-        _at_restitution,
+        lambda rig: _stiffness(rig.oscillator, "stiffness_at_restitution"),
         _vary_at_restitution,
         zero=False,
         comment="C_j / √(K_j M) is kept",
@@ -245,8 +248,8 @@ DERIVED = {
     "stiffness_ratio": Derived(
         DIMENSIONLESS,
         "stiffness ratio of the bumpers",
-        lambda rig: _common(rig.oscillator, "stiffness") / _spring(rig),
-        lambda rig, value: _with_stiffness(rig, value * _spring(rig)),
+        lambda rig: _stiffness(rig.oscillator, "stiffness_ratio") / _spring(rig),
+        lambda rig, value: _with_stiffness(rig, value * _spring(rig), "stiffness_ratio"),
         zero=False,
         comment="K_j / K",
     ),

@@ -31,6 +31,8 @@ class Named(Model):
 
     kind: ClassVar[str]
     """Name of the law in a table."""
+    words: ClassVar[str] = ""
+    """Name of the law in the explorer, if it is not the kind."""
     usual: ClassVar[bool] = False
     """Whether a table without a kind describes this law."""
 
@@ -56,6 +58,17 @@ class Named(Model):
             name: value for name, value in fields(self).items() if not self._unsaid(name, value)
         }
         return found if self.usual else {"kind": self.kind, **found}
+
+    @classmethod
+    def laws_with(cls, key: str) -> list[str]:
+        """Return the other laws of the same part that have a key, with their kinds."""
+        return [
+            f"{law.__name__} (kind {law.kind!r})"
+            for kinds in _KINDS
+            if cls in kinds.classes.values()
+            for law in kinds.classes.values()
+            if law is not cls and key in law.table_keys()
+        ]
 
     @classmethod
     def like(cls, *args: Any, **kwargs: Any) -> Any:
@@ -92,6 +105,7 @@ class Kinds(Choice):
 
     def __init__(self, *classes: type[Named]) -> None:
         self.classes: Mapping[str, type[Named]] = {one.kind: one for one in classes}
+        _KINDS.append(self)
         (self.usual,) = (one.kind for one in classes if one.usual)
 
     def kind_of(self, value: Any) -> str:
@@ -116,3 +130,7 @@ class Kinds(Choice):
             self.kind_of,
         )
         return core_schema.nullable_schema(schema) if type(None) in get_args(source) else schema
+
+
+_KINDS: list[Kinds] = []
+"""All fields that accept several laws."""

@@ -30,9 +30,7 @@ from vibroimpact.model.paths import Place, Steps, put, walk
 from vibroimpact.model.quantities import (
     ACCELERATION,
     DAMPING,
-    DECAY,
     DIMENSIONLESS,
-    DISSIPATION,
     ENERGY,
     FORCE,
     FREQUENCY,
@@ -44,33 +42,28 @@ from vibroimpact.model.quantities import (
     UNBALANCE,
     VELOCITY,
     Quantity,
-    power_stiffness,
 )
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import STOPS
 from vibroimpact.model.units import to_si
 from vibroimpact.model.validation import Accepts, Model
 
-_UNITS = {
-    FREQUENCY: "Hz",
-    ACCELERATION: "m s-2",
-    LENGTH: "m",
-    STIFFNESS: "N m-1",
-    DAMPING: "N s m-1",
-    DIMENSIONLESS: "1",
-    FORCE: "N",
-    UNBALANCE: "kg m",
-    MASS: "kg",
-    VELOCITY: "m s-1",
-    IMPULSE: "N s",
-    ENERGY: "J",
-    PERIOD: "s",
-    DISSIPATION: "s m-1",
-    DECAY: "m-1",
-    power_stiffness(3.0): "N m-3",
-    power_stiffness(5.0): "N m-5",
-}
-"""Units as they are written in datasets. For other quantities, the symbol is written, or 1."""
+_QUANTITIES = (
+    FREQUENCY,
+    ACCELERATION,
+    LENGTH,
+    STIFFNESS,
+    DAMPING,
+    DIMENSIONLESS,
+    FORCE,
+    UNBALANCE,
+    MASS,
+    VELOCITY,
+    IMPULSE,
+    ENERGY,
+    PERIOD,
+)
+"""Quantities of results."""
 
 _MASSES, _LINKS, _STOPS, _FORCES = "masses", "links", "stops", "forces"
 _LAW = "law"
@@ -80,14 +73,11 @@ _BOTH_STOPS = re.compile(r"\b(?:both|each|the) (bumpers|stops|side)\b")
 """Words in names of parameters that refer to the stops on both sides."""
 
 
-def written_units(quantity: Quantity) -> str:
-    """Return the SI unit of a quantity, as it is written in datasets."""
-    return _UNITS.get(quantity, quantity.symbol) or "1"
-
-
 def in_units(units: str) -> Quantity:
     """Return the quantity that has these units in a dataset."""
-    return next(quantity for quantity, text in _UNITS.items() if text == units)
+    of_fields = (one.quantity for one in PARAMETERS.values())
+    known = itertools.chain(_QUANTITIES, of_fields)
+    return next(quantity for quantity in known if quantity.units == units)
 
 
 class Parameter(NamedTuple):
@@ -108,7 +98,7 @@ class Parameter(NamedTuple):
     @property
     def units(self) -> str:
         """The SI unit, as it is written in datasets."""
-        return written_units(self.quantity)
+        return self.quantity.units
 
     def read(self, rig: Rig) -> float:
         """Return the value in a rig.

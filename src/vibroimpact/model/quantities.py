@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cache
@@ -35,6 +36,20 @@ def fitting(values: Iterable[float], scales: tuple[Scale, ...]) -> Scale:
     if largest == 0.0:
         return next((scale for scale in scales if scale.size == 1.0), scales[0])
     return next(scale for scale in scales if largest >= scale.least)
+
+
+_FACTOR = re.compile(r"([A-Za-z]+|1)(?:\^(-?[\d.]+))?")
+"""A unit and its power, in a symbol such as N s/m^3."""
+
+
+def _factors(symbol: str) -> list[tuple[str, float]] | None:
+    """Return the units of a symbol with their powers, or None if it is not a product of powers."""
+    above, _, below = symbol.replace("²", "^2").replace("³", "^3").partition("/")
+    tokens = [(1.0, one) for one in above.split()] + [(-1.0, one) for one in below.split()]
+    found = [(sign, _FACTOR.fullmatch(token)) for sign, token in tokens]
+    if any(one is None for _, one in found):
+        return None
+    return [(one[1], sign * float(one[2] or 1)) for sign, one in found if one and one[1] != "1"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +88,23 @@ class Quantity:
     def phrase(self) -> str:
         """The name with its article, such as ``"a length"``."""
         return f"{'an' if self.name[0] in 'aeiou' else 'a'} {self.name}"
+
+    @property
+    def units(self) -> str:
+        """The SI unit as datasets state it, such as ``"N s m-1"``; ``"1"`` for a ratio.
+
+        The symbol itself if an exponent is not an integer.
+        """
+        factors = _factors(self.symbol)
+        if factors is None or not all(power.is_integer() for _, power in factors):
+            return self.symbol
+        words = [f"{unit}{power:g}" if power != 1.0 else unit for unit, power in factors]
+        return " ".join(words) or "1"
+
+    def size(self, mass: float, length: float, time: float) -> float:
+        """Return the value (SI units) that is made of a mass (kg), a length (m) and a time (s)."""
+        units = {"kilogram": mass, "meter": length, "second": time, "radian": 1.0}
+        return float(math.prod(units[unit] ** power for unit, power in self.base))
 
 
 LENGTH = Quantity(
@@ -258,6 +290,47 @@ def in_base_units(mass: float, length: float, time: float) -> Quantity:
         (Scale(0.0, 1.0, symbol),),
     )
 
+
+@cache
+def quantity(symbol: str) -> Quantity:
+    """Return the quantity with a SI unit, such as ``quantity("N s/m^3")``, for a field of a law.
+
+    Raises
+    ------
+    ValueError
+        If the symbol is not a product of powers of kg, m, s, N, J, W, Pa and Hz.
+    """
+    factors = _factors(symbol)
+    if factors is None or any(unit not in _BASE_OF for unit, _ in factors):
+        raise ValueError(
+            f"{symbol!r} is not a product of powers of {', '.join(_BASE_OF)}; write a unit such as "
+            "'N s/m^3'"
+        )
+    symbol = re.sub(r"\^([23])(?![\d.])", lambda one: "²³"[int(one[1]) - 2], symbol)
+    base = [sum(power * _BASE_OF[unit][i] for unit, power in factors) for i in range(3)]
+    prefixed = factors[0][0] in ("N", "J", "W", "Pa") and factors[0][1] == 1.0
+    prefixes = ((1e10, 1e9, "G"), (1e7, 1e6, "M"), (1e3, 1e3, "k")) if prefixed else ()
+    return Quantity(
+        f"number in {symbol}",
+        _base(*base),
+        symbol,
+        f"2 {symbol}",
+        2.0,
+        tuple(Scale(least, size, f"{p}{symbol}") for least, size, p in (*prefixes, (0.0, 1.0, ""))),
+    )
+
+
+_BASE_OF = {
+    "kg": (1, 0, 0),
+    "m": (0, 1, 0),
+    "s": (0, 0, 1),
+    "N": (1, 1, -2),
+    "J": (1, 2, -2),
+    "W": (1, 2, -3),
+    "Pa": (1, -1, -2),
+    "Hz": (0, 0, -1),
+}
+"""Powers of mass, length and time in the units of `quantity`."""
 
 _SUPERSCRIPTS = {2.0: "²", 3.0: "³"}
 """Exponents that are written as superscripts."""

@@ -198,8 +198,15 @@ class RigStudy(Model):
         return validate(Assembly, table, "assembly")
 
 
-def study_text(rig: Rig) -> str:
+def study_text(rig: Rig, about: str = "") -> str:
     """Return the study file of a rig. Read again, it gives an equal rig with an open frequency.
+
+    Parameters
+    ----------
+    rig
+        The rig. Numbers are in SI units, with all digits.
+    about
+        Comment at the beginning of the file. Default: no comment.
 
     Raises
     ------
@@ -211,7 +218,8 @@ def study_text(rig: Rig) -> str:
             "shaking: a record cannot be written into a study file; write its file as "
             "excitation.record"
         )
-    lines = [] if rig.name is None else [f"name = {quoted(rig.name)}", ""]
+    lines = [f"# {line}" for line in about.splitlines()]
+    lines += [] if rig.name is None else [f"name = {quoted(rig.name)}", ""]
     table = rig.system.model_dump(exclude_none=True)
     if isinstance(rig.system, Assembly):
         values = {key: one for key, one in table.items() if not isinstance(one, dict)}

@@ -24,6 +24,11 @@ _ELSEWHERE = (
         "amplitude",
         'write it as amplitude: its unit says what it is, such as "500 N" or "0.4 kg m"',
     ),
+    (
+        ("stops", "stop", "bumpers", "bumper"),
+        "right",
+        "write each stop as right or left, such as the table [oscillator.right]",
+    ),
 )
 """Keys that users expect in a table, a key by which the table is recognised, and what to do."""
 
@@ -37,11 +42,15 @@ LIKENESS = 0.7
 """Least similarity of a misspelt key to the key that is suggested."""
 
 
-def unknown_key(keys: Sequence[str], name: str) -> str:
-    """Describe the error of an unknown key, with the accepted keys and a suggestion."""
+def unknown_key(keys: Sequence[str], name: str, laws: Sequence[str] = ()) -> str:
+    """Describe the error of an unknown key, with the accepted keys and a suggestion.
+
+    `laws` are the laws that have this key.
+    """
     for names, beside, advice in _ELSEWHERE:
         if name in names and beside in keys:
             return f"unknown key; {listed(keys)} are accepted; {advice}"
     close = similar(name, keys, LIKENESS)
     hint = f"; did you mean {close}?" if close else ""
-    return f"unknown key; {listed(keys)} are accepted{hint}"
+    other = f"; {listed(laws)} {'has' if len(laws) == 1 else 'have'} this key" if laws else ""
+    return f"unknown key; {listed(keys)} are accepted{other}{hint}"

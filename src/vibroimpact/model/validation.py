@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import inspect
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import wraps
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
@@ -164,7 +164,7 @@ class _Listed(ModelMetaclass):
             if not unknown:
                 raise
             keys = in_order(model)
-            told = [f"{name[:SHOWN]}: {unknown_key(keys, name)}" for name in unknown[:MOST]]
+            told = [f"{name[:SHOWN]}: {_unknown(model, keys, name)}" for name in unknown[:MOST]]
             rest = len(unknown) - len(told)
             more = f" ({rest} more to correct)" if rest else ""
             raise InputError("; ".join(told) + more) from None
@@ -281,6 +281,11 @@ class Model(BaseModel, metaclass=_Listed):
     def table_keys(cls) -> list[str]:
         """Return the keys that a table of this class may have."""
         return list(in_order(cls))
+
+    @classmethod
+    def laws_with(cls, key: str) -> list[str]:
+        """Return the other laws of the same part that have a key, in words."""
+        return []
 
     def accepts(self, name: str) -> Accepts | None:
         """Return what a field accepts, given the other values, if it is a quantity."""
@@ -404,7 +409,8 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     elif kind == "missing":
         problem = _missing(holder, str(location[-1]))
     elif kind == "extra_forbidden":
-        problem = unknown_key(cast("type[Model]", holder).table_keys(), str(location[-1]))
+        holder = cast("type[Model]", holder)
+        problem = _unknown(holder, holder.table_keys(), str(location[-1]))
     elif kind == "union_tag_invalid":
         choice = _choice(holder, str(location[-1]))
         assert choice is not None
@@ -414,6 +420,10 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     else:
         problem = f"{value} {wrong_kind(mistake)}{_example(model, location)}"
     return f"{path}: {problem}" if path else problem
+
+
+def _unknown(model: type[BaseModel], keys: Sequence[str], name: str) -> str:
+    return unknown_key(keys, name, cast("type[Model]", model).laws_with(name))
 
 
 def _example(model: type[BaseModel], location: tuple[int | str, ...]) -> str:

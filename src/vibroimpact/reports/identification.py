@@ -30,8 +30,8 @@ from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.model.public import public
 from vibroimpact.model.quantities import DIMENSIONLESS, Quantity
 from vibroimpact.model.rig import Rig
+from vibroimpact.model.study import study_text
 from vibroimpact.model.units import pretty
-from vibroimpact.reports.study import study_text
 from vibroimpact.response.sweep import sweep
 
 _DENSE = 4
@@ -258,7 +258,8 @@ def _studies(result: xr.Dataset, name: str) -> Iterable[tuple[str, str, str]]:
         about = f"Fitted by vibroimpact {__version__} to {test}.\n" + "\n".join(
             f"{row[0]} = {row[1]}, standard error {row[2]}" for row in parameter_rows(result)
         )
-        yield key, study_text(key, rig.oscillator, rig.amplitude, about), f"study {key}"
+        named = Rig(rig.oscillator, rig.amplitude, name=key)
+        yield key, study_text(named, about), f"study {key}"
 
 
 def _tests(result: xr.Dataset) -> list[tuple[str, str, str, str, str]]:

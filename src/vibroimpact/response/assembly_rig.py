@@ -79,17 +79,22 @@ def check_size(assembly: Assembly) -> None:
         )
 
 
+_TABLE_MASSES = 20
+"""Up to which tables follow a motion faster than power series."""
+
+
 def assembly_numbers(
     assembly: Assembly,
     shaking: Repeated | Record,
     *,
-    tables: bool = False,
+    tables: bool | None = None,
     drifts: Sequence[Drift] | None = None,
 ) -> _Array:
     """Return an assembly that is shaken as the engine's vector.
 
-    With `tables`, contact modes that come again are faster, and a motion that is computed in parts
-    may differ in its last digits. Default of `drifts`: those of the links.
+    With `tables`, contact modes that come again are faster; default: for up to 20 masses. This
+    depends on the assembly alone, so that a motion has the same digits in parts of whole cycles.
+    Default of `drifts`: those of the links.
     """
     check_laws(assembly)
     of = numbers(assembly)
@@ -103,6 +108,8 @@ def assembly_numbers(
             damping += c * np.outer(w, w)
     forcing = _forcing(assembly, shaking, of.mass, of.influence)
     pairs = _drifts(assembly) if drifts is None else drifts
+    if tables is None:
+        tables = len(of.mass) <= _TABLE_MASSES
     return make_vector(
         of.mass, damping, stiffness, stops, forcing, of.force, tables, of.influence, pairs
     )

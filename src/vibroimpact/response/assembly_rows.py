@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine.assembly import measures
 from vibroimpact.engine.state import MODE
 from vibroimpact.engine.status import Status
+from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.rig import System
 from vibroimpact.response.hold_rows import MAX_EVENTS, HoldRows, results_of
@@ -36,6 +38,40 @@ def names_of_parts(system: System) -> dict[str, Any]:
         return {"stop": stops_of(system)}
     names = coordinates(system)
     return {"mass": names["mass"], "stop": names["stop"]}
+
+
+def check_alike(systems: Mapping[str, System], field: str, *parts: str) -> None:
+    """Raise an error unless all are assemblies with parts of the same names.
+
+    Parameters
+    ----------
+    systems
+        What vibrates, by the names of the rigs.
+    field
+        Name of the argument in messages.
+    parts
+        ``"mass"``, ``"link"`` and ``"stop"``, as far as they have to agree.
+
+    Raises
+    ------
+    InputError
+        If one of them differs from the first.
+    """
+    first = coordinates(next(iter(systems.values())))
+    for name, one in systems.items():
+        mine = coordinates(one)
+        if not (first and mine):
+            raise InputError(
+                f"{field}[{name!r}]: an Oscillator beside an Assembly; pass rigs with the same "
+                "parts"
+            )
+        for part in parts:
+            if mine[part].tolist() != first[part].tolist():
+                raise InputError(
+                    f"{field}[{name!r}]: its {part} names are {', '.join(mine[part]) or 'none'}, "
+                    f"not those of the first rig, {', '.join(first[part]) or 'none'}; pass rigs "
+                    "with the same parts"
+                )
 
 
 def measured_variables(

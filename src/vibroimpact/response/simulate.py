@@ -81,8 +81,7 @@ def simulate(
     ----------
     rig
         A `Rig`, a published case or its code such as ``"B2-G1-A3"``, or the path of a study file.
-        The system may be an `Assembly` whose links are linear and whose stops are bumpers or rigid
-        stops.
+        The system may be an `Assembly`.
     cycles
         Duration in forcing cycles, greater than 0. It need not be a whole number. If nothing shakes
         the rig, a cycle is one period of ``frequency``. If a record shakes the rig, do not pass

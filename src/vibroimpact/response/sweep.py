@@ -15,12 +15,10 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list
 from vibroimpact.datasets.description import (
-    COMPONENTS,
     describe,
     rig_parameters,
 )
-from vibroimpact.engine import batch, hold
-from vibroimpact.engine import motion as layout
+from vibroimpact.engine import batch
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model import Assembly, State, to_si
@@ -35,8 +33,7 @@ from vibroimpact.model.quantities import ANGLE, FREQUENCY
 from vibroimpact.model.quantity_lists import read_rising
 from vibroimpact.model.read_rig import AnyRig, as_rigs, as_rigs_of_any_masses
 from vibroimpact.model.rig import Rig
-from vibroimpact.response.assembly_sweep import sweep_assemblies
-from vibroimpact.response.engine_input import as_state
+from vibroimpact.response.assembly_rows import check_alike, notes_on
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.outputs import Outputs, about, read_outputs
 from vibroimpact.response.plausibility import doubt_stops, note_stiff_stops, note_unbounded
@@ -196,32 +193,21 @@ def sweeps(
         If a value is invalid.
     """
     named = periodic_rigs(rigs, any_masses=True)
-    if any(isinstance(rig.system, Assembly) for rig in named.values()):
-        starts = {name: SectionStates(rig.system).read(start) for name, rig in named.items()}
-        begin = next(iter(starts.values())).phase
-        return sweep_assemblies(
-            named,
-            check_frequencies(frequencies),
-            _directions(directions),
-            starts,  # type: ignore[arg-type]
-            to_si(phase, ANGLE, "phase") if begin is None else begin,
-            Settling(tolerance, max_cycles, window, max_events),
-            [read_outputs(outputs, rig) for rig in named.values()],
-            workers_for(threads, where),
-            progress,
-        )
+    several = any(isinstance(rig.system, Assembly) for rig in named.values())
+    if several:
+        check_alike({k: rig.system for k, rig in named.items()}, "rigs", "mass", "stop")
     names, pairs = list(named), list(named.values())
     grid = check_frequencies(frequencies)
     directions = _directions(directions)
     angle = to_si(phase, ANGLE, "phase")
-    state = None if start is None else as_state(start)
-    if state is not None and state.phase is not None:
-        angle = state.phase
+    starts = [None if start is None else SectionStates(rig.system).read(start) for rig in pairs]
+    if starts[0] is not None and starts[0].phase is not None:
+        angle = starts[0].phase
     settling = Settling(tolerance, max_cycles, window, max_events)
     workers = workers_for(threads, where)
 
     own = [read_outputs(outputs, rig) for rig in pairs]
-    ready = [plan_sweep(rig, grid, state) for rig in pairs]
+    ready = [plan_sweep(rig, grid, one) for rig, one in zip(pairs, starts, strict=True)]
 
     batch.sweep.prepare(*(one.rig for one in ready))  # once, before the threads would queue for it
     items = [(one, direction) for one in ready for direction in directions]
@@ -235,11 +221,19 @@ def sweeps(
         progress=progress and (lambda done, _: progress(done, total)),
     )
     shape = (len(pairs), len(directions), len(grid))
-    results = np.array([found for found, _ in done]).reshape(*shape, hold.RESULTS)
-    states = np.array([reached for _, reached in done]).reshape(*shape, layout.STATE)
+    results = np.array([found for found, _ in done]).reshape(*shape, -1)
+    states = np.array([reached for _, reached in done]).reshape(*shape, -1)
     del done  # as large as both
+    about_sweeps = {
+        "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
+        "phase": angle,
+        **settling._asdict(),
+        **about(own[0]),
+    }
     doubts: list[str] = []
     for r, rig in enumerate(pairs):
+        if isinstance(rig.system, Assembly):
+            continue
         oscillator, held, hardest = rig.oscillator, HoldRows(results[r]), rig.hardest
         swing = held.peak_displacement
         held.status[...] = judged(oscillator, held.status, swing)
@@ -248,30 +242,14 @@ def sweeps(
             *note_unbounded(hardest),
             *note_stiff_stops(hardest, float(grid[0])),
         ]
-    free = np.stack([one.free for one in ready], axis=1)
-    largest = np.stack([one.largest for one in ready], axis=1)
-    exciting = np.array([one.exciting for one in ready])
-    data = sweep_dataset(
-        [rig.oscillator for rig in pairs], results, states, free, largest, exciting, angle
-    )
-    data = data.assign_coords(
-        rig=names, direction=list(directions), frequency=grid, component=COMPONENTS
-    )
+    if isinstance(pairs[0].system, Assembly):
+        doubts = notes_on(pairs[0].system, results, "motions")
+    data = sweep_dataset([rig.system for rig in pairs], ready, results, states, angle)
+    data = data.assign_coords(rig=names, direction=list(directions), frequency=grid)
     if outputs:
         levels = [one.levels for one in ready]
         add_sweep_outputs(data, own, pairs, levels, angle, states, window, workers, progress)
-    return describe(
-        data,
-        "vibroimpact.sweeps",
-        {
-            "rigs": [rig_parameters(rig, "frequency", "phase") for rig in pairs],
-            "phase": angle,
-            **settling._asdict(),
-            **about(own[0]),
-        },
-        dict.fromkeys(doubts),
-        own[0],
-    )
+    return describe(data, "vibroimpact.sweeps", about_sweeps, dict.fromkeys(doubts), own[0])
 
 
 def check_frequencies(frequencies: Iterable[float | str]) -> NDArray[np.float64]:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.engine.settling import PATIENT
-from vibroimpact.model import Rig, State, equilibrium
+from vibroimpact.model import Assembly, AssemblyState, Rig, State
 from vibroimpact.response.analytic_free_response import (
     check_each_bounded,
     exciting_excursion,
@@ -16,9 +16,11 @@ from vibroimpact.response.analytic_free_response import (
     free_transmitted_excursion,
     reference_excursions,
 )
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.assembly_rig import assembly_numbers, check_size
+from vibroimpact.response.engine_input import engine_rig
 from vibroimpact.response.free_response import swept_flight
 from vibroimpact.response.hold_rows import Settling, sweep_holds
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.tasks.threads import Tally
 
 _Array = NDArray[np.float64]
@@ -37,14 +39,17 @@ class SweepPlan(NamedTuple):
     """Where either sweep begins, as the engine's vector."""
     free: _Array
     """Excursions in free flight at each frequency, shape (3, frequency): of the displacement (m),
-    of the absolute acceleration (m/s²) and of the transmitted force per unit mass (m/s²)."""
+    of the absolute acceleration (m/s²) and of the transmitted force per unit mass (m/s²). This and
+    what follows is empty for an assembly."""
     largest: _Array
     """The largest ones of the first two at any frequency."""
     exciting: _Array
     """Excursion of the exciting force per unit mass (m/s²) at each frequency."""
 
 
-def plan_sweep(rig: Rig, frequencies: _Array, state: State | None = None) -> SweepPlan:
+def plan_sweep(
+    rig: Rig, frequencies: _Array, state: State | AssemblyState | None = None
+) -> SweepPlan:
     """Prepare a rig once, before it is swept in either direction.
 
     Raises
@@ -54,6 +59,12 @@ def plan_sweep(rig: Rig, frequencies: _Array, state: State | None = None) -> Swe
     """
     levels = rig.levels(len(frequencies))
     rig = rig.hardest
+    states = SectionStates(rig.system)
+    if isinstance(rig.system, Assembly):
+        check_size(rig.system)
+        vector = assembly_numbers(rig.system, rig.periodic, tables=True)
+        begin, none = states.vector_of(state or states.read(None)), np.empty(0)
+        return SweepPlan(frequencies, vector, levels, begin, none, none, none)
     oscillator, shaken = rig.oscillator, rig.periodic
     least = shaken.replace(amplitude=levels.min())
     check_each_bounded(Rig(oscillator, least), frequencies)
@@ -69,7 +80,7 @@ def plan_sweep(rig: Rig, frequencies: _Array, state: State | None = None) -> Swe
         frequencies,
         engine_rig(rig),
         levels,
-        engine_state(oscillator, state or equilibrium(oscillator)),
+        states.vector_of(state or states.read(None)),
         free,
         np.array(reference_excursions(Rig(oscillator, shaken))),
         exciting_excursion(rig, frequencies) * (levels / shaken.amplitude),

@@ -3,74 +3,86 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.stops import dims_of, stops_of
-from vibroimpact.model import Oscillator
-from vibroimpact.response.assembly_rows import measured_variables
-from vibroimpact.response.engine_input import components
+from vibroimpact.datasets.stops import stops_of
+from vibroimpact.model import Assembly, Oscillator
+from vibroimpact.model.rig import System
+from vibroimpact.response.assembly_rows import measured_variables, names_of_parts
 from vibroimpact.response.hold_rows import HoldRows
+from vibroimpact.response.section_states import SectionStates
+from vibroimpact.response.sweep_arrays import SweepPlan
+
+_Array = NDArray[np.float64]
 
 
 def sweep_dataset(
-    oscillators: Sequence[Oscillator],
-    results: NDArray[np.float64],
-    states: NDArray[np.float64],
-    free: NDArray[np.float64],
-    largest: NDArray[np.float64],
-    exciting: NDArray[np.float64],
+    systems: Sequence[System],
+    plans: Sequence[SweepPlan],
+    results: _Array,
+    states: _Array,
     phase: float,
 ) -> xr.Dataset:
     """Label what holds measured.
 
     Parameters
     ----------
-    oscillators
-        One for each rig.
+    systems, plans
+        One for each rig: oscillators, or assemblies with parts of the same names.
     results
         Rows of `hold`, with the dims rig, direction, frequency and column.
     states
         At the end of each hold, likewise.
-    free
-        Excursions in free flight, of each rig at each frequency: of the displacement (m), of the
-        absolute acceleration (m/s²) and of the transmitted force per unit mass (m/s²).
-    largest
-        The largest ones, of each rig.
-    exciting
-        Excursion of the exciting force per unit mass (m/s²), of each rig at each frequency.
     phase
         That of the section, rad.
     """
     dims = ("rig", "direction", "frequency")
-    stops = stops_of(*oscillators)
+    first = systems[0]
+    stops = stops_of(*(one for one in systems if isinstance(one, Oscillator)))
     found = [
         measured_variables(one, part, dims[1:], stops=stops)
-        for one, part in zip(oscillators, results, strict=True)
+        for one, part in zip(systems, results, strict=True)
     ]
-    # What is stacked is not kept a second time.
-    told = {name: np.stack([one.pop(name)[1] for one in found]) for name in list(found[0])}
-    reference = largest[..., np.newaxis, np.newaxis]
-    rows = HoldRows(results)
-    values = {
-        **told,
-        "eta_d": told["displacement_excursion"] / reference[0],
-        "eta_a": told["acceleration_excursion"] / reference[1],
-        "transmissibility": rows.transmitted_excursion / exciting[:, np.newaxis],
-        "motion": np.where(rows.period > 0, "periodic", "undecided"),
-        "period": rows.period,
-        "cycles": rows.cycles,
-        "status": rows.status.astype(np.int64),
+    variables: dict[str, Any] = {}
+    for name, (of, _) in list(found[0].items()):
+        # What is stacked is not kept a second time.
+        variables[name] = (("rig", *of), np.stack([one.pop(name)[1] for one in found]))
+    rows, at_end = HoldRows(results), SectionStates(first)
+    if not isinstance(first, Assembly):
+        variables |= _beside_free_flight(systems, plans, rows, variables)
+    variables |= {
+        "motion": (dims, np.where(rows.period > 0, "periodic", "undecided")),
+        "period": (dims, rows.period),
+        "cycles": (dims, rows.cycles),
+        "status": (dims, rows.status.astype(np.int64)),
+        "section": ((*dims, "component"), at_end.components(states, phase)),
     }
-    data = xr.Dataset({name: (dims_of(name, dims), value) for name, value in values.items()})
-    data = data.assign_coords(stop=stops)
-    data["section"] = ((*dims, "component"), components(states, phase))
-    data["free_displacement_excursion"] = (("rig", "frequency"), free[0])
-    data["free_acceleration_excursion"] = (("rig", "frequency"), free[1])
-    masses = np.array([[one.mass] for one in oscillators])
-    data["free_transmitted_force_excursion"] = (("rig", "frequency"), masses * free[2])
-    data["largest_free_displacement_excursion"] = ("rig", largest[0])
-    data["largest_free_acceleration_excursion"] = ("rig", largest[1])
-    return data
+    parts = names_of_parts(first) if isinstance(first, Assembly) else {"stop": stops}
+    return xr.Dataset(variables, {**parts, "component": at_end.names})
+
+
+def _beside_free_flight(
+    systems: Sequence[System], plans: Sequence[SweepPlan], rows: HoldRows, known: dict[str, Any]
+) -> dict[str, Any]:
+    """Return η, the transmissibility, and the excursions in free flight of oscillators."""
+    dims = ("rig", "direction", "frequency")
+    free = np.stack([one.free for one in plans], axis=1)
+    largest = np.stack([one.largest for one in plans], axis=1)
+    exciting = np.array([one.exciting for one in plans])
+    swing, acceleration = largest[..., np.newaxis, np.newaxis]
+    masses = np.array([[one.mass] for one in systems if isinstance(one, Oscillator)])
+    along = ("rig", "frequency")
+    return {
+        "eta_d": (dims, known["displacement_excursion"][1] / swing),
+        "eta_a": (dims, known["acceleration_excursion"][1] / acceleration),
+        "transmissibility": (dims, rows.transmitted_excursion / exciting[:, np.newaxis]),
+        "free_displacement_excursion": (along, free[0]),
+        "free_acceleration_excursion": (along, free[1]),
+        "free_transmitted_force_excursion": (along, masses * free[2]),
+        "largest_free_displacement_excursion": ("rig", largest[0]),
+        "largest_free_acceleration_excursion": ("rig", largest[1]),
+    }

@@ -9,7 +9,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import rig_parameters
+from vibroimpact.datasets.description import rig_parameters, system_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Oscillator, Repeated
 from vibroimpact.model.parameters import Parameter, parameter, set_values
@@ -96,8 +96,7 @@ class Uncertain(NamedTuple):
     def about(self) -> dict[str, Any]:
         """Return the attributes for a dataset."""
         if self.shaken is None:
-            name = "assembly" if isinstance(self.base.system, Assembly) else "oscillator"
-            rig = {name: self.base.system.model_dump()}
+            rig = system_parameters(self.base.system)
         else:
             rig = rig_parameters(self.base)
         return {**rig, "distributions": self.texts}

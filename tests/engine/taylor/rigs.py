@@ -8,6 +8,7 @@ from itertools import cycle, product
 import numpy as np
 
 import vibroimpact as vi
+from formula_stops import formula_stops
 from samples import sample
 from vibroimpact.engine import batch
 from vibroimpact.engine import parameters as par
@@ -38,6 +39,7 @@ STOPS = {
     "hunt-crossley": vi.PowerBumper(40.0, 0.5, dissipation=0.3),
     "flores": vi.PowerBumper(40.0, 0.5, restitution=0.6, relation="flores"),
     "pounding": vi.JankowskiBumper(40.0, 0.5, 0.6, 1.0),
+    **formula_stops(40.0, 0.5),
 }
 
 

@@ -13,6 +13,7 @@ import vibroimpact as vi
 from engine.taylor.integrated import integrated
 from engine.taylor.rigs import ISOLATORS, SHAKEN, between, followed, pairs, started
 from properties.strategies import Motion, examples, motions
+from reference.stored_energy import stored_by_stop
 from samples import sample
 from vibroimpact.engine.motion import ISOLATOR, LEFT_BUMPER, MODE, U, V, mirror_image
 from vibroimpact.response.engine_input import engine_state
@@ -127,6 +128,5 @@ def stored(rig: vi.Oscillator, isolator: str, stop: str, state: np.ndarray) -> f
             total += 0.5 * given.stiffness * state[U + 1 + side] ** 2
         elif not isinstance(given, vi.RigidStop) and int(state[MODE]) & side:
             depth = max(sign * u - given.gap, 0.0)
-            n = getattr(given, "exponent", 1.5)
-            total += given.stiffness * depth ** (n + 1.0) / (n + 1.0)
+            total += stored_by_stop(given, depth)
     return float(total)

@@ -23,8 +23,8 @@ Tables
     Where modes are few and small, the watched functions and the state at any time are products of
     tables with y (`tables`), and leaps of up to 8 steps are proved to be free. Which modes have
     tables depends on the plan alone (those with few stops touched, as many as there is room for),
-    and each section begins from the state alone: a motion may be restarted at any section, bit by
-    bit the same.
+    and each section begins from the state alone, with the longest leap: a motion may be restarted
+    at any section, bit by bit the same.
 Events
     The earliest first; within 1e-12 of a step, the stop with the lower number (`events`).
     `ORDERED` counts impacts where this rule, and not the laws, decided: those at the same instant
@@ -44,7 +44,8 @@ Limits: 52 stops, the bits of a mode in a float. Free masses that fly far away l
 their links' deformations, which are differences of displacements.
 
 Modules: `layout` (plan and state), `plan` (numpy description to a rig's vector, and to a plan),
-`mode`, `series`, `vectors`, `roots`, `tables`, `events`, `advance` (stretch), `channels` (what is
-observed), `measures` (extremes), `tangent`, `section` (states at a section), `free_motion` (in
-closed form), `table`, `stretches` (measured), `record` (written down).
+`mode`, `acceleration`, `rates` (it as a matrix of the mode), `series`, `vectors`, `roots`,
+`tables`, `events`, `advance` (stretch), `channels` (what is observed), `measures` (extremes),
+`tangent`, `section` (states at a section), `free_motion` (in closed form), `table`, `stretches`
+(measured), `record` (written down).
 """

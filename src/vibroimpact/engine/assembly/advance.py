@@ -42,6 +42,11 @@ _ROUNDING = 2e-16
 """A watched function that goes below zero by no more than this share is a touch."""
 _TINY = 1e-300
 
+_NOTHING = 1e-20
+"""Share of a clearance's size below which a deformation changes no digit of it."""
+_FORGOTTEN = 1e-40
+"""A free deformation below this (m) has relaxed."""
+
 
 @kernel
 def begin(plan: Vector, amplitude: float, omega: float) -> None:
@@ -65,6 +70,8 @@ def begin(plan: Vector, amplitude: float, omega: float) -> None:
     plan[at.USED] = 0.0
     for i in range(2 * int(max(plan[at.SLOTS], 1.0))):
         plan[int(plan[at.KEYS]) + i] = -1.0
+    for i in range(int(plan[at.RATES_SLOTS])):
+        plan[int(plan[at.RATES_MODE]) + i] = -1.0
 
 
 @kernel
@@ -116,7 +123,8 @@ def relax(plan: Vector, mode: int, deformation: Vector, t: float) -> None:
     stops = int(plan[at.STOP])
     for f in range(int(plan[at.STOPS])):
         if deformation[f] > 0.0 and not mode >> f & 1:
-            deformation[f] *= math.exp(-plan[stops + f * at.STOP_WIDTH + at.RELAXATION] * t)
+            left = deformation[f] * math.exp(-plan[stops + f * at.STOP_WIDTH + at.RELAXATION] * t)
+            deformation[f] = left if left > _FORGOTTEN else 0.0
 
 
 @kernel
@@ -142,14 +150,13 @@ def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> f
     """When a stop's watched function first falls to zero, as a share of the step, or NONE."""
     b = beyond(plan, int(plan[at.BERNSTEIN]))
     zeros = int(plan[int(plan[at.ZEROS]) + f])
-    d, x = 0.0, 0.0
+    d, x, size = 0.0, 0.0, magnitude(plan, f, mode, b)
     if mode >> f & 1 == 0:
         d = plan[int(plan[at.DEFORMATION]) + f]
-        if d > 0.0:
+        if d > _NOTHING * size:
             x = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RELAXATION] * length
         else:
             d = 0.0
-    size = magnitude(plan, f, mode, b)
     if zeros == 0 and b[0] + d < -_WRONG * size:
         if mode >> f & 1:
             plan[int(plan[at.ZEROS]) + f] = float(JUMPED)
@@ -160,10 +167,13 @@ def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> f
 @kernel
 def is_positive(a: Vector, order: int) -> bool:
     """Whether the size of a power series' terms alone shows that it is positive on [0, 1]."""
-    least = a[0]
-    for j in range(1, order + 1):
+    least, other = a[0], 0.0
+    for j in range(1, order, 2):  # two sums, as each waits for itself
         least += min(a[j], 0.0)
-    found: bool = least > 0.0
+        other += min(a[j + 1], 0.0)
+    if order % 2 == 1:
+        least += min(a[order], 0.0)
+    found: bool = least + other > 0.0
     return found
 
 
@@ -190,7 +200,7 @@ def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
     room = beyond(x, (width + 7) // 8 * 8)
     gather(plan, x)
     h = plan[place + STEP_LENGTH]
-    level = int(plan[at.LEVEL])
+    level = LEVELS - 1 - int(plan[at.LEVEL])
     while level > 0 and h * (1 << (level - 1)) >= left:
         level -= 1
     clear, all_clear = 0, False
@@ -211,9 +221,9 @@ def stretch_by_tables(plan: Vector, place: int, left: float) -> int:
     hit, end = -1, 1.0
     time = min(h * (1 << level), left)
     if all_clear:
-        plan[at.LEVEL] = min(level + 1.0, LEVELS - 1.0)
+        plan[at.LEVEL] = max(LEVELS - 2.0 - level, 0.0)
     else:
-        plan[at.LEVEL] = 1.0
+        plan[at.LEVEL] = LEVELS - 2.0
         b = beyond(plan, int(plan[at.BERNSTEIN]))
         end = time / h
         for f in range(count):
@@ -303,7 +313,7 @@ def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int
         event = event_of(kind, hit)
         enter_mode(plan, mode)
         plan[at.AGE] = 0.0
-        plan[at.LEVEL] = 0.0
+        plan[at.LEVEL] = LEVELS - 1.0
     plan[at.EVENT] = float(event)
     return event
 
@@ -318,10 +328,12 @@ def advancing(next_stretch: Any) -> Any:
         plan[at.ORDERED_BEFORE] = plan[at.ORDERED]
         event = next_stretch(plan, limit)
         ended[STEP], ended[ARRIVAL] = plan[at.LENGTH], 0.0
+        passed = event == LIMIT and plan[at.LENGTH] < limit
+        if event == LIMIT and not passed:
+            # A section begins as if the motion did: it is the same wherever it is taken up.
+            plan[at.LEVEL] = 0.0
         store_motion(plan, after)
-        if event == LIMIT and plan[at.LENGTH] < limit:
-            return PASSED
-        return int(event)
+        return PASSED if passed else int(event)
 
     return kernel(advance)
 

@@ -14,7 +14,12 @@ import math
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import enter_mode
-from vibroimpact.engine.assembly.series import expand_state, travel_by_series, watched_series
+from vibroimpact.engine.assembly.series import (
+    expand_start,
+    expand_state,
+    travel_by_series,
+    watched_series,
+)
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -80,12 +85,30 @@ def open_piece(plan: Vector, i: int) -> None:
 
 
 @apart
+def open_instant(plan: Vector) -> bool:
+    """Make the first terms of the series of the present, as a piece.
+
+    Returns whether nothing happens at this instant: where nothing is zero by construction, and
+    nothing that is watched has fallen to zero.
+    """
+    y = beyond(plan, int(plan[at.Y]))
+    deformation = beyond(plan, int(plan[at.DEFORMATION]))
+    mode, first = int(plan[at.MODE]), beyond(plan, int(plan[at.COEFFICIENTS]))
+    expand_start(plan, y, deformation, 1.0 / max(plan[at.RATE], 1e-200))
+    for f in range(int(plan[at.STOPS])):
+        plan[int(plan[at.PIECE_DEFORMATION]) + f] = deformation[f]
+        watched_series(plan, f, mode, first)
+        if plan[int(plan[at.ZEROS]) + f] != 0.0 or not first[0] > 0.0:
+            return False
+    return True
+
+
+@apart
 def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
     """Write a channel's power series in τ, 0 to 1 on the piece; returns its order."""
-    n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
-    row = 2 * (n + 1)
-    order = int(plan[at.ORDER])
-    states, waves = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES])
+    n, w, row = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.ROW])
+    order, states = int(plan[at.ORDER]), int(plan[at.SERIES])
+    waves = states + 2 * (n + 1)
     length = plan[at.PIECE_LENGTH]
     mode, one = int(plan[at.MODE]), int(plan[at.STOP]) + index * at.STOP_WIDTH
     pressed = channel >= CLEARANCE and mode >> index & 1 == 1
@@ -97,7 +120,7 @@ def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
             a = (j + 1) / length * plan[states + (j + 1) * row + n + 1 + index]
             if channel == ABSOLUTE_ACCELERATION and plan[at.SHAKEN] != 0.0:
                 for q in range(w):
-                    a -= plan[push + q] * plan[waves + j * w + q]
+                    a -= plan[push + q] * plan[waves + j * row + q]
             out[j] = a
         return order
     if (channel == FORCE and pressed) or (channel == CLEARANCE and not pressed):
@@ -150,8 +173,8 @@ def value(plan: Vector, channel: int, index: int, tau: float) -> float:
 def _force_on_base(plan: Vector, a: Vector, b: Vector) -> int:
     """Write the series of ι · (f + p − M a) with absolute accelerations; returns its order."""
     n, w, carried = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.CARRIED])
-    push, waves = int(plan[at.PUSH]), int(plan[at.WAVE_SERIES])
-    order = int(plan[at.ORDER]) - 1
+    push, waves = int(plan[at.PUSH]), int(plan[at.SERIES]) + 2 * (n + 1)
+    order, row = int(plan[at.ORDER]) - 1, int(plan[at.ROW])
     for j in range(order + 1):
         b[j] = 0.0
     for i in range(n):
@@ -159,7 +182,7 @@ def _force_on_base(plan: Vector, a: Vector, b: Vector) -> int:
         for j in range(order + 1):
             value = -a[j]
             for q in range(w):
-                value += plan[push + i * w + q] * plan[waves + j * w + q]
+                value += plan[push + i * w + q] * plan[waves + j * row + q]
             b[j] += plan[carried + i] * value
     b[0] += plan[at.LOAD] * plan[at.MOVED]
     return order
@@ -188,7 +211,7 @@ def observed(plan: Vector, c: int, a: Vector, b: Vector) -> int:
         order = _force_on_base(plan, a, b)
     else:
         left, right = drift_ends(plan, c - 2 * n - 1)
-        row, states, order = 2 * (n + 1), int(plan[at.SERIES]), int(plan[at.ORDER])
+        row, states, order = int(plan[at.ROW]), int(plan[at.SERIES]), int(plan[at.ORDER])
         for j in range(order + 1):
             b[j] = plan[states + j * row + right] - plan[states + j * row + left]
     return order

@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.acceleration import accelerate, places, take_off
 from vibroimpact.engine.assembly.mode import enter_mode, hold, move_alike
-from vibroimpact.engine.assembly.series import accelerate, places, take_off
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, REST_ENDS
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
@@ -228,7 +228,8 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
 def pack_fresh(plan: Vector) -> float:
     """The zeros by construction as one number: 4 (stop + 1) + order, at most six of them.
 
-    Below them stands how far to leap, so that a motion is the same wherever it is taken up.
+    Below them stands by how many levels a leap begins below the longest, so that a motion is the
+    same wherever it is taken up.
     """
     zeros = beyond(plan, int(plan[at.ZEROS]))
     packed, kept = 0, 0

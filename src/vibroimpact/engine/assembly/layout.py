@@ -70,7 +70,6 @@ from __future__ import annotations
     PIECE_LENGTH,
     ORDER,
     SERIES,
-    WAVE_SERIES,
     FORCE_SERIES,
     # Rooms.
     BERNSTEIN,
@@ -114,8 +113,19 @@ from __future__ import annotations
     DRIFT,
     SEEN,
     ORDERED_BEFORE,
-) = range(91)
-HEADER = 96
+    # What a mode makes of a state (`rates`).
+    ROW,
+    INPUTS,
+    RATES,
+    RATES_SIZE,
+    RATES_SLOTS,
+    RATES_MODE,
+    RATES_NOW,
+    OUTPUTS,
+    SHARE,
+    POWERS,
+) = range(100)
+HEADER = 104
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)
 FIRST, BEHIND, PARTNER = range(8, 11)

@@ -17,7 +17,7 @@ def enter_mode(plan: Vector, mode: int) -> None:
     """List the pressed and the resting stops of a mode, and bound its rate."""
     if int(plan[at.MODE]) == mode:
         return
-    plan[at.MODE], plan[at.TABLE_NOW] = float(mode), -1.0
+    plan[at.MODE], plan[at.TABLE_NOW], plan[at.RATES_NOW] = float(mode), -1.0, -1.0
     count, stops = int(plan[at.STOPS]), int(plan[at.STOP])
     pressed, resting = int(plan[at.PRESSED_LIST]), int(plan[at.RESTING_LIST])
     p, r = 0, 0

@@ -18,6 +18,7 @@ from vibroimpact.engine.assembly.curved.laws import (
     initial_stiffness,
     written,
 )
+from vibroimpact.engine.assembly.rates import rates_size
 from vibroimpact.engine.assembly.tables import RULES, rules, table_size
 from vibroimpact.engine.jit import Vector
 
@@ -26,9 +27,12 @@ Matrix = NDArray[np.float64]
 GROUND = -1
 
 TABLE_MODES = 32
-"""Modes that may have tables. To make a table takes as long as some hundred events without it."""
+"""Modes that may have tables. To make a table takes as long as some dozen events without it."""
 TABLE_BYTES = 1 << 24
 """What their tables may take."""
+
+RATES_MOST = 1 << 15
+"""Numbers of the matrices of modes that are kept (`rates`)."""
 
 
 class Stop(NamedTuple):
@@ -157,7 +161,7 @@ def make_vector(
     record = forcing.interval > 0.0
     waves = 2 if record else forcing.weights.shape[1]
     width = 2 * n + waves + 1
-    row = 2 * (n + 1)
+    row = -(-(2 * (n + 1) + waves) // 8) * 8
     constant = np.zeros(n) if constant is None else constant
     influence = np.ones(n) if influence is None else influence
 
@@ -205,7 +209,9 @@ def make_vector(
     block(at.DRIFT, np.array(ends, dtype=float))
     block(at.ROW_SUMS, np.stack([abs(k + rigid).sum(1), abs(c).sum(1)]))
     header[at.SYMMETRIC] = -1.0 not in images and not constant.any()
-    header[[at.CURVED, at.LINKS]] = curved, sum(stop.kind == at.LINK for stop in stops)
+    header[at.CURVED] = sum(stop.behaviour != 0 for stop in stops)
+    header[at.ROW] = row
+    header[at.LINKS] = sum(stop.kind == at.LINK for stop in stops)
     nodes = 0
     if curved:
         tables = False
@@ -228,8 +234,7 @@ def make_vector(
     deformations = (at.DEFORMATION, at.START_DEFORMATION, at.END_DEFORMATION)
     for index in (*deformations, at.PIECE_DEFORMATION, at.ZEROS):
         room(index, 2 * count if curved else count)
-    room(at.SERIES, at.TERMS * row)
-    room(at.WAVE_SERIES, at.TERMS * waves)
+    room(at.SERIES, at.TERMS * row + 16)
     room(at.FORCE_SERIES, at.TERMS * count)
     room(at.BERNSTEIN, 16)
     room(at.COEFFICIENTS, at.TERMS)
@@ -239,6 +244,15 @@ def make_vector(
     room(at.ROOM, 64 * 16)
     room(at.WIDTHS, 64)
     room(at.SCRATCH, 8 * (width + count + 8))
+
+    size = rates_size(n, count, waves)
+    slots = 1 << max(min(RATES_MOST // size, 64).bit_length() - 1, 2)
+    header[[at.RATES_SLOTS, at.RATES_SIZE]] = slots, size
+    room(at.POWERS, at.TERMS)
+    room(at.INPUTS, 1 + count)
+    room(at.OUTPUTS, 2 * (row + 2 * count + n + 16))
+    room(at.RATES, slots * size)
+    room(at.RATES_MODE, slots)
 
     # Modes with few pressed stops have tables, as many as there is room for.
     size = table_size(n, count, waves)

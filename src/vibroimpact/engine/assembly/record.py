@@ -66,6 +66,7 @@ def event_width(masses: int) -> int:
 def recording(next_stretch: Any, channels: Any) -> tuple[Any, Any]:
     """Make what writes down a stretch of a flow, and what writes one state as a sample."""
     open_stretch, open_piece, value = channels.open_stretch, channels.open_piece, channels.value
+    open_instant = channels.open_instant
 
     def put(plan: Vector, tau: float, samples: Vector, columns: int, k: int) -> None:
         row = k
@@ -137,6 +138,9 @@ def recording(next_stretch: Any, channels: Any) -> tuple[Any, Any]:
         clock = at.PARTS + 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]) + 1
         ordered, undecided = plan[at.ORDERED], plan[at.UNDECIDED]
         load_motion(plan, state, state[clock], state[clock + 1])
+        if open_instant(plan):
+            sample(plan, 0.0, samples, columns, k)
+            return
         length = plan[at.INTERVAL] if plan[at.RECORD] != 0.0 else 1.0 / plan[at.STIFF_RATE]
         for _ in range(_FEW):  # what happens at this instant comes first
             next_stretch(plan, length)

@@ -153,9 +153,11 @@ def split(b: Vector, cut: float, right: Vector) -> None:
 def only_root(b: Vector, e: float, x: float) -> float:
     """The root of a falling f in [0, 1], by Newton's method within a bracket."""
     low, high, t = 0.0, 1.0, 1.0
-    before = b[0] + e
+    before, memory = b[0] + e, e
+    decay = math.exp(-x / _D) if e > 0.0 else 0.0
     for j in range(1, _D + 1):  # where the control polygon crosses
-        here = b[j] + (e * math.exp(-x * j / _D) if e > 0.0 else 0.0)
+        memory *= decay
+        here = b[j] + memory
         if here <= 0.0:
             t = (j - 1 + before / (before - here)) / _D if before > 0.0 else 0.0
             break
@@ -186,13 +188,20 @@ def value(b: Vector, x: float) -> tuple[float, float]:
     small = x if near else 1.0 - x
     ratio = small / (1.0 - small)
     rest = 1.0 - small
-    total, slope, scale = 0.0, 0.0, 1.0
-    # Σ C(D, j) b_j r^j and its derivative.
-    for i in range(_D, -1, -1):
-        slope = slope * ratio + total
-        total = total * ratio + _BINOMIALS[i] * (b[i] if near else b[_D - i])
-    for _ in range(_D - 1):
-        scale *= rest
+    # Σ C(D, j) b_j rʲ and its derivative, the even and the odd powers apart, as each sum waits for
+    # itself.
+    again = ratio * ratio
+    even, odd, even_slope, odd_slope = 0.0, 0.0, 0.0, 0.0
+    for i in range(_D - 1, -1, -2):
+        even_slope = even_slope * again + even
+        odd_slope = odd_slope * again + odd
+        even = even * again + _BINOMIALS[i] * (b[i] if near else b[_D - i])
+        odd = odd * again + _BINOMIALS[i + 1] * (b[i + 1] if near else b[_D - i - 1])
+    total = even + ratio * odd
+    slope = odd + 2.0 * ratio * (even_slope + ratio * odd_slope)
+    square = rest * rest
+    fourth = square * square
+    scale = fourth * fourth * (fourth * square)  # rest^(D − 1)
     # p = rest^D S(r), dr/dx = 1 / rest²
     p = scale * rest * total
     p1 = scale * (slope / rest - _D * total)

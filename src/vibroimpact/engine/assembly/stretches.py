@@ -72,14 +72,14 @@ _stays = staying(_range_of)
 def _velocities(plan: Vector, tau: float, v: Vector, waves: Vector) -> None:
     """Write the velocities, then that of the ground, and the forcing on a piece."""
     n, w = int(plan[at.MASSES]), int(plan[at.WAVES])
-    row, order = 2 * (n + 1), int(plan[at.ORDER])
-    series, forced = int(plan[at.SERIES]) + n + 1, int(plan[at.WAVE_SERIES])
+    row, order, series = int(plan[at.ROW]), int(plan[at.ORDER]), int(plan[at.SERIES]) + n + 1
     for i in range(n + 1):
         v[i] = 0.0
     for q in range(w):
         waves[q] = 0.0
     for j in range(order, -1, -1):
-        here, now = beyond(plan, series + j * row), beyond(plan, forced + j * w)
+        here = beyond(plan, series + j * row)
+        now = beyond(here, n + 1)
         for i in range(n):
             v[i] = v[i] * tau + here[i]
         for q in range(w):

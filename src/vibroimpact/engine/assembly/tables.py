@@ -23,7 +23,7 @@ import numpy as np
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.channels import observed
-from vibroimpact.engine.assembly.series import expand_state, gain, to_bernstein, watched_series
+from vibroimpact.engine.assembly.series import expand_state, gain_all, to_bernstein, watched_series
 from vibroimpact.engine.assembly.vectors import combine
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
@@ -159,8 +159,8 @@ def make_tables(plan: Vector, place: int) -> None:
         plan[i] = 0.0
     unit = int(plan[at.TABLE_ROOM])
     pressed = unit + width + 8
-    row = 2 * (n + 1)
-    series, waves = int(plan[at.SERIES]), int(plan[at.WAVE_SERIES])
+    row, series = int(plan[at.ROW]), int(plan[at.SERIES])
+    gained = beyond(plan, int(plan[at.OUTPUTS]))
     a, b = beyond(plan, int(plan[at.COEFFICIENTS])), beyond(plan, int(plan[at.BERNSTEIN]))
     for column in range(width):
         for i in range(width):
@@ -169,25 +169,23 @@ def make_tables(plan: Vector, place: int) -> None:
             f = int(plan[int(plan[at.PRESSED_LIST]) + j])
             plan[pressed + f] = plan[unit + base + j]
         expand_state(plan, beyond(plan, unit), beyond(plan, pressed), h)
-        for i in range(width):
-            if i < 2 * n:
-                block, stride, of = series, row, i if i < n else i + 1
-            else:
-                block, stride, of = waves, w, i - 2 * n
-            for k in range(2 * _FRACTIONS):
-                tau = k / _FRACTIONS if k < _FRACTIONS else (k - _FRACTIONS) / _FRACTIONS**2
-                start = (fraction if k < _FRACTIONS else fine) + k % _FRACTIONS * square
+        for k in range(2 * _FRACTIONS + 1):
+            tau, start = 1.0, leaps
+            if k < _FRACTIONS:
+                tau, start = k / _FRACTIONS, fraction + k * square
+            elif k < 2 * _FRACTIONS:
+                tau = (k - _FRACTIONS) / _FRACTIONS**2
+                start = fine + (k - _FRACTIONS) * square
+            gain_all(plan, tau, gained)
+            for i in range(width):
+                value = 0.0
                 if i < base - 1:
-                    value = gain(plan, block, stride, of, tau)
-                else:
-                    value = _deformed(plan, i - base, tau) if i >= base else 0.0
+                    value = gained[i if i < n else (i + 1 if i < 2 * n else i + 2)]
+                elif i >= base:
+                    f = int(plan[int(plan[at.PRESSED_LIST]) + i - base])
+                    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+                    value = gained[int(plan[one + at.LEFT])] - gained[int(plan[one + at.RIGHT])]
                 plan[start + (i // 8 * width + column) * 8 + i % 8] = value
-            value = 0.0
-            if i < base - 1:
-                value = gain(plan, block, stride, of, 1.0)
-            elif i >= base:
-                value = _deformed(plan, i - base, 1.0)
-            plan[leaps + (i // 8 * width + column) * 8 + i % 8] = value
         for j in range(_JETS):
             for i in range(n):
                 r = j * n + i
@@ -209,17 +207,6 @@ def make_tables(plan: Vector, place: int) -> None:
     for level in range(1, LEVELS):
         _compose(plan, leaps + (level - 1) * square, leaps + level * square, width)
     _screen(plan, place)
-
-
-@kernel
-def _deformed(plan: Vector, p: int, tau: float) -> float:
-    """Gain of a pressed stop's deformation."""
-    row = 2 * (int(plan[at.MASSES]) + 1)
-    one = int(plan[at.STOP]) + int(plan[int(plan[at.PRESSED_LIST]) + p]) * at.STOP_WIDTH
-    series = int(plan[at.SERIES])
-    left = gain(plan, series, row, int(plan[one + at.LEFT]), tau)
-    right = gain(plan, series, row, int(plan[one + at.RIGHT]), tau)
-    return left - right
 
 
 @kernel

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from typing import Any
 
 from llvmlite import ir
@@ -12,6 +13,8 @@ from vibroimpact.engine.jit import Vector
 _EIGHT = ir.VectorType(ir.DoubleType(), 8)
 _FUSED = ("contract",)
 _DOUBLES = types.CPointer(types.float64)  # type: ignore[no-untyped-call]
+_WORD = ir.IntType(64)
+_LANE = ir.IntType(32)
 
 
 def combine(rows: Vector, stride: int, x: Vector, n: int, out: Vector) -> None:
@@ -20,35 +23,335 @@ def combine(rows: Vector, stride: int, x: Vector, n: int, out: Vector) -> None:
         out[r] = sum(rows[i * stride + r] * x[i] for i in range(n))
 
 
+def combine_sixteen(rows: Vector, x: Vector, n: int, out: Vector) -> None:
+    """Out = Σ x_i rows_i for sixteen numbers; rows follow each other."""
+    for r in range(16):
+        out[r] = sum(rows[16 * i + r] * x[i] for i in range(n))
+
+
+def combine_ranges(
+    rows: Vector,
+    x: Vector,
+    u0: int,
+    u1: int,
+    v0: int,
+    v1: int,
+    w0: int,
+    w1: int,
+    y: Vector,
+    y0: int,
+    y1: int,
+    out: Vector,
+) -> None:
+    """Out = Σ x_i rows_i for eight numbers over three ranges, + Σ y_i rows_(w1 + i) over one."""
+    for r in range(8):
+        total = sum(rows[8 * (w1 + i) + r] * y[i] for i in range(y0, y1))
+        for begin, end in ((w0, w1), (u0, u1), (v0, v1)):
+            total += sum(rows[8 * i + r] * x[i] for i in range(begin, end))
+        out[r] = total
+
+
+def scale(x: Vector, factor: float, out: Vector, n: int) -> None:
+    """Out = factor · x for n numbers, and what follows them up to a multiple of eight."""
+    for i in range(-(-n // 8) * 8):
+        out[i] = factor * x[i]
+
+
+def gains(rows: Vector, stride: int, order: int, tau: float, out: Vector) -> None:
+    """Out = Σ rows_j τʲ over j = 1 … order (at least 2), for eight numbers."""
+    for r in range(8):
+        total = 0.0
+        for j in range(order, 0, -1):
+            total = (total + rows[j * stride + r]) * tau
+        out[r] = total
+
+
+def slopes(rows: Vector, stride: int, order: int, tau: float, out: Vector) -> None:
+    """Out = Σ j rows_j τʲ; as `gains`."""
+    for r in range(8):
+        total = 0.0
+        for j in range(order, 0, -1):
+            total = (total + j * rows[j * stride + r]) * tau
+        out[r] = total
+
+
+def convolve(plan: Vector, a: int, b: int, n: int) -> float:
+    """Σ a_i b_(−i) over i < n, for series that begin at places of the plan."""
+    total = 0.0
+    for i in range(n):
+        total += plan[a + i] * plan[b - i]
+    return total
+
+
+def convolve_weighted(plan: Vector, a: int, b: int, n: int, begin: float, by: float) -> float:
+    """Σ (begin + i · by) a_i b_(−i) over i < n."""
+    total = 0.0
+    for i in range(n):
+        total += (begin + i * by) * plan[a + i] * plan[b - i]
+    return total
+
+
+def _zero() -> Any:
+    return ir.Constant(_EIGHT, [0.0] * 8)
+
+
+def _eight(builder: Any, memory: Any, index: Any) -> Any:
+    """Eight numbers from a place on."""
+    at = builder.gep(memory, [index], source_etype=ir.DoubleType())
+    return builder.load(builder.bitcast(at, _EIGHT.as_pointer()), typ=_EIGHT, align=8)
+
+
+def _keep(builder: Any, eight: Any, memory: Any, index: Any) -> None:
+    at = builder.gep(memory, [index], source_etype=ir.DoubleType())
+    builder.store(eight, builder.bitcast(at, _EIGHT.as_pointer()), align=8)
+
+
+def _spread(builder: Any, one: Any, kind: Any = _EIGHT) -> Any:
+    """One number, eight times."""
+    first = builder.insert_element(ir.Constant(kind, ir.Undefined), one, ir.Constant(_LANE, 0))
+    every = ir.Constant(ir.VectorType(_LANE, 8), [0] * 8)
+    return builder.shuffle_vector(first, first, every)
+
+
+def _number(builder: Any, memory: Any, index: Any) -> Any:
+    at = builder.gep(memory, [index], source_etype=ir.DoubleType())
+    return builder.load(at, typ=ir.DoubleType())
+
+
+def _fused(builder: Any, a: Any, b: Any, c: Any) -> Any:
+    return builder.fadd(c, builder.fmul(a, b, flags=_FUSED), flags=_FUSED)
+
+
+def _word(n: int) -> Any:
+    return ir.Constant(_WORD, n)
+
+
+def _total(builder: Any) -> Any:
+    total = cgutils.alloca_once(builder, _EIGHT)  # type: ignore[no-untyped-call]
+    builder.store(_zero(), total)
+    return total
+
+
+def _add(builder: Any, total: Any, a: Any, b: Any) -> None:
+    builder.store(_fused(builder, a, b, builder.load(total, typ=_EIGHT)), total)
+
+
 @intrinsic
 def _combine(typing: Any, rows: Any, stride: Any, x: Any, n: Any, out: Any) -> Any:
     def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         rows, stride, x, n, out = args
-        double = ir.DoubleType()
-        total = cgutils.alloca_once(builder, _EIGHT)  # type: ignore[no-untyped-call]
-        builder.store(ir.Constant(_EIGHT, [0.0] * 8), total)
+        total = _total(builder)
         with cgutils.for_range(builder, n) as loop:
-            at = builder.gep(rows, [builder.mul(loop.index, stride)], source_etype=double)
-            eight = builder.bitcast(at, _EIGHT.as_pointer())
-            row = builder.load(eight, typ=_EIGHT, align=8)
-            one = builder.load(builder.gep(x, [loop.index], source_etype=double), typ=double)
-            lane = ir.Constant(ir.IntType(32), 0)
-            first = builder.insert_element(ir.Constant(_EIGHT, ir.Undefined), one, lane)
-            every = ir.Constant(ir.VectorType(ir.IntType(32), 8), [0] * 8)
-            spread = builder.shuffle_vector(first, first, every)
-            product = builder.fmul(row, spread, flags=_FUSED)
-            before = builder.load(total, typ=_EIGHT)
-            builder.store(builder.fadd(before, product, flags=_FUSED), total)
-        target = builder.bitcast(out, _EIGHT.as_pointer())
-        builder.store(builder.load(total, typ=_EIGHT), target, align=8)
+            row = _eight(builder, rows, builder.mul(loop.index, stride))
+            _add(builder, total, row, _spread(builder, _number(builder, x, loop.index)))
+        _keep(builder, builder.load(total, typ=_EIGHT), out, _word(0))
         return context.get_dummy_value()
 
     return types.void(_DOUBLES, types.int64, _DOUBLES, types.int64, _DOUBLES), build
 
 
-@overload(combine)
-def _combined(rows: Any, stride: Any, x: Any, n: Any, out: Any) -> Any:
-    def implementation(rows: Any, stride: Any, x: Any, n: Any, out: Any) -> None:
-        _combine(rows, stride, x, n, out)  # type: ignore[call-arg]
+@intrinsic
+def _combine_sixteen(typing: Any, rows: Any, x: Any, n: Any, out: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        rows, x, n, out = args
+        totals = [_total(builder) for _ in range(4)]
 
-    return implementation
+        def add(row: Any, part: int) -> None:
+            one = _spread(builder, _number(builder, x, row))
+            at = builder.mul(row, _word(16))
+            for half in range(2):
+                here = _eight(builder, rows, builder.add(at, _word(8 * half)))
+                _add(builder, totals[2 * part + half], here, one)
+
+        pairs = builder.lshr(n, _word(1))
+        with cgutils.for_range(builder, pairs) as loop:  # two sums, as each waits for itself
+            first = builder.shl(loop.index, _word(1))
+            add(first, 0)
+            add(builder.add(first, _word(1)), 1)
+        with cgutils.for_range(builder, builder.and_(n, _word(1))):
+            add(builder.sub(n, _word(1)), 0)
+        for half in range(2):
+            parts = [builder.load(totals[2 * part + half], typ=_EIGHT) for part in range(2)]
+            _keep(builder, builder.fadd(*parts), out, _word(8 * half))
+        return context.get_dummy_value()
+
+    return types.void(_DOUBLES, _DOUBLES, types.int64, _DOUBLES), build
+
+
+@intrinsic
+def _combine_ranges(
+    typing: Any,
+    rows: Any,
+    x: Any,
+    u0: Any,
+    u1: Any,
+    v0: Any,
+    v1: Any,
+    w0: Any,
+    w1: Any,
+    y: Any,
+    y0: Any,
+    y1: Any,
+    out: Any,
+) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        rows, x, u0, u1, v0, v1, w0, w1, y, y0, y1, out = args
+        early, late = _total(builder), _total(builder)
+
+        def add(total: Any, begin: Any, end: Any, numbers: Any, row: Any) -> None:
+            with cgutils.for_range(builder, builder.sub(end, begin)) as loop:
+                i = builder.add(begin, loop.index)
+                here = builder.shl(builder.add(i, row), _word(3))
+                one = _spread(builder, _number(builder, numbers, i))
+                _add(builder, total, _eight(builder, rows, here), one)
+
+        # What is computed last is added last: only that is waited for.
+        add(early, w0, w1, x, _word(0))
+        add(early, u0, u1, x, _word(0))
+        add(early, y0, y1, y, w1)
+        add(late, v0, v1, x, _word(0))
+        sums = [builder.load(one, typ=_EIGHT) for one in (early, late)]
+        _keep(builder, builder.fadd(*sums), out, _word(0))
+        return context.get_dummy_value()
+
+    n = types.int64
+    return types.void(_DOUBLES, _DOUBLES, n, n, n, n, n, n, _DOUBLES, n, n, _DOUBLES), build
+
+
+@intrinsic
+def _scale(typing: Any, x: Any, factor: Any, out: Any, n: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        x, factor, out, n = args
+        every = _spread(builder, factor)
+        blocks = builder.lshr(builder.add(n, _word(7)), _word(3))
+        with cgutils.for_range(builder, blocks) as loop:
+            i = builder.shl(loop.index, _word(3))
+            _keep(builder, builder.fmul(_eight(builder, x, i), every), out, i)
+        return context.get_dummy_value()
+
+    return types.void(_DOUBLES, types.float64, _DOUBLES, types.int64), build
+
+
+def _series_sum(weighted: bool) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        rows, stride, order, tau, out = args
+        t = _spread(builder, tau)
+        square = builder.fmul(t, t)
+
+        def coefficient(j: Any) -> Any:
+            row = _eight(builder, rows, builder.mul(j, stride))
+            if not weighted:
+                return row
+            weight = builder.sitofp(j, ir.DoubleType())
+            return builder.fmul(row, _spread(builder, weight))
+
+        # Odd and even powers apart, as each sum waits for itself.
+        high, low = _total(builder), _total(builder)
+
+        def go(total: Any, j: Any) -> None:
+            before = builder.load(total, typ=_EIGHT)
+            builder.store(_fused(builder, before, square, coefficient(j)), total)
+
+        with cgutils.for_range(builder, builder.lshr(order, _word(1))) as loop:
+            j = builder.sub(order, builder.shl(loop.index, _word(1)))
+            go(high, j)
+            go(low, builder.sub(j, _word(1)))
+        odd = builder.and_(order, _word(1))
+        with cgutils.for_range(builder, odd):
+            go(high, _word(1))
+        is_odd = builder.icmp_unsigned("!=", odd, _word(0))
+        upper, lower = (builder.load(one, typ=_EIGHT) for one in (high, low))
+        ones, twos = builder.select(is_odd, upper, lower), builder.select(is_odd, lower, upper)
+        total = builder.fmul(_fused(builder, twos, t, ones), t)
+        _keep(builder, total, out, _word(0))
+        return context.get_dummy_value()
+
+    return build
+
+
+@intrinsic
+def _gains(typing: Any, rows: Any, stride: Any, order: Any, tau: Any, out: Any) -> Any:
+    n = types.int64
+    return types.void(_DOUBLES, n, n, types.float64, _DOUBLES), _series_sum(False)
+
+
+@intrinsic
+def _slopes(typing: Any, rows: Any, stride: Any, order: Any, tau: Any, out: Any) -> Any:
+    n = types.int64
+    return types.void(_DOUBLES, n, n, types.float64, _DOUBLES), _series_sum(True)
+
+
+def _convolving(weighted: bool) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        plan, a, b, n, *weights = args
+        total = _total(builder)
+        lanes = ir.Constant(ir.VectorType(_WORD, 8), list(range(8)))
+        back = ir.Constant(ir.VectorType(_LANE, 8), list(range(7, -1, -1)))
+
+        def pair(i: Any) -> tuple[Any, Any]:
+            x = _eight(builder, plan, builder.add(a, i))
+            y = _eight(builder, plan, builder.sub(builder.sub(b, i), _word(7)))
+            if weighted:
+                begin, by = weights
+                first = builder.fadd(begin, builder.fmul(by, builder.sitofp(i, ir.DoubleType())))
+                steps = ir.Constant(_EIGHT, [float(k) for k in range(8)])
+                here = builder.fmul(_spread(builder, by), steps)
+                x = builder.fmul(x, builder.fadd(here, _spread(builder, first)))
+            return x, builder.shuffle_vector(y, y, back)
+
+        with cgutils.for_range(builder, builder.lshr(n, _word(3))) as loop:
+            _add(builder, total, *pair(builder.shl(loop.index, _word(3))))
+        # What stands beyond the ends is not zero, nor need it be a number.
+        rest = builder.and_(n, _word(7))
+        left = _spread(builder, rest, ir.VectorType(_WORD, 8))
+        inside = builder.icmp_signed("<", lanes, left)
+        last = builder.select(inside, builder.fmul(*pair(builder.sub(n, rest))), _zero())
+        found = builder.fadd(builder.load(total, typ=_EIGHT), last)
+        for width in (4, 2):
+            halves = [
+                builder.shuffle_vector(
+                    found,
+                    found,
+                    ir.Constant(
+                        ir.VectorType(_LANE, width), list(range(half * width, (half + 1) * width))
+                    ),
+                )
+                for half in range(2)
+            ]
+            found = builder.fadd(*halves)
+        ends = [builder.extract_element(found, ir.Constant(_LANE, k)) for k in range(2)]
+        return builder.fadd(*ends)
+
+    return build
+
+
+@intrinsic
+def _convolve(typing: Any, plan: Any, a: Any, b: Any, n: Any) -> Any:
+    return types.float64(_DOUBLES, types.int64, types.int64, types.int64), _convolving(False)
+
+
+@intrinsic
+def _convolve_weighted(typing: Any, plan: Any, a: Any, b: Any, n: Any, begin: Any, by: Any) -> Any:
+    n_, x = types.int64, types.float64
+    return types.float64(_DOUBLES, n_, n_, n_, x, x), _convolving(True)
+
+
+def _replaces(plain: Any, made: Any) -> None:
+    """Let compiled code call an intrinsic in the place of a function of Python."""
+    names = ", ".join(inspect.signature(plain).parameters)
+    scope: dict[str, Any] = {"made": made}
+    exec(f"def implementation({names}): return made({names})", scope)
+
+    @overload(plain, strict=False)
+    def _chosen(*args: Any) -> Any:
+        return scope["implementation"]
+
+
+_replaces(combine, _combine)
+_replaces(combine_sixteen, _combine_sixteen)
+_replaces(combine_ranges, _combine_ranges)
+_replaces(scale, _scale)
+_replaces(gains, _gains)
+_replaces(slopes, _slopes)
+_replaces(convolve, _convolve)
+_replaces(convolve_weighted, _convolve_weighted)

@@ -5,10 +5,10 @@ computed from these: on each interval of a table the displacement is a series of
 about the interval's middle, in y = (t − t_middle) / step, right to rounding.
 
     cursor = begin(plan, motion, length)
-    while more(plan, cursor):
+    while has_piece(plan, cursor):
         high, s, c = expanded(plan, cursor, series)     # the piece covers −1/2 ≤ y ≤ high
         ...
-        cursor = following(plan, cursor)
+        cursor = next_piece(plan, cursor)
 """
 
 from __future__ import annotations

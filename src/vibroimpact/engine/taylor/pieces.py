@@ -1,7 +1,8 @@
 """A stretch as polynomials: a Taylor step is cut in two, each half a series about its middle.
 
 They look as those from tables (`linear.pieces`): 12 terms in y = (t − t_middle) / half a step,
-|y| ≤ 1/2, right to rounding, so that whoever asks a motion for something asks both alike.
+|y| ≤ 1/2, right to rounding, so that whoever asks a motion for something asks both alike. Forces
+and accelerations of a piece are written beside its series, which they leave alone.
 """
 
 from __future__ import annotations

@@ -3,7 +3,6 @@
 import { written } from "./plot.js";
 
 const STEPS = 1000;
-const WORDS = { "kelvin-voigt": "spring and dashpot", rigid: "rigid", power: "power law (Hertz)", jankowski: "Jankowski", none: "none" };
 
 function made(tag, properties = {}, parent = null) {
   const node = Object.assign(document.createElement(tag), properties);
@@ -105,7 +104,7 @@ export class Knobs {
     const choose = (title, part, kinds, kind) => {
       made("label", { htmlFor: `law-${part}`, textContent: title }, box);
       const select = made("select", { id: `law-${part}` }, box);
-      for (const one of kinds) made("option", { value: one, textContent: WORDS[one] ?? one, selected: one === kind }, select);
+      for (const one of kinds) made("option", { value: one, textContent: choices.words?.[one] ?? one, selected: one === kind }, select);
       select.addEventListener("change", () => this.send({ do: "law", part, kind: select.value }));
     };
     choose("isolator", "isolator", choices.isolators, state.laws.isolator);

@@ -29,7 +29,7 @@ export class Session {
   }
 
   hello() {
-    return { hello: true, presets: this.facts.presets, isolators: ["linear"], stops: this.facts.stops };
+    return { hello: true, presets: this.facts.presets, isolators: ["linear"], stops: this.facts.stops, words: this.facts.words };
   }
 
   take(message) {

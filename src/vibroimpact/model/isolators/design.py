@@ -127,7 +127,7 @@ def _check_keys(table: Mapping[str, Any], law: type[IsolatorLaw]) -> None:
     """Raise an error if a table has an unknown key, which may be a misspelt one of the design."""
     for key in table:
         if key != "kind" and key not in law.table_keys():
-            raise InputError(f"{key}: {unknown_key(law.table_keys(), key)}")
+            raise InputError(f"{key}: {unknown_key(law.table_keys(), key, law.laws_with(key))}")
 
 
 def design_keys(law: type[IsolatorLaw]) -> list[str]:

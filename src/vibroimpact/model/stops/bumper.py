@@ -43,6 +43,7 @@ class Bumper(StopLaw):
     """
 
     kind: ClassVar[str] = "kelvin-voigt"
+    words: ClassVar[str] = "spring and dashpot"
     usual: ClassVar[bool] = True
 
     stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]

@@ -47,6 +47,7 @@ class JankowskiBumper(StopLaw):
     """
 
     kind: ClassVar[str] = "jankowski"
+    words: ClassVar[str] = "Jankowski"
     exponent: ClassVar[float] = 1.5
     _quiet: ClassVar = {"mass": None}
 

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import inspect
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from pydantic import model_validator
 
+from vibroimpact.errors import InputError
 from vibroimpact.law_numbers import StopNumbers
 from vibroimpact.model.integral import integral_of
 from vibroimpact.model.law_registry import Named
 from vibroimpact.model.own_law import Law
-from vibroimpact.model.validation import constructor
+from vibroimpact.model.unknown_keys import listed
+from vibroimpact.model.validation import Accepts, constructor, in_order
 
 
 class StopLaw(Named):
@@ -96,24 +99,75 @@ class FormulaStop(StopLaw):
     """Base class of the stops without memory whose force is given by a formula.
 
     A new law has a ``kind``, its fields and the ``formula``, in which ``d`` is the deformation (m),
-    ``v`` its rate (m/s), and the other names are fields. For example, with the fields
-    ``stiffness``, ``drag`` and ``gap``::
+    ``v`` its rate (m/s), and the other names are fields. The fields are the
+    arguments of the class, in their order. For example::
 
-        formula: ClassVar[str] = "stiffness*d + drag*d**2*v"
+        class DragBumper(FormulaStop):
+            kind: ClassVar[str] = "drag"
+            formula: ClassVar[str] = "stiffness*d + drag*d**2*v"
+
+            stiffness: Annotated[float, Accepts(STIFFNESS, above=0.0)]
+            drag: Annotated[float, Accepts(quantity("N s/m^3"), minimum=0.0)]
+            gap: Annotated[float, Accepts(LENGTH)]
 
     A negative force counts as 0. What a formula may contain is described in `Law`.
+
+    With its entry in `STOPS`, study files, parameters by path, results, figures, the explorer and
+    the tests of all laws have the law (``tests/model/test_registered_stop.py``). It needs no stored
+    states in ``tests/reference/``, for it is a `Law`, bit for bit. What does not follow:
+
+    - the name ``vibroimpact.DragBumper``: lines in ``model/__init__.py`` and ``__init__.pyi``;
+    - a page in ``docs/laws/`` and its line in ``index.md``;
+    - ``words``, if the explorer shall show another name than the kind.
     """
 
     formula: ClassVar[str]
 
     @constructor
-    def __init__(self, /, **values: Any) -> None:
-        super().__init__(**values)
+    def __init__(self, /, *values: Any, **named: Any) -> None:
+        names = in_order(type(self))
+        if len(values) > len(names):
+            raise InputError(
+                f"{type(self).__name__}: {len(values)} values are passed by position, but it has "
+                f"{len(names)} fields; {listed(names)} are accepted"
+            )
+        super().__init__(**dict(zip(names, values, strict=False)), **named)
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, **options: Any) -> None:
+        """Show the fields as the arguments of the class."""
+        super().__pydantic_init_subclass__(**options)
+        either = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        cls.__signature__ = inspect.Signature(
+            [inspect.Parameter(name, either) for name in in_order(cls)]
+        )
 
     @model_validator(mode="after")
     def _can_be_followed(self) -> Self:
         _ = self.law
         return self
+
+    @classmethod
+    def like(
+        cls, force: float, depth: float, gap: float, restitution: float, omega: float, mass: float
+    ) -> Self | None:
+        """Return such a stop with this force, whose terms are of about the same size."""
+        known = {"gap": gap, "restitution": restitution, "mass": mass}
+        numbers: dict[str, float] = {}
+        powers: dict[str, float] = {}
+        for name, field in cls.model_fields.items():
+            accepts = next((one for one in field.metadata if isinstance(one, Accepts)), None)
+            if accepts is None:
+                continue
+            quantity = accepts.of(numbers).quantity
+            size = quantity.size(mass, depth, 1.0 / omega)
+            numbers[name] = known.get(name, size)
+            powers[name] = 0.0 if name in known else dict(quantity.base).get("kilogram", 0.0)
+        try:
+            now = cls(**numbers).static_force(depth)
+            return cls(**{name: n * (force / now) ** powers[name] for name, n in numbers.items()})
+        except (InputError, ArithmeticError):
+            return None
 
     @property
     def law(self) -> Law:

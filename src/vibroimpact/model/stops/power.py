@@ -70,6 +70,7 @@ class PowerBumper(StopLaw):
     """
 
     kind: ClassVar[str] = "power"
+    words: ClassVar[str] = "power law (Hertz)"
     _quiet: ClassVar = {"dissipation": None, "restitution": None, "relation": "exact"}
 
     # The exponent stands first, for the unit of the stiffness depends on it.

@@ -8,8 +8,8 @@ from vibroimpact.engine.assembly.advance import relax, remember
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.happen import decide, switch
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
-from vibroimpact.engine.assembly.curved.step import take_step, travel
-from vibroimpact.engine.assembly.curved.terms import expand_all
+from vibroimpact.engine.assembly.curved.step import take_end, take_step, travel
+from vibroimpact.engine.assembly.curved.terms import expand_all, share_of_unit
 from vibroimpact.engine.assembly.curved.watch import first_of
 from vibroimpact.engine.assembly.mode import enter_mode, move_alike
 from vibroimpact.engine.event import GIVEN_UP, LIMIT, TURN, event_of
@@ -75,8 +75,11 @@ def next_curved_stretch(plan: Vector, left: float) -> int:
         tau, one = first_of(plan, f, mode, h, size, limit)
         if tau <= limit:
             hit, which, end = f, one, tau
+    if hit < 0:
+        take_end(plan, y, deformation)
+    elif end > 0.0:
+        travel(plan, y, deformation, end * plan[at.SHARE])
     if hit < 0 or end > 0.0:
-        travel(plan, y, deformation, end)
         relax(plan, mode, deformation, end * h)
         move_alike(plan, beyond(y, int(plan[at.MASSES])))
     length = h if hit < 0 else end * h
@@ -125,6 +128,7 @@ def reopen(plan: Vector) -> None:
     # A stretch of no length shows what is at its end: on such a moment nothing changes.
     unit = length if length > 0.0 else _MOMENT / plan[at.STIFF_RATE]
     expand_all(plan, y, deformation, unit, of.ORDER)
+    share_of_unit(plan, 1.0)
 
 
 next_stretch = next_curved_stretch

@@ -35,6 +35,12 @@ def keep_piece(plan: Vector, i: int) -> None:
 
 
 @kernel
+def open_instant(plan: Vector) -> bool:
+    """See `assembly.channels`; which branches hold is found when a motion goes on."""
+    return False
+
+
+@kernel
 def _of_link(plan: Vector, channel: int, f: int, out: Vector) -> int:
     """The force of a link, its s in the place of a clearance, its memory in that of a deformation.
 

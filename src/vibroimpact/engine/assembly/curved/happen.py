@@ -24,7 +24,6 @@ _ZERO = 1e-15
 """Share of a size below which a coefficient is rounding."""
 _LIMIT = of.NUMBERS + par.YIELD
 _FRICTION = of.NUMBERS + par.FRICTION
-_FLAGS = of.NUMBERS + par.OWN + par.OWN_FLAGS
 
 
 @kernel
@@ -39,7 +38,7 @@ def _settles(
     length = 1.0 / plan[at.RATE]
     expand_all(plan, y, deformation, length, 2)
     n = int(plan[at.MASSES])
-    row = 2 * (n + 1)
+    row = int(plan[at.ROW])
     first = int(plan[at.SERIES]) + n + 1
     push = closing(plan, f, beyond(plan, first + row)) / length
     jerk = 2.0 * closing(plan, f, beyond(plan, first + 2 * row)) / (length * length)
@@ -176,7 +175,7 @@ def decide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
     enter(plan, y, deformation, size)
     length = 1.0 / plan[at.STIFF_RATE]
     expand_all(plan, y, deformation, length, 4)
-    row_width = 2 * (n + 1)
+    row_width = int(plan[at.ROW])
     series = int(plan[at.SERIES]) + n + 1
     for f in range(count):
         row = row_of(plan, f)

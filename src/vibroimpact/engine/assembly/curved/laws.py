@@ -10,10 +10,10 @@ import numpy as np
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly.curved import layout as of
-from vibroimpact.engine.assembly.curved.tape import Written, shape_of, uses
+from vibroimpact.engine.assembly.curved.tape import Written, shape_of
 from vibroimpact.engine.parameters import rig_vector
 from vibroimpact.engine.series.kernels import pushed
-from vibroimpact.law_numbers import ABSOLUTE_V, ABSOLUTE_X, IsolatorNumbers, OwnStop, PowerLaw
+from vibroimpact.law_numbers import IsolatorNumbers, OwnStop, PowerLaw
 
 PUSHING = (of.POWER, of.OWN_STOP)
 """Behaviours of stops."""
@@ -96,7 +96,7 @@ def written(stops: Sequence[Any]) -> tuple[Any, Any]:
             continue
         push = pushed(np.array(stop.law), 0) if stop.behaviour in PUSHING else 0
         made = Written(shape_of(np.array(stop.law), push), len(tape))
-        row[of.FIRST_OP], row[of.CONSTANTS] = len(tape), made.constants
+        row[of.FIRST_OP], row[of.KNOWN] = len(tape), made.known
         tape += made.rows
         row[of.LAST_OP] = len(tape)
         row[of.S_NODE : of.RAW_NODE + 1] = made.nodes
@@ -105,9 +105,3 @@ def written(stops: Sequence[Any]) -> tuple[Any, Any]:
         row[of.LAST_SLOPE] = len(tape)
         row[of.BY_S : of.FLOW_BY_Z + 1] = made.slopes
     return rows, np.array(tape).reshape(-1, of.OP_WIDTH)
-
-
-def signs_matter(law: Any) -> tuple[bool, bool]:
-    """Return whether the signs of s and of s′ matter to a link's formula."""
-    flags = uses(law, 0)
-    return bool(flags & ABSOLUTE_X), bool(flags & ABSOLUTE_V)

@@ -12,7 +12,7 @@ SMOOTH, HYSTERETIC, BILINEAR, DRAG, FRICTION, OWN, POWER, OWN_STOP = range(1, 9)
     BEHAVIOUR,
     BRANCH,
     FIRST_OP,
-    CONSTANTS,
+    KNOWN,
     LAST_OP,
     S_NODE,
     V_NODE,
@@ -33,9 +33,9 @@ SMOOTH, HYSTERETIC, BILINEAR, DRAG, FRICTION, OWN, POWER, OWN_STOP = range(1, 9)
     FLOW_BY_Z,
 ) = range(20)
 """Of a row: the place of its two bits among those with branches (−1: it has none), its operations,
-of which the first are constants, and the nodes of what goes in and comes out. Then come the
-operations of the slopes of the force, by s, s′, z and a stop's dissipation, and of the memory's
-rate."""
+of which the first are known (constants and what goes in), and the nodes of what goes in and comes
+out. Then come the operations of the slopes of the force, by s, s′, z and a stop's dissipation, and
+of the memory's rate."""
 NAMES = 24
 """Then the numbers of its forces by name (`series.layout.NAMES`), as the mode has them."""
 NUMBERS = NAMES + len(series.NAMES)

@@ -12,9 +12,10 @@ from vibroimpact.engine.assembly.curved.terms import (
     node,
     remembers,
     row_of,
-    shorten,
+    share_of_unit,
 )
 from vibroimpact.engine.assembly.series import travel_by_series
+from vibroimpact.engine.assembly.vectors import slopes
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.series.layout import NAMES
@@ -53,7 +54,7 @@ def _idle(plan: Vector, law: int) -> bool:
 def _last(plan: Vector, m: int, rate: float) -> float:
     """The largest coefficient of this order, as a velocity."""
     n = int(plan[at.MASSES])
-    row, most = int(plan[at.SERIES]) + m * 2 * (n + 1), 0.0
+    row, most = int(plan[at.SERIES]) + m * int(plan[at.ROW]), 0.0
     for i in range(n):
         one = abs(plan[row + n + 1 + i]) + rate * abs(plan[row + i])
         if not one <= most and most == most:  # what is not a number shows
@@ -75,12 +76,27 @@ def _last(plan: Vector, m: int, rate: float) -> float:
 
 
 @kernel
+def _kept_memory(plan: Vector) -> int:
+    width = 2 * int(plan[at.MASSES]) + int(plan[at.WAVES]) + 1
+    return int(plan[at.KEPT_Y]) + width + int(plan[at.STOPS]) + 8
+
+
+@kernel
+def take_end(plan: Vector, y: Vector, deformation: Vector) -> None:
+    """Make the state at the end of a whole step, with which it was certified, the present one."""
+    kept, memory = int(plan[at.KEPT_Y]), _kept_memory(plan)
+    for i in range(2 * int(plan[at.MASSES]) + int(plan[at.WAVES]) + 1):
+        y[i] = plan[kept + i]
+    for f in range(int(plan[at.STOPS])):
+        deformation[f] = plan[memory + f]
+
+
+@kernel
 def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float) -> float:
     """By how much a step is too long, if above 1: what is missing from the equations at its end."""
     n, count, order = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.ORDER])
-    kept = beyond(plan, int(plan[at.KEPT_Y]))
     width = 2 * n + int(plan[at.WAVES]) + 1
-    memory = beyond(kept, width + count + 8)
+    kept, memory = beyond(plan, int(plan[at.KEPT_Y])), beyond(plan, _kept_memory(plan))
     for i in range(width):
         kept[i] = y[i]
     for f in range(count):
@@ -88,13 +104,14 @@ def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float
     travel(plan, kept, memory, tau)
     place = int(plan[at.ROOM])
     accelerations_of_all(plan, kept, memory, place)
-    h, row = plan[at.PIECE_LENGTH] * tau, 2 * (n + 1)
+    h, row = plan[at.PIECE_LENGTH] * tau, int(plan[at.ROW])
     rate, most = plan[at.STIFF_RATE], 0.0
+    grown = beyond(plan, int(plan[at.OUTPUTS]))
+    velocities = beyond(plan, int(plan[at.SERIES]) + n + 1)
+    for i in range(0, n, 8):
+        slopes(beyond(velocities, i), row, order, tau, beyond(grown, i))
     for i in range(n):
-        series, found = int(plan[at.SERIES]) + n + 1 + i, 0.0
-        for j in range(order, 0, -1):
-            found = found * tau + j * plan[series + j * row]
-        off = abs(found * tau - plan[place + i] * h)
+        off = abs(grown[i] - plan[place + i] * h)
         if not off <= most and most == most:
             most = off
     for f in range(count):
@@ -103,8 +120,8 @@ def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float
             z, found = node(plan, law, of.Z_NODE, int(plan[at.NODES])), 0.0
             for j in range(order, 0, -1):
                 found = found * tau + j * plan[z + j]
-            grown = plan[node(plan, law, of.FLOW_NODE, int(plan[at.POINT]))]
-            off = rate * abs(found * tau - grown * h)
+            flow = plan[node(plan, law, of.FLOW_NODE, int(plan[at.POINT]))]
+            off = rate * abs(found * tau - flow * h)
             if not off <= most and most == most:
                 most = off
     return most / (BALANCED * size + 1e-300)
@@ -114,7 +131,10 @@ def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float
 def take_step(
     plan: Vector, y: Vector, deformation: Vector, left: float, longest: float, size: float
 ) -> float:
-    """Write the series of a step from a state; return its length, on which they are certified."""
+    """Write the series of a step from a state; return its length, on which they are certified.
+
+    Their unit is a power of two, so that it changes no digit; the step is `SHARE` of it.
+    """
     rate = plan[at.STIFF_RATE]
     unit = 2.0 ** -math.floor(math.log2(max(rate, 1e-200)))
     last = 0.0
@@ -133,16 +153,13 @@ def take_step(
     if not h > 0.0 or not last < math.inf:
         return 0.0
     h = left if left <= h else min(h, 0.5 * left)
-    shorten(plan, h / unit)
-    plan[at.PIECE_LENGTH] = h
     for _ in range(_CUT):
-        off = excess(plan, y, deformation, 1.0, size)
+        off = excess(plan, y, deformation, h / unit, size)
         if off <= 1.0:
+            share_of_unit(plan, h / unit)
             return h
         cut = _LEAST_SHARE
         if off < math.inf:
             cut = max(0.9 * off ** (-1.0 / (_ORDER - 1)), cut)
         h *= cut
-        shorten(plan, cut)
-        plan[at.PIECE_LENGTH] = h
     return 0.0

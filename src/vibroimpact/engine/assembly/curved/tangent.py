@@ -13,6 +13,7 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.acceleration import drive, places, restrain
 from vibroimpact.engine.assembly.channels import close_stretch, fade
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.advance import reopen
@@ -29,7 +30,6 @@ from vibroimpact.engine.assembly.curved.terms import (
 )
 from vibroimpact.engine.assembly.events import closing, halt
 from vibroimpact.engine.assembly.mode import enter_mode
-from vibroimpact.engine.assembly.series import drive, places, restrain
 from vibroimpact.engine.assembly.tangent import meet, note, reflect
 from vibroimpact.engine.event import (
     CONTACT,
@@ -114,8 +114,8 @@ def _moved(plan: Vector, row: Vector, h: float) -> None:
     """Carry one disturbance over the step in hand, over the series of the motion."""
     of_ = places(plan)
     n, w, count = of_.masses, of_.waves, int(plan[at.STOPS])
-    width, v, order = 2 * (n + 1), n + 1, int(plan[at.ORDER])
-    series, none = int(plan[at.SERIES]), beyond(plan, int(plan[at.WAVE_SERIES]))
+    width, v, order = int(plan[at.ROW]), n + 1, int(plan[at.ORDER])
+    series, none = int(plan[at.SERIES]), beyond(plan, int(plan[at.OUTPUTS]))
     forces, base, point = int(plan[at.FORCE_SERIES]), int(plan[at.NODES]), int(plan[at.POINT])
     for q in range(w):
         none[q] = 0.0

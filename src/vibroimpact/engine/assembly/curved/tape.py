@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.series import layout as series
 from vibroimpact.engine.series.code_generation import whole_power
@@ -190,7 +189,7 @@ class Written:
         raw = force.of[0] if isinstance(shape.push, tuple) else None
         force = tape.of(force, s)
         nodes = [*tape.constants, *tape.series]
-        self.constants = len(tape.constants)
+        self.known = len(tape.constants) + 3
         self.rows: list[list[float]] = []
         places = {one: begin + i for i, one in enumerate(nodes)}
         self.rows += written(nodes, places)
@@ -227,8 +226,3 @@ def shape_of(vector: Any, push: Any) -> Shape:
     if push:
         return Shape(tuple(() for _ in LAWS), push)
     return Shape(tuple(module.shape(vector) for module in LAWS))
-
-
-def uses(vector: Any, which: int) -> int:
-    """Return the flags of a formula: whether the signs of s and s′ matter."""
-    return int(vector[par.OWN + par.OWN_WIDTH * which + par.OWN_FLAGS])

@@ -6,11 +6,14 @@ import math
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.acceleration import Places, places
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved import tape as op
 from vibroimpact.engine.assembly.curved.branches import way_of_slide
-from vibroimpact.engine.assembly.series import Places, drive, expanding, places, restrain
-from vibroimpact.engine.jit import Vector, apart, kernel
+from vibroimpact.engine.assembly.rates import apply_rates, rates_of_mode
+from vibroimpact.engine.assembly.series import expanding
+from vibroimpact.engine.assembly.vectors import convolve, convolve_weighted
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.memory import beyond
 
 _T = at.TERMS
@@ -34,19 +37,18 @@ def node(plan: Vector, row: int, which: int, base: int) -> int:
 
 @kernel
 def _product(plan: Vector, a: int, b: int, k: int) -> float:
-    total = 0.0
-    for j in range(k + 1):
-        total += plan[a + j] * plan[b + k - j]
+    """Coefficient k > 0 of a product; what is computed last is added last, as it is waited for."""
+    known: float = convolve(plan, a + 1, b + k - 1, k - 1)
+    total: float = known + plan[a] * plan[b + k] + plan[a + k] * plan[b]
     return total
 
 
 @kernel
 def _driven(plan: Vector, a: int, b: int, k: int) -> float:
-    """Σ j a_j b_(k−j) / k: coefficient k of what has the slope a′ b."""
-    total = 0.0
-    for j in range(1, k + 1):
-        total += j * plan[a + j] * plan[b + k - j]
-    return total / k
+    """Σ j a_j b_(k−j) / k: coefficient k > 0 of what has the slope a′ b."""
+    known: float = convolve_weighted(plan, a + 1, b + k - 1, k - 1, 1.0, 1.0)
+    total: float = known / k + plan[a + k] * plan[b]
+    return total
 
 
 @kernel
@@ -88,9 +90,38 @@ def first(plan: Vector, row: int, begin: int, end: int, base: int) -> None:
             plan[out] = 4.0 * small / ((1.0 + small) * (1.0 + small))
 
 
+@inlined
+def _coefficient(plan: Vector, code: int, out: int, a: int, b: int, k: int) -> None:
+    """Write coefficient k > 0 of one operation."""
+    if code == _ADD:
+        plan[out + k] = plan[a + k] + plan[b + k]
+    elif code == _SHIFT:
+        plan[out + k] = plan[a + k]
+    elif code == _SUBTRACT:
+        plan[out + k] = plan[a + k] - plan[b + k]
+    elif code == _NEGATE:
+        plan[out + k] = -plan[a + k]
+    elif code == _SCALE:
+        plan[out + k] = plan[a + k] * plan[b]
+    elif code == _MULTIPLY:
+        plan[out + k] = _product(plan, a, b, k)
+    elif code == _POWER:
+        more = plan[b] + 1.0
+        known = convolve_weighted(plan, a + 1, out + k - 1, k - 1, more - k, more)
+        plan[out + k] = (known / k + plan[b] * plan[a + k] * plan[out]) / plan[a]
+    elif code == _EXP:
+        plan[out + k] = _driven(plan, a, out, k)
+    elif code in (_SINE, _TANH):
+        plan[out + k] = _driven(plan, a, b, k)
+    elif code == _COSINE:
+        plan[out + k] = -_driven(plan, a, b, k)
+    elif code == _FLAT:
+        plan[out + k] = -_product(plan, b, b, k)
+
+
 @kernel
-def further(plan: Vector, begin: int, end: int, k: int, base: int) -> None:
-    """Write coefficient k > 0 of what operations of a law make."""
+def further(plan: Vector, begin: int, end: int, k: int, last: int, base: int) -> None:
+    """Write coefficients k > 0 to `last` of what operations of a law make, one after the other."""
     tape = int(plan[at.TAPE])
     for i in range(begin, end):
         one = tape + i * of.OP_WIDTH
@@ -99,70 +130,60 @@ def further(plan: Vector, begin: int, end: int, k: int, base: int) -> None:
             continue
         out = base + i * _T
         a, b = base + int(plan[one + 1]) * _T, base + int(plan[one + 2]) * _T
-        if code == _ADD:
-            plan[out + k] = plan[a + k] + plan[b + k]
-        elif code == _SHIFT:
-            plan[out + k] = plan[a + k]
-        elif code == _SUBTRACT:
-            plan[out + k] = plan[a + k] - plan[b + k]
-        elif code == _NEGATE:
-            plan[out + k] = -plan[a + k]
-        elif code == _SCALE:
-            plan[out + k] = plan[a + k] * plan[b]
-        elif code == _MULTIPLY:
-            plan[out + k] = _product(plan, a, b, k)
-        elif code == _POWER:
-            total, more = 0.0, plan[b] + 1.0
-            for j in range(1, k + 1):
-                total += (more * j - k) * plan[a + j] * plan[out + k - j]
-            plan[out + k] = total / (k * plan[a])
-        elif code == _EXP:
-            plan[out + k] = _driven(plan, a, out, k)
-        elif code in (_SINE, _TANH):
-            plan[out + k] = _driven(plan, a, b, k)
-        elif code == _COSINE:
-            plan[out + k] = -_driven(plan, a, b, k)
-        elif code == _FLAT:
-            plan[out + k] = -_product(plan, b, b, k)
+        for m in range(k, last + 1):
+            _coefficient(plan, code, out, a, b, m)
+
+
+@inlined
+def _strain(plan: Vector, row: int, one: int, here: Vector, k: int, base: int) -> None:
+    """Write s and s′ of a row, of order k."""
+    n = int(plan[at.MASSES])
+    left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
+    x, v = here[left] - here[right], here[n + 1 + left] - here[n + 1 + right]
+    if plan[one + at.KIND] == at.LINK:
+        x, v = -x, -v
+    elif k == 0:
+        x = max(x - plan[one + at.GAP], 0.0)
+    plan[node(plan, row, of.S_NODE, base) + k] = x
+    plan[node(plan, row, of.V_NODE, base) + k] = v
 
 
 @kernel
-def push(plan: Vector, of_: Places, here: Vector, k: int, base: int, into: int) -> None:
-    """Add what curved rows do to the accelerations of order k; `here` is u, 0, v, 0.
+def push(plan: Vector, of_: Places, here: Vector, k: int, base: int, forces: Vector) -> None:
+    """Write the forces of curved rows of order k, as they close; `here` is u, 0, v, 0.
 
     Where a law remembers, z of this order stands in its node.
     """
-    n = of_.masses
-    mode = int(plan[at.MODE])
+    mode, place = int(plan[at.MODE]), -1
     for f in range(int(plan[at.STOPS])):
         row, one = row_of(plan, f), of_.stops + f * at.STOP_WIDTH
         behaviour = int(plan[row + of.BEHAVIOUR])
-        if behaviour == 0 or plan[row + of.ACTIVE] == 0.0:
+        if behaviour == 0:
             continue
+        place += 1
+        force = 0.0
         if behaviour == of.FRICTION:
-            if k > 0 or mode >> f & 1:
-                continue
-            force = plan[row + _FRICTION] * -way_of_slide(plan, f, mode)
-        else:
-            left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
-            x, v = here[left] - here[right], here[n + 1 + left] - here[n + 1 + right]
+            if k == 0 and not mode >> f & 1:
+                force = plan[row + _FRICTION] * -way_of_slide(plan, f, mode)
+        elif plan[row + of.ACTIVE] != 0.0:
             link = plan[one + at.KIND] == at.LINK
-            if link:
-                x, v = -x, -v
-            elif k == 0:
-                x = max(x - plan[one + at.GAP], 0.0)
-            plan[node(plan, row, of.S_NODE, base) + k] = x
-            plan[node(plan, row, of.V_NODE, base) + k] = v
-            begin, end = int(plan[row + of.FIRST_OP]), int(plan[row + of.LAST_OP])
-            if k == 0:
-                first(plan, row, begin, end, base)
-            else:
-                further(plan, begin + int(plan[row + of.CONSTANTS]), end, k, base)
+            # What depends on s alone is written two orders at once.
+            alone = behaviour == of.SMOOTH
+            if k == 0 or k % 2 == 1 or not alone:
+                _strain(plan, row, one, here, k, base)
+                begin, end = int(plan[row + of.FIRST_OP]), int(plan[row + of.LAST_OP])
+                if k == 0:
+                    first(plan, row, begin, end, base)
+                else:
+                    last = k
+                    if alone and k < int(plan[at.ORDER]):
+                        last = k + 1
+                        _strain(plan, row, one, beyond(here, int(plan[at.ROW])), last, base)
+                    further(plan, begin + int(plan[row + of.KNOWN]), end, k, last, base)
             force = plan[node(plan, row, of.FORCE_NODE, base) + k]
             if link:
                 force = -force
-        for i in range(int(plan[one + at.FIRST]), int(plan[one + at.BEHIND])):
-            plan[into + i] -= plan[of_.response + f * n + i] * force
+        forces[place] = force
 
 
 _FRICTION = of.NUMBERS + par.FRICTION
@@ -181,7 +202,7 @@ def expand_slopes(plan: Vector) -> None:
         first(plan, row, begin, end, base)
         begin += int(plan[row + of.SLOPE_CONSTANTS])
         for k in range(1, int(plan[at.ORDER]) + 1):
-            further(plan, begin, end, k, base)
+            further(plan, begin, end, k, k, base)
 
 
 @kernel
@@ -199,11 +220,6 @@ def _begin(plan: Vector, deformation: Vector) -> None:
 
 
 @kernel
-def _push(plan: Vector, of_: Places, here: Vector, j: int, after: int) -> None:
-    push(plan, of_, here, j, int(plan[at.NODES]), after)
-
-
-@kernel
 def _grow(plan: Vector, factor: float, j: int) -> None:
     base = int(plan[at.NODES])
     for f in range(int(plan[at.STOPS])):
@@ -213,36 +229,17 @@ def _grow(plan: Vector, factor: float, j: int) -> None:
             plan[node(plan, law, of.Z_NODE, base) + j + 1] = factor * grown
 
 
-expand_all = expanding(_begin, _push, _grow)
+expand_all = expanding(_begin, push, _grow)
 
 
-@apart
-def shorten(plan: Vector, tau: float) -> None:
-    """Turn the series in hand into series on this share of their length."""
-    n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
-    row, base = 2 * (n + 1), int(plan[at.NODES])
-    series, waves, forces = (
-        int(plan[at.SERIES]),
-        int(plan[at.WAVE_SERIES]),
-        int(plan[at.FORCE_SERIES]),
-    )
-    power = 1.0
-    for j in range(1, int(plan[at.ORDER]) + 1):
-        power *= tau
-        for i in range(row):
-            plan[series + j * row + i] *= power
-        for q in range(w):
-            plan[waves + j * w + q] *= power
-        for p in range(count):
-            plan[forces + j * count + p] *= power
-        for f in range(count):
-            law = row_of(plan, f)
-            if plan[law + of.ACTIVE] == 0.0:
-                continue
-            begin = int(plan[law + of.FIRST_OP]) + int(plan[law + of.CONSTANTS])
-            for i in range(begin, int(plan[law + of.LAST_OP])):
-                plan[base + i * _T + j] *= power
-    plan[at.PIECE_LENGTH] *= tau
+@kernel
+def share_of_unit(plan: Vector, share: float) -> None:
+    """Let what is watched of the series in hand be that on a share of their unit."""
+    powers, power = int(plan[at.POWERS]), 1.0
+    plan[at.SHARE] = share
+    for j in range(of.ORDER + 1):
+        plan[powers + j] = power
+        power *= share
 
 
 @apart
@@ -253,18 +250,26 @@ def accelerations_of_all(plan: Vector, y: Vector, deformation: Vector, place: in
     stands in the nodes of a point.
     """
     of_ = places(plan)
-    n, base = of_.masses, int(plan[at.POINT])
+    rates = rates_of_mode(plan, of_)
+    n, w, base = of_.masses, of_.waves, int(plan[at.POINT])
     here = beyond(plan, int(plan[at.SCRATCH]))
     for i in range(n):
         here[i], here[n + 1 + i] = y[i], y[n + i]
     here[n], here[2 * n + 1] = 0.0, 0.0
-    forces = beyond(plan, place + n + 1)
+    for q in range(w):
+        here[2 * (n + 1) + q] = y[2 * n + q]
+    inputs = beyond(plan, int(plan[at.INPUTS]))
+    inputs[0] = 1.0
     for p in range(of_.pressed):
-        forces[p] = deformation[int(plan[of_.pressed_list + p])]
+        inputs[1 + p] = deformation[int(plan[of_.pressed_list + p])]
     for f in range(int(plan[at.STOPS])):
         law = row_of(plan, f)
         if remembers(plan, law):
             plan[node(plan, law, of.Z_NODE, base)] = deformation[f]
-    drive(plan, of_, here, beyond(y, 2 * n), forces, 1.0, place)
-    push(plan, of_, here, 0, base, place)
-    restrain(plan, of_, beyond(forces, of_.pressed), place)
+    push(plan, of_, here, 0, base, beyond(inputs, 1 + of_.pressed))
+    found = beyond(plan, int(plan[at.OUTPUTS]))
+    apply_rates(plan, rates, here, inputs, 0, found)
+    for i in range(n):
+        plan[place + i] = found[i]
+    for p in range(of_.pressed + of_.resting):
+        plan[place + n + 1 + p] = found[n + p]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.advance import first_event
+from vibroimpact.engine.assembly.advance import first_event, is_positive
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide
 from vibroimpact.engine.assembly.curved.terms import node, row_of
@@ -55,19 +55,19 @@ def fall(plan: Vector, a: Vector, size: float, fresh: bool, end: float) -> float
 @kernel
 def relative(plan: Vector, f: int, part: int, sign: float, a: Vector) -> None:
     """Write a sign times the series of u_left − u_right (part 0) or of its rate (1)."""
-    n = int(plan[at.MASSES])
-    row = 2 * (n + 1)
+    n, row, powers = int(plan[at.MASSES]), int(plan[at.ROW]), int(plan[at.POWERS])
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH
     first = int(plan[at.SERIES]) + part * (n + 1)
     left, right = first + int(plan[one + at.LEFT]), first + int(plan[one + at.RIGHT])
     for j in range(int(plan[at.ORDER]) + 1):
-        a[j] = sign * (plan[left + j * row] - plan[right + j * row])
+        a[j] = sign * plan[powers + j] * (plan[left + j * row] - plan[right + j * row])
 
 
 @kernel
 def _times(plan: Vector, series: int, sign: float, a: Vector) -> None:
+    powers = int(plan[at.POWERS])
     for j in range(int(plan[at.ORDER]) + 1):
-        a[j] = sign * plan[series + j]
+        a[j] = sign * plan[powers + j] * plan[series + j]
 
 
 @kernel
@@ -117,12 +117,13 @@ def _of_link(
     way, side = way_of_slide(plan, f, mode), side_of(plan, f, mode)
     if behaviour == of.FRICTION and mode >> f & 1:
         place, count, most = held_force(plan, f), int(plan[at.STOPS]), 0.0
+        powers = int(plan[at.POWERS])
         found, which = NONE, 0
         for j in range(int(plan[at.ORDER]) + 1):
-            most = max(most, abs(plan[place + j * count]))
+            most = max(most, abs(plan[powers + j] * plan[place + j * count]))
         for k in range(2):
             for j in range(int(plan[at.ORDER]) + 1):
-                a[j] = plan[place + j * count] * (1.0 if k else -1.0)
+                a[j] = plan[powers + j] * plan[place + j * count] * (1.0 if k else -1.0)
             a[0] += plan[row + _FRICTION]
             t = fall(plan, a, plan[row + _FRICTION] + 10.0 * most, False, end)
             if t <= end and t < found:
@@ -217,5 +218,10 @@ def first_of(
         found = _of_stop(plan, f, row, size, end, a)
         return found
     watched_series(plan, f, mode, a)
+    powers = int(plan[at.POWERS])
+    for j in range(int(plan[at.ORDER]) + 1):
+        a[j] *= plan[powers + j]
+    if plan[int(plan[at.ZEROS]) + f] == 0.0 and is_positive(a, int(plan[at.ORDER])):
+        return NONE, 0
     to_bernstein(plan, a, beyond(plan, int(plan[at.BERNSTEIN])))
     return first_event(plan, f, mode, length, end), 0

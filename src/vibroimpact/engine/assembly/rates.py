@@ -1,0 +1,143 @@
+"""What a mode makes of a state: accelerations, and forces of stops, as a matrix.
+
+Each column is what `drive` and `restrain` make of a unit. Columns: a row of the series (u, 0, v, 0,
+w), then the inputs: 1, the deformation of each pressed stop, the force of each curved row. Results:
+the acceleration of each mass, the force of each pressed and of each resting stop. They stand in
+blocks of eight; a block begins with the ranges of u and of v on which it depends. The matrices of
+some modes are kept: which, changes no digit.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from vibroimpact.engine.assembly import layout as at
+from vibroimpact.engine.assembly.acceleration import Places, drive, places, restrain
+from vibroimpact.engine.assembly.mode import move_alike
+from vibroimpact.engine.assembly.vectors import combine_ranges
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.memory import beyond
+
+_HEAD = 8
+
+
+class Rates(NamedTuple):
+    """Where the matrix of a mode stands, and its sizes."""
+
+    place: int
+    block: int
+    blocks: int
+    waves: int
+    width: int
+    inputs: int
+
+
+def rates_size(n: int, stops: int, waves: int) -> int:
+    """Numbers in the matrix of one mode."""
+    return -(-(n + stops) // 8) * (_HEAD + 8 * (2 * (n + 1) + waves + 1 + stops))
+
+
+@inlined
+def _sizes(plan: Vector, of: Places, place: int) -> Rates:
+    width, inputs = 2 * (of.masses + 1) + of.waves, 1 + of.pressed + int(plan[at.CURVED])
+    return Rates(
+        place,
+        _HEAD + 8 * (width + inputs),
+        (of.masses + of.pressed + of.resting + 7) // 8,
+        width - of.waves,
+        width,
+        inputs,
+    )
+
+
+@inlined
+def rates_of_mode(plan: Vector, of: Places) -> Rates:
+    """Return the matrix of the present mode, which is made if need be."""
+    if plan[at.RATES_NOW] < 0.0:
+        _find(plan)
+    return _sizes(plan, of, int(plan[at.RATES_NOW]))
+
+
+@inlined
+def apply_rates(
+    plan: Vector, rates: Rates, here: Vector, inputs: Vector, first: int, out: Vector
+) -> None:
+    """Write accelerations and forces of a row and of its inputs from the first on."""
+    for b in range(rates.blocks):
+        head = rates.place + b * rates.block
+        combine_ranges(
+            beyond(plan, head + _HEAD),
+            here,
+            int(plan[head]),
+            int(plan[head + 1]),
+            int(plan[head + 2]),
+            int(plan[head + 3]),
+            rates.waves,
+            rates.width,
+            inputs,
+            first,
+            rates.inputs,
+            beyond(out, 8 * b),
+        )
+
+
+@apart
+def _find(plan: Vector) -> None:
+    """Look for the matrix of the present mode; it is the same on all branches of laws."""
+    mode = int(plan[at.MODE]) & ((1 << int(plan[at.STOPS])) - 1)
+    k = (mode ^ mode >> 6 ^ mode >> 12 ^ mode >> 24) & (int(plan[at.RATES_SLOTS]) - 1)
+    place = int(plan[at.RATES]) + k * int(plan[at.RATES_SIZE])
+    plan[at.RATES_NOW] = float(place)
+    keys = int(plan[at.RATES_MODE])
+    if int(plan[keys + k]) != mode:
+        _make(plan, place)
+        plan[keys + k] = float(mode)
+
+
+@kernel
+def _make(plan: Vector, place: int) -> None:
+    of = places(plan)
+    rates = _sizes(plan, of, place)
+    n, v = of.masses, of.masses + 1
+    results, columns = n + of.pressed + of.resting, rates.width + rates.inputs
+    unit = int(plan[at.OUTPUTS])
+    forces = unit + columns
+    found = forces + of.pressed + of.resting
+    curved = -1
+    for column in range(columns):
+        for i in range(columns + of.pressed + of.resting):
+            plan[unit + i] = 0.0
+        plan[unit + column] = 0.0 if column in (n, n + v) else 1.0
+        one, pressed = column - rates.width, beyond(plan, forces)
+        for p in range(of.pressed):
+            pressed[p] = plan[unit + rates.width + 1 + p]
+        if one <= of.pressed:
+            waves, constant = beyond(plan, unit + 2 * v), plan[unit + rates.width]
+            drive(plan, of, beyond(plan, unit), waves, pressed, constant, found)
+        else:
+            curved += 1
+            while plan[of.stops + curved * at.STOP_WIDTH + at.KIND] < at.PUSHING:
+                curved += 1
+            for i in range(n):
+                plan[found + i] = -plan[of.response + curved * n + i]
+        restrain(plan, of, beyond(pressed, of.pressed), found)
+        move_alike(plan, beyond(plan, found))
+        for b in range(rates.blocks):
+            cell = place + b * rates.block + _HEAD + 8 * column
+            for i in range(8):
+                r = 8 * b + i
+                plan[cell + i] = 0.0
+                if r < n:
+                    plan[cell + i] = plan[found + r]
+                elif r < results:
+                    plan[cell + i] = plan[forces + r - n]
+    for b in range(rates.blocks):
+        head = place + b * rates.block
+        for part in range(2):
+            first, end = v, 0
+            for i in range(v):
+                for k in range(8):
+                    if plan[head + _HEAD + 8 * (part * v + i) + k] != 0.0:
+                        first, end = min(first, i), i + 1
+            plan[head + 2 * part] = float(part * v + min(first, end))
+            plan[head + 2 * part + 1] = float(part * v + end)
