@@ -122,7 +122,7 @@ def _fields(
 ) -> Iterator[Control]:
     """The numbers of a part of the rig."""
     for field in in_order(type(part)):
-        accepts = part.accepts(field)
+        accepts = part._accepts(field)
         value = getattr(part, field)
         if accepts is None or value is None:
             continue

@@ -273,7 +273,6 @@ DERIVED = {
         "damping ratio of the isolator",
         _damping_ratio,
         _vary_damping_ratio,
-        zero=False,
         comment="C / (2 √(K M))",
     ),
 }

@@ -60,14 +60,14 @@ class Named(Model):
         return found if self.usual else {"kind": self.kind, **found}
 
     @classmethod
-    def laws_with(cls, key: str) -> list[str]:
+    def _laws_with(cls, key: str) -> list[str]:
         """Return the other laws of the same part that have a key, with their kinds."""
         return [
             f"{law.__name__} (kind {law.kind!r})"
             for kinds in _KINDS
             if cls in kinds.classes.values()
             for law in kinds.classes.values()
-            if law is not cls and key in law.table_keys()
+            if law is not cls and key in law._table_keys()
         ]
 
     @classmethod

@@ -99,9 +99,9 @@ class Oscillator(Model):
     ) -> None: ...
 
     @classmethod
-    def table_keys(cls) -> list[str]:
+    def _table_keys(cls) -> list[str]:
         """Return the keys that the table of an oscillator may have."""
-        return [*super().table_keys(), "weight"]
+        return [*super()._table_keys(), "weight"]
 
     @model_validator(mode="before")
     @classmethod

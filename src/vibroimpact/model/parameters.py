@@ -354,7 +354,7 @@ def _exists(part: Any, steps: Steps) -> bool:
     first, *rest = steps
     if isinstance(part, Mapping):
         return first in part and _exists(part[first], tuple(rest))
-    if not isinstance(part, Model) or first not in (*part.table_keys(), *part.knobs()):
+    if not isinstance(part, Model) or first not in (*part._table_keys(), *part.knobs()):
         return False
     return _exists(getattr(part, first, None), tuple(rest))
 

@@ -278,16 +278,16 @@ class Model(BaseModel, metaclass=_Listed):
         return table(type(self).__name__, self.rows())
 
     @classmethod
-    def table_keys(cls) -> list[str]:
+    def _table_keys(cls) -> list[str]:
         """Return the keys that a table of this class may have."""
         return list(in_order(cls))
 
     @classmethod
-    def laws_with(cls, key: str) -> list[str]:
+    def _laws_with(cls, key: str) -> list[str]:
         """Return the other laws of the same part that have a key, in words."""
         return []
 
-    def accepts(self, name: str) -> Accepts | None:
+    def _accepts(self, name: str) -> Accepts | None:
         """Return what a field accepts, given the other values, if it is a quantity."""
         found = _quantities(type(self)).get(name)
         return None if found is None else found.of(vars(self))
@@ -316,7 +316,7 @@ class Model(BaseModel, metaclass=_Listed):
             value = getattr(self, name)
             if self._unsaid(name, value):
                 continue
-            accepts = self.accepts(name)
+            accepts = self._accepts(name)
             text = (
                 str(value) if value is None or accepts is None else pretty(value, accepts.quantity)
             )
@@ -389,7 +389,7 @@ def _depends(mistake: ErrorDetails) -> bool:
 def _meant(mistake: ErrorDetails, model: type[BaseModel]) -> tuple[int | str, ...]:
     """Return the location of the key that an unknown key probably means."""
     *table, name = mistake["loc"]
-    keys = cast("type[Model]", _along(model, tuple(table))[1]).table_keys()
+    keys = cast("type[Model]", _along(model, tuple(table))[1])._table_keys()
     return (*table, similar(str(name), keys, LIKENESS))
 
 
@@ -410,7 +410,7 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
         problem = _missing(holder, str(location[-1]))
     elif kind == "extra_forbidden":
         holder = cast("type[Model]", holder)
-        problem = _unknown(holder, holder.table_keys(), str(location[-1]))
+        problem = _unknown(holder, holder._table_keys(), str(location[-1]))
     elif kind == "union_tag_invalid":
         choice = _choice(holder, str(location[-1]))
         assert choice is not None
@@ -423,7 +423,7 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
 
 
 def _unknown(model: type[BaseModel], keys: Sequence[str], name: str) -> str:
-    return unknown_key(keys, name, cast("type[Model]", model).laws_with(name))
+    return unknown_key(keys, name, cast("type[Model]", model)._laws_with(name))
 
 
 def _example(model: type[BaseModel], location: tuple[int | str, ...]) -> str:

@@ -192,10 +192,10 @@ def notes_on(assembly: Assembly, rows: _Array, what: str) -> list[str]:
 def range_variables(
     name: str, least: _Array, most: _Array, dims: tuple[str, ...]
 ) -> dict[str, tuple[tuple[str, ...], _Array]]:
-    """Return the largest, the least, the excursion and the peak of a quantity as variables."""
+    """Return the excursion, the largest, the least and the peak of a quantity as variables."""
     return {
+        f"{name}_excursion": (dims, most - least),
         f"{name}_max": (dims, most + 0.0),
         f"{name}_min": (dims, least + 0.0),
-        f"{name}_excursion": (dims, most - least),
         f"peak_{name}": (dims, np.maximum(np.abs(least), np.abs(most))),
     }

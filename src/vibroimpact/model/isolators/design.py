@@ -126,8 +126,8 @@ def designed(table: Mapping[str, Any], law: type[IsolatorLaw], mass: float | Non
 def _check_keys(table: Mapping[str, Any], law: type[IsolatorLaw]) -> None:
     """Raise an error if a table has an unknown key, which may be a misspelt one of the design."""
     for key in table:
-        if key != "kind" and key not in law.table_keys():
-            raise InputError(f"{key}: {unknown_key(law.table_keys(), key, law.laws_with(key))}")
+        if key != "kind" and key not in law._table_keys():
+            raise InputError(f"{key}: {unknown_key(law._table_keys(), key, law._laws_with(key))}")
 
 
 def design_keys(law: type[IsolatorLaw]) -> list[str]:

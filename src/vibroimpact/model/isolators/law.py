@@ -155,9 +155,9 @@ class IsolatorLaw(Named):
         return math.copysign(self.damping * abs(velocity) ** self.damping_exponent, velocity)
 
     @classmethod
-    def table_keys(cls) -> list[str]:
+    def _table_keys(cls) -> list[str]:
         """Return the keys that a table of this law may have."""
-        return [*super().table_keys(), *design_keys(cls)]
+        return [*super()._table_keys(), *design_keys(cls)]
 
     @classmethod
     def _designed(cls, by: str, made: dict[str, float], others: dict[str, Any]) -> Self:

@@ -102,9 +102,9 @@ class Bumper(StopLaw):
         return cls(k, 2.0 * damping_ratio(e) * math.sqrt(k) * math.sqrt(m), gap)
 
     @classmethod
-    def table_keys(cls) -> list[str]:
+    def _table_keys(cls) -> list[str]:
         """Return the keys that a table of this stop may have."""
-        return [*super().table_keys(), "restitution"]
+        return [*super()._table_keys(), "restitution"]
 
     def _read(self) -> Iterator[tuple[str, Any, str]]:
         yield from super()._read()
