@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import inspect
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import wraps
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar, cast, get_args
@@ -422,7 +422,7 @@ def _mistake(mistake: ErrorDetails, model: type[BaseModel], where: str) -> str:
     return f"{path}: {problem}" if path else problem
 
 
-def _unknown(model: type[BaseModel], keys: list[str], name: str) -> str:
+def _unknown(model: type[BaseModel], keys: Sequence[str], name: str) -> str:
     return unknown_key(keys, name, cast("type[Model]", model).laws_with(name))
 
 
