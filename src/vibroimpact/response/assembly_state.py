@@ -207,11 +207,12 @@ def _on_bumper(
     given = state.deformation.get(name)
     # Stated contact makes the deformation that of the bodies, to the last digit.
     d = max(reach, 0.0) if given is None else given
-    if reach > d + slack:
+    if reach > d + max(slack, NEAR_ZERO):
         raise InputError(
             f"start.deformation.{name}: {d:g} m, but the displacements compress this bumper by "
             f"{reach:g} m; pass at least {reach:g} m, or leave it out"
         )
+    d = max(d, reach)  # rounding
     touches = d - reach <= (max(slack, NEAR_ZERO) if said else slack)
     force = stiffness * d + damping * closing
     rounding = stiffness * max(TOUCHING * d, NEAR_ZERO) + damping * max(
