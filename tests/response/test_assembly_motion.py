@@ -494,7 +494,7 @@ def test_a_motion_that_is_given_up_ends_there() -> None:
         (2, 1.0, 0.0, 10_000, 0, None),
         # The turns of a link count, and no stop is there to log.
         (2, 1.0, 0.0, 3, 2, "one forcing cycle or record step has"),
-        (1, 1e-100, 1e120, 1, 4, "exceeded the range of floating-point numbers"),
+        (2, 1e-100, 1e100, 10_000, 4, "exceeded the range of floating-point numbers"),
     ],
 )
 def test_why_a_motion_is_given_up(
