@@ -243,6 +243,27 @@ def share_of_unit(plan: Vector, share: float) -> None:
 
 
 @apart
+def shorten(plan: Vector, share: float) -> None:
+    """Turn the series in hand into series on this share of their unit."""
+    count, row, base = int(plan[at.STOPS]), int(plan[at.ROW]), int(plan[at.NODES])
+    series, forces, power = int(plan[at.SERIES]), int(plan[at.FORCE_SERIES]), 1.0
+    for j in range(1, int(plan[at.ORDER]) + 1):
+        power *= share
+        for i in range(row):
+            plan[series + j * row + i] *= power
+        for p in range(count):
+            plan[forces + j * count + p] *= power
+        for f in range(count):
+            law = row_of(plan, f)
+            if plan[law + of.ACTIVE] != 0.0:
+                for i in range(int(plan[law + of.FIRST_OP]), int(plan[law + of.LAST_OP])):
+                    if int(plan[int(plan[at.TAPE]) + i * of.OP_WIDTH]) != _CONSTANT:
+                        plan[base + i * _T + j] *= power
+    plan[at.PIECE_LENGTH] *= share
+    share_of_unit(plan, 1.0)
+
+
+@apart
 def accelerations_of_all(plan: Vector, y: Vector, deformation: Vector, place: int) -> None:
     """Write the accelerations of a state y, u, v, w, in the mode that was entered.
 
