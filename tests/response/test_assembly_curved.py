@@ -437,3 +437,19 @@ def test_losses_of_two_yielding_links_are_known_as_a_sum_only() -> None:
     assert "total_links of x, y is NaN" in found.attrs["notes"]
     rest = found["total_supplied"] - found["total_links"].sel(link="z") - found["total_stored"]
     assert float(rest) > 0.0
+
+
+@pytest.mark.parametrize("exponent", [3.0, 5.0, 8.0])
+def test_samples_of_long_steps_near_the_limit_of_a_stiff_memory(exponent: float) -> None:
+    # z is at its limit, to which it returns 500 times as fast as the mass moves: in another unit
+    # of time, the rounding of its series grew to 10⁶ within a step that is certified in its own.
+    law = vi.BoucWenIsolator(
+        *(1.02071, 0.370691, 0.0124304, 0.005), exponent=exponent, beta=0.35374, gamma=0.0774663
+    )
+    rig = vi.Assembly({"a": 1.80505}, {"link": vi.Link("ground", "a", law)})
+    for amplitude in np.linspace(0.1, 0.6, 9):
+        shaken = vi.Harmonic(amplitude, 0.0965529, 5.57661)
+        found = vi.simulate(vi.Rig(rig, shaken), 3, samples=800)
+        u, v, t = (found[name].values for name in ("displacement", "velocity", "time"))
+        moved = np.diff(t) * 0.5 * (v[:, 1:] + v[:, :-1])
+        assert np.abs(np.diff(u) - moved).max() < 1e-4 * np.abs(v).max() * t[1]
