@@ -8,8 +8,8 @@ from vibroimpact.engine.assembly.advance import relax, remember
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.happen import decide, switch
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
-from vibroimpact.engine.assembly.curved.step import expand_step, take_end, take_step, travel
-from vibroimpact.engine.assembly.curved.terms import shorten
+from vibroimpact.engine.assembly.curved.step import take_end, take_step, travel
+from vibroimpact.engine.assembly.curved.terms import expand_over
 from vibroimpact.engine.assembly.curved.watch import first_of
 from vibroimpact.engine.assembly.mode import enter_mode, move_alike
 from vibroimpact.engine.event import GIVEN_UP, LIMIT, TURN, event_of
@@ -127,7 +127,7 @@ def reopen(plan: Vector) -> None:
     length = plan[at.LENGTH]
     # A stretch of no length shows what is at its end: on such a moment nothing changes.
     moment = length if length > 0.0 else _MOMENT / plan[at.STIFF_RATE]
-    shorten(plan, moment / expand_step(plan, y, deformation))
+    expand_over(plan, y, deformation, moment)
 
 
 next_stretch = next_curved_stretch

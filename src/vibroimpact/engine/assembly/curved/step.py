@@ -127,41 +127,30 @@ def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float
     return most / (BALANCED * size + 1e-300)
 
 
-@kernel
-def expand_step(plan: Vector, y: Vector, deformation: Vector) -> float:
-    """Write the series of a state; return their unit, a power of two, so that it changes no digit.
-
-    It follows from the state: a step that is looked at again has the digits that were certified.
-    Near the limit of a stiff memory those of another unit would be noise.
-    """
-    rate = plan[at.STIFF_RATE]
-    unit = 2.0 ** -math.floor(math.log2(max(rate, 1e-200)))
-    for _ in range(40):
-        expand_all(plan, y, deformation, unit, _ORDER)
-        if _last(plan, _ORDER, rate) + _last(plan, _ORDER - 1, rate) < math.inf:
-            break
-        unit *= 2.0**-16
-    return unit
-
-
 @apart
 def take_step(
     plan: Vector, y: Vector, deformation: Vector, left: float, longest: float, size: float
 ) -> float:
     """Write the series of a step from a state; return its length, on which they are certified.
 
-    The step is `SHARE` of their unit.
+    Their unit is a power of two, so that it changes no digit; the step is `SHARE` of it.
     """
-    rate, share = plan[at.STIFF_RATE], math.inf
-    unit = expand_step(plan, y, deformation)
+    rate = plan[at.STIFF_RATE]
+    unit = 2.0 ** -math.floor(math.log2(max(rate, 1e-200)))
+    last = 0.0
+    for _ in range(40):
+        expand_all(plan, y, deformation, unit, _ORDER)
+        last = _last(plan, _ORDER, rate) + _last(plan, _ORDER - 1, rate)
+        if last < math.inf:
+            break
+        unit *= 2.0**-16
+    share = math.inf
     for m in (_ORDER - 1, _ORDER):
         term = _last(plan, m, rate)
-        if not term < math.inf:
-            return 0.0
         if term > 0.0:
             share = min(share, (TOLERANCE * (size + 1e-300) / term) ** (1.0 / m))
     h = min(share * unit, longest)
-    if not h > 0.0:
+    if not h > 0.0 or not last < math.inf:
         return 0.0
     h = left if left <= h else min(h, 0.5 * left)
     for _ in range(_CUT):

@@ -19,14 +19,14 @@ from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.advance import reopen
 from vibroimpact.engine.assembly.curved.branches import side_of
 from vibroimpact.engine.assembly.curved.numbers import enter, size_of
-from vibroimpact.engine.assembly.curved.step import expand_step, travel
+from vibroimpact.engine.assembly.curved.step import travel
 from vibroimpact.engine.assembly.curved.terms import (
     accelerations_of_all,
+    expand_over,
     expand_slopes,
     node,
     remembers,
     row_of,
-    shorten,
 )
 from vibroimpact.engine.assembly.events import closing, halt
 from vibroimpact.engine.assembly.mode import enter_mode
@@ -234,7 +234,7 @@ def carry_along_series(plan: Vector, q: Vector, rows: int) -> float:
     while left > 0.0:
         h = left
         for _ in range(60):
-            shorten(plan, h / expand_step(plan, y, deformation))
+            expand_over(plan, y, deformation, h)
             expand_slopes(plan)
             excess = _too_long(plan, h)
             if excess <= 1.0 or h <= least:

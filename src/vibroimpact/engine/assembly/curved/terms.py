@@ -263,6 +263,18 @@ def shorten(plan: Vector, share: float) -> None:
     share_of_unit(plan, 1.0)
 
 
+@kernel
+def expand_over(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
+    """Write the series of a state over a length of time.
+
+    They are made in a power of two, so that they have the digits with which a step was certified:
+    near the limit of a stiff memory, those of another unit would be noise.
+    """
+    unit = 2.0 ** math.ceil(math.log2(length))
+    expand_all(plan, y, deformation, unit, of.ORDER)
+    shorten(plan, length / unit)
+
+
 @apart
 def accelerations_of_all(plan: Vector, y: Vector, deformation: Vector, place: int) -> None:
     """Write the accelerations of a state y, u, v, w, in the mode that was entered.
