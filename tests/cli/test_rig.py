@@ -262,7 +262,7 @@ def test_a_weight_stands_for_a_mass():
             "--set: weight and mass set the same quantity; remove one of the two",
         ),
         ({"isolator_period": "2 Hz"}, "--set: isolator_period: '2 Hz' is a frequency; a time"),
-        ({"damping_ratio": "-1"}, "--set: damping_ratio: '-1' is not greater than 0"),
+        ({"damping_ratio": "-1"}, "--set: damping_ratio: '-1' is less than 0"),
         ({"weight": "5 t"}, "--set: weight: '5 t' is a mass; a force greater than 0"),
         (
             {"mass": "5000g"},

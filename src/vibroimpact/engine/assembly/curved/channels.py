@@ -35,9 +35,12 @@ def keep_piece(plan: Vector, i: int) -> None:
 
 
 @kernel
-def open_instant(plan: Vector) -> bool:
-    """See `assembly.channels`; which branches hold is found when a motion goes on."""
+def no_instant(plan: Vector) -> bool:
+    """See `open_instant`: which branches hold is found when a motion goes on."""
     return False
+
+
+open_instant = no_instant
 
 
 @kernel
