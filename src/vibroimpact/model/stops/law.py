@@ -99,8 +99,8 @@ class FormulaStop(StopLaw):
     """Base class of the stops without memory whose force is given by a formula.
 
     A new law has a ``kind``, its fields and the ``formula``, in which ``d`` is the deformation (m),
-    ``v`` its rate (m/s), and the other names are fields. The fields are the
-    arguments of the class, in their order. For example::
+    ``v`` its rate (m/s), and the other names are fields. The fields are the arguments of the
+    class, in their order. For example::
 
         class DragBumper(FormulaStop):
             kind: ClassVar[str] = "drag"
