@@ -114,12 +114,8 @@ class State(Model):
                 raise InputError(
                     f"deformation.{side}: this is not a stop of an Oscillator; use right or left"
                 )
-            try:
-                number = None if value is None else _DEFORMATION(value)
-            except InputError as error:
-                raise InputError(f"deformation.{side}: {error}") from None
-            if number is not None:
-                found[str(side)] = number
+            if value is not None:
+                found[str(side)] = _DEFORMATION.at(value, f"deformation.{side}")
         known = FrozenMapping({side: found[side] for side in _SIDES if side in found})
         return {**data, "deformation": known}
 

@@ -107,13 +107,9 @@ class AssemblyState(Model):
                 raise InputError(
                     f"{field}: {shown(given)} is not a mapping from names, as the other values are"
                 )
-            found = {}
-            for name, value in given.items():
-                try:
-                    found[str(name)] = accepts(value)
-                except InputError as error:
-                    raise InputError(f"{field}.{name}: {error}") from None
-            read[field] = FrozenMapping(found)
+            read[field] = FrozenMapping(
+                {str(name): accepts.at(one, f"{field}.{name}") for name, one in given.items()}
+            )
         touching = data.get("touching")
         if touching is not None:
             read["touching"] = tuple(str(one) for one in check_list(touching, "touching"))
