@@ -111,14 +111,7 @@ def _entry(look: Look) -> Any:
 
 
 def _style(look: Look) -> dict[str, Any]:
-    return {
-        "color": look.colour,
-        "linestyle": look.dashes,
-        "linewidth": look.width,
-        "marker": look.marker,
-        "markersize": look.size,
-        "markerfacecolor": look.colour if look.filled else "white",
-    }
+    return look.marks(empty="white") | look.line
 
 
 def _draw(given: tuple[Axes, ...], motion: xr.Dataset, assembly: Assembly, look: Look) -> None:

@@ -14,14 +14,6 @@ from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.own_units import in_own_units
 
-_DASHES = {
-    "fold": "-",
-    "symmetry breaking": (0, (6, 2)),
-    "period doubling": (0, (3, 1.5)),
-    "Neimark-Sacker": (0, (5, 1.5, 1, 1.5)),
-    "grazing": (0, (1, 1.2)),
-}
-
 
 @in_own_units
 def bifurcation_curves(
@@ -68,14 +60,8 @@ def bifurcation_curves(
     seen = set()
     for data in given:
         kind = data.attrs["kind"]
-        ax.plot(
-            scales[0] * data[first].values,
-            scales[1] * data[second].values,
-            color=MARKS[kind].colour,
-            linestyle=_DASHES[kind],
-            linewidth=1.4,
-            label=None if kind in seen else kind.replace("-", "–"),
-        )
+        x, y = scales[0] * data[first].values, scales[1] * data[second].values
+        ax.plot(x, y, label=None if kind in seen else MARKS[kind].label, **MARKS[kind].line)
         seen.add(kind)
         if data.sizes["cusp_number"]:
             ax.plot(

@@ -104,15 +104,8 @@ def resonance_bands(
                 ax.errorbar(
                     frequency, middle, reach, ecolor=look.colour, fmt="none", capsize=3.0, zorder=2
                 )
-            handles += ax.plot(
-                frequency,
-                middle,
-                color=look.colour,
-                linestyle=look.dashes,
-                linewidth=look.width,
-                label=f"{look.label}, median",
-                zorder=3,
-            )
+            words = f"{look.label}, median"
+            handles += ax.plot(frequency, middle, label=words, zorder=3, **look.line)
             handles.append(Patch(label=f"{100 * low:g} to {100 * high:g} %", **style))
             if nominal is not None:
                 line = ax.plot(
@@ -225,14 +218,9 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
         ax.plot(
             x,
             data["total_order"].sel(uncertain_parameter=name).values,
-            color=look.colour,
-            linestyle=look.dashes,
-            linewidth=look.width,
-            marker=look.marker,
-            markersize=look.size,
             markevery=max(1, len(x) // 20),
-            markerfacecolor=look.colour if look.filled else "none",
             label=_words(data, str(name)),
+            **look.marks() | look.line,
         )
     fit_x_axis(ax, x)
     # Beyond 0 and 1 an estimate is nothing but its error.

@@ -154,15 +154,7 @@ def resonance_family(
     highest = max(np.nanmax(values, initial=0.0), references.max() if free else 0.0)
     ax.set_ylim(0.0, 1.06 * (highest or 1.0))
     if free and np.allclose(references, references[0], rtol=1e-9):
-        ax.plot(
-            frequency,
-            references[0],
-            color=FREE.colour,
-            linestyle=FREE.dashes,
-            linewidth=FREE.width,
-            label=FREE.label,
-            zorder=2,
-        )
+        ax.plot(frequency, references[0], label=FREE.label, zorder=2, **FREE.line)
     for i, name in enumerate(names):
         look = _line_style((markers or {}).get(name, i), (colours or {}).get(name))
         called = (labels or {}).get(name, literal(name))

@@ -93,12 +93,8 @@ def spectrum_lines(
         ax.plot(
             order + shift,
             height,
-            linestyle="",
-            marker=look.marker or "o",
-            markersize=4.0,
-            color=look.colour,
-            markerfacecolor=look.colour if look.filled else "white",
             label=look.label,
+            **look.marks(empty="white") | {"markersize": 4.0},
         )
     ax.set_xlim(-0.4, highest + 0.4)
     ax.set_xticks(np.arange(0, int(highest) + 1, max(1, int(highest) // 6)))

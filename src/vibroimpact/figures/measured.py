@@ -108,14 +108,9 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
             ax.plot(
                 np.insert(x, cuts, np.nan),
                 np.insert(y, cuts, np.nan),
-                color=look.colour,
-                linestyle=look.dashes,
-                linewidth=0.6,
-                marker=look.marker,
-                markersize=look.size,
-                markerfacecolor=look.colour if look.filled else "none",
                 label=f"{look.label}, measured",
                 zorder=3,
+                **look.marks() | look.line | {"linewidth": 0.6},
             )
             mean = panel.values.sel(direction=direction)
             mean = mean.mean("repeat") if "repeat" in mean.dims else mean

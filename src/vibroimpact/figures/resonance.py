@@ -26,7 +26,7 @@ from vibroimpact.figures.resonance_panels import (
     outputs,
     physical_curves,
 )
-from vibroimpact.figures.style import EDGE, FREE, SHADE, SWEEPS, Look, curve_style, panels
+from vibroimpact.figures.style import EDGE, FREE, SHADE, SWEEPS, Look, panels
 from vibroimpact.measurements.read import as_measured, is_measured
 from vibroimpact.response.resonance import Features, Hysteresis, Jump, features
 
@@ -161,15 +161,7 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked:
     for level in drawn.levels:
         ax.axhline(level.value, label=level.label, zorder=1, **level.style)
     if drawn.free is not None:
-        ax.plot(
-            frequency,
-            drawn.free,
-            color=FREE.colour,
-            linestyle=FREE.dashes,
-            linewidth=FREE.width,
-            label=FREE.label,
-            zorder=2,
-        )
+        ax.plot(frequency, drawn.free, label=FREE.label, zorder=2, **FREE.line)
     # Of a part of a sweep its own jumps alone.
     jumps = [
         jump for jump in found.jumps if jump.settled and {jump.before, jump.after} <= set(frequency)
@@ -180,7 +172,7 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked:
         mine = [jump for jump in jumps if jump.direction == direction]
         values = drawn.curves[direction]
         x, y = _parted(frequency, values, mine)
-        style = curve_style(look, len(x)) | ({} if marked else _PLAIN)
+        style = look.curve(len(x)) | ({} if marked else _PLAIN)
         wild = one["motion"].values != "periodic"
         if wild.any():  # its marks would hide the crosses
             first, every = style["markevery"]
@@ -270,7 +262,7 @@ def _legend(data: xr.Dataset, sides: Set[str], *, marked: bool) -> list[Artist]:
     for direction, look in SWEEPS.items():
         if direction not in data["direction"]:
             continue
-        style = curve_style(look, 1) | ({} if marked else _PLAIN)
+        style = look.curve(1) | ({} if marked else _PLAIN)
         entries.append(Line2D([], [], label=look.label, **style))
         if (data["motion"].sel(direction=direction) != "periodic").any():
             loose.append(
@@ -281,9 +273,7 @@ def _legend(data: xr.Dataset, sides: Set[str], *, marked: bool) -> list[Artist]:
                     **_loose_style(look),
                 )
             )
-    entries.append(
-        Line2D([], [], color="black", linestyle=FREE.dashes, linewidth=FREE.width, label=FREE.label)
-    )
+    entries.append(Line2D([], [], label=FREE.label, **FREE.line))
     entries += [
         Patch(facecolor=SHADE, edgecolor=EDGE, lw=0.0, hatch=_HATCHES[side], label=_LABELS[side])
         for side in ("right", "left")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib import rcParams
@@ -31,11 +31,50 @@ class Look(NamedTuple):
 
     label: str
     colour: str
-    dashes: Literal["-", "--", "-."]
+    dashes: Any
     width: float
     marker: str
     size: float
     filled: bool
+
+    @property
+    def line(self) -> dict[str, Any]:
+        """Keywords of `Axes.plot` for a line without marks."""
+        return {"color": self.colour, "linestyle": self.dashes, "linewidth": self.width}
+
+    def marks(self, share: float = 1.0, *, empty: str = "none") -> dict[str, Any]:
+        """Return the keywords of `Axes.plot` for marks without a line.
+
+        Parameters
+        ----------
+        share
+            Factor of the size of the marks.
+        empty
+            Colour inside open marks.
+        """
+        return {
+            "color": self.colour,
+            "linestyle": "",
+            "marker": self.marker,
+            "markersize": share * self.size,
+            "markerfacecolor": self.colour if self.filled else empty,
+        }
+
+    def curve(self, points: int, marks: int = 45) -> dict[str, Any]:
+        """Return the keywords of `Axes.plot` for a curve. On a dense curve, some points have marks.
+
+        Parameters
+        ----------
+        points
+            Number of points of the curve.
+        marks
+            Approximate number of marks.
+        """
+        every = max(1, points // marks)
+        # Open markers half-way between the filled ones, where both cannot be at every point.
+        first = 0 if self.filled else every // 2
+        each = {"markeredgewidth": 0.9, "markevery": (first, every)}
+        return self.marks() | self.line | each
 
 
 SWEEPS = {
@@ -110,33 +149,6 @@ BANDS = (
     Band("#d9d3ee", "--", "#7d6cc0"),
 )
 """Bands of the contacts of stops, in turn."""
-
-
-def curve_style(look: Look, points: int, marks: int = 45) -> dict[str, Any]:
-    """Return the keywords of `Axes.plot` for a curve. On a dense curve not every point has a mark.
-
-    Parameters
-    ----------
-    look
-        Style of the curve.
-    points
-        Number of points of the curve.
-    marks
-        Approximate number of marks.
-    """
-    every = max(1, points // marks)
-    # Open markers half-way between the filled ones, where both cannot be at every point.
-    first = 0 if look.filled else every // 2
-    return {
-        "color": look.colour,
-        "linestyle": look.dashes,
-        "linewidth": look.width,
-        "marker": look.marker,
-        "markersize": look.size,
-        "markerfacecolor": look.colour if look.filled else "none",
-        "markeredgewidth": 0.9,
-        "markevery": (first, every),
-    }
 
 
 def panels(
