@@ -28,10 +28,10 @@ from vibroimpact.figures.branches import (
     orbit_style,
     stable_pieces,
 )
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.figures.style import EDGE, SHADE, SWEEPS
+from vibroimpact.figures.style import EDGE, SHADE, sweeps_of
 from vibroimpact.model import Assembly
 
 _Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ _CONTACT = {"both": "", "one": "/////"}
 _LABELS = {"both": "contact", "one": "contact in one sweep"}
 
 
-@in_own_units
+@finished
 def mass_resonance(
     data: xr.Dataset,
     axes: Any = None,
@@ -98,9 +98,7 @@ def mass_resonance(
     loose = set()
     for ax, one in zip(given, drawn, strict=True):
         kinds |= _shade(ax, frequency, one.touched)
-        for layer, (direction, style) in enumerate(SWEEPS.items()):
-            if direction not in data["direction"].values:
-                continue
+        for layer, (direction, style) in enumerate(sweeps_of(data)):
             curve = one.factor * one.values.sel(direction=direction).values
             ax.plot(
                 frequency,
@@ -112,46 +110,28 @@ def mass_resonance(
             wild = data["motion"].sel(direction=direction).values != "periodic"
             if wild.any():
                 loose.add(direction)
-                ax.plot(
-                    frequency[wild],
-                    curve[wild],
-                    linestyle="",
-                    marker="x" if style.filled else "+",
-                    markersize=6.0,
-                    color=style.colour,
-                    zorder=5 + layer,
-                )
+                ax.plot(frequency[wild], curve[wild], zorder=5 + layer, **style.cross())
         ax.set_xlim(frequency[0], max(frequency[-1], 1.001 * frequency[0]))
         if not (one.values < 0.0).any():
             ax.set_ylim(bottom=0.0)
     label_each(given, axes, [one.label for one in drawn])
     label_lowest(given, axes, "excitation frequency $f$ (Hz)")
     entries: list[Any] = []
-    for direction, look in SWEEPS.items():
-        if direction in data["direction"].values:
-            entries.append(Line2D([], [], label=look.label, **look.curve(1)))
-            if direction in loose:
-                entries.append(
-                    Line2D(
-                        [],
-                        [],
-                        linestyle="",
-                        marker="x" if look.filled else "+",
-                        color=look.colour,
-                        label=f"{look.label}, not settled",
-                    )
-                )
+    for direction, look in sweeps_of(data):
+        entries.append(Line2D([], [], label=look.label, **look.curve(1)))
+        if direction in loose:
+            label = f"{look.label}, not settled"
+            entries.append(Line2D([], [], label=label, **look.cross()))
     entries += [
         Patch(facecolor=SHADE, edgecolor=EDGE, lw=0.0, hatch=_CONTACT[kind], label=_LABELS[kind])
         for kind in _CONTACT
         if kind in kinds
     ]
     legend_of(given, axes, entries)
-    fit_labels(*given)
     return given
 
 
-@in_own_units
+@finished
 def mass_branches(
     data: xr.Dataset,
     axes: Any = None,
@@ -230,7 +210,6 @@ def mass_branches(
         for (stable, touched), style in sorted(styles.items(), reverse=True)
     ]
     legend_of(given, axes, [*entries, *found])
-    fit_labels(*given)
     return given
 
 

@@ -17,12 +17,12 @@ from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import refuse_masses
 from vibroimpact.figures.axis_labels import axis_label
+from vibroimpact.figures.finish import finished
 from vibroimpact.figures.labels import Names
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.resonance_panels import draws_eta
-from vibroimpact.figures.style import SWEEPS, Look
+from vibroimpact.figures.style import Look, sweeps_of
 from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
 from vibroimpact.stability.branch_styles import QUANTITIES, contact_counts
@@ -49,7 +49,7 @@ MARKS = {
 """Marks of bifurcations on a branch, and lines of their curves."""
 
 
-@in_own_units
+@finished
 def branch_diagram(
     data: xr.Dataset,
     ax: Axes | None = None,
@@ -143,7 +143,6 @@ def branch_diagram(
     names = Names(ax, found)
     for part, name in _orbits(data):
         names.write(x[part], y[part], name, "black", once=True)
-    fit_labels(ax)
     return ax
 
 
@@ -225,6 +224,5 @@ def mark_sweep(
             zorder=3,
             **look.marks(share),
         )[0]
-        for direction, look in SWEEPS.items()
-        if direction in values["direction"].values
+        for direction, look in sweeps_of(values)
     ]

@@ -9,13 +9,13 @@ from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import MARKS, axis_unit
+from vibroimpact.figures.finish import finished
 from vibroimpact.figures.labels import Names
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units
 
 
-@in_own_units
+@finished
 def bifurcation_curves(
     curves: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -82,5 +82,4 @@ def bifurcation_curves(
         if name not in ("", data.attrs["kind"]):
             x, y = (k * data[p].values for k, p in zip(scales, (first, second), strict=True))
             written.write(x, y, name, MARKS[data.attrs["kind"]].colour, once=False)
-    fit_labels(ax)
     return ax

@@ -17,9 +17,9 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.figures.assembly_motion import chosen
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.branches import MARKS, axis_unit, orbit_style, stable_pieces
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import SWEEPS, Look, fit_x_axis, panels
 from vibroimpact.model.names import literal
 
@@ -46,7 +46,7 @@ _NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")
 """Types of motions that have their own row on the axis of periods, below the period 1."""
 
 
-@in_own_units
+@finished
 def section_diagram(
     data: xr.Dataset,
     axes: Any = None,
@@ -156,7 +156,6 @@ def section_diagram(
     bottom.set_ylabel("largest\nexponent (1/s)")
     bottom.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
     bottom.figure.align_ylabels()
-    fit_labels(*drawn)
     return drawn
 
 

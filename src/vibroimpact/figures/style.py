@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 from matplotlib import rcParams
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike, NDArray
 
@@ -60,6 +62,11 @@ class Look(NamedTuple):
             "markerfacecolor": self.colour if self.filled else empty,
         }
 
+    def cross(self, size: float = 6.0) -> dict[str, Any]:
+        """Return the keywords of `Axes.plot` for crosses: × with filled marks, + with open ones."""
+        marker = "x" if self.filled else "+"
+        return {"color": self.colour, "linestyle": "", "marker": marker, "markersize": size}
+
     def curve(self, points: int, marks: int = 45) -> dict[str, Any]:
         """Return the keywords of `Axes.plot` for a curve. On a dense curve, some points have marks.
 
@@ -84,6 +91,12 @@ SWEEPS = {
 """Styles of sweeps, as in the paper: forward red, backward blue. A dot is visible inside an open
 square."""
 
+
+def sweeps_of(data: xr.Dataset | xr.DataArray) -> list[tuple[str, Look]]:
+    """Return the directions of the sweeps in a dataset, with their styles."""
+    return [(name, look) for name, look in SWEEPS.items() if name in data["direction"].values]
+
+
 MOTIONS = (
     Look("motion", "black", "-", 1.2, "o", 3.6, True),
     Look("motion", "#c05a00", "--", 1.2, "^", 4.4, False),
@@ -101,6 +114,12 @@ class Area(NamedTuple):
     line: str
     """A darker shade of the colour, for curves and text."""
 
+    def entry(self, label: str) -> Patch:
+        """Return a legend entry."""
+        return Patch(
+            facecolor=self.colour, edgecolor=self.line, hatch=self.hatch, lw=0.0, label=label
+        )
+
 
 SCENARIOS = {
     "S0": Area("#d9efd9", "", "#5aa469"),
@@ -117,6 +136,18 @@ orange."""
 
 BUMPERS = {"B1": "o", "B2": "s", "B3": "^", "B4": "D"}
 """Symbols of the laboratory bumpers, as in the paper's Fig. 21."""
+
+CURVES = tuple(
+    Look("", colour, dashes, 1.4, marker, 4.0, False)
+    for colour, dashes, marker in (
+        ("black", "-", "o"),
+        ("#c8102e", "--", "s"),
+        ("#1f4fbf", "-.", "^"),
+        ("#00795c", ":", "D"),
+        ("#c05a00", (0, (5, 1, 1, 1, 1, 1)), "v"),
+    )
+)
+"""Styles of spectra and of other curves, in turn."""
 
 FREE = Look("free flight", "black", "-.", 0.9, "", 0.0, False)
 
