@@ -4,19 +4,48 @@ from __future__ import annotations
 
 import gc
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import settings
 
 import samples
 
+
+def python_of(dispatcher: Any) -> Any:
+    """Let a kernel that Python calls run as Python."""
+    dispatcher._compile_for_args = lambda *args, **kwargs: dispatcher.py_func
+    return dispatcher
+
+
+def room_of(stack: Callable[[int], Any]) -> Callable[[int], Any]:
+    """Let what gives room on the stack of a compiled kernel give an array in Python."""
+
+    def make(size: int) -> Any:
+        room = stack(size)
+        room.__class__ = type("Room", (type(room),), {"__call__": lambda self: np.empty(size)})
+        return room
+
+    return make
+
+
 os.environ["VIBROIMPACT_KERNELS"] = "1"  # tests call kernels besides the entries
-from vibroimpact.engine import jit
+from vibroimpact.engine import jit, native  # noqa: E402
 
 del os.environ["VIBROIMPACT_KERNELS"]
 
 jit.WITHIN["no_cpython_wrapper"] = False  # tests call kernels
+if native.find_library():
+    # Of kernels that a test calls nothing is compiled: they run as Python, unless an entry of a
+    # test has them compiled. Without the library, that is where its sources changed, all are.
+    jit._within = python_of
+    from vibroimpact.engine import memory
+
+    memory.stack = room_of(memory.stack)
+    memory.workspace = memory.stack(memory.TERMS)
+
 # The first example of a test imports and compiles: its time says nothing of the test.
 settings.register_profile("full", deadline=None)
 settings.register_profile("small", max_examples=15, deadline=None)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import h5py
@@ -18,6 +19,7 @@ from vibroimpact.datasets.files import write_whole
 CASE = vi.laboratory.case("B2-G1-A3")
 
 
+@cache
 def made(kind: str) -> xr.Dataset:
     shaken = vi.Harmonic(CASE.amplitude, 1.1)
     match kind:
@@ -300,7 +302,7 @@ SHAKEN = {
 }
 
 
-@pytest.mark.parametrize("kind", sample([*SHAKEN], [*SHAKEN][::4]))
+@pytest.mark.parametrize("kind", sample([*SHAKEN], [*SHAKEN][-1:]))
 def test_any_shaking_comes_back(kind: str, tmp_path: Path) -> None:
     """What is worked out of a loaded motion is what it is of the motion itself."""
     rig = CASE.oscillator.replace(force=100.0)

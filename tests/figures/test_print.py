@@ -30,7 +30,7 @@ OTHERS = {
     "Mark",
 }
 """Names that draw no figure."""
-SAVED = sample([*EVERY], [*EVERY][::15])
+SAVED = sample([*EVERY], [*EVERY][::24])
 """Figures whose files are looked at; of the others only what is drawn."""
 OWN = [name for name, one in EVERY.items() if one.axes]
 """Figures that are drawn on axes of the user."""
@@ -58,7 +58,7 @@ def test_every_figure_is_drawn_here() -> None:
     assert {name.partition(",")[0] for name in EVERY} == set(figures.__all__) - OTHERS
 
 
-@pytest.mark.parametrize("name", sample([*EVERY], [*EVERY][::3]))
+@pytest.mark.parametrize("name", sample([*EVERY], [*EVERY][::8]))
 def test_at_the_width_of_a_column(name, tmp_path) -> None:
     with figure_size("86 mm"):
         figure = figure_of(EVERY[name].draw())
