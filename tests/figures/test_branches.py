@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from functools import cache
 
-import matplotlib
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.colors import same_color
-from matplotlib.figure import Figure
 
 import vibroimpact as vi
-from samples import sample
-from vibroimpact.figures import bifurcation_curves, branch_diagram, save_figure
+from vibroimpact.figures import bifurcation_curves, branch_diagram
 from vibroimpact.figures.style import SWEEPS
 
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -341,36 +338,6 @@ def test_curves_are_called_by_their_names():
 
 
 # Files, axes, and what is left alone
-
-
-@pytest.mark.parametrize("kind", sample(["png", "pdf", "svg"], ["svg"]))
-def test_the_same_file_every_time(kind, tmp_path):
-    def drawn():
-        yield branch_diagram(several(), sweep=swept(), title="branches")
-        yield bifurcation_curves(curve("fold"), title="curves")
-
-    first, second = (
-        [
-            save_figure(ax, tmp_path / f"{name}{i}.{kind}").read_bytes()
-            for i, ax in enumerate(drawn())
-        ]
-        for name in "ab"
-    )
-    assert first == second
-    assert min(map(len, first)) > 5000
-    assert not any(date in one for one in first for date in (b"CreationDate", b"dc:date"))
-
-
-def test_given_axes_are_drawn_on_and_the_rest_is_left_alone():
-    settings = dict(matplotlib.rcParams)
-    held = (diagram().copy(deep=True), swept().copy(deep=True), curve("fold").copy(deep=True))
-    one, other = Figure().subplots(1, 2)
-    assert branch_diagram(diagram(), one, sweep=swept()) is one
-    assert bifurcation_curves(curve("fold"), other) is other
-    assert one.figure.axes == [one, other]
-    assert dict(matplotlib.rcParams) == settings
-    for now, before in zip((diagram(), swept(), curve("fold")), held, strict=True):
-        xr.testing.assert_identical(now, before)
 
 
 # Refused

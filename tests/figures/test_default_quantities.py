@@ -138,19 +138,6 @@ def test_on_the_command_line(command, rig, published, monkeypatch):
         assert (eta if shows_eta else physical) in drawn[-1]
 
 
-@pytest.mark.full
-def test_the_default_survives_a_file(tmp_path):
-    """As the file states that the rig is published."""
-    data = {
-        figures.resonance_curves: vi.sweep(CASE, GRID),
-        figures.branch_diagram: vi.branch(CASE, frequency=2.0, vary={"frequency": SPAN}),
-        figures.resonance_bands: vi.ensemble(CASE, GAP, partial(vi.sweeps, frequencies=GRID), 4),
-    }
-    for draw, one in data.items():
-        kept = vi.load(vi.save(one, tmp_path / "kept.nc"))
-        assert "eta" in labels(draw(kept))[0]
-
-
 def test_no_eta_where_the_motion_without_stops_is_unbounded():
     """Not even for a published rig: curves divided by a resonance without damping are flat."""
     case = vi.laboratory.case(CASE)

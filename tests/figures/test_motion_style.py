@@ -6,8 +6,6 @@ import json
 import re
 from functools import cache
 
-import matplotlib
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
@@ -595,77 +593,7 @@ def test_page_shows_whole_periods_and_fits_the_paper():
         assert long <= 297 / 25.4
 
 
-@pytest.mark.full
-def test_page_says_of_what_kind_each_motion_is():
-    titles = [ax.get_title() for ax in motion_page({"1.06 Hz": chaotic(), "cut": transient()})[0]]
-    assert titles == ["1.06 Hz\nchaotic", "cut"]
-    named = motion_page({"2 Hz, forward branch": {"forward branch": hitting()}})
-    assert named[0, 0].get_title() == "2 Hz, forward branch\nperiod 1"
-
-
-@pytest.mark.full
-def test_page_of_motions_that_do_not_repeat():
-    made = motion_page({"chaotic": chaotic(), "transient": transient()}, cycles=3.0, highest=5.0)
-    assert made[2, 0].get_xlim() == (0.0, 3.0)
-    # Of a simulation the last cycles, up to its end; they begin at the next sample.
-    low, high = made[2, 1].get_xlim()
-    assert high == 5.3
-    assert 2.3 <= low <= 2.3 + 1 / 64
-
-
 # Files, axes, and what is left alone
-
-
-@pytest.mark.parametrize("kind", sample(["png", "pdf", "svg"], ["pdf"]))
-def test_a_page_is_the_same_file_every_time(kind, tmp_path):
-    written = [
-        save_figure(motion_page({"2.8 Hz": doubled()})[0, 0], tmp_path / f"{name}.{kind}")
-        for name in "ab"
-    ]
-    first, second = (path.read_bytes() for path in written)
-    assert first == second
-    assert len(first) > 10_000
-    for date in (b"CreationDate", b"dc:date"):  # two made in the same second would agree
-        assert date not in first
-
-
-def test_the_text_of_an_svg_file_is_text(tmp_path):
-    path = save_figure(phase_portrait(hitting(), title="a title"), tmp_path / "a.svg")
-    assert ">a title</text>" in path.read_text(encoding="utf-8")
-
-
-def test_given_axes_are_drawn_on():
-    for draw in (phase_portrait, hysteresis_cycle):
-        ax = Figure().subplots()
-        assert draw(hitting(), ax) is ax
-        assert len(curves(ax)) == 1
-    ax = Figure().subplots()
-    assert spectrum_lines(vi.fourier_spectrum(hitting()), ax) is ax
-    pair = Figure().subplots(2, 1)
-    assert clearances(hitting(), pair) == tuple(pair)
-    assert len(curves(pair[1])) == 2
-    three = Figure().subplots(1, 3)
-    assert time_history(hitting(), three) == tuple(three)
-    # Side by side on one figure, each on its own.
-    figure = Figure()
-    left, right = figure.subplots(1, 2)
-    phase_portrait(hitting(), left)
-    hysteresis_cycle(hitting(), right)
-    assert figure.axes == [left, right]
-
-
-def test_pyplot_settings_and_data_are_left_alone():
-    kept = [motion.copy(deep=True) for motion in (hitting(), doubled())]
-    plt.get_fignums()
-    settings = {key: matplotlib.rcParams[key] for key in matplotlib.rcParams}
-    for draw in (phase_portrait, hysteresis_cycle, clearances, time_history):
-        draw({"forward": hitting(), "b": doubled()})
-    spectrum_lines(vi.fourier_spectrum(hitting()))
-    motion_page({"2.8 Hz": doubled()})
-    assert plt.get_fignums() == []
-    assert {key: matplotlib.rcParams[key] for key in matplotlib.rcParams} == settings
-    for motion, copy in zip((hitting(), doubled()), kept, strict=True):
-        xr.testing.assert_identical(motion, copy)
 
 
 # Refused

@@ -11,12 +11,10 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.colors import same_color, to_rgb
-from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.text import Text
 
 import vibroimpact as vi
-from samples import sample
 from vibroimpact.figures import resonance_curves, save_figure
 from vibroimpact.figures.style import SWEEPS
 from vibroimpact.response.resonance import features
@@ -233,13 +231,6 @@ class TestOtherSweeps:
         axes = resonance_curves(swept("B2-G1-A3").isel(frequency=[7]))
         save_figure(axes[0], tmp_path / "a.png")
 
-    def test_given_axes(self):
-        figure = Figure()
-        mine = figure.subplots(2, 1)
-        assert resonance_curves(swept("B2-G1-A3"), mine) == tuple(mine)
-        with pytest.raises(vi.InputError, match=r"axes: 1 given; 2 are accepted"):
-            resonance_curves(swept("B2-G1-A3"), mine[0])
-
     def test_several_rigs_are_refused(self):
         data = vi.sweeps([vi.laboratory.case("B2-G1-A3")], [1.0, 2.0])
         with pytest.raises(vi.InputError, match="one rig"):
@@ -247,18 +238,6 @@ class TestOtherSweeps:
 
 
 class TestFiles:
-    @pytest.mark.parametrize(
-        ("kind", "magic"),
-        [("png", b"\x89PNG"), *sample([("pdf", b"%PDF"), ("svg", b"<?xml")], [])],
-    )
-    def test_the_same_to_the_byte(self, tmp_path, kind, magic):
-        written = []
-        for name in ("a", "b"):
-            axes = resonance_curves(swept("B2-G1-A3"), title="B2-G1-A3")
-            written.append(save_figure(axes[0], tmp_path / f"{name}.{kind}").read_bytes())
-        assert written[0] == written[1]
-        assert written[0].startswith(magic)
-
     def test_unknown_format(self, tmp_path):
         axes = resonance_curves(swept("B2-G1-A3"))
         with pytest.raises(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import cache
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.colors import same_color
@@ -100,12 +99,6 @@ class TestFamily:
         data = swept(CODES, ("backward",))
         texts = [t.get_text() for t in resonance_family(data).get_legend().get_texts()]
         assert texts == [*CODES, "backward sweep", "free flight"]
-
-    def test_given_axes_and_no_pyplot(self):
-        ax = Figure().subplots()
-        assert resonance_family(swept(), ax) is ax
-        assert resonance_family(swept(), title="gaps").figure.get_suptitle() == "gaps"
-        assert not plt.get_fignums()
 
     @pytest.mark.parametrize(
         ("options", "told"),

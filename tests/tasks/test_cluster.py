@@ -13,7 +13,6 @@ import pytest
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.cli import main
 from vibroimpact.tasks.cluster import Cluster
 from vibroimpact.tasks.threads import LostError, each
 
@@ -91,17 +90,6 @@ def _designs(**how):
 @pytest.mark.parametrize("computed", [_shares, _diagram, _growth, _designs])
 def test_everything_else_of_many_tasks(cluster, computed):
     assert computed(where=cluster).identical(computed())
-
-
-@pytest.mark.full
-def test_from_the_command_line(cluster, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    words = ("bifurcation", "B3-10mm-A3", "--vary", "frequency=1Hz:1.2Hz:3")
-    found = []
-    for where in ("threads", cluster.scheduler.address):
-        assert main((*words, "--where", where, "--output", where[:3])) == 0
-        found.append(vi.load(f"{where[:3]}/B3-10mm-A3-frequency-diagram.nc"))
-    assert found[0].identical(found[1])
 
 
 @pytest.mark.full
