@@ -69,6 +69,22 @@ def coarse_pictures() -> Iterator[None]:
         yield
 
 
+@pytest.fixture(scope="module")
+def blank_pictures() -> Iterator[None]:
+    """In the daily run, PNG files are blank: for tests of what is written, not of what is seen."""
+    from vibroimpact.figures.notebook import Drawing
+
+    save = Drawing.savefig
+
+    def blank(figure: Drawing, file: Any, **how: Any) -> None:
+        if samples.full or how.get("format") != "png":
+            save(figure, file, **how)
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(Drawing, "savefig", blank)
+        yield
+
+
 def pytest_collection_finish() -> None:
     """Search seldom for garbage, and never among the tests: a twelfth of the time."""
     gc.collect()

@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-import samples
 from vibroimpact.cli import main
 
 
@@ -23,19 +22,8 @@ def no_lines_of_progress():
 
 
 @pytest.fixture(scope="module", autouse=True)
-def blank_pictures():
-    """In the daily run PNG files are blank: what is in them is tested in `figures` and `docs`."""
-    from vibroimpact.figures.notebook import Drawing
-
-    save = Drawing.savefig
-
-    def blank(figure, file, **how):
-        if samples.full or how["format"] != "png":
-            save(figure, file, **how)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Drawing, "savefig", blank)
-        yield
+def no_pictures(blank_pictures):
+    """What is in PNG files is tested in `figures`."""
 
 
 @pytest.fixture(scope="module")

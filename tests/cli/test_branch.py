@@ -73,20 +73,6 @@ def test_summary(whole):
     assert names == {"B2-G1-A3-frequency-branches.nc", "B2-G1-A3-frequency-branches.png"}
 
 
-def test_the_file_holds_the_diagram(whole):
-    data = vi.load(whole[0] / "out/B2-G1-A3-frequency-branches.nc")
-    assert data.attrs.pop("title") == "B2-G1-A3"
-    made = vi.resonance_diagram(CASE, {"frequency": (0.3, 5.0)})
-    assert {k: str(v) for k, v in data.attrs.items()} == {k: str(v) for k, v in made.attrs.items()}
-    assert set(data.variables) == set(made.variables)
-    for name in made.variables:
-        np.testing.assert_array_equal(data[name].values, made[name].values, err_msg=name)
-        assert data[name].attrs["long_name"] == made[name].attrs["long_name"]
-    # Grazing of free flight, in closed form.
-    value = float(data["bifurcation_value"][-1])
-    assert swing(CASE.oscillator, value) == pytest.approx(7.5e-3, rel=1e-9)
-
-
 def test_json(run, tmp_path):
     code, out, errors = run("B2-G1-A3", "--vary", "frequency=1Hz:4Hz", "--json")
     assert (code, errors) == (0, "")
@@ -131,25 +117,6 @@ def test_along_the_gap(gaps):
     np.testing.assert_allclose(
         data["displacement_max"].values[free], swing(CASE.oscillator, 2.0), rtol=1e-9
     )
-
-
-def test_the_fold_over_the_gap_is_where_the_motion_with_contacts_ends(gaps):
-    """The mass that hits the bumpers goes on to do so just below the fold, and not above."""
-    facts, folder = gaps
-    data = vi.load(folder / facts["files"]["data"])
-    i = next(i for i, one in enumerate(facts["bifurcations"]) if one["kind"] == "fold")
-    fold = facts["bifurcations"][i]["value"]
-    assert float(data["bifurcation_value"][i]) == fold
-    motion, shaken = None, vi.Harmonic(CASE.amplitude, 2.0)
-    for gap in [*np.linspace(7.5e-3, 0.9995 * fold, 40), 1.0005 * fold]:
-        rig = CASE.oscillator
-        rig = rig.replace(left=rig.left.replace(gap=gap), right=rig.right.replace(gap=gap))
-        # A whole number of cycles and a quarter: there the mass is off the bumpers.
-        motion = vi.simulate(vi.Rig(rig, shaken), 40 if motion else 40.25, motion, samples=4)
-        if gap < fold:
-            assert (motion["event_time"] > motion["time"][-1] - 0.5).sum() == 4
-    motion = vi.simulate(vi.Rig(rig, shaken), 400, motion, samples=4)
-    assert not (motion["event_time"] > motion["time"][-1] - 50.0).any()
 
 
 @pytest.mark.parametrize(
@@ -203,15 +170,6 @@ def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, w
     assert errors.count("\n") == 1
     assert named in errors
     assert list(tmp_path.iterdir()) == []
-
-
-def test_an_output_that_is_a_file_is_refused_and_kept(run, tmp_path):
-    (tmp_path / "taken").write_text("kept")
-    code, out, errors = run("B2-G1-A3", "--output", "taken")
-    assert (code, out) == (2, "")
-    assert errors.startswith("vibroimpact: error: --output: 'taken' cannot be written to")
-    assert errors.count("\n") == 1
-    assert (tmp_path / "taken").read_text() == "kept"
 
 
 @pytest.mark.full

@@ -14,7 +14,6 @@ import vibroimpact as vi
 COMMAND = "curve"
 CASE = vi.laboratory.case("B2-G1-A3")
 RATIO = ("--vary", "frequency=1Hz:4Hz", "--vary", "stiffness_ratio=0.5:100")
-GAP = ("--vary", "frequency=1Hz:4Hz", "--vary", "gap=1mm:20mm")
 
 
 def groups(path: Path) -> set[str]:
@@ -69,24 +68,6 @@ def test_sweeps_jump_above_the_cusp_and_not_below(ratios):
         swept = vi.sweep(vi.Rig(rig, CASE.amplitude), np.arange(1.5, 1.8, 0.004))
         up, down = swept["displacement_excursion"].transpose("direction", "frequency").values
         assert (np.abs(up - down).max() > 1e-4) == apart
-
-
-def test_grazing_in_closed_form(run, tmp_path):
-    code, out, errors = run("B2-G1-A3", "--bifurcation", "grazing", *GAP, "--json")
-    assert (code, errors) == (0, "")
-    facts = json.loads(out)
-    assert facts["files"] == {
-        "data": "out/B2-G1-A3-grazing-frequency-gap.nc",
-        "figure": "out/B2-G1-A3-grazing-frequency-gap.png",
-    }
-    (one,) = facts["curves"]
-    assert one["cusps"] == []
-    data = vi.load(tmp_path / facts["files"]["data"], group="frequency_1.66521")
-    exact = swing(CASE.oscillator, CASE.amplitude, data["frequency"].values)
-    np.testing.assert_allclose(data["gap"], exact, rtol=1e-9)
-    assert sorted(data["gap"].values[[0, -1]]) == pytest.approx([1e-3, 20e-3])
-    ends = {one["ended_low"], one["ended_high"]}
-    assert ends == {"the range of gap ends at 1 mm", "the range of gap ends at 20 mm"}
 
 
 def test_identified_parameters_over_a_plane(run, tmp_path):

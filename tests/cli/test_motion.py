@@ -279,15 +279,6 @@ def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, w
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_output_that_is_a_file_is_refused_and_kept(run, tmp_path):
-    (tmp_path / "taken").write_text("kept")
-    code, out, errors = run("B2-G1-A3", "--frequency", "2Hz", "--output", "taken")
-    assert (code, out) == (2, "")
-    assert errors.startswith("vibroimpact: error: --output: 'taken' cannot be written to")
-    assert errors.count("\n") == 1
-    assert (tmp_path / "taken").read_text() == "kept"
-
-
 def test_a_motion_without_dissipation_is_neutral():
     """Steady flight on an undamped isolator: its disturbances neither grow nor decay."""
     rig = vi.Oscillator(1.0, vi.Isolator(1.0, 0.0))

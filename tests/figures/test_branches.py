@@ -201,42 +201,6 @@ def test_names_leave_out_a_side_without_a_stop(side):
     assert not any(f"0{other}" in text for text in texts for other in "RL")
 
 
-def test_branches_are_named_under_a_sweep_too():
-    ax = branch_diagram(diagram(), sweep=swept())
-    assert {"1R 1L", "no contact"} <= {text.get_text() for text in ax.texts}
-
-
-def test_a_dense_sweep_leaves_the_branches_to_be_seen():
-    dense = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), np.arange(1.0, 4.0, 0.01))
-    line = marks(branch_diagram(diagram(), sweep=dense))["forward sweep"]
-    assert len(line.get_xdata()) / line.get_markevery() < 100
-    assert marks(branch_diagram(diagram(), sweep=swept()))["forward sweep"].get_markevery() == 1
-
-
-@pytest.mark.parametrize("made", [diagram, several, gaps])
-def test_names_stand_clear_of_marks_and_of_each_other_inside_the_panel(made):
-    ax = branch_diagram(made())
-    ax.figure.draw_without_rendering()
-    inside = ax.get_window_extent()
-    for text in ax.texts:
-        box = text.get_window_extent()
-        assert inside.contains(*box.min)
-        assert inside.contains(*box.max)
-    boxes = [text.get_window_extent() for text in ax.texts]
-    for i, box in enumerate(boxes):
-        assert not any(box.overlaps(other) for other in boxes[:i])
-        for line in marks(ax).values():
-            assert not any(box.contains(*spot) for spot in ax.transData.transform(points(line)))
-
-
-def test_other_parameters_are_named_with_their_units():
-    assert branch_diagram(gaps()).get_xlabel().startswith("gap of each side (")
-    data = vi.branch(vi.Rig(CASE.oscillator, SHAKEN), vary={"stiffness_ratio": (10.0, 30.0)})
-    label = branch_diagram(data).get_xlabel()
-    assert label.startswith("stiffness ratio")
-    assert label.endswith(" (–)")
-
-
 @pytest.mark.parametrize(
     ("quantity", "factor"),
     [

@@ -9,7 +9,6 @@ from functools import cache
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 import vibroimpact as vi
@@ -169,22 +168,6 @@ def test_gaps_are_lines_at_their_place(draw):
     assert gaps(draw({"a": data, "b": hitting()}), 0) == pytest.approx([-9.0, -7.5, 7.5])
 
 
-@pytest.mark.parametrize("draw", [phase_portrait, hysteresis_cycle])
-def test_forward_is_red_and_backward_blue(draw):
-    assert SWEEPS["forward"].colour == "#c8102e"
-    assert SWEEPS["backward"].colour == "#1f4fbf"
-    for motions in (both(), dict(reversed(both().items()))):
-        ax = draw(motions)
-        drawn = {line.get_label(): line for line in curves(ax)}
-        assert list(drawn) == list(motions)
-        for way, look in SWEEPS.items():
-            assert drawn[f"{way} branch"].get_color() == look.colour
-            assert drawn[f"{way} branch"].get_linestyle() == look.dashes
-        marks = ["stroboscopic section"] if draw is phase_portrait else []
-        texts = [text.get_text() for text in ax.get_legend().get_texts()]
-        assert texts == [*motions, *marks]
-
-
 def test_other_motions_are_neither_red_nor_blue_and_differ():
     names = ["motion 1", "forward and backward branch", "motion 3", "forward branch"]
     ax = phase_portrait(dict(zip(names, [hitting(), free(), bare(), across()], strict=True)))
@@ -240,17 +223,6 @@ def test_section_points():
         whole = motion["cycle"].values % 1.0 == 0.0
         stored = [1e3 * motion["displacement"].values, motion["velocity"].values]
         np.testing.assert_array_equal(marks.get_offsets(), np.transpose(stored)[whole][:-1])
-
-
-def test_section_marks_show_which_motion():
-    ax = phase_portrait(both())
-    forward, backward = ax.collections
-    np.testing.assert_allclose(forward.get_facecolor()[0], to_rgba(SWEEPS["forward"].colour))
-    np.testing.assert_allclose(backward.get_facecolor()[0], (1, 1, 1, 1))  # open
-    assert np.array_equal(forward.get_offsets()[0], points(curves(ax)[0])[0])
-    # Many points are smaller, so that they do not cover each other.
-    (dots,) = phase_portrait(chaotic()).collections
-    assert dots.get_sizes()[0] < forward.get_sizes()[0]
 
 
 # Time histories of periodic motions
@@ -405,16 +377,6 @@ def test_the_magnified_part_is_about_the_shortest_flight():
     np.testing.assert_allclose(width, (low, high), rtol=1e-9)
 
 
-def test_the_length_of_the_magnified_part_can_be_chosen():
-    begin, end = shortest(chatter())
-    for zoom in (0.04, 0.1):
-        _, near = clearances(chatter(), cycles=1.0, zoom=zoom)
-        low, high = near.get_xlim()
-        assert high - low == pytest.approx(zoom)
-        apart = 0.5 * (low + high) - 0.5 * (begin + end)
-        assert min(abs(apart + turn) for turn in (-0.5, 0.0, 0.5)) < 1e-6
-
-
 def test_clearances_of_several_motions_and_of_one_bumper():
     whole, _ = clearances(both())
     names = [f"$G_{s}$, {way} branch" for way in SWEEPS for s in "RL"]
@@ -475,21 +437,6 @@ def test_orders_are_frequencies_above():
     assert ax.get_xlim()[0] < 0.0 < 12.0 < ax.get_xlim()[1]
     mixed = {"2 Hz": vi.fourier_spectrum(hitting()), "2.8 Hz": vi.fourier_spectrum(doubled())}
     assert spectrum_lines(mixed).child_axes == []  # two frequencies, no scale for both
-
-
-def test_spectra_side_by_side():
-    ax = spectrum_lines({name: vi.fourier_spectrum(data) for name, data in both().items()})
-    (at, _), (other, low) = stems(ax)
-    assert np.allclose(other - at, (other - at)[0])
-    assert 0.0 < (other - at)[0] < 0.5
-    assert np.allclose(0.5 * (at + other), np.arange(13))
-    for collection, look in zip(ax.collections, SWEEPS.values(), strict=True):
-        np.testing.assert_allclose(collection.get_colors()[0], to_rgba(look.colour))
-    assert [line.get_marker() for line in ax.lines] == ["o", "s"]
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == list(both())
-    # Free flight under a harmonic force is harmonic.
-    assert low[1] == pytest.approx(0.5 * float(free()["acceleration_excursion"]), rel=1e-9)
-    assert np.delete(low, 1).max() < 1e-9
 
 
 def test_a_dense_spectrum_is_a_line():
@@ -557,16 +504,6 @@ def test_page_shows_what_the_single_figures_show():
     for motion in (hitting(), free(), doubled()):
         assert low < 1e3 * float(motion["displacement_min"])
         assert high > 1e3 * float(motion["displacement_max"])
-
-
-def test_page_has_one_legend_below():
-    (legend,) = page()[0, 0].figure.legends
-    texts = [text.get_text() for text in legend.get_texts()]
-    assert len(set(texts)) == len(texts)
-    assert {"forward branch", "backward branch", "motion", "gaps"} < set(texts)
-    assert {"right contact", "left contact", "peak in contact"} < set(texts)
-    alone = motion_page({"free": bare()})[0, 0].figure.legends[0]
-    assert [text.get_text() for text in alone.get_texts()] == ["motion", "stroboscopic section"]
 
 
 def tripled() -> xr.Dataset:

@@ -5,14 +5,12 @@ from __future__ import annotations
 import subprocess
 import sys
 from functools import cache
-from itertools import combinations
 
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.colors import same_color, to_rgb
 from matplotlib.patches import FancyArrowPatch
-from matplotlib.text import Text
 
 import vibroimpact as vi
 from vibroimpact.figures import resonance_curves, save_figure
@@ -70,14 +68,6 @@ class TestPrimaryResonance:
             red, _, blue = to_rgb(found["backward sweep"].get_color())
             assert blue > 0.6 > 0.3 > red
             assert same_color(found["free flight"].get_color(), "black")
-
-    def test_readable_without_colour(self):
-        ax, _ = self.axes
-        forward, backward, free = (
-            lines(ax)[n] for n in ("forward sweep", "backward sweep", "free flight")
-        )
-        assert len({line.get_linestyle() for line in (forward, backward, free)}) == 3
-        assert len({line.get_marker() for line in (forward, backward, free)}) == 3
 
     def test_values(self):
         data = swept("B2-G1-A3", parameters="identified")
@@ -139,20 +129,6 @@ class TestPrimaryResonance:
         ]
         assert lower.get_legend() is None
 
-    def test_nothing_covers_anything(self):
-        axes = resonance_curves(swept("B2-G1-A3", parameters="identified"), title="B2-G1-A3")
-        figure = axes[0].figure
-        figure.draw_without_rendering()
-        texts = [t for t in figure.findobj(Text) if t.get_visible() and t.get_text().strip()]
-        boxes = [(t.get_text(), t.get_window_extent()) for t in texts]
-        for (name, box), (other, another) in combinations(boxes, 2):
-            assert not box.overlaps(another), (name, other)
-        legend = axes[0].get_legend().get_window_extent()
-        assert not any(legend.overlaps(ax.get_window_extent()) for ax in axes)
-        tight, whole = figure.get_tightbbox(), figure.bbox_inches
-        assert whole.x0 <= tight.x0 < tight.x1 <= whole.x1
-        assert whole.y0 <= tight.y0 < tight.y1 <= whole.y1
-
 
 class TestOtherSweeps:
     def test_left_hysteresis_is_told_from_right(self):
@@ -212,13 +188,6 @@ class TestOtherSweeps:
         assert legend_texts(upper) == [SWEEPS[direction].label, "free flight"]
         assert len(arrows(upper)) == 1
         assert shades(upper) == []
-
-    def test_dense_sweep_marks_some_points_only(self):
-        data = swept("B2-G1-A3", 0.5, 4.0, 0.001)
-        upper, _ = resonance_curves(data)
-        line = lines(upper)["forward sweep"]
-        assert len(line.get_xdata()) > 3500
-        assert line.get_markevery()[1] > 50
 
     def test_absent_values(self, tmp_path):
         data = swept("B2-G1-A3").copy(deep=True)

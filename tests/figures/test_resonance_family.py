@@ -48,14 +48,6 @@ class TestFamily:
                     expected = swept()[quantity].sel(rig=name, direction=direction)
                     np.testing.assert_array_equal(y[np.isfinite(y)], factor * expected)
 
-    def test_readable_without_colour(self):
-        ax = resonance_family(swept())
-        markers = [of(ax, name, "forward").get_marker() for name in CODES]
-        assert len(set(markers)) == len(CODES)
-        for name in CODES:
-            assert of(ax, name, "forward").get_linestyle() == "-"
-            assert of(ax, name, "backward").get_linestyle() == "--"
-
     def test_legend_in_the_order_of_the_rigs(self):
         labels = dict(zip(CODES, ("15 mm", "25 mm", "none"), strict=True))
         ax = resonance_family(swept(), labels=labels)

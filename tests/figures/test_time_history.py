@@ -235,12 +235,6 @@ def test_several_motions_have_strips_of_their_own():
     assert texts == [*named, "gaps", "right contact", "left contact", *MARKS]
 
 
-def test_of_several_motions_the_longest_range_is_shown():
-    short, long = motion(cycles=1.5), motion(cycles=2.5)
-    axes = time_history({"a": short, "b": long}, cycles=9.0)
-    assert {ax.get_xlim() for ax in axes} == {(0.0, 2.5)}
-
-
 def test_what_is_no_time_history_is_refused():
     with pytest.raises(vi.InputError, match="not a recorded motion"):
         time_history(motion(samples=0))

@@ -49,6 +49,7 @@ def test_with_noise_within_its_own_errors(code):
     assert rig.amplitude == case.amplitude
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("code", sample(CASES, CASES[:1]))
 def test_what_a_test_records_of_each_hold_tells_a_bumper_to_a_hundredth(code):
     """Maxima and minima of both quantities in ten cycles, 2 % of noise, a guess half off."""

@@ -64,7 +64,7 @@ def stop_force(rig: vi.Oscillator, step: Step, u: mpf, v: mpf) -> mpf:
     return sign * laws.kelvin_voigt(stop.stiffness, stop.damping, d, w)
 
 
-@pytest.mark.parametrize("name", sample(tuple(ALL), (*ONE_EACH[::3], *SHAKEN_EACH[::3])))
+@pytest.mark.parametrize("name", sample(tuple(ALL), (*ONE_EACH[::6], SHAKEN_EACH[0])))
 def test_every_step_obeys_the_plain_formulae(name: str) -> None:
     """du/dt = v, M dv/dt = forces and dz/dt = rate, all along each step."""
     rig, shaken = ALL[name]
@@ -98,7 +98,7 @@ def test_every_step_obeys_the_plain_formulae(name: str) -> None:
     assert seen > (20 if isinstance(shaken, vi.Record) else 10)
 
 
-@pytest.mark.parametrize("name", sample(tuple(ALL), (*ONE_EACH[::3], SHAKEN_EACH[2])))
+@pytest.mark.parametrize("name", sample(tuple(ALL), (*ONE_EACH[1::6], SHAKEN_EACH[2])))
 def test_stored_states_are_those_of_a_fresh_run(name: str) -> None:
     """With another order than they were stored with."""
     rig, shaken = ALL[name]
@@ -190,6 +190,7 @@ def test_order_and_digits_change_nothing(name: str) -> None:
         assert mpf(10) ** -60 < difference(one, rough, 1) < mpf(10) ** -21
 
 
+@pytest.mark.full
 def test_a_linear_rig_moves_as_by_the_reference_of_linear_rigs() -> None:
     rig, shaken = CASES["linear, bumpers"]
     one = follow(rig, shaken, CYCLES)
@@ -228,7 +229,8 @@ def free(stop: Stop, v: float) -> mpf:
 def test_a_free_impact_returns_what_its_relation_says(
     relation: str, returned: tuple[float, ...]
 ) -> None:
-    for e, known in zip((0.3, 0.5, 0.7, 0.9), returned, strict=True):
+    impacts = [*zip((0.3, 0.5, 0.7, 0.9), returned, strict=True)]
+    for e, known in sample(impacts, impacts[1:2]):
         found = free(vi.PowerBumper(2e7, 0.05, restitution=e, relation=relation), 0.4)
         assert round(float(found), 3) == known
         with mp.workdps(60):

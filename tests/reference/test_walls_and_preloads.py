@@ -85,6 +85,7 @@ def run_of(name: str, cycles: int = 3, **options: int) -> Reference:
     return integrate(setup, *shaken, pressed(u, v, setup), cycles, **options)
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", sample([*RUNS], [*RUNS][::4]))
 def test_every_phase_is_its_closed_form_and_ends_at_its_first_zero(name: str) -> None:
     setup, shaken, (u, v) = RUNS[name]

@@ -109,6 +109,7 @@ def test_a_map_outlives_workers(cluster, on_threads):
     assert there.identical(on_threads)
 
 
+@pytest.mark.full
 def test_a_map_is_completed_when_the_scheduler_died(tmp_path, on_threads):
     local = distributed.LocalCluster(
         n_workers=1, threads_per_worker=2, processes=False, dashboard_address=":0"
@@ -254,6 +255,7 @@ def test_a_closed_client_is_refused():
         each(lambda item, _: item, range(3), threads=Cluster(client))
 
 
+@pytest.mark.full
 def test_workers_that_join_later_take_part():
     joined = []
     with _local(1, processes=False) as (local, client):
