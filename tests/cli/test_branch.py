@@ -210,3 +210,15 @@ def test_a_first_orbit_that_cannot_be(run, words, named):
     assert code == 2
     assert named in errors
     assert errors.count("\n") == 1
+
+
+@pytest.mark.full
+def test_own_outputs_have_a_figure_each(run, tmp_path):
+    span = ("--vary", "frequency=2.4Hz:2.6Hz", "--start", "8mm,0mm/s", "--frequency", "2.5Hz")
+    power = ("--compute", "power [W] = mean(isolator.damping*velocity**2)")
+    code, _, errors = run("B2-G1-A3", *span, *power)
+    assert (code, errors) == (0, "")
+    names = {p.name for p in (tmp_path / "out").iterdir()}
+    assert "B2-G1-A3-frequency-branches-power.png" in names
+    data = vi.load(tmp_path / "out/B2-G1-A3-frequency-branches.nc")
+    assert float(data["power"].min()) > 0.0

@@ -215,3 +215,28 @@ def test_wrong_studies(run, study, table, line):
     assert (code, told) == (2, "")
     assert errors.count("\n") == 1
     assert line in errors
+
+
+@pytest.mark.full
+def test_a_gap_that_is_enough_for_a_fractile_is_hit_under_the_others(run, study):
+    """Between the two records: one reaches it. Each side's fractile alone would not tell."""
+    records = {name: vi.Record.read(study / name) for name in RECORDS}
+    every = vi.required_gap(_rig(), records=records)
+    sides = np.array([every["displacement_max"].values, -every["displacement_min"].values])
+    less, more = sorted(1e3 * sides.max(axis=0))
+    middle = 0.5 * (less + more)
+    narrow = ("--vary", "gap=20mm:60mm:2", "--fractile", "0.5")
+    enough, tell = "is sufficient for the 50 % fractile;", " the mass hits a stop under "
+    for gap, line in (
+        (0.5 * (middle + more), enough + tell + "1 of the 2 records."),
+        (1.01 * more, enough + tell + "none of the 2 records."),
+        (0.99 * less, f"is {middle - 0.99 * less:.4g} mm short for the 50 % fractile;"),
+    ):
+        code, told, errors = run("building.toml", *narrow, "--gap", f"{gap:.9g}mm")
+        assert (code, errors) == (0, "")
+        assert line in " ".join(told.split())
+    code, told, _ = run("building.toml", *narrow, "--json")
+    facts = json.loads(told)
+    assert facts["fractile"] == 0.5
+    assert facts["common_gap"] == pytest.approx(1e-3 * middle)
+    assert facts["common_gap_of_all_records"] == pytest.approx(1e-3 * more)

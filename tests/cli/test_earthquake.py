@@ -169,3 +169,19 @@ def test_wrong_input_is_one_line_and_nothing_is_written(run, tmp_path, quake, wo
     assert errors.count("\n") == 1
     assert line in errors
     assert [p.name for p in tmp_path.iterdir()] == [quake]
+
+
+@pytest.mark.full
+def test_a_residual_that_nothing_damps_is_not_called_settled(run, tmp_path, quake):
+    study = """
+[oscillator]
+mass = 1.0
+[oscillator.isolator]
+stiffness = 40.0
+damping = %s
+"""
+    for damping, expected in ((0.0, True), (1.0, False)):
+        (tmp_path / "rig.toml").write_text(study % damping)
+        code, told, _ = run("rig.toml", quake)
+        assert code == 0
+        assert ("not settled: the isolator has no damping" in " ".join(told.split())) == expected

@@ -153,7 +153,6 @@ def test_json_contacts(two, settled):
         assert 0.0 < contact["peak_force"] < mass * peak
 
 
-@pytest.mark.full
 def test_list_of_frequencies(run, tmp_path):
     words = ("--frequency", "0.58Hz, 2.6Hz", "--random", "0", "--samples", "32")
     code, out, _ = run("B2-G1-A3", *words, "--output", "figure8", "--name", "two", *AS_PDF)

@@ -123,7 +123,7 @@ def test_a_family_with_an_own_rig_is_drawn_in_its_units():
     ("rig", "published"),
     sample([RIGS["code"], RIGS["study of a case"], RIGS["own study"]], [RIGS["own study"]]),
 )
-@pytest.mark.parametrize("command", sample([*COMMANDS], ["sweep"]))
+@pytest.mark.parametrize("command", sample([*COMMANDS], ["sweep", "branch"]))
 def test_on_the_command_line(command, rig, published, monkeypatch):
     options, eta, physical = COMMANDS[command]
     drawn = []
