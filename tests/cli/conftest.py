@@ -49,3 +49,19 @@ def told(request) -> Callable[..., tuple[int, str, str]]:
 def run(tmp_path, told):
     """Run the module's ``COMMAND`` in an empty folder."""
     return lambda *words: told(tmp_path, *words)
+
+
+@pytest.fixture
+def refused(run, tmp_path) -> Callable[..., str]:
+    """Run a command that ends with one line, which is returned, and writes nothing."""
+
+    def refused(*words: str) -> str:
+        before = sorted(tmp_path.iterdir())
+        code, printed, errors = run(*words)
+        assert (code, printed) == (2, "")
+        assert errors.startswith("vibroimpact: error: ")
+        assert errors.count("\n") == 1
+        assert sorted(tmp_path.iterdir()) == before
+        return errors
+
+    return refused
