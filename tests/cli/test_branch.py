@@ -157,10 +157,6 @@ def test_along_the_gap(gaps):
         (["--longest", "0"], "longest: 0"),
         (["--longest", "1.5"], "--longest"),
         (["--quantity", "velocity"], "--quantity"),
-        (["--figure", "bmp"], "--figure"),
-        (["--gap", "15 kg"], "--gap"),
-        (["--output", "/proc/vibroimpact"], "--output"),
-        (["--paramter", "gap"], "--paramter"),
     ],
 )
 def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(refused, words, named):

@@ -116,9 +116,6 @@ GAPS = ("--vary", "gap=1mm:20mm")
         ),
         (["--bifurcation", "hopf", *SECOND], "--bifurcation"),
         (["--set", "right=none", "--set", "left=none", *SECOND], "not a parameter of this rig"),
-        ([*SECOND, "--figure", "bmp"], "--figure"),
-        ([*SECOND, "--output", "/proc/vibroimpact"], "--output"),
-        ([*SECOND, "--paramter", "gap"], "--paramter"),
     ],
 )
 def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(refused, words, named):

@@ -185,7 +185,6 @@ def test_sines_best_and_json(run, study):
         (("--fractile", "2"), "--fractile: '2'"),
         (("--scale", "0"), "scale: 0"),
         (("none.csv",), "record: 'none.csv' cannot be read"),
-        (("--threads", "0"), "threads: 0"),
     ],
 )
 def test_wrong_input_is_one_line_and_nothing_is_written(refused, study, words, line):

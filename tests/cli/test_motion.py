@@ -263,10 +263,6 @@ def test_a_motion_that_is_given_up(run, tmp_path):
         (["--frequency", "2Hz", "--samples", "0"], "--samples: 0"),
         (["--frequency", "2Hz", "--samples", "-1"], "--samples"),
         (["--frequency", "2Hz", "--random", "-1"], "--random"),
-        (["--frequency", "2Hz", "--gap", "15 kg"], "--gap"),
-        (["--frequency", "2Hz", "--figure", "bmp"], "bmp"),
-        (["--frequency", "2Hz", "--output", "/proc/vibroimpact"], "--output"),
-        (["--frequncy", "2Hz"], "--frequncy"),
     ],
 )
 def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(refused, words, named):

@@ -98,7 +98,6 @@ def test_a_study_takes_a_component(tmp_path, run):
         (["--scale", "0"], "--scale: 0"),
         (["--scale", "2", "--peak", "1"], "--peak: '1' is given together"),
         (["--component", "east"], "--component: 'east' is not a component of 'quake.AT2'"),
-        (["--output", "/proc/vibroimpact"], "--output"),
     ],
 )
 def test_wrong_input_is_one_line_and_nothing_is_written(run, tmp_path, quake, words, line):

@@ -70,9 +70,6 @@ def test_a_motion_that_is_given_up_is_said_to_be(run, monkeypatch):
         (["--frequency", "2Hz", "--displacement", "5kg"], "--displacement"),
         (["--frequency", "2Hz", "--velocity", "5mm"], "--velocity"),
         (["--frequency", "2Hz", "--shown", "0"], "--shown"),
-        (["--frequency", "2Hz", "--gap", "15 kg"], "--gap"),
-        (["--frequency", "2Hz", "--output", "/proc/vibroimpact"], "--output"),
-        (["--frequncy", "2Hz"], "--frequncy"),
     ],
 )
 def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(refused, words, named):

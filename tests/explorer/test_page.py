@@ -213,23 +213,6 @@ def test_scenarios_have_their_meanings_at_the_map(opened):
     assert page.get_attribute("#evidence abbr", "title") is not None
 
 
-def test_an_amplitude_has_the_unit_of_any_excitation(opened):
-    page = opened()
-    for given, label in (
-        ("120 N", "force amplitude F"),
-        ("5 mm", "base displacement X"),
-        ("0.4 kg m", "unbalance m e"),
-        ("0.05 g", "base acceleration A"),
-    ):
-        before = curve(page)
-        page.fill("#text-amplitude", given)
-        page.keyboard.press("Enter")
-        settle(page)
-        assert curve(page) != before
-        assert page.inner_text("label[for='text-amplitude']") == label
-        assert page.input_value("#text-amplitude") == given
-
-
 def test_laws_and_presets(opened):
     page = opened()
     page.uncheck("#together")

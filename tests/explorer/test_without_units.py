@@ -11,10 +11,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from explorer.test_page import settle, until
 from explorer.test_session import pictures
 from vibroimpact.explorer import share
-from vibroimpact.explorer.presets import preset
 from vibroimpact.explorer.session import Session
 from vibroimpact.explorer.state import begin
 from vibroimpact.model.study import read_rig_study
@@ -68,14 +66,6 @@ def test_no_text_that_is_sent_has_a_unit(session):
         assert found == []
         assert told["state"]["without_units"]
     assert not unitless()  # any more
-
-
-def test_the_same_texts_of_a_rig_with_units_have_them():
-    session = Session(preset("B2-G1-A3"))
-    sent = [session.told(), *pictures(session)]
-    found = [text for text in texts(sent) if UNIT.search(text) or "Hz" in text]
-    assert len(found) > 20
-    assert not sent[0]["state"]["without_units"]
 
 
 def test_pictures_are_in_the_numbers_of_the_rig():
@@ -174,17 +164,3 @@ def test_a_study_file_states_that_a_number_is_a_force(tmp_path):
     assert again.shaking == begin(pushed).shaking
     assert again.oscillator.units == "none"
     assert "of='force'" in base64.b64decode(session.file("python")["bytes"]).decode()
-
-
-def test_a_click_chooses_omega(opened):
-    page = opened(f"#{share.address(begin(RIG, 'bare'))}")
-    settle(page)
-    box = page.locator("#panels .chart").first.bounding_box()
-    page.mouse.click(box["x"] + 62 + 1, box["y"] + box["height"] - 40)
-    until(page, "document.getElementById('frequency').value === '0.45'")
-    page.fill("#frequency", "2.5")
-    page.keyboard.press("Enter")
-    until(page, "location.hash.length > 1 && !document.getElementById('frequency-why').textContent")
-    settle(page)
-    state = share.from_address(page.evaluate("location.hash")[1:])
-    assert math.tau * state.shaking.frequency == pytest.approx(2.5)
