@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import NDArray
 
@@ -304,3 +305,53 @@ def softened(residuals: Array, tail: float) -> Array:
     share = (residuals / tail) ** 2
     soft: Array = np.sign(residuals) * tail * np.sqrt(2.0 * share / (np.sqrt(1.0 + share) + 1.0))
     return soft
+
+
+def minimized(
+    problem: Problem,
+    x: Array,
+    tolerances: tuple[float, float, float],
+    most: int,
+    *,
+    among: Flags | None = None,
+    precise: bool = False,
+) -> tuple[Array, float]:
+    """Return where the least squares from a place within the bounds end, and the cost there.
+
+    Parameters
+    ----------
+    tolerances
+        Of the cost, the place and the gradient, as of `scipy.optimize.least_squares`.
+    most
+        Evaluations of the residuals, without those of derivatives.
+    among
+        Unknowns that are varied. Default: all.
+    precise
+        Whether derivatives are central, and scale the unknowns.
+    """
+    free = np.ones(len(x), dtype=bool) if among is None else among
+    seen: dict[bytes, Values] = {}
+
+    def whole(y: Array) -> Array:
+        full = x.copy()
+        full[free] = y
+        return full
+
+    def values(y: Array) -> Values:
+        key = y.tobytes()
+        if key not in seen:
+            seen.clear()  # the last one is all that a derivative needs
+            seen[key] = problem.values(whole(y))
+        return seen[key]
+
+    low, high = problem.low[free], problem.high[free]
+    done = scipy.optimize.least_squares(
+        lambda y: values(y).residuals,
+        np.clip(x[free], low, high),
+        jac=lambda y: problem.jacobian(whole(y), fine=precise, at=values(y), only=free),
+        bounds=(low, high),
+        x_scale="jac" if precise else 1.0,
+        **dict(zip(("ftol", "xtol", "gtol"), tolerances, strict=True)),
+        max_nfev=most,
+    )
+    return whole(done.x), float(done.cost)
