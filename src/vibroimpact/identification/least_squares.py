@@ -154,8 +154,7 @@ class Problem:
             part = np.zeros(test.count)
             part[: test.points_count] = sigma * test.shares
             parts.append(part)
-        shares: Array = np.concatenate([*parts, np.zeros(self._priors)])
-        return shares
+        return np.concatenate([*parts, np.zeros(self._priors)])
 
     @property
     def start(self) -> Array:
@@ -168,8 +167,7 @@ class Problem:
     def measured(self) -> Flags:
         """Which residuals are those of measured values."""
         parts = [np.arange(t.count) < t.points_count for t in self.tests]
-        found: Flags = np.concatenate([*parts, np.zeros(self._priors, dtype=bool)])
-        return found
+        return np.concatenate([*parts, np.zeros(self._priors, dtype=bool)])
 
     @property
     def shares_of_curves(self) -> Array:
@@ -182,8 +180,7 @@ class Problem:
     def jumps(self) -> Flags:
         """Which residuals are those of the jumps of curves."""
         parts = [(np.arange(t.count) >= t.points_count) & (t.kind == "curves") for t in self.tests]
-        found: Flags = np.concatenate([*parts, np.zeros(self._priors, dtype=bool)])
-        return found
+        return np.concatenate([*parts, np.zeros(self._priors, dtype=bool)])
 
     @property
     def _priors(self) -> int:
@@ -303,8 +300,7 @@ class Problem:
 def softened(residuals: Array, tail: float) -> Array:
     """Residuals whose squares grow as their size does beyond the tail."""
     share = (residuals / tail) ** 2
-    soft: Array = np.sign(residuals) * tail * np.sqrt(2.0 * share / (np.sqrt(1.0 + share) + 1.0))
-    return soft
+    return np.sign(residuals) * tail * np.sqrt(2.0 * share / (np.sqrt(1.0 + share) + 1.0))
 
 
 def minimized(

@@ -214,8 +214,7 @@ def _beside(orbit: Orbit, change: _Array) -> _Array:
     """An orbit's point changed by scaled components; what has no scale does not change."""
     scale = orbit.section.scale
     moved = np.multiply(change, scale, out=np.zeros_like(change), where=change != 0.0)
-    point: _Array = orbit.point + moved
-    return point
+    return orbit.point + moved
 
 
 def _margin_gradient(orbit: Orbit) -> _Array:
