@@ -40,12 +40,16 @@ def test_a_softening_fold_is_swept_from_above() -> None:
     assert acceleration > 0.0
 
 
-def test_a_jump_stands_at_the_fold_of_the_branch() -> None:
+@pytest.mark.parametrize(
+    ("damping", "cubic", "amplitude", "reach"),
+    [(0.02, 0.3, 0.3, (0.15, 0.3)), (2e-5, 0.1, 1e-3, (0.155, 0.17))],
+)
+def test_a_jump_stands_at_the_fold_of_the_branch(damping, cubic, amplitude, reach) -> None:
     """Backward, a hardening resonance is largest where the motion jumps up."""
-    rig = vi.Oscillator(1.0, vi.PolynomialIsolator(1.0, 0.02, 0.3))
-    branch = vi.branch(vi.Rig(rig, vi.Harmonic(0.3, 0.3)), vary={"frequency": (0.15, 0.3)})
+    rig = vi.Oscillator(1.0, vi.PolynomialIsolator(1.0, damping, cubic))
+    branch = vi.branch(vi.Rig(rig, vi.Harmonic(amplitude, reach[1])), vary={"frequency": reach})
     (fold,) = branch["bifurcation_value"].values
-    jump = resonance(vi.Rig(rig, SHAKEN))
+    jump = resonance(vi.Rig(rig, vi.Harmonic(amplitude, 0.2)))
     assert jump == pytest.approx(fold, abs=1e-6 * rig.natural_frequency)
 
 

@@ -1,24 +1,20 @@
 """Free flight of isolators that have no closed form: swept backward, as the paper says.
 
 What an isolator does by itself then depends on the amplitude and, where its resonance folds, on the
-direction of the sweep. `continuation.arclength` follows the motions: each begins where the last
-ones lead, and settles within a few cycles, or Newton's method finds it: a lightly damped isolator
-would need 100,000 cycles. Where it is lost, at a fold or where orbits are not isolated, the next
-motion is that which the sweep itself settles on.
+direction of the sweep: each motion begins with the last one, and steps are short where it changes.
+Newton's method finds what does not settle, as a lightly damped isolator would need 100,000 cycles.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.continuation.arclength import distance, follow, is_other_curve, predicted
 from vibroimpact.engine import hold, orbit, section_map
 from vibroimpact.engine import motion as layout
 from vibroimpact.engine import parameters as par
@@ -37,21 +33,18 @@ _PARTS = np.array([layout.U, layout.V, layout.ISOLATOR])
 _POINT = np.array([0, 1, 4])
 _HELD = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 """Normal of the plane on which the frequency does not change."""
-_STABLE, _ISOLATED = 1.0 + 1e-9, 1.0 - 1e-9
-"""Largest multiplier of an orbit on which a motion stays, and of one that has no others beside it.
-"""
-_ASIDE = 1e-6
-"""Relative change of the frequency from which the curve's first direction is taken."""
-_CALLED = 64
-"""Points after which sizes are taken anew: at a resonance the motion grows without measure."""
+_STABLE = 1.0 + 1e-9
+"""Largest multiplier of an orbit on which a motion stays."""
 _LONGEST, _SHORTEST = 0.1, 1e-6
 """Steps of the sweep itself, over the natural frequency; over the shortest a motion may jump."""
 _JUMPS, _WANTED = 0.1, 0.03
 """Relative change of the excursion over a longer step that may be a jump, and the one aimed at."""
 _LITTLE = 1e-6
 """The least such change that counts."""
-_PATIENTLY, _SOON = Settling(1e-9, 2000, 64), Settling(1e-9, 32, 32)
-"""How long a motion is waited for by itself, and where it is expected."""
+_PATIENTLY = Settling(1e-9, 200, 64), Settling(1e-9, 2000, 64)
+"""How long a motion is waited for by itself, before Newton's method and where that finds none."""
+_SOON = Settling(1e-9, 32, 32)
+"""How long where it is expected."""
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 _SAME = 1e-8
 """Width, over the frequency, down to which the place of the largest motion is narrowed."""
@@ -70,11 +63,6 @@ class Held(NamedTuple):
     def is_single(self) -> bool:
         """Whether it repeats after one cycle."""
         return bool(self.row.status == Status.DONE and self.row.period == 1)
-
-    @property
-    def y(self) -> _Array:
-        """u, u̇, what the isolator remembers, and the frequency."""
-        return np.append(self.state[_PARTS], self.frequency)
 
     @property
     def size(self) -> float:
@@ -115,13 +103,17 @@ class Flight(NamedTuple):
 
         A free isolator whose damping vanishes with the motion takes longer than any patience.
         """
-        (held,) = self.swept(begin, [frequency], _PATIENTLY)
-        if held.row.status != Status.NOT_SETTLED:
-            return held
-        return self.orbit(held.state, frequency) or held
+        for settling in _PATIENTLY:
+            (held,) = self.swept(begin, [frequency], settling)
+            if held.row.status != Status.NOT_SETTLED:
+                break
+            if (found := self.orbit(held.state, frequency)) is not None:
+                return found
+            begin = held.state
+        return held
 
-    def orbit(self, near: _Array, frequency: float, most: float = _STABLE) -> Held | None:
-        """The orbit that Newton's method finds from a state, if its multipliers are no larger."""
+    def orbit(self, near: _Array, frequency: float) -> Held | None:
+        """The stable orbit that Newton's method finds from a state, if any."""
         system = self.system.copy()
         system[section_map.AMPLITUDE] = self.level(frequency)
         system[section_map.FREQUENCY] = frequency
@@ -148,7 +140,7 @@ class Flight(NamedTuple):
         if outcome != Status.DONE:
             return None
         parts = _POINT if system[par.HYSTERETIC] else _POINT[:2]
-        if np.abs(np.linalg.eigvals(carried[np.ix_(parts, parts)])).max() > most:
+        if np.abs(np.linalg.eigvals(carried[np.ix_(parts, parts)])).max() > _STABLE:
             return None
         results = np.full(hold.RESULTS, np.nan)
         outcome = orbit.measure_orbit(system, 0.0, point, facts, 1, MAX_EVENTS, results)
@@ -159,30 +151,11 @@ class Flight(NamedTuple):
         state[_PARTS] = point[_POINT]
         return Held(frequency, HoldRows(results), state)
 
-    def orbits(self, last: Held, low: float) -> Iterator[Held]:
-        """The stable orbits that continue a motion as the frequency falls, as far as they do."""
-        while last.is_single and last.frequency > low and last.size > 0.0:
-            curve = Curve.beginning(self, last, low)
-            first = curve.first(last)
-            if first is None:
-                return
-            trace = follow(curve, first, _CALLED)
-            for station in trace.points[1:]:
-                yield station.held
-            if trace.is_complete:
-                return
-            last = trace.points[-1].held
-
     def backward(self, last: Held, low: float) -> Iterator[Held]:
         """The motions at falling frequencies, down to the one at `low` (Hz), which is the last."""
         unit = self.rig.oscillator.natural_frequency
         step = _LONGEST * unit
         while last.frequency > low:
-            for held in self.orbits(last, low):
-                last = held
-                yield held
-            if last.frequency <= low:
-                return
             while True:
                 held = self.settled(last.state, max(low, last.frequency - step))
                 change = max(_changed(held, last), _LITTLE)
@@ -193,82 +166,6 @@ class Flight(NamedTuple):
             yield last
             step *= min(2.0, math.sqrt(_WANTED / change))
             step = min(max(step, _SHORTEST * unit), _LONGEST * unit)
-
-
-@dataclass(frozen=True, eq=False)
-class Station:
-    """An orbit on the curve (see `continuation.arclength.Point`)."""
-
-    held: Held
-    tangent: _Array
-    arclength: float
-
-    @property
-    def y(self) -> _Array:
-        """See `Point`."""
-        return self.held.y
-
-
-@dataclass(frozen=True, eq=False)
-class Curve:
-    """Orbits along the falling frequency (see `continuation.arclength.Path`)."""
-
-    flight: Flight
-    scale: _Array
-    low: float
-    """Frequency (Hz) at which it ends."""
-    seen = np.array([1.0, 1.0, 0.0, 1.0])
-
-    @classmethod
-    def beginning(cls, flight: Flight, last: Held, low: float) -> Curve:
-        """The curve from a motion on, by whose size lengths are measured."""
-        size, rate = last.size, math.tau * last.frequency
-        unit = flight.rig.oscillator.natural_frequency
-        return cls(flight, np.array([size, size * rate, size, unit]), low)
-
-    def first(self, last: Held) -> Station | None:
-        """The first point, if the motion is an isolated orbit."""
-        if self.flight.orbit(last.state, last.frequency, _ISOLATED) is None:
-            return None
-        beside = self.flight.beside(last.state, last.frequency * (1.0 - _ASIDE))
-        return None if beside is None else Station(last, self.direction(last, beside), 0.0)
-
-    def direction(self, here: Held, there: Held) -> _Array:
-        """Unit tangent of the chord between two points."""
-        way = (there.y - here.y) / self.scale
-        found: _Array = way / np.linalg.norm(way * self.seen)
-        return found
-
-    def step(self, here: Station, length: float) -> tuple[Station | None, bool]:
-        """See `Path`: on the plane on which the frequency is the predicted one, or the last."""
-        aim = predicted(self, here, length)
-        if aim[-1] < self.low:
-            length *= (self.low - here.y[-1]) / (aim[-1] - here.y[-1])
-            aim = predicted(self, here, length)
-            aim[-1] = self.low
-        near = np.zeros(layout.STATE)
-        near[_PARTS] = aim[:-1]
-        held = self.flight.beside(near, float(aim[-1]))
-        if held is None or is_other_curve(self, held.y, aim, length):
-            return None, False
-        arclength = here.arclength + distance(self, held.y, here.y)
-        return Station(held, self.direction(here.held, held), arclength), False
-
-    def corner(self, here: Station, length: float) -> list[Station]:
-        """See `Path`: what lies beyond a corner, the sweep itself finds."""
-        return []
-
-    def in_other_coordinates(self, here: Station) -> Station | None:
-        """See `Path`."""
-        return None
-
-    def end(self, here: Station, there: Station) -> tuple[list[Station], str] | None:
-        """See `Path`."""
-        return ([there], "the range ends") if there.held.frequency <= self.low else None
-
-    def lost(self, here: Station) -> str:
-        """See `Path`."""
-        return "no orbit is found"
 
 
 def flight(rig: Rig, level: Callable[[float], float]) -> Flight:
