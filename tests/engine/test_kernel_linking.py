@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import re
 import subprocess
 import sys
-from pathlib import Path
 
+import llvmlite.binding as llvm
 import numba
 import pytest
+from numba.core.itanium_mangler import mangle
 
-from vibroimpact.engine import flow_dispatch, jit, kernel_linking
+from vibroimpact.engine import flow_tables, jit, kernel_linking
 
 _SCRIPT = """
 import re
@@ -67,11 +67,18 @@ def test_only_the_entry_becomes_machine_code(tmp_path):
     assert same == number
 
 
-def test_kernels_that_are_kept_apart_have_names_of_their_own() -> None:
-    """They are found by name: another one of that name would be kept apart, and round otherwise."""
-    folder = Path(flow_dispatch.__file__).parent  # which has all kernels defined
-    sources = [path.read_text(encoding="utf-8") for path in folder.rglob("*.py")]
-    assert jit.APART
-    for name in jit.APART:
-        made = re.compile(rf"^ *def {name}\(", re.MULTILINE)
-        assert sum(len(made.findall(source)) for source in sources) == 1, name
+def test_only_a_kernel_that_is_marked_is_kept_apart() -> None:
+    """One of the same name in another module, or in another function, is not."""
+    name = "vibroimpact.engine.assembly.series.expanding.<locals>.expand_masses"
+    assert flow_tables.GROUPS  # whose module has all kernels defined
+    assert name in jit.APART
+    others = (name.replace("series", "tables"), name.rpartition(".")[2], f"{name}_2")
+    symbols = [
+        mangle(one, (numba.float64,), abi_tags=(), uid=3)
+        for one in (name, f"{name}.inner", *others)
+    ]
+    code = "".join(f'define void @"{one}"() {{ ret void }}\n' for one in symbols)
+    module = llvm.parse_assembly(code)
+    kernel_linking.keep_apart(module)
+    marked = [one.name for one in module.functions if b"noinline" in set(one.attributes)]
+    assert marked == symbols[:1]

@@ -358,14 +358,21 @@ def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Ve
     """See `observers.demand`."""
 
 
-@_function(_MEASURED, types.void, P, P, P, P, P, P)
-def integrate(
-    plan: Vector,
-    before: Vector,
-    ended: Vector,
-    after: Vector,
-    notes: Vector,
-    lines: Vector,
-    out: Vector,
-) -> None:
-    """Add the Fourier integrals of a stretch, see `observers.fourier`."""
+# Channels, over which other observers are written.
+
+
+@_function(_MEASURED, _N, P, P, P)
+def first_piece(plan: Vector, before: Vector, ended: Vector, piece: Vector) -> int:
+    """Go to the first piece of the last stretch, see `channels`; 0 if there is none."""
+
+
+@_function(_MEASURED, _N, P, P)
+def next_piece(plan: Vector, before: Vector, piece: Vector) -> int:
+    """Go to the next piece; 0 if there is none."""
+
+
+@_function(_MEASURED, _N, P, P, _N, _N, P)
+def series(
+    plan: Vector, before: Vector, piece: Vector, channel: int, index: int, out: Vector
+) -> int:
+    """Write the series of a channel of a mass or stop on the piece; return its order."""

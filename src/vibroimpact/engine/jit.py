@@ -65,7 +65,7 @@ def inlined(function: F) -> F:
 
 
 APART: set[str] = set()
-"""Names of kernels that are not merged into those that call them (see `apart`)."""
+"""Kernels that are not merged into those that call them (see `apart`): a module and a name each."""
 
 
 def apart(function: F) -> F:
@@ -73,7 +73,7 @@ def apart(function: F) -> F:
 
     Merged, it takes the loop's registers, and parts of it are computed in advance for nothing.
     """
-    APART.add(function.__name__)
+    APART.add(f"{function.__module__}.{function.__qualname__}")
     # What an inlined function calls would be inlined, too, unless it says otherwise.
     return _within(njit(**WITHIN, forceinline=False)(function))  # type: ignore[no-any-return]
 

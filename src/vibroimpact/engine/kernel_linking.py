@@ -16,6 +16,7 @@ from typing import Any
 
 import numba
 from numba.core.codegen import CPUCodeLibrary, JITCodeLibrary, JITCPUCodegen
+from numba.core.itanium_mangler import mangle_identifier
 
 from vibroimpact.engine import jit
 
@@ -32,9 +33,12 @@ _METHODS: tuple[tuple[Any, str], ...] = (
 
 def keep_apart(module: Any) -> None:
     """Forbid to merge the kernels that are marked so (`jit.apart`) into their callers."""
-    marks = [f"{len(name)}{name}B" for name in jit.APART]
+    marks = tuple(
+        f"_Z{mangle_identifier(name)[:-1]}B"  # type: ignore[no-untyped-call]
+        for name in jit.APART
+    )
     for function in module.functions:
-        if not function.is_declaration and any(mark in function.name for mark in marks):
+        if not function.is_declaration and function.name.startswith(marks):
             function.add_function_attribute("noinline")
 
 

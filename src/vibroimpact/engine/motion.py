@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from vibroimpact.engine.jit import Vector, inlined, kernel
+from vibroimpact.engine.state import ARRIVAL, EVENT, STEP, T
 
 FLIGHT, RIGHT, LEFT, BOTH = 0, 1, 2, 3
 """The discrete mode: which stops the mass touches, bit j for stop j. Touching a rigid one is
@@ -134,6 +135,13 @@ def pack(motion: Motion, state: Vector) -> None:
     state[FACES], state[FACES + 1] = motion.faces
     state[ISOLATOR], state[AGE] = motion.z, motion.age
     state[STATE], state[STATE + 1] = motion.clock
+
+
+@kernel
+def stretch_of(before: Vector, ended: Vector, after: Vector) -> Stretch:
+    """The stretch between two states, as an observer gets it."""
+    event, arrival = int(ended[EVENT]), ended[ARRIVAL]
+    return Stretch(unpacked(before), ended[T], event, ended[STEP], arrival, unpacked(after))
 
 
 def swapped(sides: int) -> int:

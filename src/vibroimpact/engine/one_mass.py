@@ -8,26 +8,19 @@ from __future__ import annotations
 
 from typing import Any
 
-from vibroimpact.engine import dispatch, event_loop, flow, flow_dispatch
+from vibroimpact.engine import dispatch, event_loop, flow, flow_dispatch, one_mass_channels
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.compiler import overload
 from vibroimpact.engine.forcing import dispatch as forcing
 from vibroimpact.engine.jit import CHOSEN, Vector, kernel
-from vibroimpact.engine.motion import (
-    FACES,
-    MODE,
-    STATE,
-    Motion,
-    Stretch,
-    changed,
-    mirrored,
-    pack,
-    unpacked,
-)
+from vibroimpact.engine.motion import FACES, MODE, STATE, Motion, changed, pack, unpacked
 from vibroimpact.engine.motion import ISOLATOR as MEMORY
 from vibroimpact.engine.motion import U as DISPLACEMENT
 from vibroimpact.engine.motion import V as VELOCITY
 from vibroimpact.engine.observers import demand as demands
+from vibroimpact.engine.observers import extremes as ranges
+from vibroimpact.engine.observers import margin as margins
+from vibroimpact.engine.observers import measure as phases
 from vibroimpact.engine.observers import record as recording
 from vibroimpact.engine.observers import tangent as disturbances
 from vibroimpact.engine.observers.extremes import (
@@ -40,17 +33,25 @@ from vibroimpact.engine.observers.extremes import (
     T_MOST,
     U_LEAST,
     U_MOST,
-    widen,
 )
-from vibroimpact.engine.observers.extremes import nothing as unseen
-from vibroimpact.engine.observers.fourier import integrate_stretch
-from vibroimpact.engine.observers.margin import least_margin
-from vibroimpact.engine.observers.measure import measure_stretch
-from vibroimpact.engine.observers.tangent import DISTURBANCE
-from vibroimpact.engine.state import ARRIVAL, EVENT, FIRST, STEP, T, copy
+from vibroimpact.engine.state import ARRIVAL, FIRST, STEP, copy
 from vibroimpact.engine.stops import curved, kelvin_voigt, rigid
 
-PARTS = DISTURBANCE
+nothing, extremes, margin = ranges.nothing, ranges.extremes, margins.margin
+record, write, measure = recording.record, recording.write, phases.measure
+start_demand, demand = demands.start_demand, demands.demand
+unit_disturbances, tangent, mirror = (
+    disturbances.unit_disturbances,
+    disturbances.tangent,
+    disturbances.mirror,
+)
+first_piece, next_piece, series = (
+    one_mass_channels.first_piece,
+    one_mass_channels.next_piece,
+    one_mass_channels.series,
+)
+
+PARTS = disturbances.DISTURBANCE
 """u, u̇, u_R, u_L, z."""
 
 _FORGOTTEN = 9.0
@@ -252,23 +253,6 @@ def cycle(plan: Vector, state: Vector, s: float, c: float, length: float, max_ev
 
 
 @kernel
-def _stretch(before: Vector, ended: Vector, after: Vector) -> Stretch:
-    return Stretch(
-        unpacked(before),
-        ended[T],
-        int(ended[EVENT]),
-        ended[STEP],
-        ended[ARRIVAL],
-        unpacked(after),
-    )
-
-
-@kernel
-def nothing(plan: Vector, notes: Vector) -> None:
-    unseen(notes)
-
-
-@kernel
 def look_again(plan: Vector, again: int) -> int:
     # The force on the base is that of ü + A_t, A_t what stands for the force on the mass: the
     # absolute acceleration of the same motion if the base moved.
@@ -288,81 +272,3 @@ def measured(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Ve
         result[HITS_RIGHT + stop] = notes[HITS_RIGHT + stop] / cycles
     result[T_LEAST] = plan[par.LOAD] - other[A_MOST]
     result[T_MOST] = plan[par.LOAD] - other[A_LEAST]
-
-
-@kernel
-def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    widen(plan, notes, _stretch(before, ended, after))
-
-
-@kernel
-def margin(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    notes[0] = least_margin(plan, notes[0], _stretch(before, ended, after))
-
-
-@kernel
-def record(
-    plan: Vector,
-    before: Vector,
-    ended: Vector,
-    after: Vector,
-    notes: Vector,
-    samples: Vector,
-    events: Vector,
-) -> None:
-    recording.write_down(plan, notes, samples, events, _stretch(before, ended, after))
-
-
-@kernel
-def write(plan: Vector, state: Vector, samples: Vector, columns: int, at: int) -> None:
-    recording.write(plan, unpacked(state), samples, columns, at)
-
-
-@kernel
-def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
-    disturbances.unit_disturbances(plan, int(state[MODE]), q)
-
-
-@kernel
-def tangent(
-    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
-) -> None:
-    disturbances.carry_all(plan, notes, q, _stretch(before, ended, after))
-
-
-@kernel
-def mirror(plan: Vector, state: Vector, q: Vector) -> None:
-    pack(mirrored(unpacked(state)), state)
-    for i in range(DISTURBANCE):
-        at = i * DISTURBANCE
-        q[at], q[at + 1] = -q[at], -q[at + 1]
-        q[at + 2], q[at + 3] = -q[at + 3], -q[at + 2]
-        q[at + 4] = -q[at + 4]
-
-
-@kernel
-def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
-    measure_stretch(plan, _stretch(before, ended, after), row)
-
-
-@kernel
-def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
-    demands.start_notes(notes, everything)
-
-
-@kernel
-def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
-    demands.add(plan, before, ended, after, notes)
-
-
-@kernel
-def integrate(
-    plan: Vector,
-    before: Vector,
-    ended: Vector,
-    after: Vector,
-    notes: Vector,
-    lines: Vector,
-    out: Vector,
-) -> None:
-    integrate_stretch(plan, _stretch(before, ended, after), notes, lines, out)

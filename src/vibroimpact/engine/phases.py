@@ -10,7 +10,7 @@ from vibroimpact.engine.entry import entry
 from vibroimpact.engine.flow_dispatch import planned
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import pointer
-from vibroimpact.engine.observers.fourier import BEGINS, INTERVAL
+from vibroimpact.engine.observers.fourier import BEGINS, INTERVAL, integrate
 from vibroimpact.engine.observers.phases import (
     DRIFTS,
     MASSES,
@@ -60,7 +60,7 @@ def _integrated(plan: Vector, state: Vector, section: Vector, leg: Leg, log: Log
     number, s, c, length, max_events = leg
     notes, lines, out = log
     notes[BEGINS] = number * notes[INTERVAL]
-    events: int = event_loop.integrate(plan, state, s, c, length, max_events, notes, lines, out)
+    events: int = integrate(plan, state, s, c, length, max_events, notes, lines, out)
     return events
 
 

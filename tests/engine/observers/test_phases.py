@@ -88,9 +88,7 @@ def followed(given, rig, amplitude, omega, start, notes, rows, samples, events, 
     notes[layout.NUMBER] = kept[written.WRITTEN]
     copy(pointer(start), state, width(plan))
     wind(plan, state, S, C)
-    event_loop.integrate(
-        plan, state, S, C, LENGTH, MOST, pointer(since), pointer(lines), pointer(out)
-    )
+    fourier.integrate(plan, state, S, C, LENGTH, MOST, pointer(since), pointer(lines), pointer(out))
 
 
 def shaking(name, time):

@@ -108,18 +108,3 @@ def restrain(plan: Vector, of: Places, held: Vector, row: int) -> None:
         held[j] = plan[row + int(plan[one + at.LEFT])] - plan[row + int(plan[one + at.RIGHT])]
     hold(plan, held)
     take_off(plan, of, held, beyond(plan, row))
-
-
-@inlined
-def accelerate(
-    plan: Vector,
-    of: Places,
-    y: Vector,
-    waves: Vector,
-    deformation: Vector,
-    constant: float,
-    row: int,
-) -> None:
-    """As `drive`; then the resting stops' forces follow those of the pressed ones."""
-    drive(plan, of, y, waves, deformation, constant, row)
-    restrain(plan, of, beyond(deformation, of.pressed), row)

@@ -1,16 +1,17 @@
-"""What is observed on a stretch: functions of time with a power series on each piece.
+"""The channels of several masses (see `engine.channels`).
 
 event = next_stretch(plan, left)
 open_stretch(plan)
 for i in range(pieces(plan)):
-open_piece(plan, i)                           # in this order
-order = series(plan, FORCE, stop, out)        # or value(plan, FORCE, stop, tau)
+    open_piece(plan, i)                           # in this order
+    order = series(plan, FORCE, stop, out)        # or value(plan, FORCE, stop, tau)
 close_stretch(plan)
 """
 
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.mode import enter_mode
@@ -20,16 +21,21 @@ from vibroimpact.engine.assembly.series import (
     travel_by_series,
     watched_series,
 )
+from vibroimpact.engine.channels import (
+    ABSOLUTE_ACCELERATION,
+    ACCELERATION,
+    CLEARANCE,
+    DEFORMATION,
+    DISPLACEMENT,
+    FORCE,
+    LENGTH,
+    OWN,
+    SINCE,
+    VELOCITY,
+    evaluate,
+)
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
-
-DISPLACEMENT, VELOCITY, ACCELERATION, ABSOLUTE_ACCELERATION, CLEARANCE, FORCE, DEFORMATION = range(
-    7
-)
-"""Of a mass: m, m/s, m/s² relative to the base and absolute; of a stop: m, N, m."""
-
-SERIES = at.TERMS + 2
-"""Length of a series: its coefficients, then a size and a rate: size · exp(−rate τ) is added."""
 
 
 @apart
@@ -151,17 +157,6 @@ def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
 
 
 @kernel
-def evaluate(out: Vector, order: int, tau: float) -> float:
-    """The value of a series."""
-    total = 0.0
-    for j in range(order, -1, -1):
-        total = total * tau + out[j]
-    if out[at.TERMS] > 0.0:
-        total += out[at.TERMS] * math.exp(-out[at.TERMS + 1] * tau)
-    return total
-
-
-@kernel
 def value(plan: Vector, channel: int, index: int, tau: float) -> float:
     """A channel's value on the piece."""
     out = beyond(plan, int(plan[at.ROOM]))
@@ -215,3 +210,37 @@ def observed(plan: Vector, c: int, a: Vector, b: Vector) -> int:
         for j in range(order + 1):
             b[j] = plan[states + j * row + right] - plan[states + j * row + left]
     return order
+
+
+def walking(channels: Any) -> tuple[Any, Any, Any]:
+    """Make `flow.first_piece`, `flow.next_piece` and `flow.series` of a flow's channels."""
+    open_stretch, open_piece, one_series = (
+        channels.open_stretch,
+        channels.open_piece,
+        channels.series,
+    )
+
+    def first_piece(plan: Vector, before: Vector, ended: Vector, piece: Vector) -> int:
+        if not plan[at.LENGTH] > 0.0:
+            return 0
+        open_stretch(plan)
+        open_piece(plan, 0)
+        piece[SINCE], piece[LENGTH], piece[OWN] = 0.0, piece_length(plan), 0.0
+        return 1
+
+    def next_piece(plan: Vector, before: Vector, piece: Vector) -> int:
+        i = int(piece[OWN]) + 1
+        if i == pieces(plan):
+            close_stretch(plan)
+            return 0
+        open_piece(plan, i)
+        piece[SINCE], piece[OWN] = i * piece[LENGTH], float(i)
+        return 1
+
+    def series(
+        plan: Vector, before: Vector, piece: Vector, channel: int, index: int, out: Vector
+    ) -> int:
+        order: int = one_series(plan, channel, index, out)
+        return order
+
+    return kernel(first_piece), kernel(next_piece), kernel(series)

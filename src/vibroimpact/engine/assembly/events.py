@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.acceleration import accelerate, places, take_off
+from vibroimpact.engine.assembly.acceleration import drive, places, restrain, take_off
 from vibroimpact.engine.assembly.mode import enter_mode, hold, move_alike
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, REST_ENDS
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -67,15 +67,17 @@ def accelerations(
     After them follow the forces of those pressed and of those resting. The place has room for
     n + 1 accelerations; `moved` as in `series.expand`.
     """
-    n = int(plan[at.MASSES])
+    of = places(plan)
+    n = of.masses
     here = beyond(plan, int(plan[at.SCRATCH]))
     for i in range(n):
         here[i], here[n + 1 + i] = u[i], v[i]
     here[n], here[2 * n + 1] = 0.0, 0.0
     forces = beyond(plan, place + n + 1)
-    for p in range(int(plan[at.PRESSED])):
-        forces[p] = deformation[int(plan[int(plan[at.PRESSED_LIST]) + p])]
-    accelerate(plan, places(plan), here, w, forces, moved, place)
+    for p in range(of.pressed):
+        forces[p] = deformation[int(plan[of.pressed_list + p])]
+    drive(plan, of, here, w, forces, moved, place)
+    restrain(plan, of, beyond(forces, of.pressed), place)
 
 
 @kernel

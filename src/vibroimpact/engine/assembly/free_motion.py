@@ -77,11 +77,8 @@ def _dies_out(plan: Vector, period: float, dying: float) -> bool:
 
 
 @apart
-def stays_free(plan: Vector, state: Vector, dying: float) -> int:
-    """Whether a motion touches nothing any more; then the state becomes the steady one's.
-
-    See `flow.stays_free`: 2 if so, for its extremes are not written.
-    """
+def stays_free(plan: Vector, state: Vector, dying: float, result: Vector) -> int:
+    """See `flow.undisturbed`: 2 if so, for its extremes are not written."""
     n, w, count = int(plan[at.MASSES]), int(plan[at.WAVES]), int(plan[at.STOPS])
     if plan[at.RECORD] != 0.0 or state[at.STATE_MODE] != 0.0 or 2 * n + w + 1 > LARGEST:
         return 0

@@ -7,18 +7,12 @@ from typing import Any
 
 from vibroimpact.engine.assembly import channels
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.channels import (
-    FORCE,
-    SERIES,
-    close_stretch,
-    observed,
-    piece_length,
-    pieces,
-)
+from vibroimpact.engine.assembly.channels import close_stretch, observed, piece_length, pieces
 from vibroimpact.engine.assembly.events import closing
 from vibroimpact.engine.assembly.series import to_bernstein
 from vibroimpact.engine.assembly.tables import table_of_flight, travel_by_tables
 from vibroimpact.engine.assembly.vectors import combine
+from vibroimpact.engine.channels import FORCE, series_room
 from vibroimpact.engine.event import IMPACT, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
@@ -43,7 +37,6 @@ _ROUNDING = 1e-15
 
 _range_room = stack(2)
 _bernstein_room = stack(_DEGREE + 1)
-_series_room = stack(SERIES)
 _parts_room = stack((_DEEPEST + 2) * (_DEGREE + 4))
 
 
@@ -212,10 +205,10 @@ def observing(channels: Any) -> Any:
     """Make the observer of extremes of a flow, with what its stretches show."""
     open_stretch, open_piece, series = channels.open_stretch, channels.open_piece, channels.series
 
-    def extremes(plan: Vector, notes: Vector) -> None:
+    def extremes(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
         """Widen the ranges by the last stretch. One-sided values at both its ends count."""
         n, stops, mode = int(plan[at.MASSES]), stops_of(plan), int(plan[at.STRETCH_MODE])
-        a, b = _series_room(), _series_room()
+        a, b = series_room(), series_room()
         of_stops = beyond(notes, OF_MASS * n + OF_BASE)
         range_ = _range_room()
         left = 0 if _stays(plan, 2 * n + 1, notes) else pieces(plan)
@@ -254,7 +247,7 @@ extremes = observing(channels)
 
 
 @kernel
-def write(plan: Vector, notes: Vector, cycles: int, result: Vector) -> None:
+def write(plan: Vector, notes: Vector, other: Vector, cycles: int, result: Vector) -> None:
     """Write the notes of so many cycles: the contacts of one."""
     n, stops = int(plan[at.MASSES]), stops_of(plan)
     total = OF_MASS * n + OF_BASE

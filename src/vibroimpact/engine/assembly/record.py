@@ -11,19 +11,17 @@ from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.advance import load_motion
-from vibroimpact.engine.assembly.channels import (
+from vibroimpact.engine.assembly.channels import close_stretch, piece_length, pieces
+from vibroimpact.engine.assembly.measures import stops_of
+from vibroimpact.engine.assembly.stretches import recorded_kind
+from vibroimpact.engine.channels import (
     ABSOLUTE_ACCELERATION,
     CLEARANCE,
     DEFORMATION,
     DISPLACEMENT,
     FORCE,
     VELOCITY,
-    close_stretch,
-    piece_length,
-    pieces,
 )
-from vibroimpact.engine.assembly.measures import stops_of
-from vibroimpact.engine.assembly.stretches import recorded_kind
 from vibroimpact.engine.event import GIVEN_UP, LIMIT, at_stop, stop_of
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.memory import beyond
@@ -93,6 +91,7 @@ def recording(next_stretch: Any, channels: Any) -> tuple[Any, Any]:
         plan: Vector,
         before: Vector,
         ended: Vector,
+        after: Vector,
         notes: Vector,
         samples: Vector,
         events: Vector,

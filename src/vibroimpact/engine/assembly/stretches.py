@@ -11,35 +11,22 @@ import math
 from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.channels import (
-    ABSOLUTE_ACCELERATION,
-    DEFORMATION,
-    DISPLACEMENT,
-    FORCE,
-    SERIES,
-    VELOCITY,
-    close_stretch,
-    drift_ends,
-    evaluate,
-    observed,
-    piece_length,
-    pieces,
-)
+from vibroimpact.engine.assembly.channels import close_stretch, drift_ends, observed, pieces
 from vibroimpact.engine.assembly.events import LEVELS, closing
 from vibroimpact.engine.assembly.measures import extend_range, staying, stops_of
 from vibroimpact.engine.assembly.mode import hold
+from vibroimpact.engine.channels import DEFORMATION, FORCE, evaluate, series_room
 from vibroimpact.engine.event import CONTACT, GIVEN_UP, IMPACT, LIMIT, at_stop, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond, stack
-from vibroimpact.engine.observers import fourier, phases, record
+from vibroimpact.engine.observers import phases, record
 from vibroimpact.engine.observers.measure import ABSCISSAE, WEIGHTS
 from vibroimpact.engine.observers.phases import DRIFT, MASS, STOP, SYSTEM, begin_row
-from vibroimpact.engine.state import FRESH, T
+from vibroimpact.engine.state import FRESH
 
 _AT_REST = 1e-12
 """A closing speed below this share of the largest speed is none: rest begins without an impact."""
 
-_series_room = stack(SERIES)
 _range_room = stack(2)
 
 
@@ -244,7 +231,7 @@ def measuring(channels: Any) -> Any:
 
     def measure(plan: Vector, before: Vector, everything: bool, row: Vector) -> None:
         n, stops, mode = int(plan[at.MASSES]), stops_of(plan), int(plan[at.STRETCH_MODE])
-        a, b, range_ = _series_room(), _series_room(), _range_room()
+        a, b, range_ = series_room(), series_room(), _range_room()
         of_stops = beyond(row, SYSTEM + MASS * n)
         count = 2 * n + 1 + int(plan[at.DRIFTS])
         left = pieces(plan) if plan[at.LENGTH] > 0.0 else 0
@@ -283,16 +270,20 @@ def measuring(channels: Any) -> Any:
     return kernel(measure)
 
 
-def demanding(measure: Any) -> Any:
-    """Make what adds a stretch to the notes of `start_demand`, by the measure of a flow."""
+def demanding(channels: Any) -> tuple[Any, Any]:
+    """Make `flow.measure` and `flow.demand` of a flow's channels."""
+    add = measuring(channels)
 
-    def demand(plan: Vector, before: Vector, notes: Vector) -> None:
+    def measure(plan: Vector, before: Vector, ended: Vector, after: Vector, row: Vector) -> None:
+        add(plan, before, True, row)
+
+    def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
         whole = width(plan)
         hits = beyond(notes, whole)
         row = notes
         everything = hits[stops_of(plan)] != 0.0
         row[phases.KIND], row[phases.STRUCK] = phases.NOTHING, 0.0
-        measure(plan, before, everything, row)
+        add(plan, before, everything, row)
         if row[phases.KIND] not in (record.CONTACT_BEGINS, record.IMPACT):
             return
         f = int(row[phases.AT_STOP])
@@ -307,7 +298,7 @@ def demanding(measure: Any) -> Any:
         elif plan[stop + at.KIND] != at.RIGID:
             hits[f] += 1.0
 
-    return kernel(demand)
+    return kernel(measure), kernel(demand)
 
 
 @kernel
@@ -322,37 +313,3 @@ def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
     for f in range(stops):
         notes[whole + f] = 0.0
     notes[whole + stops] = float(everything)
-
-
-def integrating(channels: Any) -> Any:
-    """Make what adds the Fourier integrals of a stretch, for each mass (`observers.fourier`)."""
-    open_stretch, open_piece, series = channels.open_stretch, channels.open_piece, channels.series
-
-    def integrate(plan: Vector, ended: Vector, notes: Vector, lines: Vector, out: Vector) -> None:
-        n, count = int(plan[at.MASSES]), int(notes[fourier.COUNT])
-        a = _series_room()
-        open_stretch(plan)
-        length = piece_length(plan)
-        # A piece's series turns with the lines.
-        parts = 1 + int(lines[count - 1] * length / (fourier.TURN - at.STEP))
-        for piece in range(pieces(plan) if length > 0.0 else 0):
-            open_piece(plan, piece)
-            begun = notes[fourier.BEGINS] + ended[T] + piece * length
-            for quantity in range(3):
-                channel = DISPLACEMENT if quantity == 0 else VELOCITY
-                if quantity == 2:
-                    channel = ABSOLUTE_ACCELERATION
-                for i in range(n):
-                    order = series(plan, channel, i, a)
-                    cosines = beyond(out, (2 * quantity * n + i) * count)
-                    sines = beyond(cosines, n * count)
-                    for k in range(parts * len(WEIGHTS)):
-                        tau = (k // len(WEIGHTS) + ABSCISSAE[k % len(WEIGHTS)]) / parts
-                        x = evaluate(a, order, tau) * WEIGHTS[k % len(WEIGHTS)] * length / parts
-                        for line in range(count):
-                            angle = lines[line] * (begun + tau * length)
-                            cosines[line] += x * math.cos(angle)
-                            sines[line] -= x * math.sin(angle)
-        close_stretch(plan)
-
-    return kernel(integrate)

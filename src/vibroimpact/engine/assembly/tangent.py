@@ -14,6 +14,7 @@ mode it obeys the homogeneous equations. At an event, the disturbed motion is la
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.channels import (
@@ -54,17 +55,23 @@ def tie(plan: Vector, row: Vector) -> None:
             row[2 * n + f] = 0.0
 
 
-@kernel
-def unit_disturbances(plan: Vector, mode: int, q: Vector) -> None:
-    """Write a unit disturbance of each part into the rows of q, those that a mode allows."""
-    enter_mode(plan, mode)
-    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
-    width = 2 * n + count
-    for i in range(width):
-        row = beyond(q, i * width)
-        for j in range(width):
-            row[j] = 1.0 if i == j else 0.0
-        tie(plan, row)
+def disturbing(tie: Any) -> Any:
+    """Make `flow.unit_disturbances` of a flow, of what ties the parts of a disturbance."""
+
+    def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
+        enter_mode(plan, int(state[at.STATE_MODE]))
+        n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
+        width = 2 * n + count
+        for i in range(width):
+            row = beyond(q, i * width)
+            for j in range(width):
+                row[j] = 1.0 if i == j else 0.0
+            tie(plan, row)
+
+    return kernel(unit_disturbances)
+
+
+unit_disturbances = disturbing(tie)
 
 
 @apart
@@ -140,8 +147,10 @@ def note(plan: Vector, notes: Vector) -> None:
 
 
 @kernel
-def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
-    """Carry a disturbance of each part through the last stretch; see `flow.tangent`."""
+def tangent(
+    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
+) -> None:
+    """See `flow.tangent`."""
     note(plan, notes)
     carry_disturbances(plan, q, 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]))
 

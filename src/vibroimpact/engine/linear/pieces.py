@@ -103,6 +103,23 @@ def next_piece(plan: Vector, cursor: Cursor) -> Cursor:
 
 
 @kernel
+def keep_cursor(plan: Vector, cursor: Cursor, room: Vector) -> None:
+    """Write a cursor into memory, of at most CURSOR numbers."""
+    early, table, i, length, age, t, span, start = cursor
+    room[0], room[1], room[2], room[3] = early, table, i, length
+    room[4], room[5], room[6] = age, t, span
+    room[7], room[8], room[9], room[10] = start
+
+
+@kernel
+def kept_cursor(plan: Vector, room: Vector) -> Cursor:
+    """The cursor that was written."""
+    start = Row(room[7], room[8], room[9], room[10])
+    early, table, i = int(room[0]), int(room[1]), int(room[2])
+    return Cursor(early, table, i, room[3], room[4], room[5], room[6], start)
+
+
+@kernel
 def middle(plan: Vector, cursor: Cursor) -> Row:
     """The state in the middle of a piece, in the mode's own coordinates."""
     here = node(plan, cursor.table, cursor.i, cursor.start)

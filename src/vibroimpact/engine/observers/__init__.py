@@ -3,23 +3,20 @@
 An observer is a kernel `(plan, before, ended, after, notes)`, called for each stretch of motion
 between two events. `before` and `after` are the states at its ends (a vector, see `state`), `ended`
 holds its length, its event and when it begins (`state.stretch_room`); it writes to its notes alone.
-`event_loop.observed(kernel)` is a loop that follows a motion under its eyes, for all flows;
-`tests/engine/test_event_loop.py` has one, an entry that calls it (`entry.py`, `opening.py`) and a
-start.
+What happens in between it reads from the channels of the stretch (`channels`), the same for one
+mass and several: series of displacements, velocities, accelerations, clearances, forces and
+deformations, with exact extremes (`channels.widen`).
 
-An observer that looks between the ends of a stretch asks for its pieces, in which flows differ:
+    largest_power = observed(see_power)         # the loop of `event_loop`, for all flows
 
-- a file here, for one mass, as `margin`: a piece is a series of x in the mode's own coordinate and
-  in steps (`linear.pieces`); its velocity is `motion.direction(mode)` × slope × RATE, and
-  `expanded_force` the series of what a pressed stop that is not rigid pushes with, towards the
-  mass, per unit mass. A product of two series is cut after ORDER terms, `extremes.series_extremes`
-  finds the largest and smallest value of one;
-- declared in `flow`, with a group of those that are compiled together: `motion` (what every
-  analysis needs), `recorded` (samples and events), `disturbed` (exponents, orbits), `measured`
-  (contacts, totals, demands). An entry names the groups that it calls;
-- defined in `one_mass` by a line, and in `assembly.table` and `assembly.curved.table`, where the
-  flows of several masses answer: over `assembly.channels`, as `demand`, or NaN, as `margin`;
-- made into a loop by a line in `event_loop`.
+    @entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, f8[::1])", "measured")
+    def find_power(given, rig, amplitude, frequency, phase, state, cycles, notes): ...
 
-Try it without the compiler first (`NUMBA_DISABLE_JIT=1`), against dense samples.
+`tests/engine/observers/test_power.py` is all that one takes: the kernel, its loop, an entry that
+starts with `opening.open_entry`, and a comparison with dense samples. numba compiles the entry when
+it is first called; the library of machine code has those of this package (`make kernels`). Without
+the compiler (`NUMBA_DISABLE_JIT=1`) a first try is quicker.
+
+Some observers here are functions of the flow (`flow`) instead: one mass has bounds that let
+`extremes` pass over most of a motion, and channels show no disturbances.
 """

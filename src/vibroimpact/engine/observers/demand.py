@@ -31,16 +31,16 @@ _LOST = tuple(
 
 
 @kernel
-def start_notes(notes: Vector, everything: int) -> None:
-    """Before anything has been seen."""
-    nothing(notes)
+def start_demand(plan: Vector, notes: Vector, everything: int) -> None:
+    """See `flow.start_demand`."""
+    nothing(plan, notes)
     for i in range(WORK, EVERYTHING):
         notes[i] = 0.0 if everything else math.nan
     notes[EVERYTHING] = everything
 
 
 @kernel
-def add(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
+def demand(plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector) -> None:
     """Add one stretch."""
     right, left = notes[IMPULSE_RIGHT], notes[IMPULSE_RIGHT + 1]
     notes[IMPULSE_RIGHT], notes[IMPULSE_RIGHT + 1] = 0.0, 0.0

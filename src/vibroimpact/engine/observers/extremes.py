@@ -26,15 +26,90 @@ from vibroimpact.engine.dispatch import (
 )
 from vibroimpact.engine.event import begins_contact, stop_of
 from vibroimpact.engine.forcing.dispatch import pull_series
-from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.linear.layout import ORDER, RATE
 from vibroimpact.engine.linear.roots import jet
 from vibroimpact.engine.linear.window_bounds import Enclosed, chords
 from vibroimpact.engine.memory import stack, workspace
-from vibroimpact.engine.motion import FLIGHT, LEFT, Motion, Stretch, direction, facing, main_stop
+from vibroimpact.engine.motion import (
+    FLIGHT,
+    LEFT,
+    Motion,
+    direction,
+    facing,
+    main_stop,
+    stretch_of,
+)
 from vibroimpact.engine.stops.rigid import rigid, struck
 
 _SMALLEST = 2.0**-27  # a parabola rises by less than rounding over it
+
+
+def searching(jet: Any) -> Any:
+    """Make the search for the extremes of a function over [low, high].
+
+    `jet(of, y)` gives its value, its first two derivatives, and a bound on the third one from there
+    on. It extends [least, most], and returns as `series_extremes`.
+    """
+
+    def search(
+        of: Any, low: float, high: float, least: float, most: float
+    ) -> tuple[float, float, float, float]:
+        at_least = low
+        at_most = low
+        p = low
+        width = high - low
+        f, f1, f2, third = jet(of, p)
+        least, most = min(least, f), max(most, f)
+        if not third < math.inf:
+            return least, most, at_least, at_most  # of a motion that runs away
+        while p < high:
+            width = min(width, high - p)
+            steep = abs(f1) > abs(f2) * width + 0.5 * third * width * width
+            if not (steep or abs(f2) >= third * width or width < _SMALLEST):
+                width *= 0.5
+                continue
+            g, g1, g2, beyond = jet(of, p + width)
+            if not steep and f1 * g1 < 0.0:
+                # One critical point: regula falsi kept in its bracket by Newton's slope.
+                a, b = p, p + width
+                y = a - f1 * width / (g1 - f1)
+                for _ in range(60):
+                    e, e1, e2, _ = jet(of, y)
+                    if e < least:
+                        least, at_least = e, y
+                    if e > most:
+                        most, at_most = e, y
+                    if e1 * f1 > 0.0:
+                        a = y
+                    else:
+                        b = y
+                    new = y - e1 / e2 if e2 != 0.0 else 0.5 * (a + b)
+                    if not a < new < b:
+                        new = 0.5 * (a + b)
+                    if abs(new - y) < 1e-10:  # the value is then right to 1e-20
+                        break
+                    y = new
+            p += width
+            if g < least:
+                least, at_least = g, p
+            if g > most:
+                most, at_most = g, p
+            f1, f2, third = g1, g2, beyond
+            width *= 4.0
+        return least, most, at_least, at_most
+
+    return inlined(search)
+
+
+@inlined
+def _jet(of: tuple[Vector, float], y: float) -> tuple[float, float, float, float]:
+    series, third = of
+    f, f1, f2 = jet(series, y)
+    return f, f1, f2, third
+
+
+_search = searching(_jet)
 
 
 @kernel
@@ -48,61 +123,20 @@ def series_extremes(
     least, most, at_least, at_most
         The range, and where on the interval its ends lie (`low` where it was as wide before).
     """
-    at_least = low
-    at_most = low
     spread = 0.0
     power = 0.5
     for n in range(1, ORDER):
         spread += abs(series[n]) * power
         power *= 0.5
     if least <= series[0] - spread and series[0] + spread <= most:
-        return least, most, at_least, at_most  # it lies within what was seen
+        return least, most, low, low  # it lies within what was seen
     third = 0.0
     power = 1.0
     for n in range(3, ORDER):
         third += n * (n - 1) * (n - 2) * abs(series[n]) * power
         power *= 0.5
-    p = low
-    width = high - low
-    f, f1, f2 = jet(series, p)
-    least, most = min(least, f), max(most, f)
-    if not third < math.inf:
-        return least, most, at_least, at_most  # of a motion that runs away
-    while p < high:
-        width = min(width, high - p)
-        steep = abs(f1) > abs(f2) * width + 0.5 * third * width * width
-        if not (steep or abs(f2) >= third * width or width < _SMALLEST):
-            width *= 0.5
-            continue
-        g, g1, g2 = jet(series, p + width)
-        if not steep and f1 * g1 < 0.0:
-            # One critical point: regula falsi kept in its bracket by Newton's slope.
-            a, b = p, p + width
-            y = a - f1 * width / (g1 - f1)
-            for _ in range(60):
-                e, e1, e2 = jet(series, y)
-                if e < least:
-                    least, at_least = e, y
-                if e > most:
-                    most, at_most = e, y
-                if e1 * f1 > 0.0:
-                    a = y
-                else:
-                    b = y
-                new = y - e1 / e2 if e2 != 0.0 else 0.5 * (a + b)
-                if not a < new < b:
-                    new = 0.5 * (a + b)
-                if abs(new - y) < 1e-10:  # the value is then right to 1e-20
-                    break
-                y = new
-        p += width
-        if g < least:
-            least, at_least = g, p
-        if g > most:
-            most, at_most = g, p
-        f1, f2 = g1, g2
-        width *= 4.0
-    return least, most, at_least, at_most
+    found: tuple[float, float, float, float] = _search((series, third), low, high, least, most)
+    return found
 
 
 class Part(NamedTuple):
@@ -152,8 +186,8 @@ notes_room = stack(NOTES)
 
 
 @kernel
-def nothing(notes: Vector) -> None:
-    """Before anything is seen."""
+def nothing(plan: Vector, notes: Vector) -> None:
+    """See `flow.nothing`."""
     for i in range(HITS_RIGHT, NOTES):
         notes[i] = 0.0
     notes[U_LEAST], notes[A_LEAST] = math.inf, math.inf
@@ -161,8 +195,9 @@ def nothing(notes: Vector) -> None:
 
 
 @kernel
-def widen(plan: Vector, notes: Vector, stretch: Stretch) -> None:
+def extremes(plan: Vector, state: Vector, ended: Vector, end: Vector, notes: Vector) -> None:
     """Widen the ranges by one stretch. One-sided values at both its ends count."""
+    stretch = stretch_of(state, ended, end)
     before, event, step = stretch.before, stretch.event, stretch.step
     u_least, u_most = notes[U_LEAST], notes[U_MOST]
     a_least, a_most = notes[A_LEAST], notes[A_MOST]

@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import math
 
-from vibroimpact.engine.dispatch import (
-    accelerated,
-    begin,
-    displacement,
-    expanded,
-    has_piece,
-    next_piece,
+from vibroimpact.engine import event_loop, flow
+from vibroimpact.engine.assembly.layout import STEP as TURNED
+from vibroimpact.engine.channels import (
+    ABSOLUTE_ACCELERATION,
+    DISPLACEMENT,
+    LENGTH,
+    SINCE,
+    VELOCITY,
+    evaluate,
+    piece_room,
+    series_room,
 )
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.linear.evaluate import horner
-from vibroimpact.engine.linear.layout import ORDER, RATE, H
-from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import Stretch, direction
 from vibroimpact.engine.observers.measure import ABSCISSAE, WEIGHTS
+from vibroimpact.engine.state import T
 
 TURN = 8.0
-"""What a line may turn (rad) over the points of one quadrature, for 12 points to be exact to
-rounding."""
+"""What a line and a piece's series may turn (rad) over the points of one quadrature, for 12 points
+to be exact to rounding."""
 
 BEGINS, COUNT, INTERVAL = range(3)
 """Of the notes: when the section is (s), since the motion's beginning, the number of lines, and the
@@ -34,40 +35,43 @@ QUANTITIES = 6
 
 
 @kernel
-def integrate_stretch(
-    plan: Vector, stretch: Stretch, notes: Vector, lines: Vector, out: Vector
+def _add(
+    plan: Vector,
+    before: Vector,
+    ended: Vector,
+    after: Vector,
+    notes: Vector,
+    lines: Vector,
+    out: Vector,
 ) -> None:
     """Add the integrals of a stretch; `out` has QUANTITIES rows of a number for each line."""
-    before, begun, count = stretch.before, notes[BEGINS] + stretch.t, int(notes[COUNT])
-    series, forces = workspace(), workspace()
-    sign = direction(before.mode)
-    fastest = lines[count - 1]
-    cursor = begin(plan, before, stretch.step)
-    while has_piece(plan, cursor):
-        h = plan[cursor.table + H]
-        rate = plan[cursor.table + RATE]
-        high, s, c = expanded(plan, cursor, series)
-        for n in range(ORDER):
-            forces[n] = series[n]
-        unit = accelerated(plan, cursor, s, c, forces)
-        parts = 1 + int(fastest * h / TURN)
-        width = (high + 0.5) / parts
-        for part in range(parts):
-            for n in range(len(WEIGHTS)):
-                y = width * (part + ABSCISSAE[n]) - 0.5
-                x, slope = horner(series, y)
-                a, _ = horner(forces, y)
-                u, v = displacement(plan, before.mode, x), sign * slope * rate
-                a *= sign * unit
-                share = WEIGHTS[n] * width * h
-                t = begun + cursor.t + (cursor.i + 0.5 + y) * h
-                for k in range(count):
-                    angle = lines[k] * t
+    count, masses = int(notes[COUNT]), flow.coordinates(plan) // 2
+    piece, of_u, of_v, of_a = piece_room(), series_room(), series_room(), series_room()
+    row = masses * count
+    more = flow.first_piece(plan, before, ended, piece)
+    while more:
+        length, begun = piece[LENGTH], notes[BEGINS] + ended[T] + piece[SINCE]
+        parts = 1 + int(lines[count - 1] * length / (TURN - TURNED))
+        for i in range(masses):
+            flow.series(plan, before, piece, DISPLACEMENT, i, of_u)
+            order = flow.series(plan, before, piece, VELOCITY, i, of_v)
+            last = flow.series(plan, before, piece, ABSOLUTE_ACCELERATION, i, of_a)
+            for k in range(parts * len(WEIGHTS)):
+                tau = (k // len(WEIGHTS) + ABSCISSAE[k % len(WEIGHTS)]) / parts
+                share = WEIGHTS[k % len(WEIGHTS)] * length / parts
+                u, v = evaluate(of_u, order, tau), evaluate(of_v, order, tau)
+                a = evaluate(of_a, last, tau)
+                for line in range(count):
+                    angle = lines[line] * (begun + tau * length)
                     cosine, sine = share * math.cos(angle), share * math.sin(angle)
-                    out[k] += u * cosine
-                    out[count + k] -= u * sine
-                    out[2 * count + k] += v * cosine
-                    out[3 * count + k] -= v * sine
-                    out[4 * count + k] += a * cosine
-                    out[5 * count + k] -= a * sine
-        cursor = next_piece(plan, cursor)
+                    at = i * count + line
+                    out[at] += u * cosine
+                    out[row + at] -= u * sine
+                    out[2 * row + at] += v * cosine
+                    out[3 * row + at] -= v * sine
+                    out[4 * row + at] += a * cosine
+                    out[5 * row + at] -= a * sine
+        more = flow.next_piece(plan, before, piece)
+
+
+integrate = event_loop.observed(_add)

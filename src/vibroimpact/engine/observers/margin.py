@@ -14,7 +14,7 @@ from vibroimpact.engine.linear.evaluate import horner
 from vibroimpact.engine.linear.layout import ORDER, H
 from vibroimpact.engine.linear.roots import NONE, Clearance, first_root, jet
 from vibroimpact.engine.memory import workspace
-from vibroimpact.engine.motion import FLIGHT, Stretch, facing
+from vibroimpact.engine.motion import FLIGHT, facing, stretch_of
 from vibroimpact.engine.stops.kelvin_voigt import rate_of, relaxed
 from vibroimpact.engine.stops.places import gap_of
 from vibroimpact.engine.stops.rigid import impact_depth
@@ -38,11 +38,9 @@ def slope_series(series: Vector, slope: Vector) -> float:
 
 
 @kernel
-def least_margin(plan: Vector, best: float, stretch: Stretch) -> float:
-    """The least clearance left, or minus the least depth reached, where the mass turns (m).
-
-    `best` is that of the stretches before.
-    """
+def margin(plan: Vector, state: Vector, ended: Vector, end: Vector, notes: Vector) -> None:
+    """Note the least clearance left, or minus the least depth reached, where the mass turns (m)."""
+    stretch, best = stretch_of(state, ended, end), notes[0]
     before = stretch.before
     series, slope = workspace(), workspace()
     cursor = begin(plan, before, stretch.step)
@@ -70,4 +68,4 @@ def least_margin(plan: Vector, best: float, stretch: Stretch) -> float:
     depth = impact_depth(plan, stretch)
     if depth < abs(best):
         best = -depth
-    return best
+    notes[0] = best

@@ -42,6 +42,7 @@ from vibroimpact.engine.motion import (
     direction,
     facing,
     main_stop,
+    stretch_of,
 )
 from vibroimpact.engine.observers import record
 from vibroimpact.engine.observers.extremes import Part, pushed, series_extremes
@@ -257,8 +258,9 @@ def measure_event(plan: Vector, stretch: Stretch, row: Vector) -> None:
 
 
 @kernel
-def measure_stretch(plan: Vector, stretch: Stretch, row: Vector) -> None:
+def measure(plan: Vector, state: Vector, ended: Vector, end: Vector, row: Vector) -> None:
     """Add a stretch to the row of its phase; energies, forces and impulses per unit mass."""
+    stretch = stretch_of(state, ended, end)
     before, _, event, step, arrival, after = stretch
     row[TOUCHED] = before.mode
     if before.fresh & SETTLING:

@@ -15,7 +15,16 @@ from vibroimpact.engine.dispatch import (
 from vibroimpact.engine.event import LIMIT, at_stop, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, inlined, kernel
 from vibroimpact.engine.memory import beyond, stack, workspace
-from vibroimpact.engine.motion import BOTH, Motion, Stretch, arrived, direction, facing, main_stop
+from vibroimpact.engine.motion import (
+    BOTH,
+    Motion,
+    arrived,
+    direction,
+    facing,
+    main_stop,
+    stretch_of,
+    unpacked,
+)
 from vibroimpact.engine.stops.kelvin_voigt import relaxed
 
 # Rows of the samples: a row a variable, so that each is one piece of memory.
@@ -80,8 +89,9 @@ def clearance_of(plan: Vector, stop: int, mode: int, face: float, distance: floa
 
 
 @kernel
-def write(plan: Vector, motion: Motion, out: Vector, columns: int, k: int) -> None:
-    """Write the motion at this instant as sample k of so many columns."""
+def write(plan: Vector, state: Vector, out: Vector, columns: int, k: int) -> None:
+    """Write a state as sample k of so many columns."""
+    motion = unpacked(state)
     mode, u = motion.mode, motion.u
     # Adding zero leaves no negative one.
     out[DISPLACEMENT * columns + k], out[VELOCITY * columns + k] = u + 0.0, motion.v + 0.0
@@ -195,11 +205,17 @@ def recorded_kind(event: int, after: Motion) -> float:
 
 
 @kernel
-def write_down(
-    plan: Vector, notes: Vector, samples: Vector, events: Vector, stretch: Stretch
+def record(
+    plan: Vector,
+    state: Vector,
+    ended: Vector,
+    end: Vector,
+    notes: Vector,
+    samples: Vector,
+    events: Vector,
 ) -> None:
     """Write down one stretch and the event that ends it."""
-    before, t, event, step, arrival, after = stretch
+    before, t, event, step, arrival, after = stretch_of(state, ended, end)
     if notes[COUNT]:
         sample(plan, notes, samples, before, t, math.inf if kind_of(event) == LIMIT else step)
     if at_stop(event) and notes[WRITTEN] < notes[LAST]:

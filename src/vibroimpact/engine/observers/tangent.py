@@ -15,7 +15,17 @@ from vibroimpact.engine import saltation
 from vibroimpact.engine.dispatch import acceleration_of, carry
 from vibroimpact.engine.event import IMPACT, begins_contact, kind_of, stop_of
 from vibroimpact.engine.jit import Vector, kernel
-from vibroimpact.engine.motion import LEFT, RIGHT, Motion, Stretch, arrived
+from vibroimpact.engine.motion import (
+    LEFT,
+    MODE,
+    RIGHT,
+    Motion,
+    arrived,
+    mirrored,
+    pack,
+    stretch_of,
+    unpacked,
+)
 from vibroimpact.engine.state import DAMPING, HITS
 
 DISTURBANCE = 5
@@ -23,6 +33,17 @@ DISTURBANCE = 5
 what the isolator remembers."""
 
 MEMORY = 4
+
+
+@kernel
+def mirror(plan: Vector, state: Vector, q: Vector) -> None:
+    """See `flow.mirror`."""
+    pack(mirrored(unpacked(state)), state)
+    for i in range(DISTURBANCE):
+        at = i * DISTURBANCE
+        q[at], q[at + 1] = -q[at], -q[at + 1]
+        q[at + 2], q[at + 3] = -q[at + 3], -q[at + 2]
+        q[at + 4] = -q[at + 4]
 
 
 @kernel
@@ -57,12 +78,13 @@ def meet(plan: Vector, event: int, arrival: float, after: Motion, q: Vector, row
 
 
 @kernel
-def unit_disturbances(plan: Vector, mode: int, q: Vector) -> None:
+def unit_disturbances(plan: Vector, state: Vector, q: Vector) -> None:
     """Write a unit disturbance of each component into the rows of q.
 
     A pressed bumper has none of its own: its row is zero, and that of the displacement moves it.
     So has an isolator without memory, and a stop that does not ask how fast it was met.
     """
+    mode = int(state[MODE])
     for i in range(DISTURBANCE):
         for j in range(DISTURBANCE):
             q[i * DISTURBANCE + j] = 1.0 if i == j else 0.0
@@ -87,8 +109,11 @@ def contraction(plan: Vector, event: int, after: Motion) -> float:
 
 
 @kernel
-def carry_all(plan: Vector, notes: Vector, q: Vector, stretch: Stretch) -> None:
+def tangent(
+    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
+) -> None:
     """Carry a disturbance of each component, the rows of q, through one stretch."""
+    stretch = stretch_of(before, ended, after)
     notes[DAMPING] += carry(plan, stretch, q, DISTURBANCE)
     if begins_contact(stretch.event):
         notes[HITS + stop_of(stretch.event)] += 1.0

@@ -14,7 +14,17 @@ from vibroimpact.engine.forcing.dispatch import pace, turn, turned, value
 from vibroimpact.engine.jit import Vector, kernel
 from vibroimpact.engine.linear.layout import RATE, RESTING, SCALED_W, H
 from vibroimpact.engine.linear.window_bounds import ANYWHERE, Enclosed
-from vibroimpact.engine.motion import LEFT, Clock, Motion, changed, facing, main_stop
+from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.motion import (
+    LEFT,
+    Clock,
+    Motion,
+    changed,
+    facing,
+    main_stop,
+    pack,
+    unpacked,
+)
 from vibroimpact.engine.observers.record import ACCELERATION, BLOCK, MEMORY, VELOCITY
 from vibroimpact.engine.series.events import PIECES, shifted
 from vibroimpact.engine.series.kernels import SLOPES, run
@@ -174,6 +184,21 @@ def next_piece(plan: Vector, cursor: Cursor) -> Cursor:
     if i + 1 < PIECES:
         return Cursor(table, i + 1, length, t, step, start)
     return following_window(plan, cursor)
+
+
+@kernel
+def keep_cursor(plan: Vector, cursor: Cursor, room: Vector) -> None:
+    """Write a cursor into memory; the step's series stay in the plan."""
+    table, i, length, t, step, start = cursor
+    room[0], room[1], room[2], room[3], room[4] = table, i, length, t, step
+    pack(start, beyond(room, 5))
+
+
+@kernel
+def kept_cursor(plan: Vector, room: Vector) -> Cursor:
+    """The cursor that was written."""
+    start = unpacked(beyond(room, 5))
+    return Cursor(int(room[0]), int(room[1]), room[2], room[3], room[4], start)
 
 
 @kernel

@@ -5,20 +5,13 @@ from __future__ import annotations
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import channels as linear
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.assembly.channels import (
-    CLEARANCE,
-    DEFORMATION,
-    FORCE,
-    close_stretch,
-    evaluate,
-    piece_length,
-    pieces,
-)
+from vibroimpact.engine.assembly.channels import close_stretch, piece_length, pieces
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.advance import reopen
 from vibroimpact.engine.assembly.curved.branches import way_of_slide
 from vibroimpact.engine.assembly.curved.terms import node, remembers, row_of
 from vibroimpact.engine.assembly.curved.watch import held_force, relative
+from vibroimpact.engine.channels import CLEARANCE, DEFORMATION, FADING, FORCE, RATE, evaluate
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -30,17 +23,14 @@ open_stretch = reopen
 
 
 @kernel
-def keep_piece(plan: Vector, i: int) -> None:
+def open_piece(plan: Vector, i: int) -> None:
     """The stretch is one piece, whose series are there."""
 
 
 @kernel
-def no_instant(plan: Vector) -> bool:
-    """See `open_instant`: which branches hold is found when a motion goes on."""
+def open_instant(plan: Vector) -> bool:
+    """See `assembly.channels`: which branches hold is found when a motion goes on."""
     return False
-
-
-open_instant = no_instant
 
 
 @kernel
@@ -76,11 +66,11 @@ def _of_link(plan: Vector, channel: int, f: int, out: Vector) -> int:
 
 
 @apart
-def curved_series(plan: Vector, channel: int, index: int, out: Vector) -> int:
+def series(plan: Vector, channel: int, index: int, out: Vector) -> int:
     """Write a channel's power series in τ, 0 to 1 on the piece; returns its order."""
     if channel >= CLEARANCE:
         kind = plan[int(plan[at.STOP]) + index * at.STOP_WIDTH + at.KIND]
-        out[at.TERMS], out[at.TERMS + 1] = 0.0, 0.0
+        out[FADING], out[RATE] = 0.0, 0.0
         order = int(plan[at.ORDER])
         if kind == at.LINK:
             order = _of_link(plan, channel, index, out)
@@ -101,13 +91,10 @@ def curved_series(plan: Vector, channel: int, index: int, out: Vector) -> int:
     return found
 
 
-open_piece, series = keep_piece, curved_series
-
-
 @kernel
 def value(plan: Vector, channel: int, index: int, tau: float) -> float:
     """A channel's value on the piece."""
     out = beyond(plan, int(plan[at.ROOM]))
-    order = curved_series(plan, channel, index, out)
+    order = series(plan, channel, index, out)
     found: float = evaluate(out, order, tau)
     return found

@@ -29,8 +29,7 @@ from vibroimpact.engine.assembly.curved.terms import (
     row_of,
 )
 from vibroimpact.engine.assembly.events import closing, halt
-from vibroimpact.engine.assembly.mode import enter_mode
-from vibroimpact.engine.assembly.tangent import meet, note, reflect
+from vibroimpact.engine.assembly.tangent import disturbing, meet, note, reflect
 from vibroimpact.engine.event import (
     CONTACT,
     DETACHMENT,
@@ -79,17 +78,7 @@ def _yields(plan: Vector, f: int, mode: int) -> bool:
     return bool(behaviour == of.BILINEAR and side_of(plan, f, mode) < 0.0)
 
 
-@kernel
-def unit_disturbances(plan: Vector, mode: int, q: Vector) -> None:
-    """Write a unit disturbance of each part into the rows of q, those that a mode allows."""
-    enter_mode(plan, mode)
-    n, count = int(plan[at.MASSES]), int(plan[at.STOPS])
-    width = 2 * n + count
-    for i in range(width):
-        row = beyond(q, i * width)
-        for j in range(width):
-            row[j] = 1.0 if i == j else 0.0
-        tie(plan, row)
+unit_disturbances = disturbing(tie)
 
 
 @kernel
@@ -317,8 +306,10 @@ def _jump(plan: Vector, row: Vector, before: int, here: int, there: int, rates: 
 
 
 @kernel
-def carry_all(plan: Vector, notes: Vector, q: Vector) -> None:
-    """Carry a disturbance of each part through the last stretch; see `assembly.tangent`."""
+def tangent(
+    plan: Vector, before: Vector, ended: Vector, after: Vector, notes: Vector, q: Vector
+) -> None:
+    """See `flow.tangent`."""
     note(plan, notes)
     lost = carry_along_series(plan, q, 2 * int(plan[at.MASSES]) + int(plan[at.STOPS]))
     notes[DAMPING] += lost

@@ -1,0 +1,79 @@
+"""What is observed of a motion: functions of time, each a power series on each piece of a stretch.
+
+    piece, force = piece_room(), series_room()
+    more = flow.first_piece(plan, before, ended, piece)
+    while more:
+        order = flow.series(plan, before, piece, FORCE, stop, force)
+        ...
+        more = flow.next_piece(plan, before, piece)
+
+Walk to the last piece: then the plan is as it was. A series has the coefficients 0 to `order` in τ,
+which is 0 to 1 over the piece; FADING · exp(−RATE τ) is added.
+"""
+
+from __future__ import annotations
+
+import math
+
+from vibroimpact.engine.assembly.layout import TERMS
+from vibroimpact.engine.jit import Vector, kernel
+from vibroimpact.engine.linear.layout import ORDER
+from vibroimpact.engine.memory import stack
+from vibroimpact.engine.observers.extremes import searching
+
+DISPLACEMENT, VELOCITY, ACCELERATION, ABSOLUTE_ACCELERATION, CLEARANCE, FORCE, DEFORMATION = range(
+    7
+)
+"""Of a mass: m, m/s, m/s² relative to the base and absolute; of a stop: m, N (of one mass per unit
+mass, m/s²), m. A force that holds a mass by friction at rest on a stop is below 0."""
+
+FADING, RATE = TERMS, TERMS + 1
+SERIES = TERMS + 2
+"""Length of a series."""
+
+SINCE, LENGTH, OWN = range(3)
+"""Of a piece: when it begins since the beginning of the stretch, and its length (s); then what the
+flow keeps there."""
+
+series_room = stack(SERIES)
+piece_room = stack(OWN + ORDER + 18)
+"""Room for them: of one mass a series and a cursor (`one_mass_channels`)."""
+
+
+@kernel
+def evaluate(series: Vector, order: int, tau: float) -> float:
+    """The value of a series."""
+    total = 0.0
+    for j in range(order, -1, -1):
+        total = total * tau + series[j]
+    if series[FADING] > 0.0:
+        total += series[FADING] * math.exp(-series[RATE] * tau)
+    return total
+
+
+@kernel
+def _jet(of: tuple[Vector, int], tau: float) -> tuple[float, float, float, float]:
+    """Value and two slopes of a series, and a bound on the third one from there on."""
+    series, order = of
+    f, f1, f2, third = 0.0, 0.0, 0.0, 0.0
+    for j in range(order, -1, -1):
+        f2 = f2 * tau + f1
+        f1 = f1 * tau + f
+        f = f * tau + series[j]
+        third += j * (j - 1) * (j - 2) * abs(series[j])
+    f2 *= 2.0
+    if series[FADING] > 0.0:
+        rate = series[RATE]
+        left = series[FADING] * math.exp(-rate * tau)
+        f, f1, f2 = f + left, f1 - rate * left, f2 + rate * rate * left
+        third += rate * rate * rate * left
+    return f, f1, f2, third
+
+
+_search = searching(_jet)
+
+
+@kernel
+def widen(series: Vector, order: int, found: Vector) -> None:
+    """Widen a range, two numbers, by the values of a series on its piece: by exact extremes."""
+    found[0], found[1], _, _ = _search((series, order), 0.0, 1.0, found[0], found[1])

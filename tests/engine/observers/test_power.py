@@ -1,0 +1,119 @@
+"""An observer in one file, as a user adds it: the largest power of each stop along a motion."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import vibroimpact as vi
+from vibroimpact.engine import flow
+from vibroimpact.engine.channels import (
+    DEFORMATION,
+    FORCE,
+    LENGTH,
+    SERIES,
+    piece_room,
+    series_room,
+    widen,
+)
+from vibroimpact.engine.entry import entry
+from vibroimpact.engine.event_loop import observed
+from vibroimpact.engine.jit import kernel
+from vibroimpact.engine.memory import beyond, pointer
+from vibroimpact.engine.opening import open_entry
+from vibroimpact.engine.state import room
+from vibroimpact.model import equilibrium
+from vibroimpact.response.assembly_state import assembly_vector
+from vibroimpact.response.engine_input import engine_rig, engine_state
+
+
+@kernel
+def see_power(plan, before, ended, after, notes):
+    """Widen the range of the power that each stop takes up, two notes each."""
+    piece, force, depth, power = piece_room(), series_room(), series_room(), series_room()
+    more = flow.first_piece(plan, before, ended, piece)
+    while more:
+        for stop in range(flow.stops(plan)):
+            order = flow.series(plan, before, piece, FORCE, stop, force)
+            flow.series(plan, before, piece, DEFORMATION, stop, depth)
+            for j in range(SERIES):
+                power[j] = 0.0
+            for j in range(order + 1):
+                for k in range(order - j):
+                    power[j + k] += force[j] * depth[k + 1] * (k + 1) / piece[LENGTH]
+            widen(power, order, beyond(notes, 2 * stop))
+        more = flow.next_piece(plan, before, piece)
+
+
+largest_power = observed(see_power)
+
+
+@entry("i8(f8[::1], f8, f8, f8, f8[::1], i8, f8[::1])", "measured")
+def find_power(given, rig, amplitude, frequency, phase, state, cycles, notes):
+    here, count = room(), 0
+    plan, s, c, period, _ = open_entry(
+        given, rig, amplitude, frequency, phase, pointer(state), here
+    )
+    for _ in range(cycles):
+        count += largest_power(plan, here, s, c, period, 1000, pointer(notes))
+    return count
+
+
+CYCLES = 8
+SHAKING = vi.Harmonic("2.5 m/s2", 0.4, 0.3)
+BUMPER, WALL = vi.Bumper(20.0, 0.4, 0.4), vi.RigidStop(0.6, 0.3)
+
+
+def two_masses(link: vi.Isolator, stop: vi.Bumper | vi.HertzStop) -> vi.Assembly:
+    return vi.Assembly(
+        {"a": 1.0, "b": 0.5},
+        {"k": vi.Link("ground", "a", link), "c": vi.Link("a", "b", vi.Isolator(3.0, 0.1))},
+        {"pound": vi.Link("a", "b", stop), "wall": vi.Link("a", "ground", WALL)},
+    )
+
+
+SYSTEMS = {
+    "bumpers": vi.Oscillator(1.0, vi.Isolator(4.0, 0.1), BUMPER, BUMPER.replace(gap=0.2)),
+    "pressed on both sides": vi.Oscillator(
+        1.0, vi.Isolator(4.0, 0.1), BUMPER.replace(gap=-0.1), BUMPER.replace(gap=0.05)
+    ),
+    "cubic": vi.Oscillator(1.0, vi.PolynomialIsolator(4.0, 0.1, cubic=1.0), WALL, BUMPER),
+    "two masses": two_masses(vi.Isolator(4.0, 0.1), BUMPER),
+    "two masses, cubic": two_masses(vi.PolynomialIsolator(4.0, 0.1, cubic=1.0), BUMPER),
+}
+
+
+def law_and_closing_speed(system, motion, stop):
+    v = motion["velocity"]
+    if isinstance(system, vi.Oscillator):
+        return getattr(system, stop), v if stop == "right" else -v
+    ends = system.stops[stop]
+    speeds = [v.sel(mass=end) if end != "ground" else 0.0 for end in (ends.left, ends.right)]
+    return ends.law, speeds[0] - speeds[1]
+
+
+@pytest.mark.parametrize("name", SYSTEMS)
+def test_largest_power_of_a_stop_is_that_of_dense_samples(name: str) -> None:
+    system = SYSTEMS[name]
+    rig = vi.Rig(system, SHAKING)
+    place = assembly_vector if isinstance(system, vi.Assembly) else engine_state
+    state, notes = place(system, equilibrium(system)), np.zeros(2 * len(system.stops))
+    if isinstance(system, vi.Oscillator):
+        notes = np.zeros(4)  # a place for each side
+    numbers = engine_rig(rig)
+    events = find_power(
+        numbers, SHAKING.amplitude, SHAKING.frequency, SHAKING.phase, state, CYCLES, notes
+    )
+    motion = vi.simulate(rig, CYCLES, samples=5_000)
+    assert events == len(motion["event_time"]) > CYCLES
+    for i, stop in enumerate(motion["stop"].values):
+        law, closing = law_and_closing_speed(system, motion, stop)
+        power = np.zeros(len(motion["time"]))
+        if isinstance(law, vi.Bumper):
+            force = law.stiffness * motion["deformation"].sel(stop=stop) + law.damping * closing
+            power = (force * closing * (motion["clearance"].sel(stop=stop) <= 0.0)).values
+            assert power.max() > 0.0 > power.min()
+        low, high = power.min(), power.max()
+        found = notes[2 * i : 2 * i + 2]
+        assert found[0] - 1e-12 <= low <= found[0] + 1e-2 * (high - low), stop
+        assert found[1] - 1e-2 * (high - low) <= high <= found[1] + 1e-12, stop
