@@ -124,7 +124,9 @@ from __future__ import annotations
     OUTPUTS,
     SHARE,
     POWERS,
-) = range(100)
+    # Of curved laws whose series are code (`curved.emitted`): its address, the modes without it.
+    CODE,
+) = range(101)
 HEADER = 104
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)

@@ -10,7 +10,8 @@ from vibroimpact.engine.assembly.acceleration import Places, places
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved import tape as op
 from vibroimpact.engine.assembly.curved.branches import way_of_slide
-from vibroimpact.engine.assembly.rates import apply_rates, rates_of_mode
+from vibroimpact.engine.assembly.curved.emitted import call
+from vibroimpact.engine.assembly.rates import HEAD, apply_rates, closed_place, rates_of_mode
 from vibroimpact.engine.assembly.series import expanding
 from vibroimpact.engine.assembly.vectors import convolve, convolve_weighted
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
@@ -229,7 +230,46 @@ def _grow(plan: Vector, factor: float, j: int) -> None:
             plan[node(plan, law, of.Z_NODE, base) + j + 1] = factor * grown
 
 
-expand_all = expanding(_begin, push, _grow)
+_expand = expanding(_begin, push, _grow)
+
+
+@kernel
+def expand_all(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
+    """Write the series of all masses in t / length, by code made for them if there is any."""
+    code = int(plan[at.CODE])
+    whole = order == of.ORDER and plan[code] != 0.0
+    if not whole or int(plan[at.MODE]) & int(plan[code + 1]) != 0:
+        _expand(plan, y, deformation, length, order)
+        return
+    _expand(plan, y, deformation, length, 0)
+    plan[at.ORDER] = float(order)
+    of_ = places(plan)
+    rates = rates_of_mode(plan, of_)
+    matrix = rates.place + HEAD
+    call(
+        plan,
+        code,
+        int(plan[at.SERIES]),
+        int(plan[at.NODES]),
+        matrix,
+        closed_place(plan, rates.place, of_.masses),
+        matrix + 8 * (rates.width + 1 + of_.pressed),
+        int(plan[at.OUTPUTS]),
+        length,
+        plan[at.OMEGA],
+    )
+    row, count = int(plan[at.ROW]), int(plan[at.STOPS])
+    for p in range(of_.pressed):
+        one = of_.stops + int(plan[of_.pressed_list + p]) * at.STOP_WIDTH
+        k, c = plan[one + at.STOP_STIFFNESS], plan[one + at.STOP_DAMPING]
+        left = beyond(plan, int(plan[at.SERIES]) + int(plan[one + at.LEFT]))
+        right = beyond(plan, int(plan[at.SERIES]) + int(plan[one + at.RIGHT]))
+        forces, v = beyond(plan, int(plan[at.FORCE_SERIES]) + p), of_.masses + 1
+        for j in range(1, order + 1):
+            here = j * row
+            forces[j * count] = k * (left[here] - right[here]) + c * (
+                left[here + v] - right[here + v]
+            )
 
 
 @kernel
