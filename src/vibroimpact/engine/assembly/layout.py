@@ -124,7 +124,7 @@ from __future__ import annotations
     OUTPUTS,
     SHARE,
     POWERS,
-    # Of curved laws whose series are code (`curved.emitted`): its address, the modes without it.
+    # Of curved laws whose series are code (`curved.emitted`): its addresses, the modes without it.
     CODE,
 ) = range(101)
 HEADER = 104

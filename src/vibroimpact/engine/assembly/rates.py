@@ -101,9 +101,10 @@ def _find(plan: Vector) -> None:
 
 @inlined
 def closed_place(plan: Vector, place: int, n: int) -> int:
-    """Where a column for each u and each v stands, with what follows their deformations.
+    """Where it stands how coefficients behind the first depend on u, then on v; up to eight masses.
 
-    That is how coefficients behind the first of a series depend on u and v. Up to eight masses.
+    What they make of the deformations of pressed stops is part of it. Of eight numbers of a row,
+    number i is what mass i feels of the mass that is so many rows further, in a circle.
     """
     return place + int(plan[at.RATES_SIZE]) - 16 * n
 
@@ -114,18 +115,22 @@ def _close(plan: Vector, of: Places, rates: Rates) -> None:
     if n > 8:
         return
     columns, matrix = closed_place(plan, rates.place, n), rates.place + HEAD
-    for i in range(8):
-        for q in range(n):
-            plan[columns + 8 * q + i] = plan[matrix + 8 * q + i]
-            plan[columns + 8 * (n + q) + i] = plan[matrix + 8 * (n + 1 + q) + i]
-    for p in range(of.pressed):
-        one = of.stops + int(plan[of.pressed_list + p]) * at.STOP_WIDTH
-        for end, sign in ((at.LEFT, 1.0), (at.RIGHT, -1.0)):
-            q = int(plan[one + end])
-            if q < n:
-                for i in range(8):
-                    by = plan[matrix + 8 * (rates.width + 1 + p) + i]
-                    plan[columns + 8 * q + i] += sign * by
+    for i in range(n):
+        for by in range(n):
+            q = (i + by) % n
+            plan[columns + 8 * by + i] = plan[matrix + 8 * q + i]
+            plan[columns + 8 * (n + by) + i] = plan[matrix + 8 * (n + 1 + q) + i]
+        for p in range(of.pressed):
+            one = of.stops + int(plan[of.pressed_list + p]) * at.STOP_WIDTH
+            change = plan[matrix + 8 * (rates.width + 1 + p) + i]
+            for end in (at.LEFT, at.RIGHT):
+                q = int(plan[one + end])
+                if q < n:
+                    plan[columns + 8 * ((q - i) % n) + i] += change
+                change = -change
+    for by in range(2 * n):
+        for i in range(n, 8):
+            plan[columns + 8 * by + i] = 0.0
 
 
 @kernel

@@ -6,12 +6,15 @@ import math
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
+from vibroimpact.engine.assembly.curved.emitted import OFF
 from vibroimpact.engine.assembly.curved.terms import (
     accelerations_of_all,
+    coded,
     expand_all,
     node,
     remembers,
     row_of,
+    run,
     share_of_unit,
 )
 from vibroimpact.engine.assembly.series import travel_by_series
@@ -92,8 +95,29 @@ def take_end(plan: Vector, y: Vector, deformation: Vector) -> None:
 
 
 @kernel
+def _excess_by_code(plan: Vector, deformation: Vector, tau: float, size: float) -> float:
+    run(plan, 1, plan[at.PIECE_LENGTH], tau)
+    found, memory = beyond(plan, int(plan[at.OUTPUTS])), beyond(plan, _kept_memory(plan))
+    most = 0.0
+    for i in range(int(plan[at.MASSES])):
+        off = found[OFF + i]
+        if not off <= most and most == most:
+            most = off
+    for f in range(int(plan[at.STOPS])):
+        memory[f] = deformation[f]
+    stops, listed = int(plan[at.STOP]), int(plan[at.PRESSED_LIST])
+    for p in range(int(plan[at.PRESSED])):
+        f = int(plan[listed + p])
+        one = stops + f * at.STOP_WIDTH
+        memory[f] += found[int(plan[one + at.LEFT])] - found[int(plan[one + at.RIGHT])]
+    return most / (BALANCED * size + 1e-300)
+
+
+@kernel
 def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float) -> float:
     """By how much a step is too long, if above 1: what is missing from the equations at its end."""
+    if coded(plan):
+        return _excess_by_code(plan, deformation, tau, size)
     n, count, order = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.ORDER])
     width = 2 * n + int(plan[at.WAVES]) + 1
     kept, memory = beyond(plan, int(plan[at.KEPT_Y])), beyond(plan, _kept_memory(plan))

@@ -234,30 +234,43 @@ _expand = expanding(_begin, push, _grow)
 
 
 @kernel
-def expand_all(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
-    """Write the series of all masses in t / length, by code made for them if there is any."""
+def coded(plan: Vector) -> bool:
+    """Whether the series in this mode are written by code that was made for the assembly."""
     code = int(plan[at.CODE])
-    whole = order == of.ORDER and plan[code] != 0.0
-    if not whole or int(plan[at.MODE]) & int(plan[code + 1]) != 0:
-        _expand(plan, y, deformation, length, order)
-        return
-    _expand(plan, y, deformation, length, 0)
-    plan[at.ORDER] = float(order)
+    return bool(plan[code] != 0.0 and int(plan[at.MODE]) & int(plan[code + 2]) == 0)
+
+
+@kernel
+def run(plan: Vector, which: int, unit: float, number: float) -> None:
+    """Run its code: `emitted.expanded` (0) or `emitted.ended` (1)."""
     of_ = places(plan)
     rates = rates_of_mode(plan, of_)
     matrix = rates.place + HEAD
     call(
         plan,
-        code,
+        int(plan[at.CODE]) + which,
         int(plan[at.SERIES]),
         int(plan[at.NODES]),
         matrix,
         closed_place(plan, rates.place, of_.masses),
         matrix + 8 * (rates.width + 1 + of_.pressed),
         int(plan[at.OUTPUTS]),
-        length,
-        plan[at.OMEGA],
+        int(plan[at.KEPT_Y]),
+        unit,
+        number,
     )
+
+
+@kernel
+def expand_all(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
+    """Write the series of all masses in t / length."""
+    if order != of.ORDER or not coded(plan):
+        _expand(plan, y, deformation, length, order)
+        return
+    _expand(plan, y, deformation, length, 0)
+    plan[at.ORDER] = float(order)
+    run(plan, 0, length, plan[at.OMEGA])
+    of_ = places(plan)
     row, count = int(plan[at.ROW]), int(plan[at.STOPS])
     for p in range(of_.pressed):
         one = of_.stops + int(plan[of_.pressed_list + p]) * at.STOP_WIDTH
