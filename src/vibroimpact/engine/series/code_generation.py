@@ -112,6 +112,8 @@ class Lanes:
             return other.value
         if isinstance(other, Number):
             return Lanes.of(self.builder, [other] * self.kind.count).value
+        if any(isinstance(one, Number) for one in other):
+            return Lanes.of(self.builder, other).value
         return ir.Constant(self.kind, [float(one) for one in other])
 
     def __add__(self, other: Any) -> Lanes:

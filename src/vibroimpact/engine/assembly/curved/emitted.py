@@ -175,8 +175,6 @@ def _type() -> Any:
 def _emitted(formula: Any, shape: Shape) -> ir.Module:
     module = ir.Module(name=formula.__name__)
     function = ir.Function(module, _type(), name="kernel")
-    for one in function.args[:_POINTERS]:
-        one.add_attribute("noalias")
     builder = ir.IRBuilder(function.append_basic_block())
     memories = [Code(builder, one, ()) for one in function.args[:_POINTERS]]
     formula(shape, Memory(*memories), *(Number(builder, one) for one in function.args[_POINTERS:]))
@@ -189,41 +187,36 @@ def _width(shape: Shape) -> int:
     return max(1 << (shape.masses - 1).bit_length(), 2)
 
 
-def _linear(shape: Shape, columns: Any, u: Any, v: Any, total: Any) -> Any:
-    """Add what linear forces make of u and v; what v makes, which is waited for, last."""
-    n, width = shape.masses, _width(shape)
-    for by in shape.stiffness:
-        total = columns.load_lanes(8 * by, width).times(u.turned(by, n), total)
-    late = None
-    for by in shape.damping[1:]:
-        late = columns.load_lanes(8 * (n + by), width).times(v.turned(by, n), late)
-    total = columns.load_lanes(8 * n, width).times(v, total)
-    return total if late is None else total + late
+def _linear(
+    differences: tuple[int, ...], columns: Any, begin: int, x: Any, n: int, total: Any
+) -> Any:
+    """Add what linear forces make of u or of v."""
+    for by in differences:
+        row = columns.load_lanes(8 * (begin + by), x.kind.count)
+        total = row.times(x.turned(by, n), total)
+    return total
 
 
 def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
     """Write all coefficients from 1 on, of an expansion in t / unit."""
-    series, nodes = memory.series, memory.nodes
+    series = memory.series
     n, order, width = shape.masses, of.ORDER, _width(shape)
     v = n + 1
     u_now = series.load_lanes(0, width).first(n)
     v_now = series.load_lanes(v, width).first(n)
     turning = _turning(shape, memory, unit, omega)
-    known: dict[int, list[Any]] = {}
-
-    def node(one: int) -> list[Any]:
-        if one not in known:
-            known[one] = [nodes.load(one * at.TERMS)]
-        return known[one]
-
-    acts = [memory.forces.load_lanes(8 * row.place, width) for row in shape.rows]
+    laws = [_law(row, memory.nodes) for row in shape.rows]
+    acts = [
+        memory.forces.load_lanes(8 * law.row.place, width).times([law.factor] * width, None)
+        for law in laws
+    ]
     accelerations = memory.found.load_lanes(0, width).first(n)
     for k in range(order + 1):
         if k > 0:
-            total = turning(k)
-            for row, act in zip(shape.rows, acts, strict=True):
-                total = act.times(_force(row, nodes, node, u_now, v_now, k, n), total)
-            accelerations = _linear(shape, memory.columns, u_now, v_now, total)
+            total = _linear(shape.stiffness, memory.columns, 0, u_now, n, turning(k))
+            for law, act in zip(laws, acts, strict=True):
+                total = act.times(law.force(_apart(law.row, u_now, n), k), total)
+            accelerations = _linear(shape.damping, memory.columns, n, v_now, n, total)
         if k == order:
             break
         factor = unit * (1.0 / (k + 1))
@@ -231,53 +224,62 @@ def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
         here = (k + 1) * shape.row
         series.store_lanes(here, u_now)
         series.store_lanes(here + v, v_now)
-        _store_waves(shape, series, here + 2 * v, turning.waves[k + 1])
+        turning.store(here + 2 * v, k + 1)
 
 
 class _turning:
     """The forcing: its series, and what it adds to the accelerations of an order k > 0."""
 
     def __init__(self, shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
-        n, order, width = shape.masses, of.ORDER, _width(shape)
+        n, width = shape.masses, _width(shape)
         column = 8 * 2 * (n + 1)
+        self._series, self._recorded = memory.series, shape.recorded
         waves = [memory.series.load(2 * (n + 1) + q) for q in range(shape.waves)]
         by = [memory.matrix.load_lanes(column + 8 * q, width) for q in range(shape.waves)]
-        self.waves: list[list[Any]] = [waves]
         self._parts: list[tuple[Any, ...]] = []
+        self._waves: list[tuple[Any, ...]] = []
+        self._turns: list[Any] = []
         self._powers: list[list[Any]] = []
-        self._slope = None
         if shape.recorded:
-            rise = unit * waves[1]
-            self._slope = by[0] * rise
-            self.waves += [[rise if k == 1 else 0.0, 0.0] for k in range(1, order + 1)]
+            self._rise = unit * waves[1]
+            self._slope = by[0] * self._rise
             return
-        self.waves += [[] for _ in range(order)]
         for q in range(0, shape.waves, 2):
             turn = unit * omega * float(q // 2 + 1)
-            sine, cosine, power = waves[q], waves[q + 1], turn
-            even = by[q].times(sine, by[q + 1] * cosine)
-            odd = by[q].times(cosine, by[q + 1] * -sine)
-            self._parts.append((even, odd))
-            self._powers.append([1.0])
-            for k in range(1, order + 1):
-                sine, cosine = cosine, -sine
-                self._powers[-1].append(power if k % 4 < 2 else -power)
-                self.waves[k] += [power * sine, power * cosine]
-                if k < order:
-                    power = power * (turn * (1.0 / (k + 1)))
+            sine, cosine = waves[q], waves[q + 1]
+            self._parts.append(
+                (
+                    by[q].times(sine, by[q + 1] * cosine),
+                    by[q].times(cosine, by[q + 1] * -sine),
+                )
+            )
+            lanes = memory.series.lanes
+            self._waves.append((lanes([sine, cosine]), lanes([cosine, -sine])))
+            self._turns.append(turn)
+            self._powers.append([1.0, turn])
 
     def __call__(self, k: int) -> Any:
-        if self._slope is not None:
+        if self._recorded:
             return self._slope if k == 1 else self._slope * 0.0
         total = None
-        for pair, powers in zip(self._parts, self._powers, strict=True):
-            total = pair[k % 2].times(powers[k], total)
+        for i, pair in enumerate(self._parts):
+            total = pair[k % 2].times(self._power(i, k), total)
         return total
 
+    def _power(self, i: int, k: int) -> Any:
+        powers = self._powers[i]
+        if k == len(powers):
+            by = self._turns[i] * (1.0 / k)
+            powers.append(powers[-1] * (by if k % 2 else -by))
+        return powers[k]
 
-def _store_waves(shape: Shape, series: Any, place: int, waves: list[Any]) -> None:
-    for q in range(shape.waves):
-        series.store(place + q, waves[q])
+    def store(self, place: int, k: int) -> None:
+        """Write coefficient k > 0 of the forcing."""
+        if self._recorded:
+            self._series.store(place, self._rise if k == 1 else 0.0)
+            self._series.store(place + 1, 0.0)
+        for i, pair in enumerate(self._waves):
+            self._series.store_lanes(place + 2 * i, pair[k % 2] * self._power(i, k))
 
 
 def ended(shape: Shape, memory: Memory, unit: Any, tau: Any) -> None:
@@ -326,7 +328,8 @@ def ended(shape: Shape, memory: Memory, unit: Any, tau: Any) -> None:
             values[out] = _value(code, x, y)
         change = memory.nodes.load(row.force * at.TERMS) - values[row.force]
         total = memory.forces.load_lanes(8 * row.place, width).times(change, total)
-    total = _linear(shape, memory.columns, u, gain, total)
+    total = _linear(shape.stiffness, memory.columns, 0, u, n, total)
+    total = _linear(shape.damping, memory.columns, n, gain, n, total)
     off = grown + total * (unit * tau * -1.0)
     found.store_lanes(0, u)
     found.store(n, 0.0)
@@ -352,30 +355,85 @@ def _value(code: int, x: Any, y: Any) -> Any:
     return -x if code == op.NEGATE else x * y
 
 
-def _force(row: Row, nodes: Any, node: Any, u: Any, v: Any, k: int, n: int) -> Any:
-    """Write coefficient k > 0 of what a link's law makes; the force as it closes the link."""
+class _law:
+    """The series of what a law makes of s.
 
-    def keep(one: int, value: Any) -> None:
-        node(one).append(value)
-        nodes.store(one * at.TERMS + k, value)
+    What depends on the newest coefficient of s does so by a slope: all else is known before.
+    """
 
-    keep(row.s, _apart(row, u, n))
-    nodes.store(row.v * at.TERMS + k, _apart(row, v, n))
-    for out, code, a, b in row.operations:
-        x = node(a)[k] if a != row.v else None
-        if code == op.ADD:
-            keep(out, x + node(b)[k])
-        elif code == op.SUBTRACT:
-            keep(out, x - node(b)[k])
-        elif code == op.NEGATE:
-            keep(out, -x)
-        elif code == op.SHIFT:
-            keep(out, x)
-        elif code == op.SCALE:
-            keep(out, x * node(b)[0])
-        else:
-            keep(out, _product(nodes.fma, node(a), node(b), k, a == b))
-    return -node(row.force)[k]
+    def __init__(self, row: Row, nodes: Any) -> None:
+        self.row, self._nodes = row, nodes
+        self._last: dict[int, Any] = {}
+        # The last factor is one of what the force acts on.
+        self.at, self.factor = row.force, -1.0
+        _, code, a, b = row.operations[-1]
+        if code == op.SCALE:
+            self.at, self.factor = a, -self._node(b)
+        self._slopes: dict[int, Any] = {row.s: 1.0}
+        for out, code, a, b in row.operations:
+            x, y = (self._slopes.get(one, 0.0) for one in (a, b))
+            if code == op.SUBTRACT:
+                slope = x + -y
+            elif code in (op.ADD, op.SHIFT):
+                slope = x + y
+            elif code == op.NEGATE:
+                slope = -x
+            elif code == op.SCALE:
+                slope = self._node(b) * x
+            else:
+                slope = nodes.fma(self._node(a), y, self._node(b) * x)
+            self._slopes[out] = slope
+
+    def _node(self, one: int, k: int = 0) -> Any:
+        return self._nodes.load(one * at.TERMS + k)
+
+    def force(self, s: Any, k: int) -> Any:
+        """Write coefficient k > 0; what the law pulls with."""
+        nodes, fma = self._nodes, self._nodes.fma
+        older: dict[int, Any] = {self.row.s: 0.0}
+        newest = {self.row.s: s}
+        for out, code, a, b in self.row.operations:
+            x, y = older.get(a, 0.0), older.get(b, 0.0)
+            if code == op.MULTIPLY:
+                total = self._inner(a, b, k)
+                total = fma(self._node(a), y, fma(self._node(b), x, total))
+            elif code == op.SCALE:
+                total = self._node(b) * x
+            else:
+                total = _value(code, x, y)
+            older[out] = total
+            newest[out] = fma(self._slopes[out], s, total)
+        for out, value in newest.items():
+            nodes.store(out * at.TERMS + k, value)
+        self._last = newest
+        return newest[self.at]
+
+    def _inner(self, a: int, b: int, k: int) -> Any:
+        """Σ a_i b_(k−i) over 0 < i < k, the newest last."""
+        fma = self._nodes.fma
+        places = sorted(range(1, k), key=lambda i: abs(2 * i - k))
+        ends = [i for i in places if i in (1, k - 1)] if k > 2 else []
+        if a == b:
+            places, ends = [i for i in places if 2 * i < k], ends[:1]
+        sums: list[Any] = [0.0, 0.0]
+        for j, i in enumerate(i for i in places if i not in (1, k - 1) or not ends):
+            sums[j % 2] = fma(self._node(a, i), self._node(b, k - i), sums[j % 2])
+        total = sums[0] + sums[1] if isinstance(sums[1], Number) else sums[0]
+        if a == b:
+            if isinstance(total, Number):
+                total = total + total
+            if k % 2 == 0:
+                total = fma(self._node(a, k // 2), self._node(a, k // 2), total)
+            if ends:
+                total = fma(self._node(a, 1) * 2.0, self._newest(a, k - 1), total)
+            return total
+        if ends:
+            total = fma(self._newest(a, k - 1), self._node(b, 1), total)
+            total = fma(self._node(a, 1), self._newest(b, k - 1), total)
+        return total
+
+    def _newest(self, one: int, k: int) -> Any:
+        return self._last[one] if one in self._last else self._node(one, k)
 
 
 def _apart(row: Row, values: Any, n: int) -> Any:
@@ -383,22 +441,6 @@ def _apart(row: Row, values: Any, n: int) -> Any:
         return values.lane(row.right)
     left = values.lane(row.left)
     return values.lane(row.right) - left if row.right < n else -left
-
-
-def _product(fma: Any, a: list[Any], b: list[Any], k: int, square: bool) -> Any:
-    """Coefficient k of a product; what is computed last is added last, as it is waited for."""
-    pairs = [(a[i], b[k - i]) for i in range(1, k)]
-    if square:
-        pairs = pairs[: (k - 1) // 2]
-    sums: list[Any] = [0.0, 0.0]
-    for i, (one, other) in enumerate(reversed(pairs)):
-        sums[i % 2] = fma(one, other, sums[i % 2])
-    total = sums[0] + sums[1] if isinstance(sums[1], Number) else sums[0]
-    if not square:
-        return fma(a[0], b[k], fma(a[k], b[0], total))
-    total = fma(a[0], a[k], total)
-    total = total + total
-    return fma(a[k // 2], a[k // 2], total) if k % 2 == 0 else total
 
 
 def call(
