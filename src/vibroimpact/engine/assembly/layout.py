@@ -126,7 +126,8 @@ from __future__ import annotations
     POWERS,
     # Of curved laws whose series are code (`curved.emitted`): its addresses, the modes without it.
     CODE,
-) = range(101)
+    UNIT,
+) = range(102)
 HEADER = 104
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)

@@ -1,7 +1,6 @@
 """The series of a small assembly as straight code, made for its masses, links and laws.
 
-Coefficient 0 of everything, and the accelerations there, come from `terms`, which writes the series
-of all other assemblies and modes. The code serves every mode in which nothing rests and no stop of
+`terms` writes the series of all other assemblies and modes. The code serves every mode in which nothing rests and no stop of
 a curved law is touched: what a mode changes are numbers (`rates`).
 """
 
@@ -26,7 +25,7 @@ MASSES = 8
 MOST = 12_000
 """Products and sums, on which the time to compile depends."""
 _KNOWN = (op.ADD, op.SUBTRACT, op.NEGATE, op.MULTIPLY, op.SCALE, op.SHIFT)
-_POINTERS, _NUMBERS = 7, 2
+_POINTERS, _NUMBERS = 9, 2
 
 
 class Row(NamedTuple):
@@ -38,6 +37,8 @@ class Row(NamedTuple):
     v: int
     force: int
     place: int
+    constants: tuple[tuple[int, int, float], ...]
+    """Node, place among the numbers of all rows, or -1 and the number."""
     operations: tuple[tuple[int, int, int, int], ...]
 
 
@@ -64,6 +65,8 @@ class Memory(NamedTuple):
     forces: Any
     found: Any
     kept: Any
+    laws: Any
+    state: Any
 
 
 OFF, REACH = 16, 32
@@ -104,10 +107,15 @@ def shape_of(vector: Vector) -> Shape | None:
                 for i, one in enumerate(tape.reshape(-1, of.OP_WIDTH))
                 if i >= law[of.KNOWN]
             ]
+            constants = tuple(
+                (int(first) + i, f * of.WIDTH + int(one[3]) if one[1] else -1, float(one[3]))
+                for i, one in enumerate(tape.reshape(-1, of.OP_WIDTH))
+                if one[0] == op.CONSTANT
+            )
             if any(one[1] not in _KNOWN for one in operations):
                 return None
             nodes = [int(law[one]) for one in (of.S_NODE, of.V_NODE, of.FORCE_NODE)]
-            rows.append(Row(*ends, *nodes, place, tuple(operations)))
+            rows.append(Row(*ends, *nodes, place, constants, tuple(operations)))
         place += int(laws[f, of.BEHAVIOUR] != 0)
     shape = Shape(
         n,
@@ -127,7 +135,7 @@ def _differences(pairs: Any) -> tuple[int, ...]:
 
 
 def _work(shape: Shape) -> int:
-    order = of.ORDER
+    order = of.CODE_ORDER
     linear = len(shape.stiffness) + len(shape.damping) + 2 + shape.waves + len(shape.rows)
     products = sum(one[1] == op.MULTIPLY for row in shape.rows for one in row.operations)
     return order * linear + products * order * order // 2
@@ -198,19 +206,36 @@ def _linear(
 
 
 def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
-    """Write all coefficients from 1 on, of an expansion in t / unit."""
+    """Write the series of a state in t / unit.
+
+    `found` has what constant forces and deformations of pressed stops accelerate.
+    """
     series = memory.series
-    n, order, width = shape.masses, of.ORDER, _width(shape)
+    n, order, width = shape.masses, of.CODE_ORDER, _width(shape)
     v = n + 1
-    u_now = series.load_lanes(0, width).first(n)
-    v_now = series.load_lanes(v, width).first(n)
-    turning = _turning(shape, memory, unit, omega)
-    laws = [_law(row, memory.nodes) for row in shape.rows]
+    u_now = memory.state.load_lanes(0, width).first(n)
+    v_now = memory.state.load_lanes(n, width).first(n)
+    waves = [memory.state.load(2 * n + q) for q in range(shape.waves)]
+    series.store_lanes(0, u_now)
+    series.store_lanes(v, v_now)
+    for q, one in enumerate(waves):
+        series.store(2 * v + q, one)
+    turning = _turning(shape, memory, waves, unit, omega)
+    laws = [_law(row, memory, _apart(row, u_now, n)) for row in shape.rows]
     acts = [
         memory.forces.load_lanes(8 * law.row.place, width).times([law.factor] * width, None)
         for law in laws
     ]
     accelerations = memory.found.load_lanes(0, width).first(n)
+    for column, values in ((0, u_now), (v, v_now)):
+        for q in range(n):
+            by = memory.matrix.load_lanes(8 * (column + q), width).first(n)
+            accelerations = by.times([values.lane(q)] * width, accelerations)
+    for q, one in enumerate(waves):
+        by = memory.matrix.load_lanes(8 * (2 * v + q), width)
+        accelerations = by.times([one] * width, accelerations)
+    for law, act in zip(laws, acts, strict=True):
+        accelerations = act.times([law.begun] * width, accelerations)
     for k in range(order + 1):
         if k > 0:
             total = _linear(shape.stiffness, memory.columns, 0, u_now, n, turning(k))
@@ -230,11 +255,12 @@ def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
 class _turning:
     """The forcing: its series, and what it adds to the accelerations of an order k > 0."""
 
-    def __init__(self, shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
+    def __init__(
+        self, shape: Shape, memory: Memory, waves: list[Any], unit: Any, omega: Any
+    ) -> None:
         n, width = shape.masses, _width(shape)
         column = 8 * 2 * (n + 1)
         self._series, self._recorded = memory.series, shape.recorded
-        waves = [memory.series.load(2 * (n + 1) + q) for q in range(shape.waves)]
         by = [memory.matrix.load_lanes(column + 8 * q, width) for q in range(shape.waves)]
         self._parts: list[tuple[Any, ...]] = []
         self._waves: list[tuple[Any, ...]] = []
@@ -289,7 +315,7 @@ def ended(shape: Shape, memory: Memory, unit: Any, tau: Any) -> None:
     and how far each mass can have gone.
     """
     series, found, kept = memory.series, memory.found, memory.kept
-    n, order, width = shape.masses, of.ORDER, _width(shape)
+    n, order, width = shape.masses, of.CODE_ORDER, _width(shape)
     v = n + 1
     square = tau * tau
 
@@ -361,14 +387,23 @@ class _law:
     What depends on the newest coefficient of s does so by a slope: all else is known before.
     """
 
-    def __init__(self, row: Row, nodes: Any) -> None:
-        self.row, self._nodes = row, nodes
+    def __init__(self, row: Row, memory: Memory, s: Any) -> None:
+        self.row, self._nodes = row, memory.nodes
+        nodes = memory.nodes
+        values: dict[int, Any] = {row.s: s}
+        for one, place, number in row.constants:
+            values[one] = number if place < 0 else memory.laws.load(place)
+        for out, code, a, b in row.operations:
+            values[out] = _value(code, values[a], values.get(b))
+        for one, value in values.items():
+            nodes.store(one * at.TERMS, value)
         self._last: dict[int, Any] = {}
         # The last factor is one of what the force acts on.
         self.at, self.factor = row.force, -1.0
         _, code, a, b = row.operations[-1]
         if code == op.SCALE:
             self.at, self.factor = a, -self._node(b)
+        self.begun = values[self.at]
         self._slopes: dict[int, Any] = {row.s: 1.0}
         for out, code, a, b in row.operations:
             x, y = (self._slopes.get(one, 0.0) for one in (a, b))
@@ -453,6 +488,8 @@ def call(
     forces: int,
     found: int,
     kept: int,
+    laws: int,
+    state: Vector,
     unit: float,
     number: float,
 ) -> None:
@@ -472,19 +509,21 @@ def _call(
     forces: Any,
     found: Any,
     kept: Any,
+    laws: Any,
+    state: Any,
     unit: Any,
     number: Any,
 ) -> Any:
     def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        plan, *places = args[: _POINTERS + 2]
+        plan, *places = args[: _POINTERS + 1]
         places = [builder.gep(plan, [one], inbounds=True, source_etype=REAL) for one in places]
         where = builder.load(builder.bitcast(places[0], WHOLE.as_pointer()), typ=WHOLE)
         code = builder.inttoptr(where, _type().as_pointer())
-        builder.call(code, [*places[1:], *args[_POINTERS + 2 :]])
+        builder.call(code, [*places[1:], *args[_POINTERS + 1 :]])
         return context.get_dummy_value()
 
     whole, real = types.int64, types.float64
-    return types.void(plan, *[whole] * (_POINTERS + 1), *[real] * _NUMBERS), build
+    return types.void(plan, *[whole] * _POINTERS, state, *[real] * _NUMBERS), build
 
 
 @overload(call, strict=False)
@@ -498,14 +537,17 @@ def _run(
     forces: Any,
     found: Any,
     kept: Any,
+    laws: Any,
+    state: Any,
     unit: Any,
     number: Any,
 ) -> Any:
     def implementation(  # type: ignore[no-untyped-def]
-        plan, cell, series, nodes, matrix, columns, forces, found, kept, unit, number
+        plan, cell, series, nodes, matrix, columns, forces, found, kept, laws, state, unit, number
     ):
         return _call(
-            plan, cell, series, nodes, matrix, columns, forces, found, kept, unit, number
+            *(plan, cell, series, nodes, matrix, columns, forces),
+            *(found, kept, laws, state, unit, number),
         )
 
     return implementation

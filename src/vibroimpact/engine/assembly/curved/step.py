@@ -14,7 +14,7 @@ from vibroimpact.engine.assembly.curved.terms import (
     node,
     remembers,
     row_of,
-    run,
+    run_code,
     share_of_unit,
 )
 from vibroimpact.engine.assembly.series import travel_by_series
@@ -24,7 +24,6 @@ from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.series.layout import NAMES
 from vibroimpact.engine.series.step import BALANCED, TOLERANCE
 
-_ORDER = of.ORDER
 _OWN_WEIGHT = of.NAMES + NAMES.index("own_weight")
 _CUT = 100
 """How often a step is shortened at most. Far sooner it is so short that any is right."""
@@ -62,6 +61,8 @@ def _last(plan: Vector, m: int, rate: float) -> float:
         one = abs(plan[row + n + 1 + i]) + rate * abs(plan[row + i])
         if not one <= most and most == most:  # what is not a number shows
             most = one
+    if coded(plan):
+        return most
     count = int(plan[at.STOPS])
     for f in range(count):
         law = row_of(plan, f)
@@ -96,7 +97,7 @@ def take_end(plan: Vector, y: Vector, deformation: Vector) -> None:
 
 @kernel
 def _excess_by_code(plan: Vector, deformation: Vector, tau: float, size: float) -> float:
-    run(plan, 1, plan[at.PIECE_LENGTH], tau)
+    run_code(plan, 1, beyond(plan, int(plan[at.Y])), plan[at.PIECE_LENGTH], tau)
     found, memory = beyond(plan, int(plan[at.OUTPUTS])), beyond(plan, _kept_memory(plan))
     most = 0.0
     for i in range(int(plan[at.MASSES])):
@@ -159,22 +160,22 @@ def take_step(
 
     Their unit is a power of two, so that it changes no digit; the step is `SHARE` of it.
     """
-    rate = plan[at.STIFF_RATE]
-    unit = 2.0 ** -math.floor(math.log2(max(rate, 1e-200)))
-    last = 0.0
+    rate, unit = plan[at.STIFF_RATE], plan[at.UNIT]
+    before, last, order = 0.0, 0.0, 0
     for _ in range(40):
-        expand_all(plan, y, deformation, unit, _ORDER)
-        last = _last(plan, _ORDER, rate) + _last(plan, _ORDER - 1, rate)
-        if last < math.inf:
+        expand_all(plan, y, deformation, unit, of.ORDER)
+        order = int(plan[at.ORDER])
+        before, last = _last(plan, order - 1, rate), _last(plan, order, rate)
+        if before + last < math.inf:
             break
         unit *= 2.0**-16
-    share = math.inf
-    for m in (_ORDER - 1, _ORDER):
-        term = _last(plan, m, rate)
-        if term > 0.0:
-            share = min(share, (TOLERANCE * (size + 1e-300) / term) ** (1.0 / m))
-    h = min(share * unit, longest)
-    if not h > 0.0 or not last < math.inf:
+    bound, share = TOLERANCE * (size + 1e-300), math.inf
+    if before > 0.0:
+        share = (math.log(bound) - math.log(before)) / (order - 1)
+    if last > 0.0:
+        share = min(share, (math.log(bound) - math.log(last)) / order)
+    h = min(math.exp(share) * unit, longest)
+    if not h > 0.0 or not before + last < math.inf:
         return 0.0
     h = left if left <= h else min(h, 0.5 * left)
     for _ in range(_CUT):
@@ -184,6 +185,6 @@ def take_step(
             return h
         cut = _LEAST_SHARE
         if off < math.inf:
-            cut = max(0.9 * off ** (-1.0 / (_ORDER - 1)), cut)
+            cut = max(0.9 * off ** (-1.0 / (order - 1)), cut)
         h *= cut
     return 0.0

@@ -241,7 +241,7 @@ def coded(plan: Vector) -> bool:
 
 
 @kernel
-def run(plan: Vector, which: int, unit: float, number: float) -> None:
+def run_code(plan: Vector, which: int, y: Vector, unit: float, number: float) -> None:
     """Run its code: `emitted.expanded` (0) or `emitted.ended` (1)."""
     of_ = places(plan)
     rates = rates_of_mode(plan, of_)
@@ -256,6 +256,8 @@ def run(plan: Vector, which: int, unit: float, number: float) -> None:
         matrix + 8 * (rates.width + 1 + of_.pressed),
         int(plan[at.OUTPUTS]),
         int(plan[at.KEPT_Y]),
+        int(plan[at.LAWS]),
+        y,
         unit,
         number,
     )
@@ -263,22 +265,38 @@ def run(plan: Vector, which: int, unit: float, number: float) -> None:
 
 @kernel
 def expand_all(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
-    """Write the series of all masses in t / length."""
+    """Write the series of all masses in t / length; of `ORDER` or, by code, `CODE_ORDER`."""
     if order != of.ORDER or not coded(plan):
         _expand(plan, y, deformation, length, order)
         return
-    _expand(plan, y, deformation, length, 0)
-    plan[at.ORDER] = float(order)
-    run(plan, 0, length, plan[at.OMEGA])
+    _expand_by_code(plan, y, deformation, length)
+
+
+@apart
+def _expand_by_code(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
     of_ = places(plan)
-    row, count = int(plan[at.ROW]), int(plan[at.STOPS])
+    n, row, count = of_.masses, int(plan[at.ROW]), int(plan[at.STOPS])
+    plan[at.ORDER], plan[at.PIECE_LENGTH] = float(of.CODE_ORDER), length
+    plan[at.MOVED] = y[2 * n + of_.waves]
+    rates = rates_of_mode(plan, of_)
+    inputs = beyond(plan, rates.place + HEAD + 8 * rates.width)
+    begun = beyond(plan, int(plan[at.OUTPUTS]))
+    for i in range(8):
+        begun[i] = inputs[i]
     for p in range(of_.pressed):
-        one = of_.stops + int(plan[of_.pressed_list + p]) * at.STOP_WIDTH
+        d = deformation[int(plan[of_.pressed_list + p])]
+        for i in range(8):
+            begun[i] += inputs[8 * (1 + p) + i] * d
+    run_code(plan, 0, y, length, plan[at.OMEGA])
+    for p in range(of_.pressed):
+        f = int(plan[of_.pressed_list + p])
+        one = of_.stops + f * at.STOP_WIDTH
         k, c = plan[one + at.STOP_STIFFNESS], plan[one + at.STOP_DAMPING]
         left = beyond(plan, int(plan[at.SERIES]) + int(plan[one + at.LEFT]))
         right = beyond(plan, int(plan[at.SERIES]) + int(plan[one + at.RIGHT]))
-        forces, v = beyond(plan, int(plan[at.FORCE_SERIES]) + p), of_.masses + 1
-        for j in range(1, order + 1):
+        forces, v = beyond(plan, int(plan[at.FORCE_SERIES]) + p), n + 1
+        forces[0] = k * deformation[f] + c * (left[v] - right[v])
+        for j in range(1, of.CODE_ORDER + 1):
             here = j * row
             forces[j * count] = k * (left[here] - right[here]) + c * (
                 left[here + v] - right[here + v]
@@ -290,7 +308,7 @@ def share_of_unit(plan: Vector, share: float) -> None:
     """Let what is watched of the series in hand be that on a share of their unit."""
     powers, power = int(plan[at.POWERS]), 1.0
     plan[at.SHARE] = share
-    for j in range(of.ORDER + 1):
+    for j in range(int(plan[at.ORDER]) + 1):
         plan[powers + j] = power
         power *= share
 
