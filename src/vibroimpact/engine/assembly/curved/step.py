@@ -18,13 +18,15 @@ from vibroimpact.engine.assembly.curved.terms import (
     share_of_unit,
 )
 from vibroimpact.engine.assembly.series import travel_by_series
-from vibroimpact.engine.assembly.vectors import slopes
+from vibroimpact.engine.assembly.vectors import binary_logarithm, binary_power, slopes
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.series.layout import NAMES
 from vibroimpact.engine.series.step import BALANCED, TOLERANCE
 
 _OWN_WEIGHT = of.NAMES + NAMES.index("own_weight")
+_MORE = 4.0
+"""How many times `TOLERANCE` the last terms of order 27 may be. Those that follow are a third."""
 _CUT = 100
 """How often a step is shortened at most. Far sooner it is so short that any is right."""
 _LEAST_SHARE = 2.0**-10
@@ -169,12 +171,13 @@ def take_step(
         if before + last < math.inf:
             break
         unit *= 2.0**-16
-    bound, share = TOLERANCE * (size + 1e-300), math.inf
+    bound = TOLERANCE * (1.0 if order == of.ORDER else _MORE) * (size + 1e-300)
+    whole, share = binary_logarithm(bound), 1000.0
     if before > 0.0:
-        share = (math.log(bound) - math.log(before)) / (order - 1)
+        share = min(share, (whole - binary_logarithm(before)) / (order - 1))
     if last > 0.0:
-        share = min(share, (math.log(bound) - math.log(last)) / order)
-    h = min(math.exp(share) * unit, longest)
+        share = min(share, (whole - binary_logarithm(last)) / order)
+    h = min(binary_power(share) * unit, longest)
     if not h > 0.0 or not before + last < math.inf:
         return 0.0
     h = left if left <= h else min(h, 0.5 * left)
