@@ -269,6 +269,7 @@ class _turning:
         if shape.recorded:
             self._rise = unit * waves[1]
             self._slope = by[0] * self._rise
+            self._nothing = memory.series.lanes([0.0] * width)
             return
         for q in range(0, shape.waves, 2):
             turn = unit * omega * float(q // 2 + 1)
@@ -286,7 +287,7 @@ class _turning:
 
     def __call__(self, k: int) -> Any:
         if self._recorded:
-            return self._slope if k == 1 else self._slope * 0.0
+            return self._slope if k == 1 else self._nothing
         total = None
         for i, pair in enumerate(self._parts):
             total = pair[k % 2].times(self._power(i, k), total)
