@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ SHAKING = {
 def rig(n: int, shaking: str, stop: Any, between: Any = None) -> vi.Rig:
     names = ["ground", *(f"m{i}" for i in range(n))]
     links = {}
-    for i, (left, right) in enumerate(zip(names, names[1:], strict=False)):
+    for i, (left, right) in enumerate(pairwise(names)):
         law = vi.Isolator(150.0 - i, 0.6)
         if i % 3 == 0:
             law = vi.PolynomialIsolator(120.0, 0.5, 2e4, 3e6 if i else 0.0)
@@ -61,5 +62,3 @@ def test_the_motion_is_the_same_without_code(name: str, monkeypatch) -> None:
         size = np.abs(without[one]).max()
         assert np.abs(with_code[one] - without[one]).max() < 1e-10 * size
     assert with_code.sizes["event"] == without.sizes["event"] > 0
-
-

@@ -1,7 +1,7 @@
 """The series of a small assembly as straight code, made for its masses, links and laws.
 
-`terms` writes the series of all other assemblies and modes. The code serves every mode in which nothing rests and no stop of
-a curved law is touched: what a mode changes are numbers (`rates`).
+`terms` writes those of all other assemblies and modes. The code serves each mode in which nothing
+rests and no stop of a curved law is touched: what such a mode changes are numbers (`rates`).
 """
 
 from __future__ import annotations
@@ -17,29 +17,29 @@ from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved import tape as op
 from vibroimpact.engine.compiler import PLAIN, intrinsic, overload, types
 from vibroimpact.engine.jit import Vector
-from vibroimpact.engine.series.code_generation import REAL, WHOLE, Code, Lanes, Number
+from vibroimpact.engine.series.code_generation import REAL, WHOLE, Code, Number
 from vibroimpact.engine.series.kernels import machine_code
 
 MASSES = 8
 """Whose accelerations stand in one block of a mode's matrix."""
-MOST = 12_000
-"""Products and sums, on which the time to compile depends."""
+MOST = 4_000
+"""Products and sums that are made code of: above, to compile would take more than a second."""
 _KNOWN = (op.ADD, op.SUBTRACT, op.NEGATE, op.MULTIPLY, op.SCALE, op.SHIFT)
 _POINTERS, _NUMBERS = 9, 2
 
 
 class Row(NamedTuple):
-    """A curved link: its ends, the nodes of what goes in and out, and its operations."""
+    """A curved link: its ends, the nodes of s and of its force, its number among curved rows."""
 
     left: int
     right: int
     s: int
-    v: int
     force: int
     place: int
     constants: tuple[tuple[int, int, float], ...]
     """Node, place among the numbers of all rows, or -1 and the number."""
     operations: tuple[tuple[int, int, int, int], ...]
+    """Node, what makes it, of which nodes."""
 
 
 class Shape(NamedTuple):
@@ -87,7 +87,6 @@ def shape_of(vector: Vector) -> Shape | None:
     stiff, damped = block(at.STIFFNESS, n, n) != 0.0, block(at.DAMPING, n, n) != 0.0
     stops, response = block(at.STOP, count, at.STOP_WIDTH), block(at.RESPONSE, count, n) != 0.0
     laws, rows = block(at.LAWS, count, of.WIDTH), []
-    begin = int(vector[at.TAPE])
     place = 0
     for f in range(count):
         kind = stops[f, at.KIND]
@@ -99,23 +98,11 @@ def shape_of(vector: Vector) -> Shape | None:
         elif kind == at.LINK:
             if laws[f, of.BEHAVIOUR] != of.SMOOTH:
                 return None
-            law = laws[f, : of.NAMES].astype(int)
-            first, last = law[of.FIRST_OP], law[of.LAST_OP]
-            tape = vector[begin + first * of.OP_WIDTH : begin + last * of.OP_WIDTH]
-            operations = [
-                (int(first) + i, *map(int, one[:3]))
-                for i, one in enumerate(tape.reshape(-1, of.OP_WIDTH))
-                if i >= law[of.KNOWN]
-            ]
-            constants = tuple(
-                (int(first) + i, f * of.WIDTH + int(one[3]) if one[1] else -1, float(one[3]))
-                for i, one in enumerate(tape.reshape(-1, of.OP_WIDTH))
-                if one[0] == op.CONSTANT
-            )
-            if any(one[1] not in _KNOWN for one in operations):
+            operations = _operations(vector, laws[f], f)
+            if operations is None:
                 return None
-            nodes = [int(law[one]) for one in (of.S_NODE, of.V_NODE, of.FORCE_NODE)]
-            rows.append(Row(*ends, *nodes, place, constants, tuple(operations)))
+            s, force = (int(laws[f, one]) for one in (of.S_NODE, of.FORCE_NODE))
+            rows.append(Row(ends[0], ends[1], s, force, place, *operations))
         place += int(laws[f, of.BEHAVIOUR] != 0)
     shape = Shape(
         n,
@@ -127,6 +114,27 @@ def shape_of(vector: Vector) -> Shape | None:
         tuple(rows),
     )
     return shape if _work(shape) <= MOST else None
+
+
+def _operations(vector: Vector, law: Vector, f: int) -> Any:
+    """Return constants and operations of a law, as of a `Row`; None if they are not known here."""
+    first, inputs, last = (int(law[one]) for one in (of.FIRST_OP, of.KNOWN, of.LAST_OP))
+    begin = int(vector[at.TAPE])
+    tape = vector[begin + first * of.OP_WIDTH : begin + last * of.OP_WIDTH]
+    known = {int(law[of.S_NODE])}
+    constants, operations = [], []
+    for i, (code, a, b, value) in enumerate(tape.reshape(-1, of.OP_WIDTH).tolist()):
+        one = first + i
+        if code == op.CONSTANT:
+            constants.append((one, f * of.WIDTH + int(value) if a else -1, value))
+        elif code != op.INPUT:
+            needed = {int(a)} if code in (op.NEGATE, op.SHIFT) else {int(a), int(b)}
+            if i < inputs or code not in _KNOWN or not needed <= known:
+                return None
+            operations.append((one, int(code), int(a), int(b)))
+        if code != op.INPUT:
+            known.add(one)
+    return tuple(constants), tuple(operations)
 
 
 def _differences(pairs: Any) -> tuple[int, ...]:
@@ -220,8 +228,8 @@ def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
     series.store_lanes(v, v_now)
     for q, one in enumerate(waves):
         series.store(2 * v + q, one)
-    turning = _turning(shape, memory, waves, unit, omega)
-    laws = [_law(row, memory, _apart(row, u_now, n)) for row in shape.rows]
+    forcing = _Forcing(shape, memory, waves, unit, omega)
+    laws = [_Law(row, memory, _apart(row, u_now, n)) for row in shape.rows]
     acts = [
         memory.forces.load_lanes(8 * law.row.place, width).times([law.factor] * width, None)
         for law in laws
@@ -238,7 +246,7 @@ def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
         accelerations = act.times([law.begun] * width, accelerations)
     for k in range(order + 1):
         if k > 0:
-            total = _linear(shape.stiffness, memory.columns, 0, u_now, n, turning(k))
+            total = _linear(shape.stiffness, memory.columns, 0, u_now, n, forcing(k))
             for law, act in zip(laws, acts, strict=True):
                 total = act.times(law.force(_apart(law.row, u_now, n), k), total)
             accelerations = _linear(shape.damping, memory.columns, n, v_now, n, total)
@@ -249,10 +257,10 @@ def expanded(shape: Shape, memory: Memory, unit: Any, omega: Any) -> None:
         here = (k + 1) * shape.row
         series.store_lanes(here, u_now)
         series.store_lanes(here + v, v_now)
-        turning.store(here + 2 * v, k + 1)
+        forcing.store(here + 2 * v, k + 1)
 
 
-class _turning:
+class _Forcing:
     """The forcing: its series, and what it adds to the accelerations of an order k > 0."""
 
     def __init__(
@@ -325,14 +333,9 @@ def ended(shape: Shape, memory: Memory, unit: Any, tau: Any) -> None:
         for last in (order - 1 + order % 2, order - order % 2):  # odd, even
             total = coefficient(last)
             for k in range(last - 2, 0, -2):
-                total = total.times(square, coefficient(k)) if _side(total) else series.fma(
-                    total, square, coefficient(k)
-                )
+                total = series.fma(total, square, coefficient(k))
             parts.append(total)
-        odd, even = parts
-        if _side(odd):
-            return even.times(tau, odd) * tau
-        return series.fma(even, tau, odd) * tau
+        return series.fma(parts[1], tau, parts[0]) * tau
 
     u = polynomial(lambda k: series.load_lanes(k * shape.row, width))
     reach = polynomial(lambda k: series.load_lanes(k * shape.row, width).absolute())
@@ -370,10 +373,6 @@ def ended(shape: Shape, memory: Memory, unit: Any, tau: Any) -> None:
     kept.store(2 * n + shape.waves, 1.0)
 
 
-def _side(one: Any) -> bool:
-    return isinstance(one, Lanes)
-
-
 def _value(code: int, x: Any, y: Any) -> Any:
     if code in (op.ADD, op.SHIFT):
         return x + y
@@ -382,7 +381,7 @@ def _value(code: int, x: Any, y: Any) -> Any:
     return -x if code == op.NEGATE else x * y
 
 
-class _law:
+class _Law:
     """The series of what a law makes of s.
 
     What depends on the newest coefficient of s does so by a slope: all else is known before.
@@ -480,75 +479,33 @@ def _apart(row: Row, values: Any, n: int) -> Any:
 
 
 def call(
-    plan: Vector,
-    cell: int,
-    series: int,
-    nodes: int,
-    matrix: int,
-    columns: int,
-    forces: int,
-    found: int,
-    kept: int,
-    laws: int,
-    state: Vector,
-    unit: float,
-    number: float,
+    plan: Vector, cell: int, places: tuple[int, ...], state: Vector, unit: float, number: float
 ) -> None:
-    """Run the code whose address is in a cell of a plan on these places of it (`Memory`)."""
+    """Run the code whose address is in a cell of a plan, on places of it and a state (`Memory`)."""
     raise NotImplementedError
 
 
 @intrinsic
 def _call(
-    typing: Any,
-    plan: Any,
-    cell: Any,
-    series: Any,
-    nodes: Any,
-    matrix: Any,
-    columns: Any,
-    forces: Any,
-    found: Any,
-    kept: Any,
-    laws: Any,
-    state: Any,
-    unit: Any,
-    number: Any,
+    typing: Any, plan: Any, cell: Any, places: Any, state: Any, unit: Any, number: Any
 ) -> Any:
     def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        plan, *places = args[: _POINTERS + 1]
-        places = [builder.gep(plan, [one], inbounds=True, source_etype=REAL) for one in places]
-        where = builder.load(builder.bitcast(places[0], WHOLE.as_pointer()), typ=WHOLE)
+        plan, cell, places, *rest = args
+
+        def at_place(one: Any) -> Any:
+            return builder.gep(plan, [one], inbounds=True, source_etype=REAL)
+
+        where = builder.load(builder.bitcast(at_place(cell), WHOLE.as_pointer()), typ=WHOLE)
         code = builder.inttoptr(where, _type().as_pointer())
-        builder.call(code, [*places[1:], *args[_POINTERS + 1 :]])
+        memories = [at_place(builder.extract_value(places, i)) for i in range(_POINTERS - 1)]
+        builder.call(code, [*memories, *rest])
         return context.get_dummy_value()
 
-    whole, real = types.int64, types.float64
-    return types.void(plan, *[whole] * _POINTERS, state, *[real] * _NUMBERS), build
+    return types.void(plan, types.int64, places, state, types.float64, types.float64), build
 
 
 @overload(call, strict=False)
-def _run(
-    plan: Any,
-    cell: Any,
-    series: Any,
-    nodes: Any,
-    matrix: Any,
-    columns: Any,
-    forces: Any,
-    found: Any,
-    kept: Any,
-    laws: Any,
-    state: Any,
-    unit: Any,
-    number: Any,
-) -> Any:
-    def implementation(  # type: ignore[no-untyped-def]
-        plan, cell, series, nodes, matrix, columns, forces, found, kept, laws, state, unit, number
-    ):
-        return _call(
-            *(plan, cell, series, nodes, matrix, columns, forces),
-            *(found, kept, laws, state, unit, number),
-        )
-
-    return implementation
+def _run(plan: Any, cell: Any, places: Any, state: Any, unit: Any, number: Any) -> Any:
+    return lambda plan, cell, places, state, unit, number: _call(  # type: ignore[call-arg]
+        plan, cell, places, state, unit, number
+    )

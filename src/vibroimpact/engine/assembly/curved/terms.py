@@ -246,9 +246,7 @@ def run_code(plan: Vector, which: int, y: Vector, unit: float, number: float) ->
     of_ = places(plan)
     rates = rates_of_mode(plan, of_)
     matrix = rates.place + HEAD
-    call(
-        plan,
-        int(plan[at.CODE]) + which,
+    memory = (
         int(plan[at.SERIES]),
         int(plan[at.NODES]),
         matrix,
@@ -257,10 +255,8 @@ def run_code(plan: Vector, which: int, y: Vector, unit: float, number: float) ->
         int(plan[at.OUTPUTS]),
         int(plan[at.KEPT_Y]),
         int(plan[at.LAWS]),
-        y,
-        unit,
-        number,
     )
+    call(plan, int(plan[at.CODE]) + which, memory, y, unit, number)
 
 
 @kernel
