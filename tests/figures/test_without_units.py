@@ -9,7 +9,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact import figures
-from vibroimpact.figures.own_units import without_unit
+from vibroimpact.figures.finish import without_unit
 from vibroimpact.response.resonance import features
 
 RIG = vi.Rig(vi.Oscillator(1, vi.Isolator(1, 0.1), vi.Bumper(20, 0, 2)), 0.5)

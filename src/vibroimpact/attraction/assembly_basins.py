@@ -33,8 +33,8 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
-from vibroimpact.stability.assembly_diagram import place_assembly
 from vibroimpact.stability.equivalence import ALIKE, SAME, distance
+from vibroimpact.stability.nearest_state import nearest_state
 from vibroimpact.stability.settled_motion import Settled, approach, later, reach
 from vibroimpact.stability.steady import describe_motion
 from vibroimpact.tasks.threads import Progress, Workers, each
@@ -221,7 +221,7 @@ class _Search:
         vector = self.states.vector(parts, 0.0)
         if (reaches < deformation).all() and not deformation.any():
             return vector
-        return place_assembly(self.rig, vector)
+        return nearest_state(self.rig, vector)
 
     def follow(self, state: _Array) -> _End:
         """Follow a motion until it repeats itself."""

@@ -13,8 +13,8 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.finish import without_unit
 from vibroimpact.figures.notebook import Panels, new_axes
-from vibroimpact.figures.own_units import without_unit
 from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.figures.style import BANDS, Band, panels
 from vibroimpact.model import Assembly

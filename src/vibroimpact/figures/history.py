@@ -14,7 +14,8 @@ from matplotlib.patches import Patch
 
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import (
     DrawnMotion,
     cycles_label,
@@ -25,7 +26,6 @@ from vibroimpact.figures.motion_style import (
     shown,
 )
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import BANDS, EDGE, panels
 
 
@@ -46,7 +46,7 @@ _APPLIED: dict[str, Any] = {"color": "0.5", "linewidth": 0.9}
 """Style of the force on the mass."""
 
 
-@in_own_units
+@finished
 def time_history(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     axes: Any = None,
@@ -106,7 +106,6 @@ def time_history(
         history_panel(ax, curves, panel)
     given[-1].set_xlabel(cycles_label(given_motions))
     add_legend(given[0], history_legend(curves) + handles)
-    fit_labels(*given)
     return given
 
 

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from vibroimpact import errors
 from vibroimpact.errors import InputError
+from vibroimpact.figures.finish import in_unit
 from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import new_axes
-from vibroimpact.figures.own_units import in_unit
 from vibroimpact.figures.style import MOTIONS, SWEEPS, Look, lay_out
 from vibroimpact.measurements.read import is_measured
 from vibroimpact.model import Harmonic, Record

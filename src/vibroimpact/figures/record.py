@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError
+from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.history import gap_entry
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import BANDS, EDGE, also_in_g, panels
 
 _ROWS = (
@@ -31,7 +31,7 @@ _ROWS = (
 _SIDES = {"right": 1, "left": -1}
 
 
-@in_own_units
+@finished
 def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
     """Draw the motion of a rig through a record over time, with the record above it.
 
@@ -91,7 +91,6 @@ def record_history(motion: xr.Dataset, axes: Any = None, *, title: str | None = 
     handles += mark_end(given, motion)
     if handles:
         add_legend(given[1], handles)
-    fit_labels(*given)
     return given
 
 

@@ -35,10 +35,6 @@ class StopLaw(Named):
     if TYPE_CHECKING:  # a field of each law, in its own place
         gap: float
 
-    @constructor
-    def __init__(self, /, **values: Any) -> None:
-        super().__init__(**values)
-
     def engine_numbers(self) -> StopNumbers:
         """Return the numbers by which the engine follows the law."""
         raise NotImplementedError
