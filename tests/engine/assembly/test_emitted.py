@@ -25,7 +25,7 @@ def rig(n: int, shaking: str, stop: Any, between: Any = None) -> vi.Rig:
     for i, (left, right) in enumerate(pairwise(names)):
         law = vi.Isolator(150.0 - i, 0.6)
         if i % 3 == 0:
-            law = vi.PolynomialIsolator(120.0, 0.5, 2e4, 3e6 if i else 0.0)
+            law = vi.PolynomialIsolator(120.0, 0.5, 2e4, 3e6 if i == 3 else 0.0)
         links[f"l{i}"] = vi.Link(left, right, law)
     stops = {"end": vi.Link(names[-1], "ground", stop)}
     if n > 1:

@@ -101,7 +101,7 @@ def _find(plan: Vector) -> None:
 
 @inlined
 def closed_place(plan: Vector, place: int, n: int) -> int:
-    """Where it stands how coefficients behind the first depend on u, then on v; up to eight masses.
+    """Where it stands how coefficients after the first depend on u, then on v; up to eight masses.
 
     What they make of the deformations of pressed stops is part of it. Of eight numbers of a row,
     number i is what mass i feels of the mass that is so many rows further, in a circle.
