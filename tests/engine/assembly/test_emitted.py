@@ -62,3 +62,15 @@ def test_the_motion_is_the_same_without_code(name: str, monkeypatch) -> None:
         size = np.abs(without[one]).max()
         assert np.abs(with_code[one] - without[one]).max() < 1e-10 * size
     assert with_code.sizes["event"] == without.sizes["event"] > 0
+
+
+@pytest.mark.skipif(PLAIN, reason="no code is made without a compiler")
+def test_disturbances_grow_the_same_without_code(monkeypatch) -> None:
+    shaken = RIGS["3 masses"]
+
+    def exponents() -> Any:
+        return vi.lyapunov_exponents(shaken, [1.6], 6, transient=0)["exponents"].values
+
+    with_code = exponents()
+    monkeypatch.setattr(emitted, "shape_of", lambda one: None)
+    assert np.abs(with_code - exponents()).max() < 1e-9 * np.abs(with_code).max()
