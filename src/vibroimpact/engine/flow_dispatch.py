@@ -17,6 +17,7 @@ import numpy as np
 
 from vibroimpact.engine import parameters as par
 from vibroimpact.engine.assembly import layout as assembly
+from vibroimpact.engine.assembly.curved import emitted
 from vibroimpact.engine.assembly.plan import write_plan
 from vibroimpact.engine.compiler import cgutils, intrinsic, models, overload, register_model, types
 from vibroimpact.engine.dispatch import answer
@@ -190,6 +191,7 @@ def flow_of(rig: Vector) -> Any:
     if flow in SEVERAL_MASSES:
         memory = _room(int(rig[assembly.LENGTH_OF_PLAN]))
         write_plan(rig, memory)
+        emitted.prepare(memory, rig)
         return flow(memory)
     if rig[par.FORCING] != par.SEVERAL:
         memory = _room(YIELDING_PLAN if flow in _YIELDING.values() else PLAN)
@@ -208,7 +210,9 @@ def carries(rig: Vector, other: Vector) -> bool:
         same = bool(rig[par.FORCING] == other[par.FORCING]) and _flow(rig) is _flow(other)
         # What the laws of a curved one are made of stands in the vector, but needs its room.
         length = assembly.LENGTH_OF_PLAN
-        return same and bool(not rig[assembly.CURVED] or rig[length] == other[length])
+        if not same or not rig[assembly.CURVED]:
+            return same
+        return bool(rig[length] == other[length]) and emitted.same_code(rig, other)
     same = rig[par.FORCING] == other[par.FORCING] and rig[par.CURVED] == other[par.CURVED]
     if rig[par.CURVED]:
         same = same and kernels.covers(kernels.laws_code(rig), kernels.laws_code(other))

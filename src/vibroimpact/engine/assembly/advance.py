@@ -67,6 +67,7 @@ def begin(plan: Vector, amplitude: float, omega: float) -> None:
     plan[at.MODE] = -1.0
     enter_mode(plan, 0)
     plan[at.STIFF_RATE] = plan[at.RATE]
+    plan[at.UNIT] = 2.0 ** -math.floor(math.log2(max(plan[at.RATE], 1e-200)))
     plan[at.USED] = 0.0
     for i in range(2 * int(max(plan[at.SLOTS], 1.0))):
         plan[int(plan[at.KEYS]) + i] = -1.0

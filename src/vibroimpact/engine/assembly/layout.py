@@ -124,7 +124,10 @@ from __future__ import annotations
     OUTPUTS,
     SHARE,
     POWERS,
-) = range(100)
+    # Of curved laws whose series are code (`curved.emitted`): its addresses, the modes without it.
+    CODE,
+    UNIT,
+) = range(102)
 HEADER = 104
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)

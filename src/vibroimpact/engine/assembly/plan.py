@@ -249,8 +249,9 @@ def make_vector(
     slots = 1 << max(min(RATES_MOST // size, 64).bit_length() - 1, 2)
     header[[at.RATES_SLOTS, at.RATES_SIZE]] = slots, size
     room(at.POWERS, at.TERMS)
+    room(at.CODE, 3)
     room(at.INPUTS, 1 + count)
-    room(at.OUTPUTS, 2 * (row + 2 * count + n + 16))
+    room(at.OUTPUTS, 2 * (row + 2 * count + n + 16) + 48)
     room(at.RATES, slots * size)
     room(at.RATES_MODE, slots)
 
@@ -280,6 +281,8 @@ def write_plan(vector: Vector, plan: Vector) -> None:
     """Write what a plan begins with, a rig's vector, and the constants that follow."""
     numbers = int(vector[at.NUMBERS])
     plan[:numbers] = vector[:numbers]
+    for index, size in ((at.CODE, 3), (at.SERIES, at.TERMS * int(vector[at.ROW]) + 16)):
+        plan[int(vector[index]) : int(vector[index]) + size] = 0.0
     for index, constants in ((at.ECONOMY, _economy()), (at.RULES, _rules())):
         begin = int(vector[index])
         plan[begin : begin + len(constants)] = constants

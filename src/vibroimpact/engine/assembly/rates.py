@@ -18,7 +18,7 @@ from vibroimpact.engine.assembly.vectors import combine_ranges
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
 from vibroimpact.engine.memory import beyond
 
-_HEAD = 8
+HEAD = 8
 
 
 class Rates(NamedTuple):
@@ -34,7 +34,12 @@ class Rates(NamedTuple):
 
 def rates_size(n: int, stops: int, waves: int) -> int:
     """Numbers in the matrix of one mode."""
-    return -(-(n + stops) // 8) * (_HEAD + 8 * (2 * (n + 1) + waves + 1 + stops))
+    blocks = -(-(n + stops) // 8)
+    return blocks * (HEAD + 8 * (2 * (n + 1) + waves + 1 + stops)) + _closed_size(n)
+
+
+def _closed_size(n: int) -> int:
+    return 16 * n if n <= 8 else 0
 
 
 @inlined
@@ -42,7 +47,7 @@ def _sizes(plan: Vector, of: Places, place: int) -> Rates:
     width, inputs = 2 * (of.masses + 1) + of.waves, 1 + of.pressed + int(plan[at.CURVED])
     return Rates(
         place,
-        _HEAD + 8 * (width + inputs),
+        HEAD + 8 * (width + inputs),
         (of.masses + of.pressed + of.resting + 7) // 8,
         width - of.waves,
         width,
@@ -66,7 +71,7 @@ def apply_rates(
     for b in range(rates.blocks):
         head = rates.place + b * rates.block
         combine_ranges(
-            beyond(plan, head + _HEAD),
+            beyond(plan, head + HEAD),
             here,
             int(plan[head]),
             int(plan[head + 1]),
@@ -92,6 +97,40 @@ def _find(plan: Vector) -> None:
     if int(plan[keys + k]) != mode:
         _make(plan, place)
         plan[keys + k] = float(mode)
+
+
+@inlined
+def closed_place(plan: Vector, place: int, n: int) -> int:
+    """Where it stands how coefficients after the first depend on u, then on v; up to eight masses.
+
+    What they make of the deformations of pressed stops is part of it. Of eight numbers of a row,
+    number i is what mass i feels of the mass that is so many rows further, in a circle.
+    """
+    return place + int(plan[at.RATES_SIZE]) - 16 * n
+
+
+@kernel
+def _close(plan: Vector, of: Places, rates: Rates) -> None:
+    n = of.masses
+    if n > 8:
+        return
+    columns, matrix = closed_place(plan, rates.place, n), rates.place + HEAD
+    for i in range(n):
+        for by in range(n):
+            q = (i + by) % n
+            plan[columns + 8 * by + i] = plan[matrix + 8 * q + i]
+            plan[columns + 8 * (n + by) + i] = plan[matrix + 8 * (n + 1 + q) + i]
+        for p in range(of.pressed):
+            one = of.stops + int(plan[of.pressed_list + p]) * at.STOP_WIDTH
+            change = plan[matrix + 8 * (rates.width + 1 + p) + i]
+            for end in (at.LEFT, at.RIGHT):
+                q = int(plan[one + end])
+                if q < n:
+                    plan[columns + 8 * ((q - i) % n) + i] += change
+                change = -change
+    for by in range(2 * n):
+        for i in range(n, 8):
+            plan[columns + 8 * by + i] = 0.0
 
 
 @kernel
@@ -123,7 +162,7 @@ def _make(plan: Vector, place: int) -> None:
         restrain(plan, of, beyond(pressed, of.pressed), found)
         move_alike(plan, beyond(plan, found))
         for b in range(rates.blocks):
-            cell = place + b * rates.block + _HEAD + 8 * column
+            cell = place + b * rates.block + HEAD + 8 * column
             for i in range(8):
                 r = 8 * b + i
                 plan[cell + i] = 0.0
@@ -131,13 +170,14 @@ def _make(plan: Vector, place: int) -> None:
                     plan[cell + i] = plan[found + r]
                 elif r < results:
                     plan[cell + i] = plan[forces + r - n]
+    _close(plan, of, rates)
     for b in range(rates.blocks):
         head = place + b * rates.block
         for part in range(2):
             first, end = v, 0
             for i in range(v):
                 for k in range(8):
-                    if plan[head + _HEAD + 8 * (part * v + i) + k] != 0.0:
+                    if plan[head + HEAD + 8 * (part * v + i) + k] != 0.0:
                         first, end = min(first, i), i + 1
             plan[head + 2 * part] = float(part * v + min(first, end))
             plan[head + 2 * part + 1] = float(part * v + end)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from typing import Any
 
 from llvmlite import ir
@@ -89,6 +90,18 @@ def convolve_weighted(plan: Vector, a: int, b: int, n: int, begin: float, by: fl
     for i in range(n):
         total += (begin + i * by) * plan[a + i] * plan[b - i]
     return total
+
+
+def binary_logarithm(x: float) -> float:
+    """The binary logarithm of a positive number within 0.09, by its bits."""
+    share, exponent = math.frexp(x)
+    return exponent - 2.0 + 2.0 * share
+
+
+def binary_power(y: float) -> float:
+    """Invert `binary_logarithm`, from −1000 to 1000."""
+    whole = math.floor(y)
+    return math.ldexp(1.0 + y - whole, whole)
 
 
 def _zero() -> Any:
@@ -336,6 +349,26 @@ def _convolve_weighted(typing: Any, plan: Any, a: Any, b: Any, n: Any, begin: An
     return types.float64(_DOUBLES, n_, n_, n_, x, x), _convolving(True)
 
 
+@intrinsic
+def _binary_logarithm(typing: Any, x: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        bits = builder.sitofp(builder.bitcast(args[0], _WORD), ir.DoubleType())
+        scaled = builder.fmul(bits, ir.Constant(ir.DoubleType(), 2.0**-52))
+        return builder.fsub(scaled, ir.Constant(ir.DoubleType(), 1023.0))
+
+    return types.float64(types.float64), build
+
+
+@intrinsic
+def _binary_power(typing: Any, y: Any) -> Any:
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        shifted = builder.fadd(args[0], ir.Constant(ir.DoubleType(), 1023.0))
+        bits = builder.fmul(shifted, ir.Constant(ir.DoubleType(), 2.0**52))
+        return builder.bitcast(builder.fptosi(bits, _WORD), ir.DoubleType())
+
+    return types.float64(types.float64), build
+
+
 def _replaces(plain: Any, made: Any) -> None:
     """Let compiled code call an intrinsic in the place of a function of Python."""
     names = ", ".join(inspect.signature(plain).parameters)
@@ -355,3 +388,5 @@ _replaces(gains, _gains)
 _replaces(slopes, _slopes)
 _replaces(convolve, _convolve)
 _replaces(convolve_weighted, _convolve_weighted)
+_replaces(binary_logarithm, _binary_logarithm)
+_replaces(binary_power, _binary_power)

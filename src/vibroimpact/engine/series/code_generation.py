@@ -112,6 +112,8 @@ class Lanes:
             return other.value
         if isinstance(other, Number):
             return Lanes.of(self.builder, [other] * self.kind.count).value
+        if any(isinstance(one, Number) for one in other):
+            return Lanes.of(self.builder, other).value
         return ir.Constant(self.kind, [float(one) for one in other])
 
     def __add__(self, other: Any) -> Lanes:
@@ -144,6 +146,20 @@ class Lanes:
         """Take the second of two, then the first."""
         nothing = ir.Constant(self.kind, ir.Undefined)
         order = ir.Constant(ir.VectorType(_SHORT, 2), [1, 0])
+        return Lanes(self.builder, self.builder.shuffle_vector(self.value, nothing, order))
+
+    def turned(self, by: int, count: int) -> Lanes:
+        """Move the first ones so many places down, the last of them to the top."""
+        places = [(i + by) % count if i < count else i for i in range(self.kind.count)]
+        order = ir.Constant(ir.VectorType(_SHORT, len(places)), places)
+        nothing = ir.Constant(self.kind, ir.Undefined)
+        return Lanes(self.builder, self.builder.shuffle_vector(self.value, nothing, order))
+
+    def first(self, count: int) -> Lanes:
+        """Keep the first ones, zero behind."""
+        places = [i if i < count else self.kind.count for i in range(self.kind.count)]
+        order = ir.Constant(ir.VectorType(_SHORT, len(places)), places)
+        nothing = ir.Constant(self.kind, [0.0] * self.kind.count)
         return Lanes(self.builder, self.builder.shuffle_vector(self.value, nothing, order))
 
     def total(self) -> Number:
@@ -217,6 +233,17 @@ class Code:
         """Write a number to the memory."""
         value = number.value if isinstance(number, Number) else ir.Constant(REAL, float(number))
         self.builder.store(value, self._place(at))
+
+    def load_lanes(self, at: int, count: int) -> Lanes:
+        """Read numbers side by side."""
+        kind = ir.VectorType(REAL, count)
+        place = self.builder.bitcast(self._place(at), kind.as_pointer())
+        return Lanes(self.builder, self.builder.load(place, typ=kind, align=8))
+
+    def store_lanes(self, at: int, lanes: Lanes) -> None:
+        """Write numbers side by side."""
+        place = self.builder.bitcast(self._place(at), lanes.kind.as_pointer())
+        self.builder.store(lanes.value, place, align=8)
 
     def _call(self, name: str, *numbers: Any) -> Number:
         types = [REAL] * len(numbers)

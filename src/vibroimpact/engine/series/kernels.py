@@ -202,7 +202,7 @@ def address(formula: Callable[..., None], shape: Any) -> int:
     found = _made.get(key)
     if found is None:
         with _lock:
-            found = _made.get(key) or _compiled(formula, shape)
+            found = _made.get(key) or machine_code(_emitted(formula, shape))
             _made[key] = found
     return found[1]
 
@@ -218,8 +218,8 @@ def _emitted(formula: Callable[..., None], shape: Any) -> ir.Module:
     return module
 
 
-def _compiled(formula: Callable[..., None], shape: Any) -> tuple[Any, int]:
-    """Compile for this processor; the engine that holds the code, and the address."""
+def machine_code(emitted: ir.Module) -> tuple[Any, int]:
+    """Compile for this processor; the engine that holds the code, and the address of `kernel`."""
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
     target = binding.Target.from_default_triple()
@@ -229,7 +229,7 @@ def _compiled(formula: Callable[..., None], shape: Any) -> tuple[Any, int]:
         opt=3,
         codemodel="small",
     )
-    module = binding.parse_assembly(str(_emitted(formula, shape)))
+    module = binding.parse_assembly(str(emitted))
     module.verify()
     options = binding.create_pipeline_tuning_options(speed_level=3)
     options.slp_vectorization = False  # it takes apart what is side by side already

@@ -11,10 +11,12 @@ Mode
     or whether a bilinear spring yields.
 Tape
     A law is the formula of `engine.series.laws`. Run once with symbols (`tape`), it leaves a list
-    of operations on series; `terms` goes through it for each order. All laws are compiled once.
+    of operations on series; `terms` goes through it for each order. All laws are compiled once. Of
+    few masses with polynomial links code without loops is made (`emitted`), four times as fast.
 Step
-    A series of order 24 in a fixed unit of time; its length by the last two coefficients, certified
-    by the equation of motion at its end, as in the flow of one mass (`step`).
+    A series of order 24, by code 27, in a fixed unit of time; its length by the last two
+    coefficients, certified by the equation of motion at its end, as in the flow of one mass
+    (`step`).
 Events
     What is watched of each row are series that may only fall to zero (`watch`, `happen`), found by
     `assembly.roots`. A turn of a law's branch is an event that nothing else sees.

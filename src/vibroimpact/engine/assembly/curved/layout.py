@@ -45,7 +45,8 @@ WIDTH = NUMBERS + par.SIZE
 OP_WIDTH = 4
 """Of the tape: the operation, two nodes, a number."""
 
-ORDER = 24
+ORDER, CODE_ORDER = 24, 27
+"""Of series, and of those that code writes (`emitted`), where a term more costs less."""
 
 NEW = 1.0
 """In the place of how far to leap: the branches of the links are still to be found."""

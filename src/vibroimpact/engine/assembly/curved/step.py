@@ -6,23 +6,27 @@ import math
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.curved import layout as of
+from vibroimpact.engine.assembly.curved.emitted import OFF
 from vibroimpact.engine.assembly.curved.terms import (
     accelerations_of_all,
+    coded,
     expand_all,
     node,
     remembers,
     row_of,
+    run_code,
     share_of_unit,
 )
 from vibroimpact.engine.assembly.series import travel_by_series
-from vibroimpact.engine.assembly.vectors import slopes
+from vibroimpact.engine.assembly.vectors import binary_logarithm, binary_power, slopes
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 from vibroimpact.engine.series.layout import NAMES
 from vibroimpact.engine.series.step import BALANCED, TOLERANCE
 
-_ORDER = of.ORDER
 _OWN_WEIGHT = of.NAMES + NAMES.index("own_weight")
+_MORE = 4.0
+"""How many times `TOLERANCE` the last terms of order 27 may be. Those that follow are a third."""
 _CUT = 100
 """How often a step is shortened at most. Far sooner it is so short that any is right."""
 _LEAST_SHARE = 2.0**-10
@@ -59,6 +63,8 @@ def _last(plan: Vector, m: int, rate: float) -> float:
         one = abs(plan[row + n + 1 + i]) + rate * abs(plan[row + i])
         if not one <= most and most == most:  # what is not a number shows
             most = one
+    if coded(plan):
+        return most
     count = int(plan[at.STOPS])
     for f in range(count):
         law = row_of(plan, f)
@@ -92,8 +98,29 @@ def take_end(plan: Vector, y: Vector, deformation: Vector) -> None:
 
 
 @kernel
+def _excess_by_code(plan: Vector, deformation: Vector, tau: float, size: float) -> float:
+    run_code(plan, 1, beyond(plan, int(plan[at.Y])), plan[at.PIECE_LENGTH], tau)
+    found, memory = beyond(plan, int(plan[at.OUTPUTS])), beyond(plan, _kept_memory(plan))
+    most = 0.0
+    for i in range(int(plan[at.MASSES])):
+        off = found[OFF + i]
+        if not off <= most and most == most:
+            most = off
+    for f in range(int(plan[at.STOPS])):
+        memory[f] = deformation[f]
+    stops, listed = int(plan[at.STOP]), int(plan[at.PRESSED_LIST])
+    for p in range(int(plan[at.PRESSED])):
+        f = int(plan[listed + p])
+        one = stops + f * at.STOP_WIDTH
+        memory[f] += found[int(plan[one + at.LEFT])] - found[int(plan[one + at.RIGHT])]
+    return most / (BALANCED * size + 1e-300)
+
+
+@kernel
 def excess(plan: Vector, y: Vector, deformation: Vector, tau: float, size: float) -> float:
     """By how much a step is too long, if above 1: what is missing from the equations at its end."""
+    if coded(plan):
+        return _excess_by_code(plan, deformation, tau, size)
     n, count, order = int(plan[at.MASSES]), int(plan[at.STOPS]), int(plan[at.ORDER])
     width = 2 * n + int(plan[at.WAVES]) + 1
     kept, memory = beyond(plan, int(plan[at.KEPT_Y])), beyond(plan, _kept_memory(plan))
@@ -135,22 +162,23 @@ def take_step(
 
     Their unit is a power of two, so that it changes no digit; the step is `SHARE` of it.
     """
-    rate = plan[at.STIFF_RATE]
-    unit = 2.0 ** -math.floor(math.log2(max(rate, 1e-200)))
-    last = 0.0
+    rate, unit = plan[at.STIFF_RATE], plan[at.UNIT]
+    before, last, order = 0.0, 0.0, 0
     for _ in range(40):
-        expand_all(plan, y, deformation, unit, _ORDER)
-        last = _last(plan, _ORDER, rate) + _last(plan, _ORDER - 1, rate)
-        if last < math.inf:
+        expand_all(plan, y, deformation, unit, of.ORDER)
+        order = int(plan[at.ORDER])
+        before, last = _last(plan, order - 1, rate), _last(plan, order, rate)
+        if before + last < math.inf:
             break
         unit *= 2.0**-16
-    share = math.inf
-    for m in (_ORDER - 1, _ORDER):
-        term = _last(plan, m, rate)
-        if term > 0.0:
-            share = min(share, (TOLERANCE * (size + 1e-300) / term) ** (1.0 / m))
-    h = min(share * unit, longest)
-    if not h > 0.0 or not last < math.inf:
+    bound = TOLERANCE * (1.0 if order == of.ORDER else _MORE) * (size + 1e-300)
+    whole, share = binary_logarithm(bound), 1000.0
+    if before > 0.0:
+        share = min(share, (whole - binary_logarithm(before)) / (order - 1))
+    if last > 0.0:
+        share = min(share, (whole - binary_logarithm(last)) / order)
+    h = min(binary_power(share) * unit, longest)
+    if not h > 0.0 or not before + last < math.inf:
         return 0.0
     h = left if left <= h else min(h, 0.5 * left)
     for _ in range(_CUT):
@@ -160,6 +188,6 @@ def take_step(
             return h
         cut = _LEAST_SHARE
         if off < math.inf:
-            cut = max(0.9 * off ** (-1.0 / (_ORDER - 1)), cut)
+            cut = max(0.9 * off ** (-1.0 / (order - 1)), cut)
         h *= cut
     return 0.0

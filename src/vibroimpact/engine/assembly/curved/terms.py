@@ -10,7 +10,8 @@ from vibroimpact.engine.assembly.acceleration import Places, places
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved import tape as op
 from vibroimpact.engine.assembly.curved.branches import way_of_slide
-from vibroimpact.engine.assembly.rates import apply_rates, rates_of_mode
+from vibroimpact.engine.assembly.curved.emitted import call
+from vibroimpact.engine.assembly.rates import HEAD, apply_rates, closed_place, rates_of_mode
 from vibroimpact.engine.assembly.series import expanding
 from vibroimpact.engine.assembly.vectors import convolve, convolve_weighted
 from vibroimpact.engine.jit import Vector, apart, inlined, kernel
@@ -229,7 +230,73 @@ def _grow(plan: Vector, factor: float, j: int) -> None:
             plan[node(plan, law, of.Z_NODE, base) + j + 1] = factor * grown
 
 
-expand_all = expanding(_begin, push, _grow)
+_expand = expanding(_begin, push, _grow)
+
+
+@kernel
+def coded(plan: Vector) -> bool:
+    """Whether the series in this mode are written by code that was made for the assembly."""
+    code = int(plan[at.CODE])
+    return bool(plan[code] != 0.0 and int(plan[at.MODE]) & int(plan[code + 2]) == 0)
+
+
+@kernel
+def run_code(plan: Vector, which: int, y: Vector, unit: float, number: float) -> None:
+    """Run its code: `emitted.expanded` (0) or `emitted.ended` (1)."""
+    of_ = places(plan)
+    rates = rates_of_mode(plan, of_)
+    matrix = rates.place + HEAD
+    memory = (
+        int(plan[at.SERIES]),
+        int(plan[at.NODES]),
+        matrix,
+        closed_place(plan, rates.place, of_.masses),
+        matrix + 8 * (rates.width + 1 + of_.pressed),
+        int(plan[at.OUTPUTS]),
+        int(plan[at.KEPT_Y]),
+        int(plan[at.LAWS]),
+    )
+    call(plan, int(plan[at.CODE]) + which, memory, y, unit, number)
+
+
+@kernel
+def expand_all(plan: Vector, y: Vector, deformation: Vector, length: float, order: int) -> None:
+    """Write the series of all masses in t / length; of `ORDER` or, by code, `CODE_ORDER`."""
+    if order != of.ORDER or not coded(plan):
+        _expand(plan, y, deformation, length, order)
+        return
+    _expand_by_code(plan, y, deformation, length)
+
+
+@apart
+def _expand_by_code(plan: Vector, y: Vector, deformation: Vector, length: float) -> None:
+    of_ = places(plan)
+    n, row, count = of_.masses, int(plan[at.ROW]), int(plan[at.STOPS])
+    plan[at.ORDER], plan[at.PIECE_LENGTH] = float(of.CODE_ORDER), length
+    plan[at.MOVED] = y[2 * n + of_.waves]
+    rates = rates_of_mode(plan, of_)
+    inputs = beyond(plan, rates.place + HEAD + 8 * rates.width)
+    begun = beyond(plan, int(plan[at.OUTPUTS]))
+    for i in range(8):
+        begun[i] = inputs[i]
+    for p in range(of_.pressed):
+        d = deformation[int(plan[of_.pressed_list + p])]
+        for i in range(8):
+            begun[i] += inputs[8 * (1 + p) + i] * d
+    run_code(plan, 0, y, length, plan[at.OMEGA])
+    for p in range(of_.pressed):
+        f = int(plan[of_.pressed_list + p])
+        one = of_.stops + f * at.STOP_WIDTH
+        k, c = plan[one + at.STOP_STIFFNESS], plan[one + at.STOP_DAMPING]
+        left = beyond(plan, int(plan[at.SERIES]) + int(plan[one + at.LEFT]))
+        right = beyond(plan, int(plan[at.SERIES]) + int(plan[one + at.RIGHT]))
+        forces, v = beyond(plan, int(plan[at.FORCE_SERIES]) + p), n + 1
+        forces[0] = k * deformation[f] + c * (left[v] - right[v])
+        for j in range(1, of.CODE_ORDER + 1):
+            here = j * row
+            forces[j * count] = k * (left[here] - right[here]) + c * (
+                left[here + v] - right[here + v]
+            )
 
 
 @kernel
@@ -237,7 +304,7 @@ def share_of_unit(plan: Vector, share: float) -> None:
     """Let what is watched of the series in hand be that on a share of their unit."""
     powers, power = int(plan[at.POWERS]), 1.0
     plan[at.SHARE] = share
-    for j in range(of.ORDER + 1):
+    for j in range(int(plan[at.ORDER]) + 1):
         plan[powers + j] = power
         power *= share
 

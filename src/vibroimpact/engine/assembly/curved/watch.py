@@ -7,7 +7,8 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.advance import first_event, is_positive
 from vibroimpact.engine.assembly.curved import layout as of
 from vibroimpact.engine.assembly.curved.branches import side_of, way_of_slide
-from vibroimpact.engine.assembly.curved.terms import node, row_of
+from vibroimpact.engine.assembly.curved.emitted import REACH
+from vibroimpact.engine.assembly.curved.terms import coded, node, row_of
 from vibroimpact.engine.assembly.events import speeds
 from vibroimpact.engine.assembly.roots import NONE, first_fall
 from vibroimpact.engine.assembly.series import to_bernstein, watched_series
@@ -15,6 +16,8 @@ from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
 _WRONG = 1e-14
+_MARGIN = 1e-6
+"""Beside which the rounding of a reach is nothing."""
 _ROUNDING = 2e-16
 _ZERO = 1e-15
 """Share of a size below which the first coefficients of what begins at zero are rounding."""
@@ -205,6 +208,18 @@ def _of_stop(
 
 
 @kernel
+def _stays_clear(plan: Vector, f: int) -> bool:
+    """Whether a free stop is farther away than its bodies can move, by the code of a step's end."""
+    if not coded(plan):
+        return False
+    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
+    left, right = int(plan[one + at.LEFT]), int(plan[one + at.RIGHT])
+    here, reach = beyond(plan, int(plan[at.SERIES])), beyond(plan, int(plan[at.OUTPUTS]) + REACH)
+    clear = plan[one + at.GAP] + here[right] - here[left]
+    return bool(clear > (1.0 + _MARGIN) * (reach[left] + reach[right]))
+
+
+@kernel
 def first_of(
     plan: Vector, f: int, mode: int, length: float, size: float, end: float
 ) -> tuple[float, int]:
@@ -217,6 +232,8 @@ def first_of(
     if plan[one + at.KIND] == at.PUSHING and mode >> f & 1:
         found = _of_stop(plan, f, row, size, end, a)
         return found
+    if mode >> f & 1 == 0 and plan[int(plan[at.ZEROS]) + f] == 0.0 and _stays_clear(plan, f):
+        return NONE, 0
     watched_series(plan, f, mode, a)
     powers = int(plan[at.POWERS])
     for j in range(int(plan[at.ORDER]) + 1):
