@@ -304,7 +304,7 @@ def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int
     if moved:
         for f in range(int(plan[at.STOPS])):
             plan[int(plan[at.ZEROS]) + f] = 0.0
-    plan[at.LENGTH] = length
+    plan[at.LENGTH], plan[at.AT_ONCE] = length, float(not moved)
     plan[at.AGE] += length
     event = LIMIT
     if hit >= 0:

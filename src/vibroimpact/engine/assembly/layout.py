@@ -124,7 +124,8 @@ from __future__ import annotations
     OUTPUTS,
     SHARE,
     POWERS,
-) = range(100)
+    AT_ONCE,
+) = range(101)
 HEADER = 104
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)
