@@ -291,6 +291,19 @@ def test_what_parts_at_the_first_instant_is_not_seen_to_pull(phase: float) -> No
     assert not faults(assembly, motion, "done")
 
 
+@pytest.mark.parametrize(
+    ("seed", "which"),
+    [
+        pytest.param(3, 128, id="touches, of which none lasts: the sign of a rounding decided"),
+        pytest.param(3, 149, id="the same beside curved stops"),
+        pytest.param(22, 4409, id="a stop that is touched without speed where friction lets go"),
+        pytest.param(21, 4543, id="a stop that pushes again within the step in which it ceased"),
+    ],
+)
+def test_random_assemblies_that_were_found_to_fail(seed: int, which: int) -> None:
+    assert looked_at(seed, which) == ("done", [])
+
+
 if __name__ == "__main__":
     given = [int(word) for word in sys.argv[1:]]
     totals, bad = survey(given[0], *(given[1:] or [1]), tell=True)
