@@ -7,7 +7,8 @@ import itertools
 import re
 import sys
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 LONGEST = 320
 """Largest number of characters of a message, excluding full paths of files."""
@@ -35,6 +36,15 @@ class InputError(ValueError):
 
 class DependentError(InputError):
     """Invalid input that another invalid value of the same input explains, such as the mass."""
+
+
+@contextmanager
+def errors_at(where: str) -> Iterator[None]:
+    """Put a place, such as ``"links.base: "``, before the message of an `InputError`."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(f"{where}{error}") from None
 
 
 class InputWarning(UserWarning):

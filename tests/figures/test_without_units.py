@@ -9,7 +9,7 @@ import pytest
 
 import vibroimpact as vi
 from vibroimpact import figures
-from vibroimpact.figures.own_units import without_unit
+from vibroimpact.figures.finish import without_unit
 from vibroimpact.response.resonance import features
 
 RIG = vi.Rig(vi.Oscillator(1, vi.Isolator(1, 0.1), vi.Bumper(20, 0, 2)), 0.5)
@@ -89,10 +89,6 @@ def test_other_rigs_keep_their_units():
     rig = vi.Rig(RIG.oscillator.replace(units="SI"), 0.5)
     ax = figures.phase_portrait(vi.steady(rig, frequency=0.2))
     assert ax.get_xlabel() == "relative displacement $u$ (mm)"
-
-
-def test_figures_accept_keywords(motion):
-    assert labels(figures.phase_portrait(motions=motion))[0] == "relative displacement $u$"
 
 
 @pytest.mark.parametrize(

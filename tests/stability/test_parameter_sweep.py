@@ -11,7 +11,8 @@ from vibroimpact.engine import parameters as par
 from vibroimpact.model.parameters import PARAMETERS
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.hold_rows import Settling
-from vibroimpact.stability.parameter_sweep import nearest_state, rigs_along, stepped
+from vibroimpact.stability.nearest_state import nearest_state
+from vibroimpact.stability.parameter_sweep import rigs_along, stepped
 
 CASE = vi.laboratory.case("B2-G1-A3")
 SHAKEN = vi.Harmonic(CASE.amplitude, 2.5)

@@ -5,11 +5,12 @@ pyplot. If no axes are passed, a function makes a new figure, which is the attri
 the returned axes. A notebook displays the returned axes. `save_figure` writes the figure to a file.
 
 A new figure is a module with one function of a dataset and, optionally, axes. It takes colours,
-marks and panels from `style`, and new axes from `notebook`; `add_legend` of `legends` and, at the
-end, `fit_labels` fit its texts to the width of a column. It must be readable in print and without
-colour. Curves over the frequency are panels of the class `Drawn` of `resonance_panels`. List the
-function in the stub beside this file, in `docs/reference/how-to-draw.md`, in
-`tests/figures/every_figure.py` (texts that overlap or are cut off) and in an example of `gallery/`.
+marks and panels from `style`, and new axes from `notebook`; `add_legend` of `legends` and the
+decorator `finished` of `finish` fit its texts to the width of a column. It must be readable in
+print and without colour. Curves over the frequency are panels of the class `Drawn` of
+`resonance_panels`. List the function in the stub beside this file, in
+`docs/reference/how-to-draw.md`, in `tests/figures/every_figure.py` (texts that overlap or are cut
+off) and in an example of `gallery/`.
 """
 
 from __future__ import annotations

@@ -8,16 +8,15 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.legends import fit_labels
+from vibroimpact.figures.finish import acceleration_text, finished
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import acceleration_text, in_own_units
 from vibroimpact.figures.response_spectra import response_spectra
 from vibroimpact.figures.style import EDGE, also_in_g, note_peak, panels
 from vibroimpact.model import Record
 from vibroimpact.model.written_units import unit
 
 
-@in_own_units
+@finished
 def accelerogram(
     record: Record,
     spectrum: xr.Dataset | None = None,
@@ -67,5 +66,4 @@ def accelerogram(
     also_in_g(ax)
     if spectrum is not None:
         response_spectra(spectrum, given[1])
-    fit_labels(*given)
     return given

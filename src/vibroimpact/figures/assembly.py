@@ -2,32 +2,46 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import withStroke
+from matplotlib.text import Text
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.model import Assembly
-from vibroimpact.model.assembly.drawing import drawing
+from vibroimpact.model.assembly.drawing import Drawing, drawing
 from vibroimpact.model.written_units import written_for
 
 _INCH = 72.0
-_OUTLINE = [withStroke(linewidth=3.0, foreground="white")]
-"""Keeps a text readable on a line."""
 _LEGIBLE = 6.0
 """Size (pt) below which words are not made smaller."""
-_PENS: dict[str, dict[str, Any]] = {
-    "stem": {"color": "black", "linewidth": 2.0, "zorder": 2},
-    "ground": {"color": "0.35", "linewidth": 0.8, "zorder": 2},
-    "link": {"color": "black", "linewidth": 1.1, "zorder": 3},
-    "stop": {"color": "#c8102e", "linewidth": 1.3, "zorder": 3},
-    "gap": {"color": "#1f4fbf", "linewidth": 0.9, "linestyle": "--", "zorder": 3},
-    "bridge": {"color": "white", "linewidth": 5.0, "zorder": 2.5},
+
+
+class Pen(NamedTuple):
+    """How lines of one kind are drawn."""
+
+    colour: str
+    width: float
+    order: float
+    dashes: str = "-"
+
+
+PENS = {
+    "stem": Pen("black", 2.0, 2.0),
+    "ground": Pen("#595959", 0.8, 2.0),
+    "bridge": Pen("white", 5.0, 2.5),
+    "mass": Pen("black", 1.0, 3.0),
+    "link": Pen("black", 1.1, 3.0),
+    "stop": Pen("#c8102e", 1.3, 3.0),
+    "gap": Pen("#1f4fbf", 0.9, 3.0, "--"),
 }
+"""Pens, from the lowest layer to the top."""
+BOX = "#e8edf5"
+"""Colour of a mass."""
 
 
 def assembly_drawing(
@@ -58,30 +72,50 @@ def assembly_drawing(
     with written_for(assembly):
         made = drawing(assembly)
     ax = axes_or_new(ax, (made.width / _INCH + 0.2, made.height / _INCH + 0.2), title)
-    for line in made.lines:
-        if line.closed:
-            box = Polygon(line.points, facecolor="#e8edf5", edgecolor="black", linewidth=1.0)
-            ax.add_patch(box).set_zorder(3)
-        else:
-            ax.plot(*zip(*line.points, strict=True), **_PENS[line.kind])
     # The drawing shrinks with a narrow figure, and its words with it as far as they can be read.
     figure = ax.get_figure(root=True)
     assert figure is not None
     small = FontProperties(size="small").get_size_in_points()
     share = figure.get_size_inches()[0] * _INCH / made.width
     size = min(small, max(_LEGIBLE, share * small))
-    for words in made.words:
-        ax.text(
-            *words.at,
-            words.text,
-            ha="center",
-            va="center",
-            fontsize=size,
-            zorder=4,
-            path_effects=_OUTLINE if words.over_lines else (),
-        ).set_in_layout(False)  # the drawing has room for them
-    ax.set_xlim(0.0, made.width)
-    ax.set_ylim(made.height, 0.0)
+    draw(ax, made, size)
     ax.set_aspect("equal")
-    ax.set_axis_off()
     return ax
+
+
+def draw(
+    ax: Axes, made: Drawing, size: float, share: float = 1.0, head: float = 0.0
+) -> tuple[list[Polygon], list[Text]]:
+    """Draw a drawing, and return its lines and its texts, in the order in which it holds them.
+
+    Parameters
+    ----------
+    size
+        Size of the texts (pt).
+    share
+        Factor of the widths of the pens.
+    head
+        Height of a free strip above the drawing.
+    """
+    lines, texts = [], []
+    for one in made.lines:
+        pen, face = PENS[one.kind], BOX if one.closed else "none"
+        style: dict[str, Any] = {
+            "linewidth": share * pen.width,
+            "linestyle": pen.dashes,
+            "capstyle": "projecting" if pen.dashes == "-" else "butt",
+            "joinstyle": "miter" if one.closed else "round",
+        }
+        line = Polygon(one.points, closed=one.closed, facecolor=face, edgecolor=pen.colour, **style)
+        ax.add_patch(line).set_zorder(pen.order)
+        lines.append(line)
+    for words in made.words:
+        # An outline keeps a text readable on a line.
+        text = ax.text(*words.at, words.text, size=size, ha="center", va="center", zorder=4)
+        text.set_path_effects([withStroke(linewidth=3.0, foreground="white")] * words.over_lines)
+        text.set_in_layout(False)  # the drawing has room for it
+        texts.append(text)
+    ax.set_xlim(0.0, made.width)
+    ax.set_ylim(made.height, -head)
+    ax.set_axis_off()
+    return lines, texts

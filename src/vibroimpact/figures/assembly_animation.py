@@ -7,20 +7,19 @@ import itertools
 import json
 from collections.abc import Iterator
 from html import escape
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Polygon
-from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError
+from vibroimpact.figures.assembly import PENS, draw
 from vibroimpact.figures.assembly_motion import History, history
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.drawing import Drawing, Moved, column_width, drawing, gap_scale
@@ -41,18 +40,6 @@ _LONGEST = 120.0
 """Longest animation (s)."""
 _FARTHEST = 0.32
 """Largest displacement on the screen, relative to the distance between two bodies."""
-_PENS: dict[str, tuple[str, float]] = {
-    "mass": ("black", 1.2),
-    "stem": ("black", 2.0),
-    "ground": ("#555555", 1.0),
-    "link": ("black", 1.2),
-    "stop": ("#c8102e", 1.6),
-    "gap": ("#1f4fbf", 1.0),
-    "bridge": ("white", 5.0),
-}
-"""Colour and width of each kind of line."""
-_ORDER = ("ground", "stem", "bridge", "mass", "link", "stop", "gap")
-"""Kinds of lines, from the lowest layer to the top."""
 
 
 def save_animation(
@@ -222,53 +209,20 @@ def _pictures(
     figure = Figure(figsize=(wide, share * (made.height + head) / 72.0), dpi=_DPI)
     canvas = FigureCanvasAgg(figure)
     ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    ax.set_xlim(0.0, made.width)
-    ax.set_ylim(made.height, -head)
-    ax.set_axis_off()
     size = max(5.0, 8.0 * min(share, 1.0))
-    slices = _slices(made)
-    collections: dict[str, LineCollection] = {}
-    boxes: dict[int, Polygon] = {}
-    for kind, (colour, width) in _PENS.items():
-        order = 2.0 + 0.1 * _ORDER.index(kind)
-        lines = LineCollection([], colors=colour, linewidths=share * width, zorder=order)
-        if kind == "gap":
-            lines.set_linestyle("--")
-        ax.add_collection(lines)
-        collections[kind] = lines
-    for i, line in enumerate(made.lines):
-        if line.closed:
-            box = Polygon([(0.0, 0.0)], facecolor="#e8edf5", edgecolor="black", zorder=3)
-            ax.add_patch(box)
-            boxes[i] = box
-    texts = [
-        ax.text(
-            *words.at,
-            words.text,
-            ha="center",
-            va="center",
-            fontsize=size,
-            zorder=4,
-            path_effects=[withStroke(linewidth=2.5, foreground="white")] * words.over_lines,
-        )
-        for words in made.words
-    ]
+    lines, texts = draw(ax, made, size, share, head)
     if title:
         ax.text(8.0, 8.0 - head, literal(title), va="top", fontsize=size + 1.0)
     clock = ax.text(made.width - 8.0, 8.0 - head, "", ha="right", va="top", fontsize=size + 1.0)
-    owners = moving.owners()
+    slices, owners, pen = _slices(made), moving.owners(), share * PENS["stop"].width
     for now, values, hit in zip(at, moving.values(at), moving.touched(at), strict=True):
         points = moving.base.copy()
         points[:, 0] += values @ moving.shifts
         pressed = {name for name, one in zip(moving.stops, hit, strict=True) if one}
-        for kind, lines in collections.items():
-            mine = [i for i, line in enumerate(made.lines) if line.kind == kind and i not in boxes]
-            lines.set_segments([points[slices[i]] for i in mine])
-            if kind == "stop":
-                pen = share * _PENS[kind][1]
-                lines.set_linewidth([2.2 * pen if owners[i] in pressed else pen for i in mine])
-        for i, box in boxes.items():
-            box.set_xy(points[slices[i]])
+        for line, where, owner in zip(lines, slices, owners, strict=True):
+            line.set_xy(points[where])
+            if owner:
+                line.set_linewidth(2.2 * pen if owner in pressed else pen)
         for text, point in zip(texts, points[len(points) - len(texts) :], strict=True):
             text.set_position((float(point[0]), float(point[1])))
         clock.set_text(f"{_instant(now)}, {speed}")
@@ -293,19 +247,19 @@ def _page(moving: _Moving, at: _Array, duration: float, title: str | None, speed
     owners, slices = moving.owners(), _slices(made)
     shapes: list[dict[str, Any]] = []
     for line, owner, where in zip(made.lines, owners, slices, strict=True):
-        colour, width = _PENS[line.kind]
+        pen = PENS[line.kind]
         shapes.append(
             {
                 "closed": line.closed,
-                "colour": colour,
-                "width": width,
-                "dashes": "3 2" if line.kind == "gap" else "",
+                "colour": pen.colour,
+                "width": pen.width,
+                "dashes": "" if pen.dashes == "-" else "3 2",
                 "stop": moving.stops.index(owner) if owner else -1,
                 "points": _linear(moving, range(where.start, where.stop)),
             }
         )
-    kinds = [line.kind for line in made.lines]
-    shapes = [shapes[i] for i in sorted(range(len(kinds)), key=lambda i: _ORDER.index(kinds[i]))]
+    kinds, order = [line.kind for line in made.lines], list(PENS)
+    shapes = [shapes[i] for i in sorted(range(len(kinds)), key=lambda i: order.index(kinds[i]))]
     count = sum(len(line.points) for line in made.lines)
     texts = [
         {
@@ -329,8 +283,9 @@ def _page(moving: _Moving, at: _Array, duration: float, title: str | None, speed
     heading = escape(title or "")
     # "</" would end the script.
     written = json.dumps(data, separators=(",", ":")).replace("</", "<\\/")
+    page = resources.files(__package__).joinpath("animation.html").read_text("utf-8")
     return (
-        _PAGE.replace("$TITLE", heading or "Motion")
+        page.replace("$TITLE", heading or "Motion")
         .replace("$HEADING", f"<h1>{heading}</h1>" if heading else "")
         .replace("$WIDTH", f"{made.width:g}")
         .replace("$HEIGHT", f"{made.height:g}")
@@ -347,108 +302,3 @@ def _linear(moving: _Moving, where: range) -> list[list[Any]]:
         ]
         found.append([*(float(f"{one:.6g}") for one in moving.base[i]), shifts])
     return found
-
-
-_PAGE = """<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<title>$TITLE</title>
-<style>
-body { font-family: sans-serif; margin: 1rem; background: white; color: black; }
-h1 { font-size: 1.1rem; }
-svg { display: block; width: 100%; max-width: calc(1.6px * $WIDTH); height: auto; }
-.bar { display: flex; gap: 0.8rem; align-items: center; max-width: calc(1.6px * $WIDTH); }
-.bar input { flex: 1; }
-output { font-variant-numeric: tabular-nums; }
-</style>
-</head>
-<body>
-$HEADING
-<svg viewBox="0 0 $WIDTH $HEIGHT" role="img" aria-label="masses in motion"></svg>
-<div class="bar">
-<button type="button" id="play">pause</button>
-<input type="range" id="at" min="0" max="1" step="any" value="0" aria-label="time">
-<output id="clock"></output>
-</div>
-<script>
-"use strict";
-const data = $DATA;
-const svg = document.querySelector("svg");
-const slider = document.getElementById("at");
-const clock = document.getElementById("clock");
-const button = document.getElementById("play");
-function made(tag, attributes) {
-  const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
-  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-  svg.appendChild(element);
-  return element;
-}
-for (const one of data.shapes) {
-  one.element = made(one.closed ? "polygon" : "polyline", {
-    fill: one.closed ? "#e8edf5" : "none", stroke: one.colour,
-    "stroke-width": one.width, "stroke-dasharray": one.dashes,
-  });
-}
-for (const one of data.texts) {
-  one.elements = one.rows.map((row, i) => {
-    const element = made("text", {
-      "text-anchor": "middle", "font-family": "sans-serif", "font-size": 11,
-      "stroke-width": one.outlined ? 3 : 0, stroke: "white", "paint-order": "stroke",
-      y: one.points[0][1] + 3.5 + 14 * (i - 0.5 * (one.rows.length - 1)),
-    });
-    element.textContent = row;
-    return element;
-  });
-}
-const place = (point, state) => point[2].reduce((x, [k, by]) => x + by * state[k], point[0]);
-function show(share) {
-  const first = data.times[0], last = data.times[data.times.length - 1];
-  const now = first + share * (last - first);
-  let low = 0, high = data.times.length - 1;
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (data.times[middle] <= now) low = middle; else high = middle;
-  }
-  const part = (now - data.times[low]) / (data.times[high] - data.times[low]);
-  const state = data.values[low].map((value, k) => value + part * (data.values[high][k] - value));
-  const touched = data.touched[part < 0.5 ? low : high];
-  for (const one of data.shapes) {
-    one.element.setAttribute(
-      "points", one.points.map((point) => `${place(point, state)},${point[1]}`).join(" "));
-    if (one.stop >= 0) {
-      one.element.setAttribute("stroke-width", touched[one.stop] ? 2.2 * one.width : one.width);
-    }
-  }
-  for (const one of data.texts) {
-    for (const element of one.elements) element.setAttribute("x", place(one.points[0], state));
-  }
-  clock.textContent = `t = ${now.toFixed(2)}${data.unit}, ${data.speed}`;
-}
-let share = 0, before = null, playing = true;
-function step(now) {
-  if (playing && before !== null) {
-    share = (share + (now - before) / (1000 * data.duration)) % 1;
-    slider.value = share;
-    show(share);
-  }
-  before = now;
-  requestAnimationFrame(step);
-}
-button.addEventListener("click", () => {
-  playing = !playing;
-  button.textContent = playing ? "pause" : "play";
-});
-slider.addEventListener("input", () => {
-  playing = false;
-  button.textContent = "play";
-  share = Number(slider.value);
-  show(share);
-});
-show(0);
-requestAnimationFrame(step);
-</script>
-</body>
-</html>
-"""

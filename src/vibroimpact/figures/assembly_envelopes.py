@@ -15,10 +15,10 @@ from matplotlib.ticker import MaxNLocator
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import chains, history
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.legends import add_legend, fit_labels
-from vibroimpact.figures.motion_style import looks
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
+from vibroimpact.figures.motion_style import by_name, looks
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import EDGE, Look, panels
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.names import GROUND
@@ -27,7 +27,7 @@ from vibroimpact.model.quantities import GRAVITY
 from vibroimpact.response.totals import totals
 
 
-@in_own_units
+@finished
 def mass_envelopes(
     motions: xr.Dataset | Mapping[str, xr.Dataset], axes: Any = None, *, title: str | None = None
 ) -> Panels:
@@ -64,10 +64,7 @@ def mass_envelopes(
     InputError
         If a dataset does not hold such a motion, or if the motions are of different masses.
     """
-    if isinstance(motions, Mapping) and not isinstance(motions, xr.Dataset):
-        named = dict(motions)
-    else:
-        named = {"motion": motions}
+    named = by_name(motions, "motion")
     if not named:
         raise InputError("motions: empty; pass at least one motion of an assembly")
     every = {name: history(motion).assembly for name, motion in named.items()}
@@ -102,7 +99,6 @@ def mass_envelopes(
             ax.tick_params(labelleft=False)
     if len(named) > 1:
         add_legend(given[0], [_entry(look) for look in looks(list(named))], columns=2)
-    fit_labels(*given)
     return given
 
 
@@ -111,14 +107,7 @@ def _entry(look: Look) -> Any:
 
 
 def _style(look: Look) -> dict[str, Any]:
-    return {
-        "color": look.colour,
-        "linestyle": look.dashes,
-        "linewidth": look.width,
-        "marker": look.marker,
-        "markersize": look.size,
-        "markerfacecolor": look.colour if look.filled else "white",
-    }
+    return look.marks(empty="white") | look.line
 
 
 def _draw(given: tuple[Axes, ...], motion: xr.Dataset, assembly: Assembly, look: Look) -> None:

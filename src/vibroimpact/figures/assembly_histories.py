@@ -23,9 +23,9 @@ from vibroimpact.figures.assembly_motion import (
     touching,
 )
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.record import mark_end
 from vibroimpact.figures.style import EDGE
 from vibroimpact.model.names import literal
@@ -40,7 +40,7 @@ LABELS: dict[str, tuple[float, str]] = {
 """Factor and label of the histories of masses."""
 
 
-@in_own_units
+@finished
 def mass_histories(
     motion: xr.Dataset,
     axes: Any = None,
@@ -129,7 +129,6 @@ def mass_histories(
     entries += mark_end(every, motion)
     if entries:
         add_legend(given[0], entries)
-    fit_labels(*every)
     return every
 
 
@@ -156,7 +155,7 @@ def share_scale(given: Panels) -> None:
         ax.set_ylim(limits[:, 0].min(), limits[:, 1].max())
 
 
-@in_own_units
+@finished
 def contact_forces(
     motion: xr.Dataset,
     axes: Any = None,
@@ -231,7 +230,6 @@ def contact_forces(
     given[-1].set_xlabel(shown.label)
     if entries := mark_end(given, motion):
         add_legend(given[0], entries)
-    fit_labels(*given)
     return given
 
 

@@ -13,16 +13,16 @@ from matplotlib.patches import Patch
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import band_of, chosen, history
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.portrait import SECTION
 from vibroimpact.model import Assembly
 from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.names import literal
 
 
-@in_own_units
+@finished
 def pair_portrait(
     motion: xr.Dataset,
     first: str,
@@ -119,7 +119,6 @@ def pair_portrait(
     ax.set_ylabel(labels[1])
     if handles:
         add_legend(ax, handles, columns=3)
-    fit_labels(ax)
     return ax
 
 
@@ -146,7 +145,7 @@ def _gaps(ax: Axes, assembly: Assembly, first: str, second: str, approach: bool)
             edge = min(low, line.min()) if side > 0 else max(high, line.max())
             ax.fill_between(x, line, edge, zorder=0, **how)
             ax.plot(x, line, color="black", linestyle="--", linewidth=0.8, zorder=2)
-        entries.append(Patch(label=literal(name), **band.style))
+        entries.append(band.entry(literal(name)))
     ax.set_xlim(left, right)
     ax.set_ylim(low, high)
     return entries

@@ -21,11 +21,17 @@ from vibroimpact.figures.assembly_motion import (
     touching,
 )
 from vibroimpact.figures.axis_labels import axis_label
-from vibroimpact.figures.branches import MARKS, axis_unit, stable_pieces
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.branches import (
+    axis_unit,
+    mark_bifurcations,
+    mark_sweep,
+    orbit_style,
+    stable_pieces,
+)
+from vibroimpact.figures.finish import finished
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units
-from vibroimpact.figures.style import EDGE, SHADE, SWEEPS, curve_style
+from vibroimpact.figures.style import EDGE, SHADE, sweeps_of
 from vibroimpact.model import Assembly
 
 _Array = NDArray[np.float64]
@@ -38,7 +44,7 @@ _CONTACT = {"both": "", "one": "/////"}
 _LABELS = {"both": "contact", "one": "contact in one sweep"}
 
 
-@in_own_units
+@finished
 def mass_resonance(
     data: xr.Dataset,
     axes: Any = None,
@@ -92,60 +98,40 @@ def mass_resonance(
     loose = set()
     for ax, one in zip(given, drawn, strict=True):
         kinds |= _shade(ax, frequency, one.touched)
-        for layer, (direction, style) in enumerate(SWEEPS.items()):
-            if direction not in data["direction"].values:
-                continue
+        for layer, (direction, style) in enumerate(sweeps_of(data)):
             curve = one.factor * one.values.sel(direction=direction).values
             ax.plot(
                 frequency,
                 curve,
                 label=style.label,
                 zorder=3 + layer,
-                **curve_style(style, len(frequency), _MARKS),
+                **style.curve(len(frequency), _MARKS),
             )
             wild = data["motion"].sel(direction=direction).values != "periodic"
             if wild.any():
                 loose.add(direction)
-                ax.plot(
-                    frequency[wild],
-                    curve[wild],
-                    linestyle="",
-                    marker="x" if style.filled else "+",
-                    markersize=6.0,
-                    color=style.colour,
-                    zorder=5 + layer,
-                )
+                ax.plot(frequency[wild], curve[wild], zorder=5 + layer, **style.cross())
         ax.set_xlim(frequency[0], max(frequency[-1], 1.001 * frequency[0]))
         if not (one.values < 0.0).any():
             ax.set_ylim(bottom=0.0)
     label_each(given, axes, [one.label for one in drawn])
     label_lowest(given, axes, "excitation frequency $f$ (Hz)")
     entries: list[Any] = []
-    for direction, look in SWEEPS.items():
-        if direction in data["direction"].values:
-            entries.append(Line2D([], [], label=look.label, **curve_style(look, 1)))
-            if direction in loose:
-                entries.append(
-                    Line2D(
-                        [],
-                        [],
-                        linestyle="",
-                        marker="x" if look.filled else "+",
-                        color=look.colour,
-                        label=f"{look.label}, not settled",
-                    )
-                )
+    for direction, look in sweeps_of(data):
+        entries.append(Line2D([], [], label=look.label, **look.curve(1)))
+        if direction in loose:
+            label = f"{look.label}, not settled"
+            entries.append(Line2D([], [], label=label, **look.cross()))
     entries += [
         Patch(facecolor=SHADE, edgecolor=EDGE, lw=0.0, hatch=_CONTACT[kind], label=_LABELS[kind])
         for kind in _CONTACT
         if kind in kinds
     ]
     legend_of(given, axes, entries)
-    fit_labels(*given)
     return given
 
 
-@in_own_units
+@finished
 def mass_branches(
     data: xr.Dataset,
     axes: Any = None,
@@ -199,45 +185,22 @@ def mass_branches(
     scale, unit = axis_unit(data[parameter])
     x = scale * data[parameter].values
     pieces = stable_pieces(data)
-    kinds = data["bifurcation_kind"].values
     styles: dict[tuple[bool, bool], dict[str, Any]] = {}
-    found: dict[str, Any] = {}
+    found: list[Line2D] = []
     for ax, one in zip(given, drawn, strict=True):
         y = one.factor * one.values.values
         for piece, stable in pieces:
             for run, touched in _runs(piece, one.touched):
-                styles[stable, touched] = style = _line(stable, touched)
-                ax.plot(x[run], y[run], zorder=2.5 if stable else 2, **style)
-        for direction, look in SWEEPS.items():
-            if sweep is None or direction not in sweep["direction"].values:
-                continue
-            found[look.label] = ax.plot(
-                scale * sweep["frequency"].values,
-                one.factor * one.of(sweep[one.quantity].sel(direction=direction)),
-                linestyle="",
-                marker=look.marker,
-                markersize=0.7 * look.size,
-                markevery=max(1, sweep.sizes["frequency"] // _MARKS),
-                color=look.colour,
-                markerfacecolor=look.colour if look.filled else "none",
-                label=look.label,
-                zorder=3,
-            )[0]
-        for kind, mark in MARKS.items():
-            mine = kinds == kind
-            if not mine.any() or f"bifurcation_{one.quantity}" not in data:
-                continue
-            found[kind] = ax.plot(
-                scale * data["bifurcation_value"].values[mine],
-                one.factor * one.of(data[f"bifurcation_{one.quantity}"])[mine],
-                linestyle="",
-                marker=mark.marker,
-                markersize=mark.size,
-                markerfacecolor=mark.colour if mark.filled else "none",
-                markeredgecolor=mark.colour,
-                label=kind.replace("-", "–"),
-                zorder=4,
-            )[0]
+                width = (2.0 if touched else 0.9) * (1.0 if stable else 0.8)
+                styles[stable, touched] = style = orbit_style(stable, width)
+                ax.plot(x[run], y[run], **style)
+        found = []
+        if sweep is not None:
+            swept = one.factor * one.of(sweep[one.quantity])
+            found += mark_sweep(ax, swept, scale, 0.7, _MARKS)
+        if f"bifurcation_{one.quantity}" in data:
+            marked = one.factor * one.of(data[f"bifurcation_{one.quantity}"]).values
+            found += mark_bifurcations(ax, data, scale, marked)
         ax.set_xlim(x.min(), x.max() if x.max() > x.min() else None)
     label_each(given, axes, [one.label for one in drawn])
     label_lowest(given, axes, f"{data[parameter].attrs['long_name']} ({unit})")
@@ -246,8 +209,7 @@ def mass_branches(
         Line2D([], [], label=f"{words[stable]}{', contact' if touched else ''}", **style)
         for (stable, touched), style in sorted(styles.items(), reverse=True)
     ]
-    legend_of(given, axes, [*entries, *found.values()])
-    fit_labels(*given)
+    legend_of(given, axes, [*entries, *found])
     return given
 
 
@@ -267,15 +229,6 @@ def legend_of(given: Panels, axes: Any, entries: list[Any]) -> None:
         add_legend(figure, entries, columns=4)
     else:
         add_legend(given[0], entries, columns=3)
-
-
-def _line(stable: bool, touched: bool) -> dict[str, Any]:
-    return {
-        "color": "black",
-        "linestyle": "-" if stable else (0, (4, 2)),
-        "linewidth": (2.0 if touched else 0.9) * (1.0 if stable else 0.8),
-        "gapcolor": None if stable else "white",
-    }
 
 
 def _runs(piece: slice, hit: NDArray[np.bool_]) -> list[tuple[slice, bool]]:
@@ -302,12 +255,9 @@ class _Panel(NamedTuple):
     touched: NDArray[np.bool_]
     """Where a stop of this part is touched: of a mass its own stops, of the assembly all."""
 
-    def of(self, values: xr.DataArray) -> _Array:
+    def of(self, values: xr.DataArray) -> xr.DataArray:
         """Return the values of this part from those of all."""
-        for dim in ("mass", "stop"):
-            if dim in values.dims:
-                values = values.sel({dim: self.name})
-        return np.asarray(values.values, dtype=float)
+        return values.sel({dim: self.name for dim in ("mass", "stop") if dim in values.dims})
 
 
 def _panels(

@@ -7,7 +7,7 @@ import re
 import xarray as xr
 
 from vibroimpact.datasets.stops import SIDES
-from vibroimpact.figures.own_units import in_unit
+from vibroimpact.figures.finish import in_unit
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE
 
 _LABELS = {

@@ -6,20 +6,19 @@ import numpy as np
 import xarray as xr
 from matplotlib import patheffects
 from matplotlib.axes import Axes
-from matplotlib.patches import Patch
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.basins import colour_of
+from vibroimpact.figures.basins import basin_entry, colour_of, write_number
 from vibroimpact.figures.branches import axis_unit
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units
 
 _ROUNDING = 1e-9
 """Rounding error of a sum of shares (per cent)."""
 
 
-@in_own_units
+@finished
 def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw the basin stability of each motion over a parameter, as stacked areas.
 
@@ -56,28 +55,12 @@ def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
         ax.fill_between(
             x, low, high, facecolor=colour_of(number), edgecolor="black", linewidth=0.6, zorder=2
         )
-        handles.append(
-            Patch(
-                facecolor=colour_of(number),
-                edgecolor="black",
-                linewidth=0.5,
-                label=f"motion {number + 1}",
-            )
-        )
+        handles.append(basin_entry(colour_of(number), f"motion {number + 1}"))
         widest = int(np.argmax(share[:, number]))
         if share[widest, number] > 4.0:
             inner = slice(1, -1) if len(x) > 2 else slice(None)
             at = np.arange(len(x))[inner][int(np.argmax(share[inner, number]))]
-            text = ax.text(
-                float(x[at]),
-                0.5 * float(low[at] + high[at]),
-                str(number + 1),
-                ha="center",
-                va="center",
-                fontweight="bold",
-                zorder=4,
-            )
-            text.set_path_effects([patheffects.withStroke(linewidth=2.4, foreground="white")])
+            write_number(ax, number, (x[at], 0.5 * (low[at] + high[at])), ax.transData)
         if number + 1 == share.shape[1]:
             continue
         # Above the last there is nothing; a border's interval is that of the share below it.
@@ -104,5 +87,4 @@ def basin_shares(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
         ylabel="share of the states (%)",
     )
     add_legend(ax, handles, columns=5)
-    fit_labels(ax)
     return ax

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib import patheffects
@@ -16,9 +19,9 @@ from scipy.ndimage import distance_transform_edt
 from vibroimpact.attraction.adaptive_curve import CONTINUES
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.model.names import literal
 from vibroimpact.model.written_units import unit
 
@@ -45,7 +48,7 @@ _ASIDE = np.array([0.024, 0.024])
 _BEHIND, _GIVEN_UP = "0.82", "white"
 
 
-@in_own_units
+@finished
 def basin_portrait(
     data: xr.Dataset,
     ax: Axes | None = None,
@@ -95,7 +98,7 @@ def basin_portrait(
         zorder=1,
     )
     handles: list[Patch | Line2D] = [
-        Patch(facecolor=colour_of(number), edgecolor="black", linewidth=0.5, label=_label(one))
+        basin_entry(colour_of(number), _label(one))
         for number, one in enumerate(_motions(data)[:_LISTED])
     ]
     more = data.sizes["attractor"] - _LISTED
@@ -103,14 +106,7 @@ def basin_portrait(
         handles.append(Patch(facecolor="none", label=f"and {more} more"))
     if shade and _lateness(data) is not None:
         red, green, blue = ((1.0 - _SHADE) * part for part in to_rgb(COLOURS[0]))
-        handles.append(
-            Patch(
-                facecolor=(red, green, blue),
-                edgecolor="black",
-                linewidth=0.5,
-                label="darker: settles later",
-            )
-        )
+        handles.append(basin_entry((red, green, blue), "darker: settles later"))
     labels = data["basin"].values
     for code, colour, text in (
         (-1, _GIVEN_UP, "computation stopped"),
@@ -142,8 +138,12 @@ def basin_portrait(
         handlelength=1.6,
         handleheight=1.2,
     )
-    fit_labels(ax)
     return ax
+
+
+def basin_entry(colour: Any, label: str) -> Patch:
+    """Return the legend entry of an area."""
+    return Patch(facecolor=colour, edgecolor="black", linewidth=0.5, label=label)
 
 
 def colour_of(number: int) -> str:
@@ -305,7 +305,7 @@ def _name(ax: Axes, motions: list[xr.Dataset]) -> None:
         away = np.linalg.norm(text[:, None] - every[None], axis=2).min(axis=1)
         edge = np.minimum(text, 1.0 - text).min(axis=1)
         best = int(np.argmax(np.minimum(away, edge)))
-        _write_number(ax, number, text[best], ax.transAxes)
+        write_number(ax, number, text[best], ax.transAxes)
         every = np.vstack([every, text[best]])
 
 
@@ -318,10 +318,11 @@ def _name_basins(
         if inside.any():
             depth = distance_transform_edt(inside)[1:-1, 1:-1]
             i, j = np.unravel_index(np.argmax(depth), depth.shape)
-            _write_number(ax, number, np.array([u[j], v[i]]), ax.transData)
+            write_number(ax, number, (u[j], v[i]), ax.transData)
 
 
-def _write_number(ax: Axes, number: int, at: NDArray[np.float64], transform: Transform) -> None:
+def write_number(ax: Axes, number: int, at: Sequence[float], transform: Transform) -> None:
+    """Write the number of a motion at a place, readable on any colour."""
     made = ax.text(
         float(at[0]),
         float(at[1]),

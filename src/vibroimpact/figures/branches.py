@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -17,12 +17,12 @@ from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import refuse_masses
 from vibroimpact.figures.axis_labels import axis_label
+from vibroimpact.figures.finish import finished
 from vibroimpact.figures.labels import Names
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.resonance_panels import draws_eta
-from vibroimpact.figures.style import SWEEPS
+from vibroimpact.figures.style import Look, sweeps_of
 from vibroimpact.model.parameters import in_units
 from vibroimpact.model.written_units import unitless
 from vibroimpact.stability.branch_styles import QUANTITIES, contact_counts
@@ -36,25 +36,20 @@ _MARKS = 60
 """Approximate number of marks on a sweep."""
 
 
-class _Mark(NamedTuple):
-    marker: str
-    colour: str
-    filled: bool
-    size: float = 5.0
-
-
+_DOUBLING, _TORUS = (0, (3, 1.5)), (0, (5, 1.5, 1, 1.5))
 MARKS = {
-    "fold": _Mark("o", "#c05a00", True),
-    "symmetry breaking": _Mark("s", "#7a3e9d", True),
-    "period doubling": _Mark("^", "#00795c", True),
-    "Neimark-Sacker": _Mark("D", "#b0006d", True),
-    "branching": _Mark("X", "#1f4fbf", True),
+    "fold": Look("fold", "#c05a00", "-", 1.4, "o", 5.0, True),
+    "symmetry breaking": Look("symmetry breaking", "#7a3e9d", (0, (6, 2)), 1.4, "s", 5.0, True),
+    "period doubling": Look("period doubling", "#00795c", _DOUBLING, 1.4, "^", 5.0, True),
+    "Neimark-Sacker": Look("Neimark–Sacker", "#b0006d", _TORUS, 1.4, "D", 5.0, True),
+    "branching": Look("branching", "#1f4fbf", "-", 1.4, "X", 5.0, True),
     # A ring around what it falls on: a fold or a period doubling is often a hair away.
-    "grazing": _Mark("o", "black", False, 9.0),
+    "grazing": Look("grazing", "black", (0, (1, 1.2)), 1.4, "o", 9.0, False),
 }
+"""Marks of bifurcations on a branch, and lines of their curves."""
 
 
-@in_own_units
+@finished
 def branch_diagram(
     data: xr.Dataset,
     ax: Axes | None = None,
@@ -122,48 +117,25 @@ def branch_diagram(
     ax = axes_or_new(ax, (7.2, 4.6), title)
     scale, unit = axis_unit(data[name])
     x, y = scale * data[name].values, factor * values.values
+    styles = {True: orbit_style(True, 1.4), False: orbit_style(False, 0.9)}
     pieces = stable_pieces(data)
     for part, stable in pieces:
-        ax.plot(
-            x[part],
-            y[part],
-            color="black",
-            linestyle="-" if stable else (0, (4, 2)),
-            linewidth=1.4 if stable else 0.9,
-            # Or the dashes of two mirror images fill each other's gaps.
-            gapcolor=None if stable else "white",
-            zorder=2.5 if stable else 2,
-        )
-    drawn_kinds = {stable for _, stable in pieces}
+        ax.plot(x[part], y[part], **styles[stable])
     handles: list[Any] = [
-        Line2D([], [], color="black", label=f"{label} orbits", **style)
-        for stable, label, style in (
-            (True, "stable", {"linewidth": 1.4}),
-            (False, "unstable", {"linewidth": 0.9, "linestyle": (0, (4, 2))}),
-        )
-        if stable in drawn_kinds
+        Line2D([], [], label=f"{label} orbits", **styles[stable])
+        for stable, label in ((True, "stable"), (False, "unstable"))
+        if any(one == stable for _, one in pieces)
     ]
-    lines = len(handles)
-    kinds = data["bifurcation_kind"].values
-    for kind, mark in MARKS.items():
-        mine = kinds == kind
-        if not mine.any():
-            continue
-        drawn = ax.plot(
-            scale * data["bifurcation_value"].values[mine],
-            factor * of_quantity(data, f"bifurcation_{quantity}").values[mine],
-            linestyle="",
-            marker=mark.marker,
-            markersize=mark.size,
-            markerfacecolor=mark.colour if mark.filled else "none",
-            markeredgecolor=mark.colour,
-            label=kind.replace("-", "–"),
-            zorder=4,
-        )
-        handles.append(drawn[0])
-    found = handles[lines:]
+    marked = factor * of_quantity(data, f"bifurcation_{quantity}").values
+    found = mark_bifurcations(ax, data, scale, marked)
+    handles += found
     if sweep is not None:
-        handles += _marks_of(sweep, data, ax, quantity, factor)
+        source, of_eta = quantity, 1.0
+        if quantity in _NORMALISED:  # by the largest peak, as the branches
+            source = _NORMALISED[quantity]
+            of_eta = float((data[quantity] / data[source])[0])
+        swept = of_eta * factor * of_quantity(sweep, source)
+        handles += mark_sweep(ax, swept, scale, 0.8, _MARKS)
     ax.set_xlim(x.min(), x.max())
     ax.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
     ax.set_ylabel(label)
@@ -171,7 +143,6 @@ def branch_diagram(
     names = Names(ax, found)
     for part, name in _orbits(data):
         names.write(x[part], y[part], name, "black", once=True)
-    fit_labels(ax)
     return ax
 
 
@@ -220,30 +191,38 @@ def stable_pieces(data: xr.Dataset) -> list[tuple[slice, bool]]:
     return runs
 
 
-def _marks_of(
-    sweep: xr.Dataset, data: xr.Dataset, ax: Axes, quantity: str, factor: float
-) -> list[Any]:
-    """Return the points of a sweep, normalised like the branches: by the largest peak."""
-    handles = []
-    source = quantity
-    if quantity in _NORMALISED:
-        source = _NORMALISED[quantity]
-        factor *= float((data[quantity] / data[source])[0])
-    for direction, look in SWEEPS.items():
-        if direction not in sweep["direction"].values:
-            continue
-        drawn = ax.plot(
-            sweep["frequency"].values,
-            factor * of_quantity(sweep, source).sel(direction=direction).values,
-            linestyle="",
-            marker=look.marker,
-            # Of a dense sweep not every hold: the lines below must be seen.
-            markevery=max(1, sweep.sizes["frequency"] // _MARKS),
-            markersize=look.size * 0.8,
-            color=look.colour,
-            markerfacecolor=look.colour if look.filled else "none",
+def orbit_style(stable: bool, width: float, colour: str = "black") -> dict[str, Any]:
+    """Return the keywords of `Axes.plot` for a piece of a branch: dashed where it is unstable."""
+    style = {"color": colour, "linewidth": width, "zorder": 2.5 if stable else 2}
+    # Or the dashes of two mirror images fill each other's gaps.
+    return style if stable else {**style, "linestyle": (0, (4, 2)), "gapcolor": "white"}
+
+
+def mark_bifurcations(ax: Axes, data: xr.Dataset, scale: float, values: _Array) -> list[Line2D]:
+    """Mark the bifurcations of branches, and return one line of marks for each kind."""
+    kinds, x = data["bifurcation_kind"].values, scale * data["bifurcation_value"].values
+    return [
+        ax.plot(x[mine], values[mine], label=mark.label, zorder=4, **mark.marks())[0]
+        for kind, mark in MARKS.items()
+        if (mine := kinds == kind).any()
+    ]
+
+
+def mark_sweep(
+    ax: Axes, values: xr.DataArray, scale: float, share: float, marks: int
+) -> list[Line2D]:
+    """Mark the motions of a sweep, and return one line of marks for each direction."""
+    # Of a dense sweep not every hold: the lines below must be seen.
+    every = max(1, values.sizes["frequency"] // marks)
+    x = scale * values["frequency"].values
+    return [
+        ax.plot(
+            x,
+            values.sel(direction=direction).values,
             label=look.label,
+            markevery=every,
             zorder=3,
-        )
-        handles.append(drawn[0])
-    return handles
+            **look.marks(share),
+        )[0]
+        for direction, look in sweeps_of(values)
+    ]

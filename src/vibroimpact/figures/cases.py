@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from matplotlib.axes import Axes
-from matplotlib.patches import Patch, Rectangle
+from matplotlib.patches import Rectangle
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels, new_axes
 from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.figures.style import SCENARIOS
@@ -18,6 +19,7 @@ from vibroimpact.scenarios.scenario import Scenario
 _PER_GRAVITY = 1e2 / 9.80665
 
 
+@finished
 def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Panels:
     """Draw the scenarios of laboratory tests over gap and bumper, with one panel per acceleration.
 
@@ -81,13 +83,7 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
     add_legend(
         figure,
         [
-            Patch(
-                facecolor=SCENARIOS[s.label].colour,
-                edgecolor=SCENARIOS[s.label].line,
-                hatch=SCENARIOS[s.label].hatch,
-                linewidth=0.0,
-                label=f"{s.label}: {s.meaning}",
-            )
+            SCENARIOS[s.label].entry(f"{s.label}: {s.meaning}")
             for s in Scenario
             if s.label in found.values()
         ],
@@ -95,7 +91,6 @@ def scenario_cases(found: Mapping[str, str], *, title: str | None = None) -> Pan
         handlelength=2.4,
         handleheight=1.2,
     )
-    fit_labels(*axes)
     return axes
 
 

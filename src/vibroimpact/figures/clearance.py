@@ -11,10 +11,10 @@ import numpy as np
 import xarray as xr
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import DrawnMotion, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import EDGE, SHADE, panels
 
 _LINES: dict[str, Any] = {
@@ -23,7 +23,7 @@ _LINES: dict[str, Any] = {
 }
 
 
-@in_own_units
+@finished
 def clearances(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     axes: Any = None,
@@ -94,7 +94,6 @@ def clearances(
     near.set_xlabel("time in forcing cycles $t/T$ (–)")
     whole.axvspan(*near.get_xlim(), color=SHADE, zorder=0)
     add_legend(whole)
-    fit_labels(*given)
     return given
 
 

@@ -9,21 +9,13 @@ from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import MARKS, axis_unit
+from vibroimpact.figures.finish import finished
 from vibroimpact.figures.labels import Names
-from vibroimpact.figures.legends import add_legend, fit_labels
-from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units
-
-_DASHES = {
-    "fold": "-",
-    "symmetry breaking": (0, (6, 2)),
-    "period doubling": (0, (3, 1.5)),
-    "Neimark-Sacker": (0, (5, 1.5, 1, 1.5)),
-    "grazing": (0, (1, 1.2)),
-}
+from vibroimpact.figures.legends import add_legend
+from vibroimpact.figures.motion_style import axes_or_new, by_name
 
 
-@in_own_units
+@finished
 def bifurcation_curves(
     curves: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -48,11 +40,7 @@ def bifurcation_curves(
     InputError
         If a dataset holds no curve, or if the parameters of the datasets differ.
     """
-    if isinstance(curves, Mapping) and not isinstance(curves, xr.Dataset):
-        names = [str(name) for name in curves]
-        given = list(curves.values())
-    else:
-        names, given = [""], [curves]
+    names, given = list(by_name(curves)), list(by_name(curves).values())
     if not given or any("other_parameter" not in data.attrs for data in given):
         wrong = "one of them is not a bifurcation curve" if given else "empty"
         raise InputError(f"curves: {wrong}; pass results of bifurcation_curve")
@@ -68,14 +56,8 @@ def bifurcation_curves(
     seen = set()
     for data in given:
         kind = data.attrs["kind"]
-        ax.plot(
-            scales[0] * data[first].values,
-            scales[1] * data[second].values,
-            color=MARKS[kind].colour,
-            linestyle=_DASHES[kind],
-            linewidth=1.4,
-            label=None if kind in seen else kind.replace("-", "–"),
-        )
+        x, y = scales[0] * data[first].values, scales[1] * data[second].values
+        ax.plot(x, y, label=None if kind in seen else MARKS[kind].label, **MARKS[kind].line)
         seen.add(kind)
         if data.sizes["cusp_number"]:
             ax.plot(
@@ -96,5 +78,4 @@ def bifurcation_curves(
         if name not in ("", data.attrs["kind"]):
             x, y = (k * data[p].values for k, p in zip(scales, (first, second), strict=True))
             written.write(x, y, name, MARKS[data.attrs["kind"]].colour, once=False)
-    fit_labels(ax)
     return ax

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.legends import fit_labels
+from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.motion_style import (
     axes_or_new,
     force_unit,
@@ -18,10 +18,9 @@ from vibroimpact.figures.motion_style import (
     named,
     shown,
 )
-from vibroimpact.figures.own_units import in_own_units, in_unit
 
 
-@in_own_units
+@finished
 def hysteresis_cycle(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -76,5 +75,4 @@ def hysteresis_cycle(
     ax.set_xlabel(base_label("relative displacement $u$ (mm)", given.values()))
     ax.set_ylabel(label)
     name_lines(ax, curves)
-    fit_labels(ax)
     return ax

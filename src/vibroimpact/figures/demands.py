@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -14,10 +13,10 @@ from vibroimpact.earthquakes.fragility import lacking
 from vibroimpact.earthquakes.suites import fractiles, known
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import of_part
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units, in_unit
-from vibroimpact.figures.style import fit_x_axis
+from vibroimpact.figures.style import CURVES, fit_x_axis
 from vibroimpact.model import GRAVITY, to_si
 from vibroimpact.model.quantities import LENGTH
 from vibroimpact.model.written_units import unitless
@@ -36,7 +35,7 @@ _FRACTILES = (0.16, 0.5, 0.84)
 _DASHES = ("--", "-", "-.")
 
 
-@in_own_units
+@finished
 def incremental_curves(
     demands: xr.Dataset,
     ax: Axes | None = None,
@@ -107,11 +106,10 @@ def incremental_curves(
     ax.set_xlabel(_level_label(demands, symbol))
     ax.set_ylabel(label)
     add_legend(ax)
-    fit_labels(ax)
     return ax
 
 
-@in_own_units
+@finished
 def fragility_curves(
     fragility: xr.Dataset, ax: Axes | None = None, *, title: str | None = None
 ) -> Axes:
@@ -145,11 +143,11 @@ def fragility_curves(
     from scipy.special import ndtr, ndtri
 
     others = [str(dim) for dim in fragility["median_capacity"].dims]
-    if len(others) > 1 or fragility["median_capacity"].size > len(_LOOKS):
+    if len(others) > 1 or fragility["median_capacity"].size > len(CURVES):
         raise InputError(
             f"fragility: the dataset has {fragility['median_capacity'].size} curves over "
-            f"{', '.join(others)}; select at most {len(_LOOKS)} curves over one dimension, such as "
-            f"fragility.isel({others[0]}={'0' if len(others) > 1 else f'slice({len(_LOOKS)})'})"
+            f"{', '.join(others)}; select at most {len(CURVES)} curves over one dimension, such as "
+            f"fragility.isel({others[0]}={'0' if len(others) > 1 else f'slice({len(CURVES)})'})"
         )
     ax = axes_or_new(ax, (5.6, 4.0), title)
     unit, symbol = _level_unit(fragility)
@@ -160,19 +158,11 @@ def fragility_curves(
         if not others
         else [(one, fragility.sel({others[0]: one})) for one in fragility[others[0]].values]
     )
-    for (name, one), (colour, dashes, mark) in zip(every, _LOOKS, strict=False):
+    for (name, one), look in zip(every, CURVES, strict=False):
         median, spread = unit * float(one["median_capacity"]), float(one["dispersion"])
         shares = one["probability"].values
         whole = _value(fragility, others[0], name) if name is not None else None
-        marks: dict[str, Any] = {
-            "linestyle": "",
-            "marker": mark,
-            "markersize": 4.0,
-            "color": colour,
-            "markerfacecolor": "none",
-            "clip_on": False,
-            "zorder": 4,
-        }
+        marks = look.marks() | {"clip_on": False, "zorder": 4}
         if np.isnan(median):
             told = f"no curve, {lacking(shares)} needed"
             ax.plot(level, shares, label=f"{whole or 'share of the records'}: {told}", **marks)
@@ -183,15 +173,8 @@ def fragility_curves(
         bounded = not np.isinf(one["median_capacity_bound"].values).any()
         if not bounded:
             words += " (no band: too few records reach the limit within the scales)"
-        ax.plot(
-            fine,
-            ndtr((np.log(fine) - np.log(median)) / spread),
-            color=colour,
-            linestyle=dashes,
-            linewidth=1.4,
-            label=words,
-            zorder=3,
-        )
+        fitted = ndtr((np.log(fine) - np.log(median)) / spread)
+        ax.plot(fine, fitted, label=words, zorder=3, **look.line)
         if bounded:
             # Between the levels along straight lines of probit paper, on which the curve is one.
             bounds = one["fitted_probability_bound"].transpose("bound", "scale").values
@@ -200,7 +183,14 @@ def fragility_curves(
             sure = 100.0 * json.loads(fragility.attrs["parameters"])["confidence"]
             band = f"its {sure:g} % band" if name is None else None
             ax.fill_between(
-                fine, lower, upper, color=colour, alpha=0.15, linewidth=0.0, label=band, zorder=1
+                fine,
+                lower,
+                upper,
+                color=look.colour,
+                alpha=0.15,
+                linewidth=0.0,
+                label=band,
+                zorder=1,
             )
         ax.plot(level, shares, label="share of the records" if whole is None else None, **marks)
     fit_x_axis(ax, level)
@@ -208,19 +198,11 @@ def fragility_curves(
     ax.set_xlabel(_level_label(fragility, symbol))
     ax.set_ylabel(f"probability of {_exceedance(fragility)} (–)")
     add_legend(ax, columns=1 if others else 4)
-    fit_labels(ax)
     return ax
 
 
 _BEYOND = 38.0
 """Probit of shares that are 0 or 1 to all digits."""
-_LOOKS = (
-    ("black", "-", "o"),
-    ("#c8102e", "--", "s"),
-    ("#1f4fbf", "-.", "^"),
-    ("#00795c", ":", "D"),
-    ("#c05a00", (0, (5, 1, 1, 1, 1, 1)), "v"),
-)
 
 
 def _one_rig(values: xr.DataArray, what: str) -> None:

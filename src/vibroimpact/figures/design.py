@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import textwrap
 from typing import Any
@@ -13,24 +12,24 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import motion_parameters, system_of
 from vibroimpact.datasets.stops import over_parts
 from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.design.limits import excesses
 from vibroimpact.errors import InputError
+from vibroimpact.figures.finish import finished, in_unit, without_unit
 from vibroimpact.figures.interpolation import finer, finer_axis, nearest
 from vibroimpact.figures.legends import add_legend, apply_layout, fit_labels
 from vibroimpact.figures.levels import number_lines
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units, in_unit, without_unit
-from vibroimpact.figures.style import panels
-from vibroimpact.model import GRAVITY, Assembly, Oscillator, Rig
+from vibroimpact.figures.plane import scale_axis
+from vibroimpact.figures.style import Look, panels
+from vibroimpact.model import GRAVITY, Rig
 from vibroimpact.model.parameters import PARAMETERS, in_units, parameter, usual
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, Quantity
 from vibroimpact.model.written_units import unitless
-from vibroimpact.scenarios.axes import logarithmic
 
 _Array = NDArray[np.float64]
 
@@ -39,12 +38,20 @@ QUANTITIES = {
     "peak_acceleration": (1.0 / GRAVITY, "largest absolute acceleration $|\\ddot u + A_t|$ (g)"),
     "peak_force": (1e-3, "largest contact force (kN)"),
 }
-PRESENT = "#c05a00"
+_EDGE = Look("", "#c8102e", "--", 2.0, "", 0.0, False)
+PRESENT: dict[str, Any] = {
+    "linestyle": "",
+    "marker": "*",
+    "markersize": 10.0,
+    "color": "#c05a00",
+    "markeredgecolor": "white",
+    "markeredgewidth": 0.6,
+}
 """Colour of the mark of the present design."""
 _LEVELS = 9
 
 
-@in_own_units
+@finished
 def design_chart(
     data: xr.Dataset,
     axes: Any = None,
@@ -96,7 +103,6 @@ def design_chart(
     if len(dims) == 1:
         for ax, name in zip(drawn, quantities, strict=True):
             _curve(ax, data, name)
-        fit_labels(*drawn)
         return drawn
     lines = [_contours(ax, data, name) for ax, name in zip(drawn, quantities, strict=True)]
     fit_labels(*drawn)
@@ -161,27 +167,16 @@ def _unit(values: xr.DataArray) -> tuple[float, str]:
         return 1.0, ""
     if quantity is LENGTH:
         return 1e3, "mm"
-    largest = float(np.abs(values.values).max())
-    for smallest, unit, symbol in quantity.scales:
-        if largest >= smallest:
-            return 1.0 / unit, symbol or "–"
-    return 1.0, quantity.symbol or "–"
+    scale = quantity.unit(*values.values.ravel())
+    return 1.0 / scale.size, scale.symbol or "–"
 
 
 def _axis(axis: Any, values: xr.DataArray) -> _Array:
     """Set scale, limits and label of an axis, and return the values in its unit."""
     factor, unit = _unit(values)
-    which = axis.axis_name
-    if logarithmic(values.values):
-        axis.axes.set(**{f"{which}scale": "log"})
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axis.set_minor_formatter(NullFormatter())
     drawn: _Array = factor * values.values
     label = f"{values.attrs['long_name']} ({unit})" if unit else str(values.attrs["long_name"])
-    axis.axes.set(
-        **{f"{which}lim": (drawn.min(), drawn.max()), f"{which}label": textwrap.fill(label, 44)}
-    )
+    scale_axis(axis, drawn, textwrap.fill(label, 44))
     return drawn
 
 
@@ -190,14 +185,10 @@ def present_values(data: xr.Dataset, dims: list[str]) -> list[float]:
 
     A value is NaN if the rig has none, for example a common gap if the gaps of its stops differ.
     """
-    about = json.loads(data.attrs["parameters"])
-    if "assembly" in about:
-        rig = Rig(Assembly.model_validate(about["assembly"]))
-    elif "oscillator" in about:
-        rig = Rig(Oscillator.model_validate(about["oscillator"]))
-    else:
+    parameters = motion_parameters(data)
+    if not {"assembly", "oscillator"} & set(parameters):
         return [math.nan for _ in dims]
-    found = []
+    rig, found = Rig(system_of(parameters)), []
     for dim in dims:
         try:
             value = parameter(dim, rig).read(rig)
@@ -237,18 +228,12 @@ def _curve(ax: Axes, data: xr.Dataset, name: str) -> None:
     if beyond.any():
         ax.plot(x[beyond], y[beyond], "x", color="0.5", markersize=5.0, label="exceeds a limit")
     free = ~(data["hitting"].values > 0.0)
-    ax.plot(
-        x[free],
-        y[free],
-        "o",
-        markersize=7.0,
-        markerfacecolor="none",
-        markeredgecolor="0.5",
-        label="hits no stop",
-    )
+    ring = Look("hits no stop", "0.5", "", 0.0, "o", 7.0, False)
+    ax.plot(x[free], y[free], label=ring.label, **ring.marks())
     (present,) = _present_on_axes(data, [dim])
     if x.min() <= present <= x.max():
-        ax.axvline(present, color=PRESENT, linestyle="-.", linewidth=1.0, label="present design")
+        dashes = {"color": PRESENT["color"], "linestyle": "-.", "linewidth": 1.0}
+        ax.axvline(present, label="present design", **dashes)
     ax.set_ylabel(label)
     ax.set_ylim(bottom=0.0)
     add_legend(ax, columns=2)
@@ -281,53 +266,25 @@ def _contours(ax: Axes, data: xr.Dataset, name: str) -> tuple[list[Any], list[Li
     edges = []
     if 0.0 < hits.mean() < 1.0:
         # Through the designs that just have no contact: never on the side of those that hit.
-        edge = ax.contour(
-            x, y, hits, levels=[1e-3], colors="#c8102e", linewidths=2.0, linestyles="--", zorder=3
-        )
+        style = {"colors": _EDGE.colour, "linewidths": _EDGE.width, "linestyles": _EDGE.dashes}
+        edge = ax.contour(x, y, hits, levels=[1e-3], zorder=3, **style)
         edges = [Line2D(*part.T) for part in edge.allsegs[0]]
-        handles.append(
-            Line2D(
-                [],
-                [],
-                color="#c8102e",
-                linewidth=2.0,
-                linestyle="--",
-                label="first of these designs to hit no stop",
-            )
-        )
+        label = "first of these designs to hit no stop"
+        handles.append(Line2D([], [], label=label, **_EDGE.line))
     if beyond_limits(data).any():
         handles.append(_hatch(ax, *points, _excess(data)))
     best = np.argwhere(data["pareto"].values.astype(bool))
-    (dots,) = ax.plot(
-        x[best[:, 1]],
-        y[best[:, 0]],
-        linestyle="",
-        marker="o",
-        markersize=4.0,
-        color="black",
-        clip_on=False,
-        label=best_label(data),
-        zorder=5,
-    )
-    stars = []
+    dots: list[Line2D] = []
+    if len(best):
+        dot = Look(best_label(data), "black", "", 0.0, "o", 4.0, True)
+        style = dot.marks() | {"clip_on": False, "label": dot.label, "zorder": 5}
+        dots = ax.plot(x[best[:, 1]], y[best[:, 0]], **style)
+    stars: list[Line2D] = []
     right, up = _present_on_axes(data, [first, second])
     if x.min() <= right <= x.max() and y.min() <= up <= y.max():
-        stars = ax.plot(
-            [right],
-            [up],
-            linestyle="",
-            marker="*",
-            markersize=10.0,
-            color=PRESENT,
-            markeredgecolor="white",
-            markeredgewidth=0.6,
-            clip_on=False,
-            label="present design",
-            zorder=6,
-        )
-    marks = [*([dots] if len(best) else []), *stars]
-    if not len(best):
-        dots.remove()
+        star = PRESENT | {"clip_on": False, "label": "present design", "zorder": 6}
+        stars = ax.plot([right], [up], **star)
+    marks = [*dots, *stars]
     add_legend(ax, [*marks, *handles], columns=2, place="below")
     return levels, [*marks, *edges]
 
@@ -350,15 +307,8 @@ def _hatch(ax: Axes, x: _Array, y: _Array, excess: _Array) -> Patch:
     # What is just at a limit keeps it, whatever rounding and the lowest level would make of it.
     excess = np.where(excess > 0.0, excess, np.minimum(excess, -1e-300))
     with matplotlib.rc_context({"hatch.color": "0.5", "hatch.linewidth": 0.6}):
-        ax.contourf(
-            x,
-            y,
-            excess,
-            levels=[0.0, excess.max() + 1.0],
-            hatches=["////"],
-            colors="none",
-            zorder=2,
-        )
+        beyond = [0.0, excess.max() + 1.0]
+        ax.contourf(x, y, excess, levels=beyond, hatches=["////"], colors="none", zorder=2)
         sample = Patch(facecolor="none", edgecolor="0.5", hatch="////", label="exceeds a limit")
     if excess.min() < 0.0:
         ax.contour(x, y, excess, levels=[0.0], colors="0.4", linewidths=1.2, zorder=2)

@@ -11,26 +11,27 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import acceleration_text, finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import DrawnMotion, named, shown
 from vibroimpact.figures.notebook import Drawing, Panel, Panels
-from vibroimpact.figures.own_units import acceleration_text, in_own_units, in_unit
 from vibroimpact.figures.record import contact_bands, gap_lines, mark_end, stops_legend, stops_of
 from vibroimpact.figures.sizes import columns_that_fit, size_of_new
-from vibroimpact.figures.style import EDGE, also_in_g, fit_x_axis, note_peak
+from vibroimpact.figures.style import CURVES, EDGE, Look, also_in_g, fit_x_axis, note_peak
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.names import literal
 from vibroimpact.model.quantities import FORCE, fitting
 from vibroimpact.model.written_units import unit
 from vibroimpact.response.motion_phases import recorded
 
-_DASHES = ("-", "--", "-.", ":")
-_COLOURS = ("black", "#c8102e", "#1f4fbf", "#00795c")
-_MARKS = {"right": ("^", "#c8102e"), "left": ("v", "#1f4fbf")}
+_MARKS = {
+    "right": Look("hits the right stop", "#c8102e", "", 0.0, "^", 4.5, True),
+    "left": Look("hits the left stop", "#1f4fbf", "", 0.0, "v", 4.5, True),
+}
 """Marks of impacts on the right stop and on the left stop."""
 
 
-@in_own_units
+@finished
 def earthquake_page(
     motion: xr.Dataset,
     spectra: Mapping[str, xr.Dataset] | None = None,
@@ -93,7 +94,6 @@ def earthquake_page(
     figure.align_ylabels([base, *others])
     if title:
         figure.suptitle(title)
-    fit_labels(base, *others, *last)
     return Panels((base, *others, *last))
 
 
@@ -135,31 +135,18 @@ def _histories(
         note_peak(ax, float(curve.at[at]), size, words)
     handles = [*stops_legend(stops, motion), *mark_end(axes, motion)]
     begun = motion["event_contact"].values >= 1
-    for side, (mark, colour) in _MARKS.items():
+    for side, look in _MARKS.items():
         here = begun & (motion["event_stop"].values == side)
         if here.any():
             shaken.plot(
                 motion["event_time"].values[here],
                 motion["event_acceleration_after"].values[here],
-                linestyle="",
-                marker=mark,
-                markersize=4.5,
-                color=colour,
                 markeredgecolor="white",
                 markeredgewidth=0.4,
                 zorder=4,
+                **look.marks(),
             )
-            handles.append(
-                Line2D(
-                    [],
-                    [],
-                    linestyle="",
-                    marker=mark,
-                    markersize=4.5,
-                    color=colour,
-                    label=f"hits the {side} stop",
-                )
-            )
+            handles.append(Line2D([], [], label=look.label, **look.marks()))
     if handles:
         add_legend(moved, handles, columns=5, columnspacing=1.0)
 
@@ -193,9 +180,7 @@ def _spectra(ax: Axes, spectra: Mapping[str, xr.Dataset]) -> None:
         ax.plot(
             spectrum["natural_period"].values,
             spectrum["spectral_acceleration"].values * in_unit(1.0 / GRAVITY),
-            color=_COLOURS[i % len(_COLOURS)],
-            linestyle=_DASHES[i % len(_DASHES)],
-            linewidth=1.2,
+            **CURVES[i % 4]._replace(width=1.2).line,
             label=f"{literal(str(name))}, $\\zeta$ = {float(spectrum['damping_ratio']):g}",
         )
     periods = next(iter(spectra.values()))["natural_period"].values

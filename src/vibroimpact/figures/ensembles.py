@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,17 +10,17 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
+from vibroimpact.datasets.description import motion_parameters, system_of
 from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.earthquakes.suites import fractiles
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
-from vibroimpact.figures.legends import add_legend, break_lines, fit_labels
+from vibroimpact.figures.finish import finished
+from vibroimpact.figures.legends import add_legend, break_lines
 from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import MOTIONS, SWEEPS, fit_x_axis, panels
-from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.parameters import parameter
 
 _HATCHES = {"forward": "", "backward": "////"}
@@ -32,7 +31,7 @@ PANELS = {True: ("eta_a", "eta_d"), False: ("peak_acceleration", "peak_displacem
 """Quantities of the bands, by whether η is drawn."""
 
 
-@in_own_units
+@finished
 def resonance_bands(
     data: xr.Dataset,
     axes: Any = None,
@@ -104,15 +103,8 @@ def resonance_bands(
                 ax.errorbar(
                     frequency, middle, reach, ecolor=look.colour, fmt="none", capsize=3.0, zorder=2
                 )
-            handles += ax.plot(
-                frequency,
-                middle,
-                color=look.colour,
-                linestyle=look.dashes,
-                linewidth=look.width,
-                label=f"{look.label}, median",
-                zorder=3,
-            )
+            words = f"{look.label}, median"
+            handles += ax.plot(frequency, middle, label=words, zorder=3, **look.line)
             handles.append(Patch(label=f"{100 * low:g} to {100 * high:g} %", **style))
             if nominal is not None:
                 line = ax.plot(
@@ -131,7 +123,6 @@ def resonance_bands(
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
     add_legend(drawn[0], handles, columns=3)
     drawn[-1].set_xlabel("excitation frequency (Hz)")
-    fit_labels(*drawn)
     return drawn
 
 
@@ -142,7 +133,7 @@ def _by_mass(data: xr.Dataset, name: str) -> list[str]:
     return [f"{name}.{mass}" for mass in data["mass"].values]
 
 
-@in_own_units
+@finished
 def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw the Sobol indices of each parameter, of first order and of total order.
 
@@ -181,7 +172,6 @@ def sensitivity_bars(data: xr.Dataset, ax: Axes | None = None, *, title: str | N
     _, label = axis_label(data["mean"], str(data.attrs["quantity"]))
     ax.set_ylabel(f"share of the variance of\n{label.rsplit(' (', 1)[0]} (–)")
     add_legend(ax, columns=2)
-    fit_labels(ax)
     return ax
 
 
@@ -225,14 +215,9 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
         ax.plot(
             x,
             data["total_order"].sel(uncertain_parameter=name).values,
-            color=look.colour,
-            linestyle=look.dashes,
-            linewidth=look.width,
-            marker=look.marker,
-            markersize=look.size,
             markevery=max(1, len(x) // 20),
-            markerfacecolor=look.colour if look.filled else "none",
             label=_words(data, str(name)),
+            **look.marks() | look.line,
         )
     fit_x_axis(ax, x)
     # Beyond 0 and 1 an estimate is nothing but its error.
@@ -244,7 +229,4 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
 
 def _words(data: xr.Dataset, name: str) -> str:
     """Return the name of a parameter in words, as it is in the rig of the dataset."""
-    given = json.loads(data.attrs["parameters"])
-    kind: type[Oscillator | Assembly] = Assembly if "assembly" in given else Oscillator
-    system = kind.model_validate(given["assembly" if kind is Assembly else "oscillator"])
-    return parameter(name, system).long_name
+    return parameter(name, system_of(motion_parameters(data))).long_name

@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.style import MOTIONS, fit_x_axis
 from vibroimpact.model.names import literal
 
@@ -20,7 +20,7 @@ _WIDE = 2.0
 """Half width of the band, in standard uncertainties."""
 
 
-@in_own_units
+@finished
 def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw the largest Lyapunov exponent of one or several rigs, with a band of two uncertainties.
 
@@ -92,5 +92,4 @@ def exponent_curves(data: xr.Dataset, ax: Axes | None = None, *, title: str | No
     ax.set_xlabel(f"{found[name].attrs['long_name']} ({unit})")
     ax.set_ylabel("Lyapunov exponents (1/s)")
     add_legend(ax, columns=2)
-    fit_labels(ax)
     return ax

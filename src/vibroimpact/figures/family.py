@@ -3,64 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Literal, get_args
 
 import numpy as np
 import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import FancyArrowPatch
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.assembly_motion import refuse_masses
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.jumps import cut_at, draw_arrow, ends_of
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.resonance_panels import draws_eta
-from vibroimpact.figures.style import FREE, SWEEPS, fit_x_axis
+from vibroimpact.figures.style import FREE, SWEEPS, Look, fit_x_axis, sweeps_of
 from vibroimpact.model.names import literal
 from vibroimpact.response.resonance import features
 
 Quantity = Literal["eta_a", "eta_d", "acceleration_excursion", "displacement_excursion"]
 
 
-class _Shown(NamedTuple):
-    """Factor to the unit, label, and the motion without stops with its reference value."""
-
-    factor: float
-    label: str
-    free: str
-    normalised: bool
-
-
 _QUANTITIES = {
-    "eta_a": _Shown(
-        1.0,
-        "normalised excursion of\nabsolute acceleration $\\eta_a$ (–)",
-        "free_acceleration_excursion",
-        True,
-    ),
-    "eta_d": _Shown(
-        1.0,
-        "normalised excursion of\nrelative displacement $\\eta_d$ (–)",
-        "free_displacement_excursion",
-        True,
-    ),
-    "acceleration_excursion": _Shown(
-        1.0,
-        "excursion of absolute\nacceleration $E_a$ (m/s²)",
-        "free_acceleration_excursion",
-        False,
-    ),
-    "displacement_excursion": _Shown(
-        1e3,
-        "excursion of relative\ndisplacement $E_d$ (mm)",
-        "free_displacement_excursion",
-        False,
-    ),
+    "eta_a": (1.0, "normalised excursion of\nabsolute acceleration $\\eta_a$ (–)"),
+    "eta_d": (1.0, "normalised excursion of\nrelative displacement $\\eta_d$ (–)"),
+    "acceleration_excursion": (1.0, "excursion of absolute\nacceleration $E_a$ (m/s²)"),
+    "displacement_excursion": (1e3, "excursion of relative\ndisplacement $E_d$ (mm)"),
 }
+_NORMALISED = {"eta_a": "acceleration_excursion", "eta_d": "displacement_excursion"}
 
 _COLOURS = ("#1f4fbf", "#c05a00", "#00795c", "#b0006d", "#7a3e9d", "#8c6d1f")
 _MARKERS = "os^Dv*P<X>phd8"
@@ -72,7 +44,7 @@ _LEAST_ARROW = 0.03
 would consist only of its head."""
 
 
-@in_own_units
+@finished
 def resonance_family(
     data: xr.Dataset,
     ax: Axes | None = None,
@@ -144,35 +116,27 @@ def resonance_family(
                     f"{', '.join(names)}"
                 )
     ax = axes_or_new(ax, (7.2, 5.2), title)
-    factor, label, flight, normalised = _QUANTITIES[quantity]
+    factor, label = _QUANTITIES[quantity]
     factor = in_unit(factor)
     frequency = data["frequency"].values
+    flight = f"free_{_NORMALISED.get(quantity, quantity)}"
     references = factor * data[flight].values
-    if normalised:
+    if quantity in _NORMALISED:
         references = references / data[f"largest_{flight}"].values[:, np.newaxis]
     values = factor * data[quantity].transpose("rig", "direction", "frequency").values
     highest = max(np.nanmax(values, initial=0.0), references.max() if free else 0.0)
     ax.set_ylim(0.0, 1.06 * (highest or 1.0))
     if free and np.allclose(references, references[0], rtol=1e-9):
-        ax.plot(
-            frequency,
-            references[0],
-            color=FREE.colour,
-            linestyle=FREE.dashes,
-            linewidth=FREE.width,
-            label=FREE.label,
-            zorder=2,
-        )
+        ax.plot(frequency, references[0], label=FREE.label, zorder=2, **FREE.line)
     for i, name in enumerate(names):
-        look = _line_style((markers or {}).get(name, i), (colours or {}).get(name))
-        called = (labels or {}).get(name, literal(name))
-        _curves(ax, data.isel(rig=i, drop=True), quantity, factor, look, called)
+        number, colour = (markers or {}).get(name, i), (colours or {}).get(name)
+        look = _look((labels or {}).get(name, literal(name)), number, colour)
+        _curves(ax, data.isel(rig=i, drop=True), quantity, factor, look, number)
     fit_x_axis(ax, frequency)
     ax.set_xlabel("excitation frequency $f$ (Hz)")
     ax.set_ylabel(base_label(label, [data]))
     if legend:
         add_legend(ax, family_legend(ax), columns=6)
-    fit_labels(ax)
     return ax
 
 
@@ -188,21 +152,14 @@ def family_legend(ax: Axes) -> list[Artist]:
     return [*(line for line in rigs if line not in flight), *dashes, *flight]
 
 
-def _line_style(i: int, colour: str | None) -> dict[str, Any]:
-    marker = _MARKERS[i % len(_MARKERS)]
-    return {
-        "color": colour or _COLOURS[i % len(_COLOURS)],
-        "marker": marker,
-        "markersize": 4.2 * _LARGER.get(marker, 1.0),
-        # Filled and open in turn: neighbours differ although their markers are small.
-        "markerfacecolor": "white" if i % 2 else colour or _COLOURS[i % len(_COLOURS)],
-        "markeredgewidth": 0.9,
-        "first": i,
-    }
+def _look(label: str, i: int, colour: str | None) -> Look:
+    marker, colour = _MARKERS[i % len(_MARKERS)], colour or _COLOURS[i % len(_COLOURS)]
+    # Filled and open in turn: neighbours differ although their markers are small.
+    return Look(label, colour, "-", 1.1, marker, 4.2 * _LARGER.get(marker, 1.0), i % 2 == 0)
 
 
 def _curves(
-    ax: Axes, one: xr.Dataset, quantity: str, factor: float, look: dict[str, Any], label: str
+    ax: Axes, one: xr.Dataset, quantity: str, factor: float, look: Look, number: int
 ) -> None:
     """Draw both directions of one rig. At jumps, arrows replace the curve."""
     frequency = one["frequency"].values
@@ -210,46 +167,24 @@ def _curves(
     top = ax.get_ylim()[1]
     every = max(1, len(frequency) // _MARKS)
     # The markers of the rigs stand at different frequencies.
-    first = (look["first"] * every * 3 // 7) % every
-    for direction, how in SWEEPS.items():
-        if direction not in one["direction"].values:
-            continue
+    first = (number * every * 3 // 7) % every
+    for direction, how in sweeps_of(one):
         values = factor * one[quantity].sel(direction=direction).values
         mine = [jump for jump in jumps if jump.direction == direction]
-        cuts = np.searchsorted(frequency, sorted(max(j.before, j.after) for j in mine))
         forward = direction == "forward"
+        drawn = look._replace(dashes=how.dashes, width=1.1 if forward else 0.9)
+        drawn = drawn if forward else drawn._replace(marker="")
         ax.plot(
-            np.insert(frequency, cuts, np.nan),
-            np.insert(values, cuts, np.nan),
-            color=look["color"],
-            linestyle=how.dashes,
-            linewidth=1.1 if forward else 0.9,
-            marker=look["marker"] if forward else "",
-            markersize=look["markersize"],
-            markerfacecolor=look["markerfacecolor"],
-            markeredgewidth=look["markeredgewidth"],
+            *cut_at(frequency, values, mine),
+            markeredgewidth=0.9,
             markevery=(first, every),
-            label=label if forward or len(one["direction"]) == 1 else "_",
+            label=look.label if forward or len(one["direction"]) == 1 else "_",
             gid=direction,
             zorder=3.5 if forward else 3,
+            **drawn.marks(empty="white") | drawn.line,
         )
         for jump in mine:
-            start, end = (
-                values[np.searchsorted(frequency, at)] for at in (jump.before, jump.after)
-            )
-            if abs(end - start) < _LEAST_ARROW * top:
-                continue
-            ax.add_patch(
-                FancyArrowPatch(
-                    (jump.frequency, start),
-                    (jump.frequency, end),
-                    arrowstyle="-|>",
-                    mutation_scale=6.0,
-                    shrinkA=0.0,
-                    shrinkB=0.0,
-                    linewidth=0.8,
-                    linestyle="-" if forward else (0, (3, 1.5)),
-                    color=look["color"],
-                    zorder=4,
-                )
-            )
+            start, end = ends_of(frequency, values, jump)
+            if abs(end - start) >= _LEAST_ARROW * top:
+                style = {"linestyle": "-" if forward else (0, (3, 1.5)), "color": look.colour}
+                draw_arrow(ax, jump, (start, end), 6.0, linewidth=0.8, zorder=4, **style)

@@ -12,9 +12,9 @@ from matplotlib.ticker import MaxNLocator
 
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.errors import InputError
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels, new_axes
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.sizes import columns_that_fit
 from vibroimpact.figures.style import EDGE, SHADE, panels
 from vibroimpact.model.names import literal
@@ -26,7 +26,7 @@ _COLUMNS = 3
 _UNITS = {"m": (1e3, "mm"), "m s-1": (1.0, "m/s"), "m s-2": (1.0, "m/s²"), "1": (1.0, "–")}
 
 
-@in_own_units
+@finished
 def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = None) -> Panels:
     """Draw the residuals of a fit for each test, over frequency or time, in standard deviations.
 
@@ -80,11 +80,10 @@ def fit_residuals(result: xr.Dataset, axes: Any = None, *, title: str | None = N
         ax.set_xlabel("excitation frequency $f$ (Hz)" if curves else "time $t$ (s)")
         ax.set_ylabel(f"{literal(test)}\nresidual / noise (–)")
     add_legend(given[0], columns=2)
-    fit_labels(*given)
     return given
 
 
-@in_own_units
+@finished
 def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
     """Draw the likelihood profile of each parameter of a fit.
 
@@ -143,11 +142,10 @@ def fit_profiles(result: xr.Dataset, *, title: str | None = None) -> Panels:
         row[0].set_ylabel("increase of\nthe deviance (–)")
     if title:
         made[0, 0].figure.suptitle(title)
-    fit_labels(*made.ravel()[: len(keys)])
     return Panels(made.ravel()[: len(keys)])
 
 
-@in_own_units
+@finished
 def fit_history(
     result: xr.Dataset, test: str | None = None, axes: Any = None, *, title: str | None = None
 ) -> Panels:
@@ -198,7 +196,6 @@ def fit_history(
         ax.set_ylabel(f"{VARIABLES[variable].long_name}\n({unit})")
     given[-1].set_xlabel("time $t$ (s)")
     add_legend(given[0], columns=2)
-    fit_labels(*given)
     return given
 
 

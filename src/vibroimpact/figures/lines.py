@@ -13,9 +13,8 @@ from matplotlib.axes import Axes
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.legends import fit_labels
-from vibroimpact.figures.motion_style import axes_or_new, looks
-from vibroimpact.figures.own_units import in_own_units, in_unit
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.motion_style import axes_or_new, by_name, looks
 from vibroimpact.model.written_units import unitless
 
 _LABELS = {
@@ -25,7 +24,7 @@ _LABELS = {
 }
 
 
-@in_own_units
+@finished
 def spectrum_lines(
     spectra: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -61,12 +60,9 @@ def spectrum_lines(
     if not 0.0 < highest < math.inf:
         raise InputError(f"highest: {highest!r}; a finite order greater than 0 is accepted")
     # A dataset is a mapping, too.
-    if isinstance(spectra, Mapping) and not isinstance(spectra, xr.Dataset):
-        given = dict(spectra)
-    else:
-        given = {"motion": spectra}
-        if isinstance(spectra, xr.Dataset) and "mass" in spectra.dims:
-            given = {name: spectra.sel(mass=name) for name in spectra["mass"].values.tolist()}
+    given = by_name(spectra, "motion")
+    if isinstance(spectra, xr.Dataset) and "mass" in spectra.dims:
+        given = {name: spectra.sel(mass=name) for name in spectra["mass"].values.tolist()}
     if not given:
         raise InputError("spectra: empty; pass at least one result of fourier_spectrum")
     for name, data in given.items():
@@ -93,12 +89,8 @@ def spectrum_lines(
         ax.plot(
             order + shift,
             height,
-            linestyle="",
-            marker=look.marker or "o",
-            markersize=4.0,
-            color=look.colour,
-            markerfacecolor=look.colour if look.filled else "white",
             label=look.label,
+            **look.marks(empty="white") | {"markersize": 4.0},
         )
     ax.set_xlim(-0.4, highest + 0.4)
     ax.set_xticks(np.arange(0, int(highest) + 1, max(1, int(highest) // 6)))
@@ -116,5 +108,4 @@ def spectrum_lines(
         above.set_xlabel("frequency (Hz)")
     if len(given) > 1:
         ax.legend(loc="upper right", frameon=False, fontsize="small")
-    fit_labels(ax)
     return ax

@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError, shown
+from vibroimpact.figures.finish import without_unit
 from vibroimpact.figures.legends import fit_labels
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import without_unit
 from vibroimpact.figures.style import MOTIONS
 from vibroimpact.model import AnyIsolator, Stop, to_si
 from vibroimpact.model.oscillator import Units

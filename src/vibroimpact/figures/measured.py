@@ -11,9 +11,10 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.jumps import cut_at
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.style import EDGE, SHADE, SWEEPS, panels
+from vibroimpact.figures.style import EDGE, SHADE, panels, sweeps_of
 from vibroimpact.measurements.features import measured_features
 from vibroimpact.model.quantities import GRAVITY
 from vibroimpact.response.curve_pair import judged
@@ -99,41 +100,25 @@ def measured_curves(data: xr.Dataset, axes: Any = None, *, title: str | None = N
     for ax, panel in zip(given, shown, strict=True):
         for item in found.hysteresis:
             ax.axvspan(*item.ends, facecolor=SHADE, edgecolor=EDGE, lw=0.0, zorder=0)
-        for direction, look in SWEEPS.items():
-            if direction not in data["direction"]:
-                continue
+        for direction, look in sweeps_of(data):
             x, y = points_of(panel.values.sel(direction=direction))
             jumps = [j for j in found.jumps if j.direction == direction]
-            cuts = np.searchsorted(x, sorted(max(j.before, j.after) for j in jumps))
             ax.plot(
-                np.insert(x, cuts, np.nan),
-                np.insert(y, cuts, np.nan),
-                color=look.colour,
-                linestyle=look.dashes,
-                linewidth=0.6,
-                marker=look.marker,
-                markersize=look.size,
-                markerfacecolor=look.colour if look.filled else "none",
+                *cut_at(x, y, jumps),
                 label=f"{look.label}, measured",
                 zorder=3,
+                **look.marks() | look.line | {"linewidth": 0.6},
             )
             mean = panel.values.sel(direction=direction)
             mean = mean.mean("repeat") if "repeat" in mean.dims else mean
             for jump in jumps:
                 ends = mean.sel(frequency=[jump.before, jump.after]).values
-                ax.plot(
-                    [jump.before, jump.after],
-                    ends,
-                    color=look.colour,
-                    linestyle=":",
-                    linewidth=1.0,
-                    zorder=2,
-                )
+                dotted = look._replace(dashes=":", width=1.0)
+                ax.plot([jump.before, jump.after], ends, zorder=2, **dotted.line)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
         ax.set_ylabel(panel.label)
     given[-1].set_xlabel("excitation frequency $f$ (Hz)")
     add_legend(given[0], columns=2)
-    fit_labels(*given)
     return given
 
 
@@ -173,9 +158,7 @@ def measured_points(
     """
     entries: dict[str, Any] = {}
     for ax, name in zip(axes, names, strict=True):
-        for direction, look in SWEEPS.items():
-            if direction not in measured["direction"]:
-                continue
+        for direction, look in sweeps_of(measured):
             found = _on_panel(name, computed, measured.sel(direction=direction))
             if found is None:
                 continue

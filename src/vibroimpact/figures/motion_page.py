@@ -12,12 +12,12 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
+from vibroimpact.figures.finish import finished
 from vibroimpact.figures.history import PANELS, history_legend, history_panel, panels_of
 from vibroimpact.figures.legends import add_legend, fit_labels
 from vibroimpact.figures.lines import spectrum_lines
 from vibroimpact.figures.motion_style import DrawnMotion, cycles_label, cycles_shown, named, shown
 from vibroimpact.figures.notebook import Grid, new_axes
-from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.portrait import SECTION, phase_portrait
 from vibroimpact.figures.sizes import is_print
 from vibroimpact.response.spectrum import fourier_spectrum
@@ -45,7 +45,7 @@ _PAPERS = (
 )
 
 
-@in_own_units
+@finished
 def motion_page(
     columns: Mapping[str, xr.Dataset | Mapping[str, xr.Dataset]],
     axes: Any = None,
@@ -105,7 +105,6 @@ def motion_page(
         grid = made.reshape(ROWS, count).view(Grid)
         handles = _columns(grid, columns, cycles, highest)
         add_legend(grid[-1, 0], handles, columns=3, place="below")
-        fit_labels(*grid.flat)
         return grid
     paper = next(paper for paper in _PAPERS if count <= paper.columns)
     with rc_context({} if is_print() else {"font.size": paper.text}):

@@ -22,9 +22,9 @@ from vibroimpact.figures.design import (
     quantity_label,
     quantity_of,
 )
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.model.units import pretty
 
 _Array = NDArray[np.float64]
@@ -36,7 +36,7 @@ _SAME = 1e-9
 """Relative difference up to which a value of a chart is that of the rig."""
 
 
-@in_own_units
+@finished
 def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draw the acceleration of all designs over their displacement, with the Pareto front.
 
@@ -111,7 +111,6 @@ def pareto_front(data: xr.Dataset, ax: Axes | None = None, *, title: str | None 
     if best.any():
         _name_points(ax, data, dims, order, u, a)
     add_legend(ax, columns=2 if beyond.any() else 3)
-    fit_labels(ax)
     return ax
 
 
@@ -129,14 +128,9 @@ def _mark_present(ax: Axes, data: xr.Dataset, dims: list[str], u: _Array, a: _Ar
     ax.plot(
         u[known] if len(known) else [],
         a[known] if len(known) else [],
-        linestyle="",
-        marker="*" if len(known) else "",
-        markersize=10.0,
-        color=PRESENT,
-        markeredgecolor="white",
-        markeredgewidth=0.6,
         label="present design" if len(known) else "present design: not computed",
         zorder=7,
+        **PRESENT | ({} if len(known) else {"marker": ""}),
     )
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
@@ -33,15 +35,17 @@ def plane_axes(ax: Axes, x: xr.DataArray, y: xr.DataArray) -> None:
         factor, unit = axis_unit(values)
         name = str(values.name)
         symbol = f" {_SYMBOLS[name]}" if name in _SYMBOLS else ""
-        if logarithmic(values.values):
-            ax.set(**{f"{axis.axis_name}scale": "log"})
-            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-            axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-            axis.set_minor_formatter(NullFormatter())
-        ends = factor * values.values[[0, -1]]
-        ax.set(
-            **{
-                f"{axis.axis_name}lim": tuple(ends),
-                f"{axis.axis_name}label": f"{values.attrs['long_name']}{symbol} ({unit})",
-            }
-        )
+        label = f"{values.attrs['long_name']}{symbol} ({unit})"
+        scale_axis(axis, factor * values.values, label)
+
+
+def scale_axis(axis: Any, values: NDArray[np.float64], label: str) -> None:
+    """Set scale, limits and label of an axis: a logarithmic scale if the values are so spaced."""
+    which = axis.axis_name
+    if logarithmic(values):
+        axis.axes.set(**{f"{which}scale": "log"})
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
+    ends = values.min(), values.max()
+    axis.axes.set(**{f"{which}lim": ends, f"{which}label": label})

@@ -9,9 +9,8 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.legends import fit_labels
+from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.motion_style import axes_or_new, gap_lines, name_lines, named, shown
-from vibroimpact.figures.own_units import in_own_units, in_unit
 
 _MOST_VECTORS = 200_000
 """Number of points from which a curve is an image of 600 dpi in SVG and PDF files. With fewer
@@ -20,7 +19,7 @@ SECTION = "stroboscopic section"
 """Legend entry of the points once per forcing cycle."""
 
 
-@in_own_units
+@finished
 def phase_portrait(
     motions: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -87,5 +86,4 @@ def phase_portrait(
     ax.set_xlabel(base_label("relative displacement $u$ (mm)", given.values()))
     ax.set_ylabel(base_label("relative velocity $\\dot u$ (m/s)", given.values()))
     name_lines(ax, curves)
-    fit_labels(ax)
     return ax

@@ -10,15 +10,16 @@ import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import FancyArrowPatch, Patch
+from matplotlib.patches import Patch
 from matplotlib.transforms import ScaledTranslation
 from numpy.typing import NDArray
 
 from vibroimpact.figures.assembly_motion import refuse_masses
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished
+from vibroimpact.figures.jumps import cut_at, draw_arrow, ends_of
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.measured import halves_of, measured_curves, measured_points
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.resonance_panels import (
     Drawn,
     draws_eta,
@@ -26,7 +27,7 @@ from vibroimpact.figures.resonance_panels import (
     outputs,
     physical_curves,
 )
-from vibroimpact.figures.style import EDGE, FREE, SHADE, SWEEPS, Look, curve_style, panels
+from vibroimpact.figures.style import EDGE, FREE, SHADE, SWEEPS, Look, panels, sweeps_of
 from vibroimpact.measurements.read import as_measured, is_measured
 from vibroimpact.response.resonance import Features, Hysteresis, Jump, features
 
@@ -45,7 +46,7 @@ _PLAIN = {"marker": "none"}
 points."""
 
 
-@in_own_units
+@finished
 def resonance_curves(
     data: xr.Dataset,
     axes: Any = None,
@@ -130,7 +131,6 @@ def resonance_curves(
     if measured is not None:
         entries += measured_points(given[: len(names)], names, data, measured)
     add_legend(upper, entries, columns=2 if len(entries) <= 4 else 3)
-    fit_labels(*given)
     return given
 
 
@@ -161,27 +161,17 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked:
     for level in drawn.levels:
         ax.axhline(level.value, label=level.label, zorder=1, **level.style)
     if drawn.free is not None:
-        ax.plot(
-            frequency,
-            drawn.free,
-            color=FREE.colour,
-            linestyle=FREE.dashes,
-            linewidth=FREE.width,
-            label=FREE.label,
-            zorder=2,
-        )
+        ax.plot(frequency, drawn.free, label=FREE.label, zorder=2, **FREE.line)
     # Of a part of a sweep its own jumps alone.
     jumps = [
         jump for jump in found.jumps if jump.settled and {jump.before, jump.after} <= set(frequency)
     ]
-    for layer, direction in enumerate(d for d in SWEEPS if d in data["direction"]):
-        one = data.sel(direction=direction)
-        look = SWEEPS[direction]
+    for layer, (direction, look) in enumerate(sweeps_of(data)):
         mine = [jump for jump in jumps if jump.direction == direction]
         values = drawn.curves[direction]
-        x, y = _parted(frequency, values, mine)
-        style = curve_style(look, len(x)) | ({} if marked else _PLAIN)
-        wild = one["motion"].values != "periodic"
+        x, y = cut_at(frequency, values, mine)
+        style = look.curve(len(x)) | ({} if marked else _PLAIN)
+        wild = data["motion"].sel(direction=direction).values != "periodic"
         if wild.any():  # its marks would hide the crosses
             first, every = style["markevery"]
             hidden = np.isin(x, frequency[wild])
@@ -189,33 +179,15 @@ def _panel(ax: Axes, data: xr.Dataset, found: Features, drawn: Drawn, *, marked:
         ax.plot(x, y, label=look.label, zorder=3 + layer, **style)
         loose = _thinned(frequency, wild)
         if len(loose):
-            ax.plot(
-                frequency[loose],
-                values[loose],
-                label=f"{look.label}, not settled",
-                zorder=5 + layer,
-                **_loose_style(look),
-            )
+            style = {"zorder": 5 + layer, **_loose_style(look)}
+            ax.plot(frequency[loose], values[loose], **style)
     _draw_jumps(ax, frequency, drawn, jumps)
 
 
 def _loose_style(look: Look) -> dict[str, Any]:
     """Return keywords of `Axes.plot` for crosses that can be distinguished even if they overlap."""
-    return {
-        "linestyle": "none",
-        "marker": "x" if look.filled else "+",
-        "markersize": 8.0 if look.filled else 12.0,
-        "markeredgewidth": 1.8,
-        "color": look.colour,
-    }
-
-
-def _parted(
-    frequency: NDArray[np.float64], values: NDArray[np.float64], jumps: list[Jump]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Interrupt a curve at its jumps, where an arrow replaces the line."""
-    cuts = np.searchsorted(frequency, sorted(max(jump.before, jump.after) for jump in jumps))
-    return np.insert(frequency, cuts, np.nan), np.insert(values, cuts, np.nan)
+    style = look.cross(8.0 if look.filled else 12.0)
+    return {**style, "markeredgewidth": 1.8, "label": f"{look.label}, not settled"}
 
 
 def _thinned(frequency: NDArray[np.float64], where: NDArray[np.bool_]) -> NDArray[np.intp]:
@@ -236,30 +208,25 @@ def _draw_jumps(ax: Axes, frequency: NDArray[np.float64], drawn: Drawn, jumps: l
     per_hertz = box.width * points / (right - left)
     per_unit = box.height * points / (top - bottom)
     for jump in jumps:
-        values = drawn.curves[jump.direction]
-        start, end = (values[np.searchsorted(frequency, at)] for at in (jump.before, jump.after))
+        ends = ends_of(frequency, drawn.curves[jump.direction], jump)
         # Arrows of a narrow hysteresis would cover each other: move them apart a little, the
         # lower frequency to the left.
         others = [o.frequency for o in jumps if o.direction != jump.direction]
         away = min((jump.frequency - f for f in others), key=abs, default=np.inf) * per_hertz
         tie = 1.0 if jump.direction == "forward" else -1.0
         shift = 0.5 * max(0.0, _ARROWS_APART - abs(away)) * (np.sign(away) or tie)
-        ax.add_patch(
-            FancyArrowPatch(
-                (jump.frequency, start),
-                (jump.frequency, end),
-                transform=ax.transData
-                + ScaledTranslation(shift / 72.0, 0.0, ax.figure.dpi_scale_trans),
-                arrowstyle="-|>",
-                # The head of a short arrow must leave some of its shaft.
-                mutation_scale=float(np.clip(0.7 * abs(end - start) * per_unit, 4.0, 11.0)),
-                shrinkA=0.0,
-                shrinkB=0.0,
-                linewidth=1.2,
-                color=SWEEPS[jump.direction].colour,
-                zorder=7,
-                label=f"{jump.direction} jump {'up' if jump.upward else 'down'}",
-            )
+        aside = ScaledTranslation(shift / 72.0, 0.0, ax.figure.dpi_scale_trans)
+        draw_arrow(
+            ax,
+            jump,
+            ends,
+            # The head of a short arrow must leave some of its shaft.
+            float(np.clip(0.7 * abs(ends[1] - ends[0]) * per_unit, 4.0, 11.0)),
+            transform=ax.transData + aside,
+            linewidth=1.2,
+            color=SWEEPS[jump.direction].colour,
+            zorder=7,
+            label=f"{jump.direction} jump {'up' if jump.upward else 'down'}",
         )
 
 
@@ -267,23 +234,12 @@ def _legend(data: xr.Dataset, sides: Set[str], *, marked: bool) -> list[Artist]:
     """Return a legend entry for each visible element."""
     entries: list[Artist] = []
     loose: list[Artist] = []
-    for direction, look in SWEEPS.items():
-        if direction not in data["direction"]:
-            continue
-        style = curve_style(look, 1) | ({} if marked else _PLAIN)
+    for direction, look in sweeps_of(data):
+        style = look.curve(1) | ({} if marked else _PLAIN)
         entries.append(Line2D([], [], label=look.label, **style))
         if (data["motion"].sel(direction=direction) != "periodic").any():
-            loose.append(
-                Line2D(
-                    [],
-                    [],
-                    label=f"{look.label}, not settled",
-                    **_loose_style(look),
-                )
-            )
-    entries.append(
-        Line2D([], [], color="black", linestyle=FREE.dashes, linewidth=FREE.width, label=FREE.label)
-    )
+            loose.append(Line2D([], [], **_loose_style(look)))
+    entries.append(Line2D([], [], label=FREE.label, **FREE.line))
     entries += [
         Patch(facecolor=SHADE, edgecolor=EDGE, lw=0.0, hatch=_HATCHES[side], label=_LABELS[side])
         for side in ("right", "left")

@@ -20,7 +20,7 @@ from vibroimpact.datasets.stops import over_stops
 from vibroimpact.errors import InputError
 from vibroimpact.figures.axis_labels import axis_label
 from vibroimpact.figures.base_motion import base_label
-from vibroimpact.figures.own_units import in_unit
+from vibroimpact.figures.finish import in_unit
 from vibroimpact.model import Oscillator, equilibrium
 from vibroimpact.model.quantities import FORCE, GRAVITY, IMPULSE, Scale
 from vibroimpact.model.rig import Rig

@@ -10,10 +10,10 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from vibroimpact.errors import InputError
-from vibroimpact.figures.legends import add_legend, fit_labels
-from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units, in_unit
-from vibroimpact.figures.style import also_in_g, fit_x_axis
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
+from vibroimpact.figures.motion_style import axes_or_new, by_name
+from vibroimpact.figures.style import CURVES, also_in_g, fit_x_axis
 from vibroimpact.model import Record
 from vibroimpact.model.names import literal
 
@@ -24,12 +24,10 @@ _LABELS = {
     "pseudo_velocity": (1.0, "pseudo-velocity\n$\\omega\\,\\max |u|$ (m/s)"),
     "pseudo_acceleration": (1.0, "pseudo-acceleration\n$\\omega^2 \\max |u|$ (m/s²)"),
 }
-_DASHES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
-_COLOURS = ("black", "#c8102e", "#1f4fbf", "#00795c", "#c05a00")
-_MOST = len(_DASHES) * len(_COLOURS)
+_MOST = len(CURVES) ** 2
 
 
-@in_own_units
+@finished
 def response_spectra(
     spectrum: xr.Dataset | Mapping[str, xr.Dataset],
     ax: Axes | None = None,
@@ -86,8 +84,8 @@ def response_spectra(
         ax.plot(
             curve["natural_period"].values[shown],
             in_unit(factor) * curve.values[shown],
-            color=_COLOURS[(numbers[group] if grouped else i) % len(_COLOURS)],
-            linestyle=_DASHES[(within if grouped else i) % len(_DASHES)],
+            color=CURVES[(numbers[group] if grouped else i) % len(CURVES)].colour,
+            linestyle=CURVES[(within if grouped else i) % len(CURVES)].dashes,
             linewidth=1.1,
             label=", ".join(filter(None, words)),
         )
@@ -101,15 +99,13 @@ def response_spectra(
         also_in_g(ax)
     ax.grid(True, which="major", linewidth=0.4, color="0.85")
     add_legend(ax, columns=2 if grouped else 5)
-    fit_labels(ax)
     return ax
 
 
 def _named(spectrum: Any) -> dict[str, xr.Dataset]:
     """Return the spectra by name, a single one without a name."""
     # A dataset is a mapping, too.
-    several = isinstance(spectrum, Mapping) and not isinstance(spectrum, xr.Dataset)
-    given = {str(name): one for name, one in spectrum.items()} if several else {"": spectrum}
+    given = by_name(spectrum)
     if not given:
         raise InputError("spectrum: empty; pass at least one result of response_spectrum")
     for name, one in given.items():

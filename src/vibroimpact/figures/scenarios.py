@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
 from vibroimpact.figures.branches import axis_unit
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.finish import finished
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.motion_style import axes_or_new
-from vibroimpact.figures.own_units import in_own_units
 from vibroimpact.figures.plane import node_edges, plane_axes
 from vibroimpact.figures.style import SCENARIOS
 from vibroimpact.scenarios.scenario import Scenario
@@ -35,7 +35,7 @@ class Mark(NamedTuple):
     """Colour of the inside of the symbol."""
 
 
-@in_own_units
+@finished
 def scenario_map(
     data: xr.Dataset,
     ax: Axes | None = None,
@@ -139,7 +139,6 @@ def scenario_map(
         handlelength=2.2,
         handleheight=1.2,
     )
-    fit_labels(ax)
     return ax
 
 
@@ -184,15 +183,8 @@ def _area(
             bbox={"boxstyle": "round,pad=0.15", "facecolor": "white", "linewidth": 0.0},
             zorder=7,
         )
-    return Patch(
-        facecolor=look.colour,
-        edgecolor=look.line,
-        hatch=look.hatch,
-        linewidth=0.0,
-        label=f"{scenario.label}: {scenario.meaning}"
-        if scenario is not Scenario.UNCLASSIFIED
-        else "unclassified",
-    )
+    known = scenario is not Scenario.UNCLASSIFIED
+    return look.entry(f"{scenario.label}: {scenario.meaning}" if known else "unclassified")
 
 
 def _outlines(

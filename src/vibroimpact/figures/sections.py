@@ -16,10 +16,10 @@ from vibroimpact.datasets.description import own_outputs
 from vibroimpact.errors import InputError, shown
 from vibroimpact.figures.assembly_motion import chosen
 from vibroimpact.figures.axis_labels import axis_label
-from vibroimpact.figures.branches import MARKS, axis_unit, stable_pieces
-from vibroimpact.figures.legends import add_legend, fit_labels
+from vibroimpact.figures.branches import MARKS, axis_unit, orbit_style, stable_pieces
+from vibroimpact.figures.finish import finished, in_unit
+from vibroimpact.figures.legends import add_legend
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.own_units import in_own_units, in_unit
 from vibroimpact.figures.style import SWEEPS, Look, fit_x_axis, panels
 from vibroimpact.model.names import literal
 
@@ -46,7 +46,7 @@ _NO_PERIOD = ("chaotic", "quasi-periodic", "undecided")
 """Types of motions that have their own row on the axis of periods, below the period 1."""
 
 
-@in_own_units
+@finished
 def section_diagram(
     data: xr.Dataset,
     axes: Any = None,
@@ -139,10 +139,8 @@ def section_diagram(
         if len(x) > 2 and not np.allclose(spacing, spacing[0], rtol=1e-6):
             ax.set_xscale("log")
         fit_x_axis(ax, x)
-    handles = [
-        _handle(_WAYS.get(start, _ELSE))
-        for start in dict.fromkeys(s if s in _WAYS else "" for s in map(str, data["start"].values))
-    ]
+    ways = dict.fromkeys(_WAYS.get(str(start), _ELSE) for start in data["start"].values)
+    handles = [Line2D([], [], label=one.label, **one.marks() | _thin(one)) for one in ways]
     if branches is not None:
         places, phase = _places(branches, quantity, list(sections)), _phase(data)
         if places is not None:
@@ -158,7 +156,6 @@ def section_diagram(
     bottom.set_ylabel("largest\nexponent (1/s)")
     bottom.set_xlabel(f"{data[name].attrs['long_name']} ({unit})")
     bottom.figure.align_ylabels()
-    fit_labels(*drawn)
     return drawn
 
 
@@ -181,14 +178,10 @@ def _points(ax: Axes, x: _Array, points: _Array, look: Look) -> None:
         ax.plot(
             at.ravel(),
             points[rows].ravel(),
-            linestyle="",
-            marker=look.marker if few else ".",
-            markersize=0.45 * look.size if few else 0.5,
-            markerfacecolor=look.colour if look.filled else "none",
-            markeredgecolor=look.colour,
             markeredgewidth=0.4,
             rasterized=not few,
             zorder=3 if few else 2,
+            **look.marks(0.45) | ({} if few else {"marker": ".", "markersize": 0.5}),
         )
 
 
@@ -197,31 +190,12 @@ _FEW = 16
 
 
 def _line(ax: Axes, x: _Array, y: _Array, look: Look, dots: bool = True) -> None:
-    ax.plot(
-        x,
-        y,
-        color=look.colour,
-        linestyle="" if dots else look.dashes,
-        linewidth=0.8 * look.width,
-        marker=look.marker if dots else "",
-        markersize=0.5 * look.size,
-        markerfacecolor=look.colour if look.filled else "none",
-        markeredgewidth=0.5,
-    )
+    style = look.marks(0.5) | {"markeredgewidth": 0.5} if dots else _thin(look)
+    ax.plot(x, y, **style)
 
 
-def _handle(look: Look) -> Line2D:
-    return Line2D(
-        [],
-        [],
-        linestyle=look.dashes,
-        linewidth=0.8 * look.width,
-        color=look.colour,
-        marker=look.marker,
-        markersize=look.size,
-        markerfacecolor=look.colour if look.filled else "none",
-        label=look.label,
-    )
+def _thin(look: Look) -> dict[str, Any]:
+    return look.line | {"linewidth": 0.8 * look.width}
 
 
 def _rows(motions: NDArray[np.str_], periods: NDArray[np.int64]) -> dict[str, float]:
@@ -284,17 +258,14 @@ def _orbits(
     """Draw the section of each orbit: thin lines, dashed where the orbits are unstable."""
     x = scale * branches[branches.attrs["parameter"]].values
     pieces = stable_pieces(branches)
-    styles: dict[bool, dict[str, Any]] = {
-        True: {"color": "0.25", "linewidth": 0.7},
-        False: {"color": "0.25", "linewidth": 0.7, "linestyle": (0, (4, 2))},
-    }
+    styles = {stable: orbit_style(stable, 0.7, "0.25") for stable in (True, False)}
     drawn = set()
     for ax, place in zip(tops, places, strict=True):
         y = factor * _at_section(branches["section"], place, phase)
         for part, stable in pieces:
             if np.isfinite(y[part]).any():
                 drawn.add(stable)
-                ax.plot(x[part], y[part], zorder=1.5, **styles[stable])
+                ax.plot(x[part], y[part], **styles[stable] | {"zorder": 1.5})
     words = {True: "stable branch", False: "unstable branch"}
     return [Line2D([], [], label=words[one], **styles[one]) for one in words if one in drawn]
 
@@ -321,16 +292,13 @@ def _lines(
         for ax in drawn:
             for value in values[mine]:
                 ax.axvline(value, color=mark.colour, linestyle=":", linewidth=0.8, zorder=1)
-        style: dict[str, Any] = {"color": mark.colour}
-        if places is not None:
-            style |= {
-                "marker": mark.marker,
-                "markersize": mark.size,
-                "markerfacecolor": mark.colour if mark.filled else "none",
-            }
-            for ax, place in zip(tops, places, strict=True):
-                y = factor * _at_section(branches["bifurcation_section"], place, phase)
-                ax.plot(values[mine], y[mine], linestyle="", zorder=5, **style)
-        label = kind.replace("-", "–") + ("" if places is not None else " of a branch")
-        handles.append(Line2D([], [], linestyle=":", linewidth=0.8, label=label, **style))
+        style = mark.marks()
+        if places is None:
+            style["marker"] = ""
+        for ax, place in zip(tops, places or (), strict=False):
+            y = factor * _at_section(branches["bifurcation_section"], place, phase)
+            ax.plot(values[mine], y[mine], zorder=5, **style)
+        label = mark.label + ("" if places is not None else " of a branch")
+        dotted = {"linestyle": ":", "linewidth": 0.8}
+        handles.append(Line2D([], [], label=label, **style | dotted))
     return handles

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 from matplotlib import rcParams
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike, NDArray
 
@@ -31,11 +34,55 @@ class Look(NamedTuple):
 
     label: str
     colour: str
-    dashes: Literal["-", "--", "-."]
+    dashes: Any
     width: float
     marker: str
     size: float
     filled: bool
+
+    @property
+    def line(self) -> dict[str, Any]:
+        """Keywords of `Axes.plot` for a line without marks."""
+        return {"color": self.colour, "linestyle": self.dashes, "linewidth": self.width}
+
+    def marks(self, share: float = 1.0, *, empty: str = "none") -> dict[str, Any]:
+        """Return the keywords of `Axes.plot` for marks without a line.
+
+        Parameters
+        ----------
+        share
+            Factor of the size of the marks.
+        empty
+            Colour inside open marks.
+        """
+        return {
+            "color": self.colour,
+            "linestyle": "",
+            "marker": self.marker,
+            "markersize": share * self.size,
+            "markerfacecolor": self.colour if self.filled else empty,
+        }
+
+    def cross(self, size: float = 6.0) -> dict[str, Any]:
+        """Return the keywords of `Axes.plot` for crosses: × with filled marks, + with open ones."""
+        marker = "x" if self.filled else "+"
+        return {"color": self.colour, "linestyle": "", "marker": marker, "markersize": size}
+
+    def curve(self, points: int, marks: int = 45) -> dict[str, Any]:
+        """Return the keywords of `Axes.plot` for a curve. On a dense curve, some points have marks.
+
+        Parameters
+        ----------
+        points
+            Number of points of the curve.
+        marks
+            Approximate number of marks.
+        """
+        every = max(1, points // marks)
+        # Open markers half-way between the filled ones, where both cannot be at every point.
+        first = 0 if self.filled else every // 2
+        each = {"markeredgewidth": 0.9, "markevery": (first, every)}
+        return self.marks() | self.line | each
 
 
 SWEEPS = {
@@ -44,6 +91,12 @@ SWEEPS = {
 }
 """Styles of sweeps, as in the paper: forward red, backward blue. A dot is visible inside an open
 square."""
+
+
+def sweeps_of(data: xr.Dataset | xr.DataArray) -> list[tuple[str, Look]]:
+    """Return the directions of the sweeps in a dataset, with their styles."""
+    return [(name, look) for name, look in SWEEPS.items() if name in data["direction"].values]
+
 
 MOTIONS = (
     Look("motion", "black", "-", 1.2, "o", 3.6, True),
@@ -62,6 +115,12 @@ class Area(NamedTuple):
     line: str
     """A darker shade of the colour, for curves and text."""
 
+    def entry(self, label: str) -> Patch:
+        """Return a legend entry."""
+        return Patch(
+            facecolor=self.colour, edgecolor=self.line, hatch=self.hatch, lw=0.0, label=label
+        )
+
 
 SCENARIOS = {
     "S0": Area("#d9efd9", "", "#5aa469"),
@@ -79,6 +138,18 @@ orange."""
 BUMPERS = {"B1": "o", "B2": "s", "B3": "^", "B4": "D"}
 """Symbols of the laboratory bumpers, as in the paper's Fig. 21."""
 
+CURVES = tuple(
+    Look("", colour, dashes, 1.4, marker, 4.0, False)
+    for colour, dashes, marker in (
+        ("black", "-", "o"),
+        ("#c8102e", "--", "s"),
+        ("#1f4fbf", "-.", "^"),
+        ("#00795c", ":", "D"),
+        ("#c05a00", (0, (5, 1, 1, 1, 1, 1)), "v"),
+    )
+)
+"""Styles of spectra and of other curves, in turn."""
+
 FREE = Look("free flight", "black", "-.", 0.9, "", 0.0, False)
 
 SHADE = "0.9"
@@ -90,15 +161,38 @@ EDGE = "0.55"
 class Band(NamedTuple):
     """How contacts of a stop are drawn. The edge alone is seen of a contact that is short."""
 
-    colour: str
+    colour: Any
     hatch: str
     edge: str
+    width: float = 0.7
 
     @property
     def style(self) -> dict[str, Any]:
         """Keywords of a patch."""
         how = {"facecolor": self.colour, "edgecolor": self.edge, "hatch": self.hatch}
-        return {**how, "linewidth": 0.7}
+        return {**how, "linewidth": self.width}
+
+    def draw(
+        self,
+        ax: Axes,
+        spans: Iterable[tuple[float, float]],
+        strip: tuple[int, int] = (0, 1),
+        **options: Any,
+    ) -> None:
+        """Draw time spans as bands, over the whole height or in one of several strips."""
+        number, count = strip
+        ax.broken_barh(
+            [(first, last - first) for first, last in spans],
+            (1.0 - (number + 1) / count, 1.0 / count),
+            transform=ax.get_xaxis_transform(),
+            zorder=0,
+            **self.style,
+            **options,
+        )
+
+    def entry(self, label: str) -> Patch:
+        """Return a legend entry."""
+        return Patch(label=label, **self.style)
 
 
 BANDS = (
@@ -110,33 +204,6 @@ BANDS = (
     Band("#d9d3ee", "--", "#7d6cc0"),
 )
 """Bands of the contacts of stops, in turn."""
-
-
-def curve_style(look: Look, points: int, marks: int = 45) -> dict[str, Any]:
-    """Return the keywords of `Axes.plot` for a curve. On a dense curve not every point has a mark.
-
-    Parameters
-    ----------
-    look
-        Style of the curve.
-    points
-        Number of points of the curve.
-    marks
-        Approximate number of marks.
-    """
-    every = max(1, points // marks)
-    # Open markers half-way between the filled ones, where both cannot be at every point.
-    first = 0 if look.filled else every // 2
-    return {
-        "color": look.colour,
-        "linestyle": look.dashes,
-        "linewidth": look.width,
-        "marker": look.marker,
-        "markersize": look.size,
-        "markerfacecolor": look.colour if look.filled else "none",
-        "markeredgewidth": 0.9,
-        "markevery": (first, every),
-    }
 
 
 def panels(

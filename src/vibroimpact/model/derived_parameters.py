@@ -127,32 +127,26 @@ def _with_stops(rig: Rig, changes: dict[str, dict[str, float]]) -> Rig:
     return rig.with_parts(oscillator.replace(**changed))
 
 
-def _with_stiffness(rig: Rig, stiffness: float, name: str) -> Rig:
+def _with_bumpers(
+    rig: Rig, name: str, stiffness: float | None, damping: Callable[[float, float], float]
+) -> Rig:
+    """Return the rig with another stiffness of the bumpers, and a damping that K_j and C_j give."""
+    changes = {
+        side: {"stiffness": k if stiffness is None else stiffness, "damping": damping(k, c)}
+        for side, (k, c) in _bumpers(rig.oscillator, name).items()
+    }
+    return _with_stops(rig, changes)
+
+
+def _in_proportion(rig: Rig, name: str, stiffness: float) -> Rig:
     """Return the rig with another stiffness of the bumpers at a constant C_j/K_j."""
-    return _with_stops(
-        rig,
-        {
-            side: {"stiffness": stiffness, "damping": stiffness * (damping / before)}
-            for side, (before, damping) in _bumpers(rig.oscillator, name).items()
-        },
-    )
+    return _with_bumpers(rig, name, stiffness, lambda k, c: stiffness * (c / k))
 
 
 def _spring(rig: Rig) -> float:
     """Return the stiffness of the isolator, if all laws are linear."""
     rig.oscillator.check_linear("'stiffness_ratio'")
     return rig.oscillator.isolator.initial_stiffness
-
-
-def _vary_at_restitution(rig: Rig, value: float) -> Rig:
-    bumpers = _bumpers(rig.oscillator, "stiffness_at_restitution")
-    return _with_stops(
-        rig,
-        {
-            side: {"stiffness": value, "damping": damping * math.sqrt(value / before)}
-            for side, (before, damping) in bumpers.items()
-        },
-    )
 
 
 def _peak(rig: Rig) -> float:
@@ -180,11 +174,7 @@ def _relaxation_time(rig: Rig) -> float:
 
 def _vary_relaxation_time(rig: Rig, value: float) -> Rig:
     omega = rig.oscillator.angular_frequency
-    bumpers = _bumpers(rig.oscillator, "relaxation_time")
-    return _with_stops(
-        rig,
-        {side: {"damping": value * stiffness / omega} for side, (stiffness, _) in bumpers.items()},
-    )
+    return _with_bumpers(rig, "relaxation_time", None, lambda k, _: value * k / omega)
 
 
 def _check_isolator(oscillator: Oscillator, field: str, name: str) -> None:
@@ -226,14 +216,16 @@ DERIVED = {
         STIFFNESS,
         "stiffness of both bumpers, with damping in proportion",
         lambda rig: _stiffness(rig.oscillator, "proportional_stiffness"),
-        lambda rig, value: _with_stiffness(rig, value, "proportional_stiffness"),
+        lambda rig, value: _in_proportion(rig, "proportional_stiffness", value),
         zero=False,
     ),
     "stiffness_at_restitution": Derived(
         STIFFNESS,
         "stiffness of both bumpers, with constant restitution",
         lambda rig: _stiffness(rig.oscillator, "stiffness_at_restitution"),
-        _vary_at_restitution,
+        lambda rig, value: _with_bumpers(
+            rig, "stiffness_at_restitution", value, lambda k, c: c * math.sqrt(value / k)
+        ),
         zero=False,
         comment="C_j / √(K_j M) is kept",
     ),
@@ -249,7 +241,7 @@ DERIVED = {
         DIMENSIONLESS,
         "stiffness ratio of the bumpers",
         lambda rig: _stiffness(rig.oscillator, "stiffness_ratio") / _spring(rig),
-        lambda rig, value: _with_stiffness(rig, value * _spring(rig), "stiffness_ratio"),
+        lambda rig, value: _in_proportion(rig, "stiffness_ratio", value * _spring(rig)),
         zero=False,
         comment="K_j / K",
     ),

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from vibroimpact.arguments import check_list
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, errors_at, shown
 from vibroimpact.model.assembly.names import check_part_name
 from vibroimpact.model.quantities import (
     ACCELERATION,
@@ -345,8 +345,6 @@ def sized(value: Any, of: Any, field: str, positive: bool = False) -> tuple[floa
     allowed = QUANTITIES if of is None else {of: QUANTITIES[of]}
     least = {"above": 0.0} if positive else {"minimum": 0.0}
     number, quantity = one_of(value, list(allowed.values()), field, **least)
-    try:
+    with errors_at(f"{field}: "):
         check_size(value, number)
-    except InputError as error:
-        raise InputError(f"{field}: {error}") from None
     return number, next(name for name, one in allowed.items() if one is quantity)

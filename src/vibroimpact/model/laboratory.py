@@ -17,7 +17,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Literal, NamedTuple, TypeAlias, get_args
+from typing import Any, Literal, NamedTuple, TypeAlias, get_args
 
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.excitation import Harmonic
@@ -35,7 +35,7 @@ from vibroimpact.model.periodic_shaking import ANY_FREQUENCY
 from vibroimpact.model.quantities import ACCELERATION, LENGTH, STIFFNESS, Quantity
 from vibroimpact.model.rig import Rig
 from vibroimpact.model.stops import Bumper
-from vibroimpact.model.units import pretty, read
+from vibroimpact.model.units import pretty, to_si
 
 Parameters: TypeAlias = Literal["table", "identified", "refined"]
 
@@ -321,15 +321,8 @@ def _part(
     )
     if text[0].isalpha():
         raise InputError(f"case {shown(code)}: {role} {shown(text)} is unknown; {wanted}")
-    try:
-        value = read(
-            text,
-            quantity,
-            above=None if quantity is LENGTH else 0.0,
-            minimum=0.0 if quantity is LENGTH else None,
-        )
-    except InputError as error:
-        raise InputError(f"case {shown(code)}: {role}: {error}") from None
+    least: dict[str, Any] = {"minimum": 0.0} if quantity is LENGTH else {"above": 0.0}
+    value = to_si(text, quantity, f"case {shown(code)}: {role}", **least)
     # A bare number would be in SI units: B3-10-A3 would be a gap of ten metres.
     if value != 0.0 and not any(c.isalpha() for c in text.lstrip("+-.0123456789eE")):
         raise InputError(f"case {shown(code)}: {role} {shown(text)} has no unit; {wanted}")

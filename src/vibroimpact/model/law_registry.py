@@ -23,7 +23,7 @@ from pydantic import (
 from pydantic_core import CoreSchema, core_schema
 
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.validation import Choice, Model, constructor
+from vibroimpact.model.validation import Choice, Model
 
 
 class Named(Model):
@@ -35,10 +35,6 @@ class Named(Model):
     """Name of the law in the explorer, if it is not the kind."""
     usual: ClassVar[bool] = False
     """Whether a table without a kind describes this law."""
-
-    @constructor
-    def __init__(self, /, **values: Any) -> None:
-        super().__init__(**values)
 
     @model_validator(mode="before")
     @classmethod

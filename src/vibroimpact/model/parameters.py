@@ -18,7 +18,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
-from vibroimpact.errors import InputError, meant, shown
+from vibroimpact.errors import InputError, errors_at, meant, shown
 from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.derived_parameters import DERIVED
@@ -136,11 +136,8 @@ class Parameter(NamedTuple):
             keep_open = self.name != "frequency"
             return rig.with_parts(rig.system, changed, keep_open=keep_open)
         places = _places(rig.system).get(self.name, [])
-        try:
-            system = put(rig.system, {one.steps: value for one in places})
-        except InputError as error:
-            raise InputError(f"parameter: {self.name} at {value:.6g}: {error}") from None
-        return rig.with_parts(system)
+        with errors_at(f"parameter: {self.name} at {value:.6g}: "):
+            return rig.with_parts(put(rig.system, {one.steps: value for one in places}))
 
     def beside(self, value: float, factor: float = 2.0) -> float:
         """Return another accepted value: `factor` times as large or as small, or for 0 near 1."""

@@ -10,7 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple, get_args
 
-from vibroimpact.errors import InputError
+from vibroimpact.errors import InputError, errors_at
 from vibroimpact.model.validation import Accepts, Model
 
 Steps = tuple[str, ...]
@@ -81,7 +81,5 @@ def _child(part: Any, name: str, values: Mapping[Steps, Any]) -> Any:
     if not isinstance(child, Model | Mapping | None):
         key = ".".join(next(iter(values)))
         raise InputError(f"{name}.{key}: {name} is a number, which has no fields; use {name!r}")
-    try:
+    with errors_at(f"{name}."):
         return put(child, values)
-    except InputError as error:
-        raise InputError(f"{name}.{error}") from None

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from typing import NamedTuple
+from types import MappingProxyType
+from typing import NamedTuple, TypeAlias
 
 from vibroimpact.model.written_units import unitless
 
@@ -107,218 +108,11 @@ class Quantity:
         return float(math.prod(units[unit] ** power for unit, power in self.base))
 
 
-LENGTH = Quantity(
-    "length",
-    (("meter", 1),),
-    "m",
-    "15 mm",
-    0.015,
-    (Scale(1.0, 1.0, "m"), Scale(1e-4, 1e-3, "mm"), Scale(0.0, 1e-6, "µm")),
-)
-MASS = Quantity(
-    "mass",
-    (("kilogram", 1),),
-    "kg",
-    "550 kg",
-    550,
-    (Scale(1e4, 1e3, "t"), Scale(0.0, 1.0, "kg")),
-)
-STIFFNESS = Quantity(
-    "stiffness",
-    (("kilogram", 1), ("second", -2)),
-    "N/m",
-    "510 kN/m",
-    510000,
-    (
-        Scale(1e10, 1e9, "GN/m"),
-        Scale(1e7, 1e6, "MN/m"),
-        Scale(1e3, 1e3, "kN/m"),
-        Scale(0.0, 1.0, "N/m"),
-    ),
-)
-DAMPING = Quantity(
-    "damping",
-    (("kilogram", 1), ("second", -1)),
-    "N s/m",
-    "1.1 kN s/m",
-    1100,
-    (Scale(1e6, 1e6, "MN s/m"), Scale(1e2, 1e3, "kN s/m"), Scale(0.0, 1.0, "N s/m")),
-)
-ACCELERATION = Quantity(
-    "acceleration",
-    (("meter", 1), ("second", -2)),
-    "m/s²",
-    "0.05 g",
-    0.4903325,
-    (
-        Scale(1e-4 * GRAVITY, GRAVITY, "g"),
-        Scale(1e-7 * GRAVITY, 1e-3 * GRAVITY, "mg"),
-        Scale(0.0, 1.0, "m/s²"),
-    ),
-)
-FREQUENCY = Quantity(
-    "frequency",
-    (("second", -1),),
-    "Hz",
-    "2.5 Hz",
-    2.5,
-    (Scale(1e3, 1e3, "kHz"), Scale(0.0, 1.0, "Hz")),
-)
-TIME = Quantity(
-    "time",
-    (("second", 1),),
-    "s",
-    "20 ms",
-    0.02,
-    (Scale(0.1, 1.0, "s"), Scale(0.0, 1e-3, "ms")),
-)
-PERIOD = replace(TIME, example="2.5 s", number=2.5)
-VELOCITY = Quantity(
-    "velocity",
-    (("meter", 1), ("second", -1)),
-    "m/s",
-    "150 mm/s",
-    0.15,
-    (Scale(1.0, 1.0, "m/s"), Scale(0.0, 1e-3, "mm/s")),
-)
-FORCE = Quantity(
-    "force",
-    (("kilogram", 1), ("meter", 1), ("second", -2)),
-    "N",
-    "120 N",
-    120,
-    (Scale(1e9, 1e9, "GN"), Scale(1e6, 1e6, "MN"), Scale(1e3, 1e3, "kN"), Scale(0.0, 1.0, "N")),
-)
-UNBALANCE = Quantity(
-    "unbalance",
-    (("kilogram", 1), ("meter", 1)),
-    "kg m",
-    "0.4 kg m",
-    0.4,
-    (Scale(1e-2, 1.0, "kg m"), Scale(0.0, 1e-6, "g mm")),
-)
-"""m e of a rotating mass m whose centre lies the distance e off its axis."""
-IMPULSE = Quantity(
-    "impulse",
-    (("kilogram", 1), ("meter", 1), ("second", -1)),
-    "N s",
-    "2 kN s",
-    2000,
-    (Scale(1e6, 1e6, "MN s"), Scale(1e3, 1e3, "kN s"), Scale(0.0, 1.0, "N s")),
-)
-ENERGY = Quantity(
-    "energy",
-    (("kilogram", 1), ("meter", 2), ("second", -2)),
-    "J",
-    "2 kJ",
-    2000,
-    (Scale(1e6, 1e6, "MJ"), Scale(1e3, 1e3, "kJ"), Scale(1e-3, 1.0, "J"), Scale(0.0, 1e-3, "mJ")),
-)
-ANGLE = Quantity("angle", (("radian", 1),), "rad", "90 deg", 1.5708, (Scale(0.0, 1.0, "rad"),))
-DIMENSIONLESS = Quantity("dimensionless number", (), "", "0.15", 0.15, (Scale(0.0, 1.0, ""),))
-DISSIPATION = Quantity(
-    "dissipation factor",
-    (("meter", -1), ("second", 1)),
-    "s/m",
-    "0.4 s/m",
-    0.4,
-    (Scale(0.0, 1.0, "s/m"),),
-)
-"""χ of a contact force k δⁿ (1 + χ δ')."""
-DECAY = Quantity(
-    "inverse length", (("meter", -1),), "1/m", "200 1/m", 200, (Scale(0.0, 1.0, "1/m"),)
-)
-
-
-@cache
-def power_stiffness(exponent: float) -> Quantity:
-    """Return the quantity of k in a force k uⁿ, in N/mⁿ. For n = 1 it is the stiffness."""
-    if exponent == 1.0:
-        return STIFFNESS
-    power = _SUPERSCRIPTS.get(exponent, f"^{exponent:g}")
-    return Quantity(
-        f"stiffness in N/m{power}",
-        _base(1.0, 1.0 - exponent, -2.0),
-        f"N/m{power}",
-        f"510 kN/m{power}",
-        510000,
-        tuple(
-            Scale(smallest, size, f"{prefix}N/m{power}")
-            for smallest, size, prefix in (
-                (1e10, 1e9, "G"),
-                (1e7, 1e6, "M"),
-                (1e3, 1e3, "k"),
-                (0.0, 1.0, ""),
-            )
-        ),
-    )
-
-
-@cache
-def power_damping(exponent: float) -> Quantity:
-    """Return the quantity of c in a force c |v|^α sgn v. For α = 1 it is the damping."""
-    if exponent == 1.0:
-        return DAMPING
-    over = f"(s/m)^{exponent:g}"
-    return Quantity(
-        f"damping in N {over}",
-        _base(1.0, 1.0 - exponent, exponent - 2.0),
-        f"N {over}",
-        f"1.1 kN {over}",
-        1100,
-        (
-            Scale(1e7, 1e6, f"MN {over}"),
-            Scale(1e2, 1e3, f"kN {over}"),
-            Scale(0.0, 1.0, f"N {over}"),
-        ),
-    )
-
-
-@cache
-def in_base_units(mass: float, length: float, time: float) -> Quantity:
-    """Return the quantity with these powers of mass, length and time, written in kg, m and s."""
-    named = zip(("kg", "m", "s"), (mass, length, time), strict=True)
-    symbol = " ".join(
-        f"{name}^{power:g}" if power != 1.0 else name for name, power in named if power
-    )
-    return Quantity(
-        f"number in {symbol}",
-        _base(mass, length, time),
-        symbol,
-        f"2 {symbol}",
-        2.0,
-        (Scale(0.0, 1.0, symbol),),
-    )
-
-
-@cache
-def quantity(symbol: str) -> Quantity:
-    """Return the quantity with a SI unit, such as ``quantity("N s/m^3")``, for a field of a law.
-
-    Raises
-    ------
-    ValueError
-        If the symbol is not a product of powers of kg, m, s, N, J, W, Pa and Hz.
-    """
-    factors = _factors(symbol)
-    if factors is None or any(unit not in _BASE_OF for unit, _ in factors):
-        raise ValueError(
-            f"{symbol!r} is not a product of powers of {', '.join(_BASE_OF)}; write a unit such as "
-            "'N s/m^3'"
-        )
-    symbol = re.sub(r"\^([23])(?![\d.])", lambda one: "²³"[int(one[1]) - 2], symbol)
-    base = [sum(power * _BASE_OF[unit][i] for unit, power in factors) for i in range(3)]
-    prefixed = factors[0][0] in ("N", "J", "W", "Pa") and factors[0][1] == 1.0
-    prefixes = ((1e10, 1e9, "G"), (1e7, 1e6, "M"), (1e3, 1e3, "k")) if prefixed else ()
-    return Quantity(
-        f"number in {symbol}",
-        _base(*base),
-        symbol,
-        f"2 {symbol}",
-        2.0,
-        tuple(Scale(least, size, f"{p}{symbol}") for least, size, p in (*prefixes, (0.0, 1.0, ""))),
-    )
-
+_PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "µ": 1e-6}
+_OF_FORCE = {"G": 1e10, "M": 1e7, "k": 1e3, "": 0.0}
+"""Least values that are printed with these prefixes of a unit of force or energy."""
+_WHOLE: Mapping[str, float] = MappingProxyType({"": 0.0})
+"""The same where only the unit itself is used."""
 
 _BASE_OF = {
     "kg": (1, 0, 0),
@@ -330,13 +124,127 @@ _BASE_OF = {
     "Pa": (1, -1, -2),
     "Hz": (0, 0, -1),
 }
-"""Powers of mass, length and time in the units of `quantity`."""
+"""Powers of mass, length and time in the units of which symbols are made."""
+
+_Powers: TypeAlias = tuple[float, float, float]
+
+
+def _made(
+    name: str,
+    symbol: str,
+    example: str,
+    number: float,
+    least: Mapping[str, float] | Iterable[Scale] = _WHOLE,
+    powers: _Powers | None = None,
+) -> Quantity:
+    """Return a quantity: `least` has the least printed value by prefix, or is the scales.
+
+    The powers of mass, length and time are by default those of the symbol.
+    """
+    scales = (
+        [Scale(one, _PREFIXES[prefix], f"{prefix}{symbol}") for prefix, one in least.items()]
+        if isinstance(least, Mapping)
+        else least
+    )
+    exponents = zip(("kilogram", "meter", "second"), powers or _powers_of(symbol), strict=True)
+    base = tuple((unit, power) for unit, power in exponents if power)
+    return Quantity(name, base, symbol, example, number, tuple(scales))
+
+
+def _powers_of(symbol: str) -> _Powers:
+    """Return the powers of mass, length and time in a symbol."""
+    factors = _factors(symbol)
+    if factors is None or any(unit not in _BASE_OF for unit, _ in factors):
+        raise ValueError(
+            f"{symbol!r} is not a product of powers of {', '.join(_BASE_OF)}; write a unit such as "
+            "'N s/m^3'"
+        )
+    mass, length, time = (
+        sum(power * _BASE_OF[unit][i] for unit, power in factors) for i in range(3)
+    )
+    return mass, length, time
+
+
+LENGTH = _made("length", "m", "15 mm", 0.015, {"": 1.0, "m": 1e-4, "µ": 0.0})
+MASS = _made("mass", "kg", "550 kg", 550, (Scale(1e4, 1e3, "t"), Scale(0.0, 1.0, "kg")))
+STIFFNESS = _made("stiffness", "N/m", "510 kN/m", 510000, _OF_FORCE)
+DAMPING = _made("damping", "N s/m", "1.1 kN s/m", 1100, {"M": 1e6, "k": 1e2, "": 0.0})
+ACCELERATION = _made(
+    "acceleration",
+    "m/s²",
+    "0.05 g",
+    0.4903325,
+    (
+        Scale(1e-4 * GRAVITY, GRAVITY, "g"),
+        Scale(1e-7 * GRAVITY, 1e-3 * GRAVITY, "mg"),
+        Scale(0.0, 1.0, "m/s²"),
+    ),
+)
+FREQUENCY = _made("frequency", "Hz", "2.5 Hz", 2.5, {"k": 1e3, "": 0.0})
+TIME = _made("time", "s", "20 ms", 0.02, {"": 0.1, "m": 0.0})
+PERIOD = replace(TIME, example="2.5 s", number=2.5)
+VELOCITY = _made("velocity", "m/s", "150 mm/s", 0.15, {"": 1.0, "m": 0.0})
+FORCE = _made("force", "N", "120 N", 120, {"G": 1e9, "M": 1e6, "k": 1e3, "": 0.0})
+UNBALANCE = _made(
+    "unbalance", "kg m", "0.4 kg m", 0.4, (Scale(1e-2, 1.0, "kg m"), Scale(0.0, 1e-6, "g mm"))
+)
+"""m e of a rotating mass m whose centre lies the distance e off its axis."""
+IMPULSE = _made("impulse", "N s", "2 kN s", 2000, {"M": 1e6, "k": 1e3, "": 0.0})
+ENERGY = _made("energy", "J", "2 kJ", 2000, {"M": 1e6, "k": 1e3, "": 1e-3, "m": 0.0})
+ANGLE = Quantity("angle", (("radian", 1),), "rad", "90 deg", 1.5708, (Scale(0.0, 1.0, "rad"),))
+DIMENSIONLESS = _made("dimensionless number", "", "0.15", 0.15)
+DISSIPATION = _made("dissipation factor", "s/m", "0.4 s/m", 0.4)
+"""χ of a contact force k δⁿ (1 + χ δ')."""
+DECAY = _made("inverse length", "1/m", "200 1/m", 200)
+
+
+@cache
+def power_stiffness(exponent: float) -> Quantity:
+    """Return the quantity of k in a force k uⁿ, in N/mⁿ. For n = 1 it is the stiffness."""
+    if exponent == 1.0:
+        return STIFFNESS
+    symbol = f"N/m{_SUPERSCRIPTS.get(exponent, f'^{exponent:g}')}"
+    powers = (1.0, 1.0 - exponent, -2.0)
+    return _made(f"stiffness in {symbol}", symbol, f"510 k{symbol}", 510000, _OF_FORCE, powers)
+
+
+@cache
+def power_damping(exponent: float) -> Quantity:
+    """Return the quantity of c in a force c |v|^α sgn v. For α = 1 it is the damping."""
+    if exponent == 1.0:
+        return DAMPING
+    symbol = f"N (s/m)^{exponent:g}"
+    powers = (1.0, 1.0 - exponent, exponent - 2.0)
+    least = {"M": 1e7, "k": 1e2, "": 0.0}
+    return _made(f"damping in {symbol}", symbol, f"1.1 k{symbol}", 1100, least, powers)
+
+
+@cache
+def in_base_units(mass: float, length: float, time: float) -> Quantity:
+    """Return the quantity with these powers of mass, length and time, written in kg, m and s."""
+    powers = (mass, length, time)
+    symbol = " ".join(
+        f"{name}^{power:g}" if power != 1.0 else name
+        for name, power in zip(("kg", "m", "s"), powers, strict=True)
+        if power
+    )
+    return _made(f"number in {symbol}", symbol, f"2 {symbol}", 2.0, powers=powers)
+
+
+@cache
+def quantity(symbol: str) -> Quantity:
+    """Return the quantity with a SI unit, such as ``quantity("N s/m^3")``, for a field of a law.
+
+    Raises
+    ------
+    ValueError
+        If the symbol is not a product of powers of kg, m, s, N, J, W, Pa and Hz.
+    """
+    powers, first = _powers_of(symbol), (_factors(symbol) or [("", 1.0)])[0]
+    symbol = re.sub(r"\^([23])(?![\d.])", lambda one: "²³"[int(one[1]) - 2], symbol)
+    least = _OF_FORCE if first in (("N", 1.0), ("J", 1.0), ("W", 1.0), ("Pa", 1.0)) else _WHOLE
+    return _made(f"number in {symbol}", symbol, f"2 {symbol}", 2.0, least, powers)
+
 
 _SUPERSCRIPTS = {2.0: "²", 3.0: "³"}
 """Exponents that are written as superscripts."""
-
-
-def _base(mass: float, length: float, time: float) -> tuple[tuple[str, float], ...]:
-    """Exponents of the base units, those that are 0 left out."""
-    exponents = (("kilogram", mass), ("meter", length), ("second", time))
-    return tuple((unit, power) for unit, power in exponents if power)

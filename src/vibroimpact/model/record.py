@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vibroimpact.errors import InputError, shown, warn_of_input
+from vibroimpact.errors import InputError, errors_at, shown, warn_of_input
 from vibroimpact.model.argument_types import MOST_SAMPLES
 from vibroimpact.model.html_table import table
 from vibroimpact.model.quantities import ACCELERATION, DIMENSIONLESS, LENGTH, TIME, Quantity
@@ -108,10 +108,8 @@ class Record:
             path, component, unit, step, checked(decimal)
         )
         made = cls if quantity is ACCELERATION else cls.from_displacement
-        try:
+        with errors_at(f"record: {str(path)!r}: "):
             record = made(values, spacing)
-        except InputError as error:
-            raise InputError(f"record: {str(path)!r}: {error}") from None
         notes = list(about.notes)
         if quantity is LENGTH:
             notes.append("the values are displacements, which were differentiated twice")

@@ -12,7 +12,7 @@ from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.state import AssemblyState
 from vibroimpact.model.frozen_mapping import FrozenMapping
 from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
-from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.validation import Accepts, Model, takes_fields
 
 _BOTH = ("displacement", "velocity")
 _BY_NAME = ("memory", "touching")
@@ -114,12 +114,8 @@ class State(Model):
                 raise InputError(
                     f"deformation.{side}: this is not a stop of an Oscillator; use right or left"
                 )
-            try:
-                number = None if value is None else _DEFORMATION(value)
-            except InputError as error:
-                raise InputError(f"deformation.{side}: {error}") from None
-            if number is not None:
-                found[str(side)] = number
+            if value is not None:
+                found[str(side)] = _DEFORMATION.at(value, f"deformation.{side}")
         known = FrozenMapping({side: found[side] for side in _SIDES if side in found})
         return {**data, "deformation": known}
 
@@ -143,7 +139,7 @@ class State(Model):
                 )
         return AssemblyState(**given)
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         displacement: float | str | Mapping[str, float | str] = 0.0,
@@ -155,12 +151,4 @@ class State(Model):
         *,
         memory: Mapping[str, float | str] | None = None,
         touching: Iterable[str] | None = None,
-    ) -> None:
-        super().__init__(
-            displacement=displacement,
-            velocity=velocity,
-            deformation=deformation,
-            phase=phase,
-            contact=contact,
-            isolator=isolator,
-        )
+    ) -> None: ...

@@ -13,7 +13,7 @@ from typing import Annotated, Any, Self, TypeVar
 
 from pydantic import Field, model_validator
 
-from vibroimpact.errors import InputError, printable
+from vibroimpact.errors import InputError, errors_at, printable
 from vibroimpact.model import laboratory
 from vibroimpact.model.assembly import Assembly
 from vibroimpact.model.excitation import Harmonic, Of, Periodic, Repeated
@@ -160,30 +160,24 @@ class RigStudy(Model):
             If there is no such case, if a record cannot be read, or if a value is invalid.
         """
         where, name = f"study {str(path)!r}", self.name or printable(path.stem)
-        try:
+        with errors_at(f"{where}: excitation."):
             shaking = self.excitation.shaking(path.parent)
-        except InputError as error:
-            raise InputError(f"{where}: excitation.{error}") from None
         if self.case is None:
             stated: dict[str, object] = {
                 "excitation.amplitude": self.excitation.amplitude,
                 "excitation.amplitudes": self.excitation.amplitudes,
                 "excitation.record": shaking,
             }
-            try:
+            with errors_at(f"{where}: "):
                 system = with_stated_units(self._system(path.parent), stated)
-            except InputError as error:
-                raise InputError(f"{where}: {error}") from None
             try:
                 return Rig.of_open_frequency(system, shaking, name)
             except InputError as error:  # the table of the shaking has another name
                 raise InputError(
                     f"{where}: excitation{str(error).removeprefix('shaking')}"
                 ) from None
-        try:
+        with errors_at(f"{where}: "):
             case = laboratory.case(self.case, parameters or self.parameters or "table")
-        except InputError as error:
-            raise InputError(f"{where}: {error}") from None
         usual = Harmonic(case.amplitude, 1.0, phase=self.excitation.phase)
         return Rig.of_open_frequency(case.oscillator, shaking or usual, name)
 
@@ -281,10 +275,8 @@ def read_study(path: Path, kind: type[_Study]) -> _Study:
         raise InputError(f"study: {str(path)!r} {_DEEP}") from None
     if _deeper(data, _DEEPEST):
         raise InputError(f"study: {str(path)!r} {_DEEP}")
-    try:
+    with errors_at(f"study {str(path)!r}: "):
         return validate(kind, data)
-    except InputError as error:
-        raise InputError(f"study {str(path)!r}: {error}") from None
 
 
 def _deeper(data: Any, levels: int) -> bool:

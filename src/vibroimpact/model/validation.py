@@ -24,7 +24,7 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, ErrorDetails, core_schema
 
-from vibroimpact.errors import DependentError, InputError, shown, similar
+from vibroimpact.errors import DependentError, InputError, errors_at, shown, similar
 from vibroimpact.model.html_table import table
 from vibroimpact.model.quantities import Quantity
 from vibroimpact.model.size_checks import SMALLEST, check_size
@@ -77,6 +77,13 @@ class Accepts:
             value, self.quantity, above=self.above, minimum=self.minimum, maximum=self.maximum
         )
         return check_size(value, number, SMALLEST if self.above == 0.0 else 0.0)
+
+    def at(self, value: object, field: str) -> float:
+        """Return the value in SI units; an error begins with the name of the field."""
+        with errors_at(f"{field}: "):
+            number = self(value)
+        assert number is not None  # of no optional field
+        return number
 
     def words(self) -> str:
         """Describe what is accepted."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import STARTS, check_mapping
 from vibroimpact.datasets.description import describe
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, AssemblyState, Repeated, State, Stop
+from vibroimpact.model import Assembly, AssemblyState, Repeated, State
 from vibroimpact.model.argument_types import (
     MaxEvents,
     NonNegativeInt,
@@ -27,8 +27,8 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sweep_starts import arrivals
-from vibroimpact.stability.assembly_diagram import place_assembly
 from vibroimpact.stability.equivalence import image_of, mirrors, same
+from vibroimpact.stability.nearest_state import nearest_state, random_state
 from vibroimpact.stability.settled_motion import (
     Settled,
     approach,
@@ -39,7 +39,6 @@ from vibroimpact.stability.settled_motion import (
 from vibroimpact.stability.steady import ExponentCycles, describe_motion, steady
 from vibroimpact.tasks.threads import Progress, counted
 
-_RANDOM_SIZE = 1.5
 _Start: TypeAlias = State | AssemblyState | NDArray[np.float64]
 
 
@@ -207,8 +206,8 @@ def find_motions(
     size = size or reach_at_rest(rig)
     generator = np.random.default_rng(seed)
     for number in range(random):
-        drawn = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2 * states.masses) * size
-        go(f"random {number + 1}", _start_of(rig, drawn))
+        drawn = random_state(rig, generator, size, excitation.angular_frequency)
+        go(f"random {number + 1}", nearest_state(rig, drawn))
     if kept and kept[0].found.symmetric:
         for one in tuple(kept):  # `go` may add to them
             if not bool(one.motion["antisymmetric"]):
@@ -230,25 +229,6 @@ def find_motions(
         motion.attrs |= {"starts": ", ".join(names), "mirrored_starts": ""}
         motions.append(describe(motion, "vibroimpact.coexisting_motions"))
     return motions
-
-
-def _start_of(rig: Rig, drawn: NDArray[np.float64]) -> _Start:
-    """Return a start of drawn displacements, and of velocities divided by ω."""
-    system, excitation = rig.system, rig.periodic
-    n = len(drawn) // 2
-    u, v = drawn[:n], drawn[n:] * excitation.angular_frequency
-    if isinstance(system, Assembly):
-        states = SectionStates(system)
-        parts = np.zeros(states.parts)
-        parts[: 2 * n] = [*u, *v]
-        return place_assembly(rig, states.vector(parts, 0.0))
-    at = min(max(float(u[0]), -_wall(system.left)), _wall(system.right))
-    return State(at, float(v[0]), phase=excitation.phase)
-
-
-def _wall(stop: Stop | None) -> float:
-    """Return the largest displacement on the side of a stop (m)."""
-    return stop.gap if stop is not None and stop.rigid else math.inf
 
 
 def _labelled(one: _Kept, max_events: int) -> xr.Dataset:

@@ -15,8 +15,8 @@ from vibroimpact.model import Oscillator
 from vibroimpact.response.outputs import NamedOutput, computed
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.stability.exponents import DISCARD
-from vibroimpact.stability.motion_exponents import judge_orbit
-from vibroimpact.stability.motion_type import Judgement, judge
+from vibroimpact.stability.motion_exponents import judge_orbit, judge_sections
+from vibroimpact.stability.motion_type import Judgement
 from vibroimpact.stability.parameter_sweep import Held
 from vibroimpact.stability.settled_motion import Settled
 from vibroimpact.stability.steady import approached
@@ -101,17 +101,10 @@ def _looked_at(held: Held, look: Look) -> Seen:
 
 
 def _wandering(found: Settled, look: Look) -> tuple[Judgement, _Array, Status]:
-    """As `growth.judge_wandering`, with what it has seen of the section."""
+    """As `judge_wandering`, with what it has seen of the section."""
     cycles = max(look.exponent_cycles, look.points)
     status, rows = _followed(found, cycles, look.max_events, DISCARD)
-    states = found.states
-    size = np.ones(states.parts)
-    size[states.velocities()] = found.excitation.angular_frequency
-    # That no motion is quasi-periodic where bumpers forget holds for one mass alone.
-    one_mass = isinstance(states.system, Oscillator)
-    lost = rows[:, lyapunov.DISSIPATION] if one_mass else None
-    kind = judge(rows[:, : lyapunov.DISSIPATION], rows[:, lyapunov.SECTION :] / size, lost)
-    return kind, rows, status
+    return judge_sections(found, rows), rows, status
 
 
 def _followed(

@@ -32,6 +32,7 @@ from vibroimpact.response.prepared_rig import PreparedRig, prepare
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.sweep import check_frequencies, periodic_rigs
 from vibroimpact.stability.block_averages import Averaged
+from vibroimpact.stability.settled_motion import section_sizes
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import DONE, Progress, Tally, each
 
@@ -178,15 +179,13 @@ def lyapunov_exponents(
             nothing = np.full(counts[r], np.nan)
             return _Grown(nothing, nothing, math.nan, 0, status, False)
         mean, spread = kept.exponents()
-        size = np.ones(states.parts)
-        size[states.velocities()] = here.angular_frequency
         return _Grown(
             mean * frequency,
             spread * frequency,
             kept.damping() * frequency,
             kept.done,
             status,
-            kept.is_settling(size),
+            kept.is_settling(section_sizes(engine)),
         )
 
     lyapunov.growth.prepare(

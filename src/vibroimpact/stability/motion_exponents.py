@@ -14,7 +14,7 @@ from vibroimpact.model import Assembly
 from vibroimpact.response.section_states import SectionStates
 from vibroimpact.stability.exponents import DISCARD
 from vibroimpact.stability.motion_type import Judgement, judge, repeats
-from vibroimpact.stability.settled_motion import Settled
+from vibroimpact.stability.settled_motion import Settled, section_sizes
 from vibroimpact.tasks.threads import Progress
 
 _Array = NDArray[np.float64]
@@ -122,21 +122,18 @@ def judge_wandering(
         The damping per unit mass is the integral over a cycle, on average.
     """
     status, rows = found.engine.sections(
-        state,
-        cycles,
-        max_events,
-        discard=DISCARD,
-        progress=progress,
-    )
-    states = found.states
-    size = np.ones(states.parts)
-    size[states.velocities()] = found.excitation.angular_frequency
-    # That no motion is quasi-periodic where bumpers forget holds for one mass alone.
-    several = isinstance(states.system, Assembly)
-    kind = judge(
-        rows[:, : lyapunov.DISSIPATION],
-        rows[:, lyapunov.SECTION :] / size,
-        None if several else rows[:, lyapunov.DISSIPATION],
+        state, cycles, max_events, discard=DISCARD, progress=progress
     )
     damping = float(rows[:, lyapunov.DISSIPATION].mean()) if len(rows) else math.nan
-    return kind, damping, len(rows), status
+    return judge_sections(found, rows), damping, len(rows), status
+
+
+def judge_sections(found: Settled, rows: _Array) -> Judgement:
+    """Judge a motion by its sections, and the growth of disturbances between them."""
+    # That no motion is quasi-periodic where bumpers forget holds for one mass alone.
+    several = isinstance(found.states.system, Assembly)
+    return judge(
+        rows[:, : lyapunov.DISSIPATION],
+        rows[:, lyapunov.SECTION :] / section_sizes(found.engine),
+        None if several else rows[:, lyapunov.DISSIPATION],
+    )

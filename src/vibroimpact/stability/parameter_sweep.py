@@ -12,26 +12,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import motion as layout
-from vibroimpact.engine import parameters as par
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
-from vibroimpact.model import Assembly, Oscillator, State
+from vibroimpact.model import Oscillator
 from vibroimpact.model.parameter_ranges import field_of
 from vibroimpact.model.parameters import Parameter
 from vibroimpact.model.rig import Rig
 from vibroimpact.response.analytic_free_response import check_bounded
-from vibroimpact.response.engine_input import engine_rig, engine_state
+from vibroimpact.response.assembly_rows import measured_variables
 from vibroimpact.response.hold_rows import HoldRows, Settling
 from vibroimpact.response.prepared_rig import prepare
+from vibroimpact.response.section_states import SectionStates
 from vibroimpact.response.softening_limit import judged
-from vibroimpact.stability.assembly_diagram import place_assembly, random_assembly_states
+from vibroimpact.stability.nearest_state import nearest_state, random_state
 from vibroimpact.stability.settled_motion import Settled, reach_at_rest
 from vibroimpact.tasks.threads import Stopped, Tally
 
 _Array = NDArray[np.float64]
 
-_RANDOM_SIZE = 1.5
 _SOUND = (Status.DONE, Status.NOT_SETTLED)
 
 
@@ -116,46 +114,21 @@ def _held(rig: Rig, state: _Array, settling: Settling) -> Held:
     return Held(found, row)
 
 
-def nearest_state(rig: Rig, state: _Array) -> _Array:
-    """The nearest state that a rig can have: no mass inside a stop, no memory beyond its bounds."""
-    if isinstance(rig.system, Assembly):
-        return place_assembly(rig, state)
-    oscillator = rig.oscillator
-    u, v = float(state[layout.U]), float(state[layout.V])
-    if oscillator.right is not None and oscillator.right.rigid:
-        u = min(u, oscillator.right.gap)
-    if oscillator.left is not None and oscillator.left.rigid:
-        u = max(u, -oscillator.left.gap)
-    deformation = {
-        side: max(float(state[at]), sign * u - stop.gap, 0.0)
-        for side, sign, at in (
-            ("right", 1.0, layout.RIGHT_BUMPER),
-            ("left", -1.0, layout.LEFT_BUMPER),
-        )
-        if (stop := getattr(oscillator, side)) is not None and stop.spring_and_dashpot is not None
-    }
-    most = engine_rig(rig)[par.YIELD]
-    memory = min(max(float(state[layout.ISOLATOR]), -most), most)
-    return engine_state(oscillator, State(u, v, deformation, isolator=memory))
-
-
 def random_states(met: Iterable[Held], every: Sequence[Rig], count: int, seed: int) -> list[_Array]:
     """Random states up to 1.5 times as large as what was met, or as the widest gap if that is more.
 
     Vectors of the engine. Where there is neither, they are as large as the mass is moved by what
     shakes it slowly.
     """
-    if isinstance(every[0].system, Assembly):
-        return random_assembly_states(met, every, count, seed)
-    sizes = [float(one.measured.peak_displacement) for one in met if one.found.status in _SOUND]
-    gaps = [stop.gap for rig in every for stop in rig.oscillator.stops]
+    sizes = [_size(one) for one in met if one.found.status in _SOUND]
+    gaps = [law.gap for rig in every for law in SectionStates(rig.system).laws]
     size = max([0.0, *sizes, *gaps]) or max(reach_at_rest(one) for one in every)
     omega = float(np.median([rig.periodic.angular_frequency for rig in every]))
     generator = np.random.default_rng(seed)
-    states = []
-    for _ in range(count):
-        u, v = generator.uniform(-_RANDOM_SIZE, _RANDOM_SIZE, 2) * size
-        state = np.zeros(layout.STATE)
-        state[layout.U], state[layout.V] = u, v * omega
-        states.append(state)
-    return states
+    return [random_state(every[0], generator, size, omega) for _ in range(count)]
+
+
+def _size(held: Held) -> float:
+    """Return the largest displacement of all masses (m)."""
+    measured = measured_variables(held.found.rig.system, held.measured.array, ())
+    return float(np.max(measured["peak_displacement"][1]))

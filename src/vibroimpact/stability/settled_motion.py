@@ -108,12 +108,17 @@ def later(
     return found.engine.propagate(state, cycles, max_events)
 
 
+def section_sizes(engine: PreparedRig) -> _Array:
+    """Return what the parts of a section are divided by: velocities by ω, to be displacements."""
+    size = np.ones(engine.states.parts)
+    size[engine.states.velocities()] = engine.shaking.angular_frequency
+    return size
+
+
 def state_distance(found: Settled, one: _Array, other: _Array, size: float) -> float:
     """Largest difference of two states of the engine, as a displacement over `size`."""
-    states, omega = found.states, found.excitation.angular_frequency
-    difference = np.abs(states.point(one) - states.point(other))
-    difference[states.velocities()] /= omega
-    return float(difference.max() / size)
+    difference = np.abs(found.states.point(one) - found.states.point(other))
+    return float((difference / section_sizes(found.engine)).max() / size)
 
 
 def reach(found: Settled, state: _Array) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 from vibroimpact.attraction.basins import basins
 from vibroimpact.explorer.pictures.numbers import axis, forcing, short
 from vibroimpact.explorer.state import PageState
-from vibroimpact.figures.own_units import in_unit
+from vibroimpact.figures.finish import in_unit
 from vibroimpact.model.units import plain
 from vibroimpact.model.written_units import as_first_argument, unit
 from vibroimpact.tasks.threads import Progress

@@ -13,7 +13,7 @@ from vibroimpact.datasets.description import base_at_rest
 from vibroimpact.explorer.pictures.motion import at
 from vibroimpact.explorer.pictures.numbers import forcings, short
 from vibroimpact.explorer.state import PageState
-from vibroimpact.figures.own_units import in_unit
+from vibroimpact.figures.finish import in_unit
 from vibroimpact.figures.resonance_panels import peak_force_unit
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.rig import Rig

@@ -12,7 +12,7 @@ from vibroimpact.explorer.pictures.numbers import WIDTH, axis, forcing, forcings
 from vibroimpact.explorer.state import PageState
 from vibroimpact.facts import motions as told
 from vibroimpact.facts.tables import as_text
-from vibroimpact.figures.own_units import in_unit
+from vibroimpact.figures.finish import in_unit
 from vibroimpact.model import Harmonic
 from vibroimpact.model.quantities import FORCE
 from vibroimpact.model.rig import Rig

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from vibroimpact.figures.own_units import without_unit
+from vibroimpact.figures.finish import without_unit
 from vibroimpact.model.frequency_text import forcing_heading
 from vibroimpact.model.written_units import unitless
 

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from pydantic import ConfigDict, SerializerFunctionWrapHandler, model_serializer, model_validator
 
 from vibroimpact.arguments import check_path
-from vibroimpact.errors import InputError, shown, warn_of_input
+from vibroimpact.errors import InputError, errors_at, shown, warn_of_input
 from vibroimpact.model.assembly.damping import DAMPINGS, AnyDamping, Modes
 from vibroimpact.model.assembly.link import Link, read_link
 from vibroimpact.model.assembly.matrices import Matrices
@@ -221,16 +221,14 @@ class Assembly(Model):
                 else "masses: given together with matrices; remove one of the two"
             )
         masses = {
-            check_part_name(name, "masses"): _quantity(value, _MASS, f"masses.{name}")
+            check_part_name(name, "masses"): _MASS.at(value, f"masses.{name}")
             for name, value in given["masses"].items()
         }
         names = masses if matrices is None else matrices.names
         read["masses"] = FrozenMapping(masses)
         read["forces"] = FrozenMapping(
             {
-                check_known(name, list(names), "mass", "forces"): _quantity(
-                    value, _FORCE, f"forces.{name}"
-                )
+                check_known(name, list(names), "mass", "forces"): _FORCE.at(value, f"forces.{name}")
                 for name, value in given["forces"].items()
             }
         )
@@ -539,15 +537,6 @@ def _table(value: Any, part: str) -> Mapping[str, Any]:
     return value
 
 
-def _quantity(value: Any, accepts: Accepts, where: str) -> float:
-    try:
-        number = accepts(value)
-    except InputError as error:
-        raise InputError(f"{where}: {error}") from None
-    assert number is not None
-    return number
-
-
 def _matrices_of(table: Mapping[str, Any]) -> Matrices:
     for key in table:
         if key not in (*_MATRIX_KEYS, "folder"):
@@ -556,7 +545,7 @@ def _matrices_of(table: Mapping[str, Any]) -> Matrices:
             )
     if "mass" not in table:
         raise InputError("matrices.mass: missing; add the mass matrix, or the path of its file")
-    try:
+    with errors_at("matrices."):
         return Matrices.read(
             table["mass"],
             table.get("damping"),
@@ -565,5 +554,3 @@ def _matrices_of(table: Mapping[str, Any]) -> Matrices:
             table.get("influence"),
             check_path(table.get("folder", "."), "folder"),
         )
-    except InputError as error:
-        raise InputError(f"matrices.{error}") from None

@@ -91,11 +91,7 @@ def chain(
         zip(pairwise((GROUND, *named)), springs, strict=True)
     ):
         check_part_name(above, "masses")
-        try:
-            stiffness = _STIFFNESS(value)
-        except InputError as error:
-            raise InputError(f"stiffnesses[{i}]: {error}") from None
-        assert stiffness is not None
+        stiffness = _STIFFNESS.at(value, f"stiffnesses[{i}]")
         links[f"storey_{i + 1}"] = Link(below, above, Isolator(stiffness, 0.0))
     try:
         modal = ModalDamping(damping_ratio)

@@ -85,13 +85,8 @@ class ModalDamping(Damping):
     def _one_or_each(cls, value: Any) -> Any:
         if not is_list(value):
             return _RATIO(value)
-        found = []
-        for i, one in enumerate(check_list(value, "ratio")):
-            try:
-                found.append(_RATIO(one))
-            except InputError as error:
-                raise InputError(f"mode {i + 1}: {error}") from None
-        return tuple(found)
+        ratios = enumerate(check_list(value, "ratio"), 1)
+        return tuple(_RATIO.at(one, f"mode {i}") for i, one in ratios)
 
     def check_modes(self, count: int) -> None:
         """Raise an error unless there is one ratio, or one per mode."""

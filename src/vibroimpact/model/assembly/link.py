@@ -7,7 +7,7 @@ from typing import Any, TypeAlias, cast, get_args
 
 from pydantic import ConfigDict, field_validator, model_serializer, model_validator
 
-from vibroimpact.errors import InputError, shown
+from vibroimpact.errors import InputError, errors_at, shown
 from vibroimpact.model.assembly.names import GROUND
 from vibroimpact.model.built_in_laws import as_isolator, as_stop
 from vibroimpact.model.isolators import ISOLATORS, AnyIsolator, IsolatorLaw
@@ -158,15 +158,8 @@ def read_link(value: Any, where: str, *, is_stop: bool, mass: Any) -> Link:
             raise InputError(f"{where}.{end}: {shown(value[end])} is not the name of a mass")
     ends = (value["left"], value["right"])
     table = {name: one for name, one in value.items() if name not in ("left", "right")}
-    try:
-        law = _law(table, STOPS if is_stop else ISOLATORS, mass(*ends))
-    except InputError as error:
-        # A law names its own fields; the path of the law stands before them.
-        raise InputError(f"{where}.{error}") from None
-    try:
-        return Link(*ends, law)
-    except InputError as error:
-        raise InputError(f"{where}.{error}") from None
+    with errors_at(f"{where}."):  # a law names its own fields
+        return Link(*ends, _law(table, STOPS if is_stop else ISOLATORS, mass(*ends)))
 
 
 def _law(table: Mapping[str, Any], kinds: Kinds, mass: float | None) -> Any:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.arguments import check_list, check_path, is_list
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.assembly.names import check_part_name
-from vibroimpact.model.validation import Model, constructor
+from vibroimpact.model.validation import Model
 
 _SYMMETRY = 1e-8
 """Largest asymmetry of a symmetric matrix, relative to its largest entry: digits that a file of
@@ -59,10 +59,6 @@ class Matrices(Model):
     damping: Rows
     stiffness: Rows
     influence: tuple[float, ...]
-
-    @constructor
-    def __init__(self, /, **values: Any) -> None:
-        super().__init__(**values)
 
     @classmethod
     def read(

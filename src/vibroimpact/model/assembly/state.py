@@ -14,7 +14,7 @@ from vibroimpact.model.assembly.names import check_known
 from vibroimpact.model.frozen_mapping import FrozenMapping
 from vibroimpact.model.quantities import ANGLE, LENGTH, VELOCITY
 from vibroimpact.model.units import pretty
-from vibroimpact.model.validation import Accepts, Model, constructor
+from vibroimpact.model.validation import Accepts, Model, takes_fields
 
 if TYPE_CHECKING:
     from vibroimpact.model.assembly.assembly import Assembly
@@ -75,7 +75,7 @@ class AssemblyState(Model):
     phase: Annotated[float | None, Accepts(ANGLE, optional=True)] = None
     touching: tuple[str, ...] | None = None
 
-    @constructor
+    @takes_fields
     def __init__(
         self,
         displacement: Mapping[str, float | str] | None = None,
@@ -84,15 +84,7 @@ class AssemblyState(Model):
         memory: Mapping[str, float | str] | None = None,
         phase: float | str | None = None,
         touching: Iterable[str] | None = None,
-    ) -> None:
-        super().__init__(
-            displacement=displacement,
-            velocity=velocity,
-            deformation=deformation,
-            memory=memory,
-            phase=phase,
-            touching=touching,
-        )
+    ) -> None: ...
 
     @model_validator(mode="before")
     @classmethod
@@ -107,13 +99,9 @@ class AssemblyState(Model):
                 raise InputError(
                     f"{field}: {shown(given)} is not a mapping from names, as the other values are"
                 )
-            found = {}
-            for name, value in given.items():
-                try:
-                    found[str(name)] = accepts(value)
-                except InputError as error:
-                    raise InputError(f"{field}.{name}: {error}") from None
-            read[field] = FrozenMapping(found)
+            read[field] = FrozenMapping(
+                {str(name): accepts.at(one, f"{field}.{name}") for name, one in given.items()}
+            )
         touching = data.get("touching")
         if touching is not None:
             read["touching"] = tuple(str(one) for one in check_list(touching, "touching"))

@@ -46,11 +46,7 @@ def design(**given: object) -> list[float]:
     """
     found = []
     for name, value in given.items():
-        try:
-            number = _ACCEPTS[name](value)
-        except InputError as error:
-            raise InputError(f"{name}: {error}") from None
-        assert number is not None
+        number = _ACCEPTS[name].at(value, name)
         if name.endswith("damping_ratio"):
             doubt_damping_ratio(number, name)
         found.append(number)

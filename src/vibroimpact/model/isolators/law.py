@@ -16,7 +16,7 @@ from vibroimpact.model.isolators.design import design, design_keys, force_of_str
 from vibroimpact.model.law_registry import Named
 from vibroimpact.model.quantities import DAMPING, DIMENSIONLESS, FORCE, STIFFNESS, power_damping
 from vibroimpact.model.units import pretty
-from vibroimpact.model.validation import Accepts, constructor
+from vibroimpact.model.validation import Accepts
 
 
 class IsolatorLaw(Named):
@@ -47,10 +47,6 @@ class IsolatorLaw(Named):
     damping: Annotated[
         float, Accepts(DAMPING, minimum=0.0, by="damping_exponent", family=power_damping)
     ]
-
-    @constructor
-    def __init__(self, /, **values: Any) -> None:
-        super().__init__(**values)
 
     @property
     def linear(self) -> bool:
@@ -175,10 +171,6 @@ class SpringLaw(IsolatorLaw):
 
     stiffness: Annotated[float, Accepts(STIFFNESS, minimum=0.0)]
 
-    @constructor
-    def __init__(self, /, **values: Any) -> None:
-        super().__init__(**values)
-
     @classmethod
     def from_period(
         cls, mass: float | str, period: float | str, damping_ratio: float | str, **others: Any
@@ -247,10 +239,6 @@ class YieldingLaw(IsolatorLaw):
         float, Accepts(STIFFNESS, minimum=0.0, meaning="post-yield stiffness")
     ]
     yield_force: Annotated[float, Accepts(FORCE, above=0.0)]
-
-    @constructor
-    def __init__(self, /, **values: Any) -> None:
-        super().__init__(**values)
 
     @classmethod
     def from_strength(

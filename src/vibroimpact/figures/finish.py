@@ -1,8 +1,8 @@
-"""Figures of rigs without units: their axes have no units, and ω = 2π f instead of f.
+"""What all figures have at the end: labels that fit, without units if the rigs have none.
 
-A figure function draws millimetres, g or kN. If it has the decorator `in_own_units`, and if its
+A figure function draws millimetres, g or kN. If it has the decorator `finished`, and if its
 data were computed from rigs without units, `in_unit` returns 1, the labels of the axes lose their
-units, and the frequencies in the data are angular.
+units, and the frequencies in the data are angular, ω = 2π f.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 
+from vibroimpact.figures.legends import fit_labels
 from vibroimpact.model import GRAVITY
 from vibroimpact.model.written_units import unitless, written_for
 from vibroimpact.response.resonance import Features
@@ -27,21 +28,20 @@ _UNIT = re.compile(r"\s\((?:mm|m|m/s²|m s-2|g|m/s|mm/s|s|ms|1/s|–|1|[kM]?N(?:
 _HERTZ = re.compile(r"(\s)(?:\$f\$\s)?\(Hz\)")
 
 
-def in_own_units(draw: _Draw) -> _Draw:
-    """Draw without units if the first dataset or mapping of datasets has none."""
+def finished(draw: _Draw) -> _Draw:
+    """Fit the labels, and draw without units if the first dataset or mapping of them has none."""
 
     @wraps(draw)
     def drawn(*arguments: Any, **options: Any) -> Any:
         every = (*arguments, *options.values())
         data = next((one for one in every if isinstance(one, Mapping)), None)
         with written_for(data):
-            if not unitless():
-                return draw(*arguments, **options)
-            made = draw(
-                *(_turned(one) for one in arguments),
-                **{name: _turned(one) for name, one in options.items()},
-            )
-            for ax in _axes(made):
+            if unitless():
+                arguments = tuple(map(_turned, arguments))
+                options = {name: _turned(one) for name, one in options.items()}
+            made = draw(*arguments, **options)
+            fit_labels(*np.ravel(made))
+            for ax in _axes(made) if unitless() else ():
                 ax.set_xlabel(without_unit(ax.get_xlabel()))
                 ax.set_ylabel(without_unit(ax.get_ylabel()))
             return made
