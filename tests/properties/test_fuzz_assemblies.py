@@ -249,6 +249,61 @@ def test_motions_that_were_found_to_fail(
     assert ends[1] == pytest.approx(ends[0], abs=1e-10)
 
 
+def test_a_blow_that_makes_a_dashpot_pull_parts_the_bodies() -> None:
+    """The face relaxes behind a body that is thrown off, and is met again by its links alone."""
+    linear = vi.Isolator(12.0, 0.02), vi.Isolator(1.0, 0.02)
+    assembly = vi.Assembly(
+        {"a": 0.4, "b": 2.9},
+        links={"x": vi.Link("ground", "a", linear[0]), "y": vi.Link("a", "b", linear[1])},
+        stops={
+            "blow": vi.Link("b", "a", vi.RigidStop(1.0, 0.0)),
+            "wall": vi.Link("ground", "a", vi.Bumper(3.5, 0.2, 0.0)),
+        },
+    )
+    start = vi.State(
+        displacement={"a": -0.05, "b": -0.3},
+        velocity={"a": -0.3, "b": 1.0},
+        deformation={"wall": 0.05},
+    )
+    motion = vi.simulate(vi.Rig(assembly, vi.Harmonic(0.01, 0.3)), 4, start, samples=200)
+    assert not faults(assembly, motion, "done")
+    left = motion["event_time"].where(motion["event_contact"] == 0, drop=True)
+    hit = motion["event_time"].where(motion["event_contact"] == 2, drop=True)
+    assert set(left.values) & set(hit.values)
+
+
+@pytest.mark.parametrize("phase", [3.7, 5.5])
+def test_what_parts_at_the_first_instant_is_not_seen_to_pull(phase: float) -> None:
+    """Of two events at the beginning the first is a touch, which is found a rounding later."""
+    assembly = vi.Assembly(
+        {"a": 1.0, "b": 1.0, "c": 1.0},
+        links={
+            "a": vi.Link("ground", "a", vi.Isolator(0.4, 0.02)),
+            "b": vi.Link("a", "b", vi.Isolator(17.0, 0.0)),
+            "c": vi.Link("ground", "c", vi.Isolator(0.8, 0.0)),
+        },
+        stops={
+            "touch": vi.Link("b", "a", vi.Bumper(300.0, 0.0, 0.0)),
+            "wall": vi.Link("ground", "c", vi.RigidStop(0.5, 0.0)),
+        },
+    )
+    motion = vi.simulate(vi.Rig(assembly, vi.Harmonic(0.16, 0.3, phase)), 1, samples=8)
+    assert not faults(assembly, motion, "done")
+
+
+@pytest.mark.parametrize(
+    ("seed", "which"),
+    [
+        pytest.param(3, 128, id="touches, of which none lasts: the sign of a rounding decided"),
+        pytest.param(3, 149, id="the same beside curved stops"),
+        pytest.param(22, 4409, id="a stop that is touched without speed where friction lets go"),
+        pytest.param(21, 4543, id="a stop that pushes again within the step in which it ceased"),
+    ],
+)
+def test_random_assemblies_that_were_found_to_fail(seed: int, which: int) -> None:
+    assert looked_at(seed, which) == ("done", [])
+
+
 if __name__ == "__main__":
     given = [int(word) for word in sys.argv[1:]]
     totals, bad = survey(given[0], *(given[1:] or [1]), tell=True)

@@ -72,7 +72,8 @@ def follow(
                 return -1 - k
             if len(disturbances):
                 flow.tangent(plan, here, ended, there, passed, pointer(disturbances))
-            if samples.shape[1] and written < samples.shape[1] and ended[STEP] > 0.0:
+            wanted = samples.shape[1] and written < samples.shape[1] and plan[at.AT_ONCE] == 0.0
+            if wanted and ended[STEP] > 0.0:
                 notes[BETWEEN] = t + tau * ended[STEP]
                 notes[NEXT], notes[COUNT], notes[BEGIN] = 1, 2, written - 1
                 times[2 * written], times[2 * written + 1] = k, notes[BETWEEN]

@@ -42,6 +42,18 @@ _ROUNDING = 2e-16
 """A watched function that goes below zero by no more than this share is a touch."""
 _TINY = 1e-300
 
+_DUST = 2.0**-48
+"""A derivative below this share of what it is made of is rounding."""
+_ORDERS = 6
+"""Of a zero that is looked at."""
+_DIFFERENCES = tuple(
+    math.comb(at.DEGREE, k)
+    * (float((-1) ** (k - i) * math.comb(k, i)) if i <= k else 2.0**k if i == 7 else 0.0)
+    for k in range(_ORDERS)
+    for i in range(8)
+)
+"""Power coefficients of Bernstein ones; the last of eight bounds their sum of magnitudes."""
+
 _NOTHING = 1e-20
 """Share of a clearance's size below which a deformation changes no digit of it."""
 _FORGOTTEN = 1e-40
@@ -146,6 +158,71 @@ def magnitude(plan: Vector, f: int, mode: int, b: Vector) -> float:
     return size
 
 
+@apart
+def expand_watched(plan: Vector, f: int, mode: int, length: float) -> None:
+    """Write a watched function by its series; tables leave in it the rounding of all that moves."""
+    y, deformation = beyond(plan, int(plan[at.Y])), beyond(plan, int(plan[at.DEFORMATION]))
+    expand_state(plan, y, deformation, length)
+    a = beyond(plan, int(plan[at.COEFFICIENTS]))
+    watched_series(plan, f, mode, a)
+    to_bernstein(plan, a, beyond(plan, int(plan[at.BERNSTEIN])))
+
+
+@kernel
+def sizes(plan: Vector) -> tuple[float, float, float]:
+    """Displacements, speeds, and what accelerations are made of, at most."""
+    n, w, rate = int(plan[at.MASSES]), int(plan[at.WAVES]), plan[at.RATE]
+    y, far, speed, driven = int(plan[at.Y]), 0.0, 0.0, 0.0
+    for i in range(n):
+        here = abs(plan[int(plan[at.CONSTANT]) + i])
+        for q in range(w):
+            here += abs(plan[int(plan[at.PUSH]) + i * w + q] * plan[y + 2 * n + q])
+        far, speed = max(far, abs(plan[y + i])), max(speed, abs(plan[y + n + i]))
+        driven = max(driven, here)
+    return far, speed, driven + rate * (speed + rate * far)
+
+
+@apart
+def order_of_zero(
+    plan: Vector, f: int, mode: int, d: float, x: float, length: float, zeros: int
+) -> int:
+    """The order of the zero with which a watched function begins: what is rounding is zero.
+
+    What touches may part by a high derivative, before which no sign of a rounding may decide.
+    """
+    pressed, one = mode >> f & 1 == 1, int(plan[at.STOP]) + f * at.STOP_WIDTH
+    if pressed and plan[one + at.KIND] != at.KELVIN_VOIGT:
+        return zeros
+    a, b = beyond(plan, int(plan[at.COEFFICIENTS])), beyond(plan, int(plan[at.BERNSTEIN]))
+    far, speed, acceleration = sizes(plan)
+    stiffness, damping = 1.0, 0.0
+    if pressed:
+        stiffness, damping = plan[one + at.STOP_STIFFNESS], plan[one + at.STOP_DAMPING]
+    moved = far + length * (speed + length * acceleration)
+    blurred = _DUST * (stiffness + damping * plan[at.RATE]) * moved
+    by_tables = plan[at.TABLE_NOW] > 0.0 and zeros > 0
+    order, share, memory, size, faster = zeros, _DUST, d, speed, acceleration
+    for k in range(1, 3 if d > 0.0 else _ORDERS):
+        share *= length / k
+        memory *= -x / k
+        if k >= order:
+            found = a[k]
+            if by_tables:
+                found = 0.0
+                for i in range(k + 1):
+                    found += _DIFFERENCES[8 * k + i] * b[i]
+                if abs(found + memory) <= _DIFFERENCES[8 * k + 7] * blurred:
+                    expand_watched(plan, f, mode, length)
+                    by_tables, found = False, a[k]
+            if abs(found + memory) > share * (stiffness * size + damping * faster):
+                break
+            order = k + 1
+        size, faster = faster, faster * plan[at.RATE]
+    if not pressed:
+        plan[int(plan[at.ZEROS]) + f] = float(min(order, 3))
+    return order
+
+
 @kernel
 def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> float:
     """When a stop's watched function first falls to zero, as a share of the step, or NONE."""
@@ -158,10 +235,14 @@ def first_event(plan: Vector, f: int, mode: int, length: float, end: float) -> f
             x = plan[int(plan[at.STOP]) + f * at.STOP_WIDTH + at.RELAXATION] * length
         else:
             d = 0.0
+    if zeros == 0 and b[0] + d <= 0.0 and plan[at.TABLE_NOW] > 0.0:
+        expand_watched(plan, f, mode, length)
     if zeros == 0 and b[0] + d < -_WRONG * size:
         if mode >> f & 1:
             plan[int(plan[at.ZEROS]) + f] = float(JUMPED)
         return 0.0
+    if zeros > 0 or b[0] + d <= 0.0:
+        zeros = order_of_zero(plan, f, mode, d, x, length, zeros)
     return first_fall(b, d, x, end, zeros, _ROUNDING * size + _TINY, plan, True)
 
 
@@ -305,7 +386,7 @@ def finish(plan: Vector, mode: int, hit: int, length: float, moved: bool) -> int
     if moved:
         for f in range(int(plan[at.STOPS])):
             plan[int(plan[at.ZEROS]) + f] = 0.0
-    plan[at.LENGTH] = length
+    plan[at.LENGTH], plan[at.AT_ONCE] = length, 0.0 if moved else 1.0
     plan[at.AGE] += length
     event = LIMIT
     if hit >= 0:

@@ -142,6 +142,18 @@ def halt(plan: Vector, y: Vector) -> None:
     move_alike(plan, beyond(y, n))
 
 
+@kernel
+def zero_after_impact(plan: Vector, mode: int, g: int, order: float, jumps: bool) -> float:
+    """What of a zero by construction is left where a body of this stop is hit: its speed jumps."""
+    one = int(plan[at.STOP]) + g * at.STOP_WIDTH
+    kind, pressed = plan[one + at.KIND], mode >> g & 1 == 1
+    if kind == at.PUSHING and pressed:  # a depth stays zero, but not a rate or a force
+        return 0.0 if jumps and order != 1.0 else order
+    if kind == at.KELVIN_VOIGT and pressed and jumps and plan[one + at.RELAXATION] < math.inf:
+        return 0.0
+    return min(order, 1.0)
+
+
 def impacts(settle: Any) -> Any:
     """Make Newton's law of restitution, with `settles` of a flow."""
 
@@ -154,14 +166,15 @@ def impacts(settle: Any) -> Any:
         v = beyond(y, n)
         e: float = plan[one + at.RESTITUTION]
         speed = closing(plan, f, v)
-        if speed <= _NOISE * speeds(plan, f, v):
+        jumps = speed > _NOISE * speeds(plan, f, v)
+        if not jumps:
             e = 0.0
         decided = False
         for g in range(count):
             if g != f and coupling[g] != 0.0:
                 rigid = plan[int(plan[at.STOP]) + g * at.STOP_WIDTH + at.KIND] == at.RIGID
                 decided |= rigid and (zeros[g] > 0.0 or mode >> g & 1 == 1)
-                zeros[g] = min(zeros[g], 1.0)
+                zeros[g] = zero_after_impact(plan, mode, g, zeros[g], jumps)
         if decided:
             plan[at.ORDERED] += 1.0
         # Left without speed, and pressed before anything could part them: the force is only
@@ -204,13 +217,15 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
     bit = 1 << f
     if mode >> f & 1:
         # The bodies part with a jerk, or with an acceleration where the force has jumped.
-        zeros[f] = 2.0 if zeros[f] == JUMPED else 3.0
+        jumped = zeros[f] == JUMPED
+        zeros[f] = 2.0 if jumped else 3.0
         kind = REST_ENDS
         if not rigid:
             kind = DETACHMENT
             if not dashpot or deformation[f] < 0.0:
                 deformation[f] = 0.0
-            zeros[f] = 2.0 if deformation[f] > 0.0 else 1.0
+            # A dashpot pulled: its body parts with a speed.
+            zeros[f] = 2.0 if deformation[f] > 0.0 and not jumped else 1.0
         return mode & ~bit, kind
     if rigid:
         return impact(plan, mode, f, y, deformation), IMPACT

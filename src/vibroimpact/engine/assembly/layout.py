@@ -127,7 +127,8 @@ from __future__ import annotations
     # Of curved laws whose series are code (`curved.emitted`): its addresses, the modes without it.
     CODE,
     UNIT,
-) = range(102)
+    AT_ONCE,
+) = range(103)
 HEADER = 104
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)

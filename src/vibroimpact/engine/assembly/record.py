@@ -97,11 +97,13 @@ def recording(next_stretch: Any, channels: Any) -> tuple[Any, Any]:
         events: Vector,
     ) -> None:
         t, length = ended[T], ended[STEP]
-        if notes[COUNT]:
+        # What holds at an instant alone is not what holds after it.
+        last = int(ended[EVENT]) == LIMIT
+        if notes[COUNT] and (last or plan[at.AT_ONCE] == 0.0):
             step = notes[BETWEEN]
             i = int(notes[NEXT])
             reach = t + length - _SAME * notes[COUNT] * step
-            if int(ended[EVENT]) == LIMIT:
+            if last:
                 reach = math.inf
             end = before_end(i, int(notes[COUNT]), step, reach)
             if i < end:
@@ -143,7 +145,7 @@ def recording(next_stretch: Any, channels: Any) -> tuple[Any, Any]:
         length = plan[at.INTERVAL] if plan[at.RECORD] != 0.0 else 1.0 / plan[at.STIFF_RATE]
         for _ in range(_FEW):  # what happens at this instant comes first
             next_stretch(plan, length)
-            if plan[at.LENGTH] > _SAME * length or int(plan[at.EVENT]) == GIVEN_UP:
+            if plan[at.AT_ONCE] == 0.0 or int(plan[at.EVENT]) == GIVEN_UP:
                 break
         plan[at.ORDERED], plan[at.UNDECIDED] = ordered, undecided
         open_stretch(plan)

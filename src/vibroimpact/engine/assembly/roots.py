@@ -106,6 +106,11 @@ def begin_at_zero(b: Vector, d: float, x_rate: float, zeros: int) -> None:
         for j in range(2, _D + 1):
             b[j] -= off * (0.5 * j * (j - 1))
         b[2] = 2.0 * b[1] - b[0]
+    for k in range(3, zeros):  # without a memory
+        off, times = b[k], 1.0
+        for j in range(k, _D + 1):
+            b[j] -= off * times
+            times *= (j + 1) / (j + 1 - k)
 
 
 @kernel

@@ -86,7 +86,7 @@ def next_curved_stretch(plan: Vector, left: float) -> int:
     if end > _SAME:
         for f in range(count):
             plan[int(plan[at.ZEROS]) + f] = 0.0
-    plan[at.LENGTH] = length
+    plan[at.LENGTH], plan[at.AT_ONCE] = length, 1.0 if end <= _SAME else 0.0
     plan[at.AGE] += length
     event = LIMIT
     if hit >= 0:

@@ -12,7 +12,7 @@ from vibroimpact.engine.assembly.curved.terms import (
     expand_all,
     row_of,
 )
-from vibroimpact.engine.assembly.events import closing, impacts, switch_mode
+from vibroimpact.engine.assembly.events import closing, impacts, speeds, switch_mode
 from vibroimpact.engine.assembly.mode import enter_mode, move_alike
 from vibroimpact.engine.event import CONTACT, DETACHMENT, IMPACT, TURN
 from vibroimpact.engine.jit import Vector, apart, kernel
@@ -108,6 +108,25 @@ def _follow(plan: Vector, mode: int, f: int, way: float, deformation: Vector) ->
     return mode
 
 
+@kernel
+def _touch_without_speed(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> None:
+    """Let the ends of a link that begins to slide, where they touch at a stop, do so without speed.
+
+    Rounding of their clearance must not give them the time to gain some: laws depend on it.
+    """
+    stops, zeros = int(plan[at.STOP]), int(plan[at.ZEROS])
+    one = stops + f * at.STOP_WIDTH
+    ends = plan[one + at.LEFT], plan[one + at.RIGHT]
+    for g in range(int(plan[at.STOPS])):
+        other = stops + g * at.STOP_WIDTH
+        left, right, gap = plan[other + at.LEFT], plan[other + at.RIGHT], plan[other + at.GAP]
+        same = (left == ends[0] and right == ends[1]) or (left == ends[1] and right == ends[0])
+        if not same or is_link(plan, g) or mode >> g & 1 or deformation[g] > 0.0:
+            continue
+        if abs(gap - closing(plan, g, y)) <= _ZERO * (abs(gap) + speeds(plan, g, y)):
+            plan[zeros + g] = 2.0
+
+
 @apart
 def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> int:
     """Which links without speed friction holds; the most overloaded slides first.
@@ -145,6 +164,7 @@ def hold_or_slide(plan: Vector, mode: int, y: Vector, deformation: Vector) -> in
         # What holds them apart is gone: they close, and s falls.
         mode = with_way(plan, worst, mode & ~(1 << worst), -force)
         plan[int(plan[at.ZEROS]) + worst] = float(of.V_FRESH)
+        _touch_without_speed(plan, mode, worst, y, deformation)
         mode = _follow(plan, mode, worst, way_of_slide(plan, worst, mode), deformation)
         enter_mode(plan, mode)
     return mode
@@ -212,6 +232,7 @@ def _turned(plan: Vector, mode: int, f: int, which: int, y: Vector, deformation:
         if mode >> f & 1:
             way = 1.0 if which else -1.0
             zeros[f] = float(of.V_FRESH)
+            _touch_without_speed(plan, mode, f, y, deformation)
             mode = with_way(plan, f, mode & ~(1 << f), way)
             return _follow(plan, mode, f, way, deformation)
         zeros[f] = float(of.V_FRESH)

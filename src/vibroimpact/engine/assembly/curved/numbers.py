@@ -187,11 +187,12 @@ def _power(plan: Vector, f: int, row: int, y: Vector, gains: float, longest: flo
     meets = plan[int(plan[at.COUPLING]) + f * int(plan[at.STOPS]) + f]
     rate, depth = closing(plan, f, beyond(y, n)), closing(plan, f, y) - plan[one + at.GAP]
     fresh = int(plan[int(plan[at.ZEROS]) + f])
-    if (
-        fresh == of.RATE_FRESH and plan[row + _STOP + par.BUMPER_DAMPING] != 0.0
-    ):  # it turns: rate is rounding
-        rate = 0.0
-        plan[row + _PUSH_C] = plan[row + _STOP + par.BUMPER_DAMPING] if gains > 0.0 else 0.0
+    if fresh == of.RATE_FRESH:  # it turns: what is left of the rate, or of 1 + χ δ′, is rounding
+        if plan[row + _STOP + par.BUMPER_DAMPING] != 0.0:
+            rate = 0.0
+            plan[row + _PUSH_C] = plan[row + _STOP + par.BUMPER_DAMPING] if gains > 0.0 else 0.0
+        elif plan[row + _PUSH_CHI] > 0.0:
+            rate = -1.0 / plan[row + _PUSH_CHI]
     push = Push(
         plan[row + _PUSH] * meets,
         plan[row + _PUSH_N],

@@ -184,11 +184,10 @@ def _of_stop(
             chi = plan[row + _CHI]
             relative(plan, f, 1, chi, a)
             a[0] += 1.0
-            if a[0] > 0.0 or active:
-                t = fall(plan, a, 1.0 + chi * size, turning, end) if active else NONE
-            else:
+            if not active:  # where it turns, its sign is rounding
                 for j in range(int(plan[at.ORDER]) + 1):
                     a[j] = -a[j]
+            if active or turning or a[0] >= 0.0:
                 t = fall(plan, a, 1.0 + chi * size, turning, end)
     else:
         raw = node(plan, row, of.RAW_NODE, int(plan[at.NODES]))
