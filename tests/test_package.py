@@ -46,6 +46,15 @@ def test_describing_a_rig_needs_no_compiler():
     assert done.stdout.split() == []
 
 
+def test_what_draws_and_prints_is_not_loaded_with_the_names():
+    code = (
+        "import sys, vibroimpact as vi; [getattr(vi, name) for name in vi.__all__]\n"
+        "print(*sorted({'matplotlib', 'rich', 'jinja2', 'websockets'} & set(sys.modules)))"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == []
+
+
 @pytest.mark.parametrize(
     ("name", "arguments"),
     [

@@ -68,6 +68,25 @@ def test_numba_is_not_imported() -> None:
     assert motions("")[:2] == (True, False)
 
 
+@pytest.mark.parametrize("words", [["sweep", "B2-G1-A3"], ["cache"]])
+def test_numba_that_is_needed_and_lacking_is_named_in_one_line(words, tmp_path) -> None:
+    code = (
+        "import sys; sys.modules['numba'] = None\n"
+        f"from vibroimpact.cli import main; sys.exit(main({words}))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, "VIBROIMPACT_ENGINE": "numba"},
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    (line,) = done.stderr.splitlines()
+    assert "VIBROIMPACT_ENGINE is numba" in line
+    assert "install it with: pip install numba" in line
+
+
 @here
 @pytest.mark.full
 @pytest.mark.skipif(native.machine() != "x86_64", reason="levels are named as numba names them")

@@ -10,12 +10,19 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from vibroimpact.engine import native
+from vibroimpact.errors import InputError
 
 COMPILES = native.find_library() is None or bool(os.environ.get("VIBROIMPACT_KERNELS"))
 """Whether kernels are compiled: tests call them besides the entries of a library."""
 
 if TYPE_CHECKING or COMPILES:
-    import numba
+    try:
+        import numba
+    except ImportError:
+        raise InputError(
+            f"engine: {native.choose().why}, so numba has to compile it, and numba is not "
+            "installed; install it with: pip install numba"
+        ) from None
     from numba import njit
     from numba.core import cgutils, types
     from numba.core.callconv import excinfo_t

@@ -12,7 +12,6 @@ from collections.abc import Callable
 
 from vibroimpact.errors import InputError
 from vibroimpact.explorer.presets import FIRST, preset
-from vibroimpact.explorer.share import address
 from vibroimpact.explorer.state import PageState, begin
 from vibroimpact.model.read_rig import AnyRig
 
@@ -158,6 +157,8 @@ def explore(rig: AnyRig = FIRST, *, height: int = 720) -> Explored:
     InputError
         If the rig is not shaken by one sine, or if the websocket library is not installed.
     """
+    from vibroimpact.explorer.share import address
+
     if isinstance(height, bool) or not isinstance(height, int) or height < 1:
         raise InputError(
             f"height: {height!r} is not valid; pass a whole number of pixels, such as 700"

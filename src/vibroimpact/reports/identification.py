@@ -6,19 +6,17 @@ import json
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 from urllib.parse import quote
 
 import numpy as np
 import xarray as xr
-from jinja2 import Environment, PackageLoader, StrictUndefined
 
+from vibroimpact import figures as draw
 from vibroimpact._version import __version__
 from vibroimpact.arguments import check_path, check_variables
 from vibroimpact.datasets.files import write_whole
 from vibroimpact.errors import InputError, in_one_line, shown
-from vibroimpact.figures import resonance_curves, save_figure
-from vibroimpact.figures.fit import fit_history, fit_profiles, fit_residuals
 from vibroimpact.identification.finding_texts import amplitude_words
 from vibroimpact.identification.free_parameters import SENSORS
 from vibroimpact.identification.identify import fitted_rig
@@ -33,6 +31,9 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.model.study import study_text
 from vibroimpact.model.units import pretty
 from vibroimpact.response.sweep import sweep
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 _DENSE = 4
 """Smallest number of computed frequencies per measured frequency."""
@@ -99,7 +100,7 @@ def fit_report(
     figures: list[Figure] = []
 
     def drawn(key: str, axes: Any, caption: str) -> None:
-        path = save_figure(axes[0], where / f"{name}-{key}.{figure}")
+        path = draw.save_figure(axes[0], where / f"{name}-{key}.{figure}")
         files[f"figure {key}"] = path
         figures.append(Figure(path.name, caption))
 
@@ -112,19 +113,23 @@ def fit_report(
             rig = fitted_rig(result, str(test))
             curves = sweep(Rig(rig.oscillator, rig.amplitude), _dense(measured["frequency"].values))
             si = not any(str(name).startswith("eta_") for name in measured)
-            drawn(key, resonance_curves(curves, measured=measured, physical=si),
+            drawn(key, draw.resonance_curves(curves, measured=measured, physical=si),
                   f"{test}: measured points and curves of the fitted rig")  # fmt: skip
         else:
-            drawn(key, fit_history(result, str(test)), f"{test}: measured motion and fitted motion")
+            drawn(
+                key,
+                draw.fit_history(result, str(test)),
+                f"{test}: measured motion and fitted motion",
+            )
     drawn(
         "residuals",
-        fit_residuals(result),
+        draw.fit_residuals(result),
         "Residuals of the fit. The band shows 2 standard deviations.",
     )
     if "profile_rise" in result:
         drawn(
             "profiles",
-            fit_profiles(result),
+            draw.fit_profiles(result),
             "Profile of each parameter. The dotted line is the increase of the deviance at the "
             "ends of the confidence interval.",
         )
@@ -298,6 +303,8 @@ def _correlations(result: xr.Dataset) -> list[tuple[str, ...]]:
 
 
 def _environment() -> Environment:
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
     return Environment(
         loader=PackageLoader("vibroimpact.reports", "templates"),
         autoescape=lambda name: name is not None and name.endswith(".html.jinja"),
