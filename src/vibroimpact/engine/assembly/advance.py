@@ -45,7 +45,7 @@ _TINY = 1e-300
 _DUST = 2.0**-48
 """A derivative below this share of what it is made of is rounding."""
 _ORDERS = 6
-"""Of a zero that is looked at."""
+"""Of a zero, at most."""
 _DIFFERENCES = tuple(
     math.comb(at.DEGREE, k)
     * (float((-1) ** (k - i) * math.comb(k, i)) if i <= k else 2.0**k if i == 7 else 0.0)
