@@ -160,7 +160,8 @@ class Evidence(NamedTuple):
         for low, high in sorted(spans):
             total += max(0.0, high - max(low, reached))
             reached = max(reached, high)
-        return total / self.natural_frequency
+        # A width of whole steps is compared with thresholds: rounding must not decide.
+        return round(total / self.natural_frequency, 12)
 
 
 def evidence(rig: Rig, data: xr.Dataset, prominence: float) -> Evidence:

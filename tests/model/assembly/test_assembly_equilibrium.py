@@ -177,6 +177,27 @@ def linear(draw):
         forces={"floor_1": -1.0},
     )
 )
+@example(
+    # Stops around a loop cannot all be touched at once.
+    vi.Assembly(
+        {"a": 1.0, "b": 1.0, "c": 1.0, "d": 1.0, "e": 1.0},
+        {
+            "ga": vi.Link(GROUND, "a", vi.Isolator(1.63991, 0.0)),
+            "gb": vi.Link(GROUND, "b", vi.Isolator(31.0152, 0.0)),
+            "ac": vi.Link("a", "c", vi.Isolator(3.48336, 0.0)),
+            "cd": vi.Link("c", "d", vi.Isolator(9.07116, 0.0)),
+            "be": vi.Link("b", "e", vi.Isolator(0.53955, 0.0)),
+        },
+        {
+            "dg": vi.Link("d", GROUND, vi.RigidStop(1.0, 0.8049)),
+            "bd": vi.Link("b", "d", vi.Bumper(1.41236, 0.0, 0.0)),
+            "ce": vi.Link("c", "e", vi.RigidStop(1.0, 0.066376)),
+            "de": vi.Link("d", "e", vi.RigidStop(1.0, 0.455991)),
+            "ge": vi.Link(GROUND, "e", vi.RigidStop(0.7, 0.0)),
+        },
+        {"a": -0.00918568},
+    )
+)
 def test_linear_equilibria_agree_with_all_ways_to_press_the_stops(assembly):
     found = rest(assembly)
     best = enumerated(assembly)

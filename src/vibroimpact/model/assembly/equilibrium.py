@@ -305,9 +305,10 @@ def _complementary(problem: _Problem, k: Vector, rhs: Vector) -> Vector:
     flexibility = problem.rows @ np.linalg.solve(k, problem.rows.T)
     a = flexibility + np.diag(problem.compliance)
     q = problem.rows @ np.linalg.solve(k, rhs) - problem.gaps
-    # Stops that are pressed by one another have no unique forces: a small compliance chooses.
+    # Stops that are pressed by one another have no unique forces: a small compliance chooses. Below
+    # 1e-9, the cost of what they cannot satisfy hides from `bvls` that another stop is touched.
     scale = np.sqrt(np.diag(a))
-    factor = np.linalg.cholesky(a / np.outer(scale, scale) + 1e-12 * np.eye(len(a)))
+    factor = np.linalg.cholesky(a / np.outer(scale, scale) + 1e-9 * np.eye(len(a)))
     low, high = problem.low * scale, problem.high * scale
     fixed = high - low <= 0.0
     found = np.zeros(len(a))
