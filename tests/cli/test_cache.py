@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from vibroimpact.engine import native
-from vibroimpact.engine.jit import cache_directory
+from vibroimpact.engine.cache import own_folder
 
 COMMAND = "cache"
 HOLD = """
@@ -28,7 +28,7 @@ with FileLock(sys.argv[1]):
 def kept(tmp_path, monkeypatch) -> Path:
     """A cache of this version and of another one, two days old."""
     monkeypatch.setenv("VIBROIMPACT_CACHE_DIR", str(tmp_path / "kept"))
-    own = cache_directory()
+    own = own_folder()
     for folder, flows in ((own, ("Apart", "Curved")), (own.with_name("engine-0"), ("Apart",))):
         for flow in flows:
             parts = folder / flow / "engine_0123"
