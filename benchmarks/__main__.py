@@ -27,7 +27,7 @@ from benchmarks.scenarios import scenarios
 from benchmarks.size import size
 from benchmarks.smooth import smooth
 from benchmarks.spectra import spectra
-from benchmarks.startup import compiling, startup
+from benchmarks.startup import compiling, first_figure, startup
 from benchmarks.trajectory import many, peers, short_runs, trajectory
 
 
@@ -51,6 +51,7 @@ def groups() -> dict[str, Callable[[], Iterable[Table | None]]]:
         "diagrams": lambda: (diagrams(),),
         "identification": lambda: (identification(),),
         "fixed": lambda: (fixed(), growth()),
+        "figure": lambda: (first_figure(),),
         "startup": lambda: (startup(compiling()), memory(), size()),
     }
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[1]
 _CACHE = "VIBROIMPACT_CACHE_DIR"
+_NUMBA = {"VIBROIMPACT_ENGINE": "numba"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,9 +68,16 @@ def vibroimpact(*words: str, environment: Mapping[str, str] | None = None) -> En
 
 @contextmanager
 def empty_cache() -> Iterator[dict[str, str]]:
-    """Make the environment of processes that have a new cache of compiled code."""
+    """Make the environment of processes in which numba compiles, into a new cache."""
     with tempfile.TemporaryDirectory() as folder:
-        yield {_CACHE: folder}
+        yield {_CACHE: folder, **_NUMBA}
+
+
+@contextmanager
+def nothing_kept() -> Iterator[dict[str, str]]:
+    """Make the environment of the first process after an installation: no cache, no fonts found."""
+    with tempfile.TemporaryDirectory() as folder:
+        yield {_CACHE: folder, "MPLCONFIGDIR": folder}
 
 
 def compiled(environment: Mapping[str, str]) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import importlib.util
 import os
 from collections.abc import Iterator
 
@@ -11,10 +12,12 @@ from hypothesis import settings
 
 import samples
 
-os.environ["VIBROIMPACT_KERNELS"] = "1"  # tests call kernels besides the entries
+# Tests call kernels besides the entries; those of an installation without numba call none.
+if importlib.util.find_spec("numba"):
+    os.environ["VIBROIMPACT_KERNELS"] = "1"
 from vibroimpact.engine import jit
 
-del os.environ["VIBROIMPACT_KERNELS"]
+os.environ.pop("VIBROIMPACT_KERNELS", None)
 
 jit.WITHIN["no_cpython_wrapper"] = False  # tests call kernels
 # The first example of a test imports and compiles: its time says nothing of the test.

@@ -27,7 +27,7 @@ QUICK = (
     "tests/analytic/test_free_flight.py",
     "tests/cli/test_main.py",
     "tests/cli/test_cache.py",
-    "tests/response/test_files.py::test_there_and_back",
+    "tests/datasets/test_files.py::test_there_and_back",
 )
 # Make's constraints are a relative path; here they are named in full.
 WITHHELD = ("PYTHON", "PIP_CONSTRAINT", "PIP_BUILD_CONSTRAINT")
