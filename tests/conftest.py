@@ -5,21 +5,51 @@ from __future__ import annotations
 import gc
 import importlib.util
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import settings
 
 import samples
 
+
+def python_of(dispatcher: Any) -> Any:
+    """Let a kernel that Python calls run as Python."""
+    dispatcher._compile_for_args = lambda *args, **kwargs: dispatcher.py_func
+    return dispatcher
+
+
+def room_of(stack: Callable[[int], Any]) -> Callable[[int], Any]:
+    """Let what gives room on the stack of a compiled kernel give an array in Python."""
+
+    def make(size: int) -> Any:
+        room = stack(size)
+        room.__class__ = type("Room", (type(room),), {"__call__": lambda self: np.empty(size)})
+        return room
+
+    return make
+
+
+NUMBA = importlib.util.find_spec("numba") is not None
 # Tests call kernels besides the entries; those of an installation without numba call none.
-if importlib.util.find_spec("numba"):
+if NUMBA:
     os.environ["VIBROIMPACT_KERNELS"] = "1"
-from vibroimpact.engine import jit
+from vibroimpact.engine import jit, native  # noqa: E402
 
 os.environ.pop("VIBROIMPACT_KERNELS", None)
 
 jit.WITHIN["no_cpython_wrapper"] = False  # tests call kernels
+if NUMBA and native.find_library():
+    # Of kernels that a test calls nothing is compiled: they run as Python, unless an entry of a
+    # test has them compiled. Without the library, that is where its sources changed, all are.
+    jit._within = python_of
+    from vibroimpact.engine import memory
+
+    memory.stack = room_of(memory.stack)
+    memory.workspace = memory.stack(memory.TERMS)
+
 # The first example of a test imports and compiles: its time says nothing of the test.
 settings.register_profile("full", deadline=None)
 settings.register_profile("small", max_examples=15, deadline=None)
@@ -40,6 +70,22 @@ def coarse_pictures() -> Iterator[None]:
     """Fewer pixels in PNG files, which take as long to write as the figure to draw."""
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("vibroimpact.figures.style._SCREEN", samples.sample(200.0, 72.0))
+        yield
+
+
+@pytest.fixture(scope="module")
+def blank_pictures() -> Iterator[None]:
+    """In the daily run, PNG files are blank: for tests of what is written, not of what is seen."""
+    from vibroimpact.figures.notebook import Drawing
+
+    save = Drawing.savefig
+
+    def blank(figure: Drawing, file: Any, **how: Any) -> None:
+        if samples.full or how.get("format") != "png":
+            save(figure, file, **how)
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(Drawing, "savefig", blank)
         yield
 
 

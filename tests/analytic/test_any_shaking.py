@@ -115,7 +115,7 @@ SETUPS = {
 }
 
 
-@pytest.mark.parametrize("name", SETUPS)
+@pytest.mark.parametrize("name", sample([*SETUPS], [*SETUPS][::2]))
 def test_sections_and_events_agree_with_fifty_digits(name: str) -> None:
     setup = SETUPS[name]
     rig, shaken = setup.rig, setup.shaken

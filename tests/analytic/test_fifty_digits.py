@@ -128,7 +128,7 @@ def largest(
         )
 
 
-@pytest.mark.parametrize("name", SETUPS)
+@pytest.mark.parametrize("name", sample([*SETUPS], [*SETUPS][::2]))
 def test_sections_and_events_agree_with_fifty_digits(name: str) -> None:
     setup = SETUPS[name]
     _, rig = oscillator_and_reference_rig(setup)

@@ -123,7 +123,7 @@ def followed(
 
 @pytest.mark.parametrize("name", sample([*ISOLATORS], [*ISOLATORS][::8]))
 def test_an_isolator_agrees_with_a_general_integrator(name: str) -> None:
-    for ratio in (2.0, 4.0, 12.0, 60.0, 1000.0):
+    for ratio in sample((2.0, 4.0, 12.0, 60.0, 1000.0), (4.0, 1000.0)):
         law, force = law_of(ISOLATORS[name], ratio, SPEED)
         rig = vi.Rig(vi.Oscillator(MASS, law), vi.Harmonic(ACCELERATION, 0.5))
         data = vi.simulate(rig, 1, start=vi.State(0.05, SPEED))
@@ -137,7 +137,8 @@ def test_an_isolator_agrees_with_a_general_integrator(name: str) -> None:
 def test_a_stop_agrees_with_a_general_integrator(name: str) -> None:
     formula = STOPS[name]
     dashpot = 6.0 if "k" in formula else 60.0
-    for ratio in (2.0, 4.0, 12.0, 60.0) if "b" in formula.replace("abs", "") else (1.0,):
+    ratios = sample((2.0, 4.0, 12.0, 60.0), (12.0,))
+    for ratio in ratios if "b" in formula.replace("abs", "") else (1.0,):
         law, force = law_of(formula, ratio, FAST, 0.03, k=400.0, c=dashpot)
         rig = vi.Rig(vi.Oscillator(MASS, vi.Isolator(20.0, 0.3), law, law), vi.Harmonic(2.0, 0.5))
         data = vi.simulate(rig, 1, start=vi.State(0.0, FAST))

@@ -76,7 +76,7 @@ SETUPS = {
 }
 
 
-@pytest.mark.parametrize("name", sample([*SETUPS], [*SETUPS][::2]))
+@pytest.mark.parametrize("name", sample([*SETUPS], [*SETUPS][1::3]))
 def test_sections_and_events_agree_with_fifty_digits(name: str) -> None:
     setup = SETUPS[name]
     shaken = vi.Harmonic(*setup.shaken)

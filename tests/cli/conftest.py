@@ -10,7 +10,6 @@ from pathlib import Path
 
 import pytest
 
-import samples
 from vibroimpact.cli import main
 
 
@@ -23,19 +22,8 @@ def no_lines_of_progress():
 
 
 @pytest.fixture(scope="module", autouse=True)
-def blank_pictures():
-    """In the daily run PNG files are blank: what is in them is tested in `figures` and `docs`."""
-    from vibroimpact.figures.notebook import Drawing
-
-    save = Drawing.savefig
-
-    def blank(figure, file, **how):
-        if samples.full or how["format"] != "png":
-            save(figure, file, **how)
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Drawing, "savefig", blank)
-        yield
+def no_pictures(blank_pictures):
+    """What is in PNG files is tested in `figures`."""
 
 
 @pytest.fixture(scope="module")
@@ -61,3 +49,19 @@ def told(request) -> Callable[..., tuple[int, str, str]]:
 def run(tmp_path, told):
     """Run the module's ``COMMAND`` in an empty folder."""
     return lambda *words: told(tmp_path, *words)
+
+
+@pytest.fixture
+def refused(run, tmp_path) -> Callable[..., str]:
+    """Run a command that ends with one line, which is returned, and writes nothing."""
+
+    def refused(*words: str) -> str:
+        before = sorted(tmp_path.iterdir())
+        code, printed, errors = run(*words)
+        assert (code, printed) == (2, "")
+        assert errors.startswith("vibroimpact: error: ")
+        assert errors.count("\n") == 1
+        assert sorted(tmp_path.iterdir()) == before
+        return errors
+
+    return refused

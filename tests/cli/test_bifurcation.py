@@ -90,25 +90,6 @@ def test_no_undecided_motion_is_hidden():
     assert f"and {count - 13} narrower ranges" in text
 
 
-@pytest.mark.full
-def test_bifurcations_of_branches_are_printed(tmp_path, told):
-    few = ("B3-10mm-A3", "--vary", "frequency=1.2Hz:1.3Hz:2", "--branches")
-    code, out, _ = told(tmp_path, *few)
-    assert code == 0
-    table = out.partition("Bifurcations on the branches\n")[2].partition("\nFiles")[0]
-    rows = [line.split() for line in table.strip().splitlines()]
-    assert rows[0] == ["bifurcation", "frequency", "(Hz)", "η_d"]
-    # Three branches meet there.
-    (row,) = [row for row in rows[1:] if row[0] == "symmetry"]
-    case = vi.laboratory.case("B3-10mm-A3")
-    data = vi.resonance_diagram(case, {"frequency": (1.2, 1.3)})
-    broken = data["bifurcation_kind"].values == "symmetry breaking"
-    assert float(row[2]) == pytest.approx(data["bifurcation_value"].values[broken][0], rel=1e-9)
-    listed = json.loads(told(tmp_path, *few, "--json")[1])["bifurcations"]
-    assert len(listed) == data.sizes["bifurcation"]
-    assert "bifurcations" not in json.loads(told(tmp_path, *few[:-1], "--json")[1])
-
-
 def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
     code, out, errors = told(
         tmp_path,
@@ -123,18 +104,6 @@ def test_as_json_over_the_frequency_at_impacts(tmp_path, told):
     data = vi.load(tmp_path / printed["files"]["data"])
     assert "contact_start_velocity" in data
     assert float(data["section"].sel(component="phase")[0, 0]) == pytest.approx(np.pi / 2.0)
-
-
-@pytest.mark.full
-def test_a_study_says_its_frequency(tmp_path, told):
-    (tmp_path / "rig.toml").write_text(
-        'case = "B2-Ginf-A3"\n[simulate]\nfrequency = "2 Hz"\n', encoding="utf-8"
-    )
-    words = ("--vary", "isolator.damping=1kN*s/m:2kN*s/m:2")
-    code, out, errors = told(tmp_path, "rig.toml", *words, "--json")
-    assert (code, errors) == (0, "")
-    (ranges,) = {tuple(one["period"] for one in r) for r in json.loads(out)["starts"].values()}
-    assert ranges == (1,)
 
 
 @pytest.mark.parametrize(
@@ -167,12 +136,3 @@ def test_refused(run, words, told_of):
     code, out, errors = run(*words)
     assert (code, out) == (2, "")
     assert errors.startswith(f"vibroimpact: error: {told_of}")
-
-
-@pytest.mark.full
-def test_own_outputs_are_computed(run, tmp_path):
-    words = ("B2-G1-A3", "--vary", "frequency=2Hz:2.2Hz:2", "--direction", "up")
-    code, _, errors = run(*words, "--compute", "top [m/s] = max(abs(velocity))")
-    assert (code, errors) == (0, "")
-    data = vi.load(tmp_path / "out/B2-G1-A3-frequency-diagram.nc")
-    assert float(data["top"].min()) > 0.05

@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from samples import sample
+
 pytest.importorskip("pty", reason="no pseudo-terminals here")
 
 ENTRY = """\
@@ -61,7 +63,7 @@ def seen(code: str, folder: Path) -> str:
     return re.sub(r"\x1b\[[0-9;?]*[a-zA-Z]", "", written.decode())
 
 
-@pytest.mark.parametrize("inside", [False, True], ids=["alone", "below the command's bar"])
+@pytest.mark.parametrize("inside", sample([False, True], [True]))
 def test_a_bar_moves_while_the_engine_is_compiled(tmp_path, inside) -> None:
     text = seen(COMPILE.format(inside=inside), tmp_path)
     assert text.count("compiling the engine") == 1

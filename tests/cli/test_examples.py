@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from samples import sample
 from vibroimpact.cli import main
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -27,18 +26,6 @@ def test_first_sweep(tmp_path):
 
 
 @pytest.mark.full
-def test_kinds_of_motion(tmp_path):
-    script = EXAMPLES / "kinds_of_motion.py"
-    done = subprocess.run(
-        [sys.executable, "-W", "error", script, tmp_path], capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-    assert "B2-G1-A3 at 2.6 Hz, motion 2: periodic" in done.stdout
-    assert "B3-10mm-A3 at 1.06 Hz, motion 1: chaotic" in done.stdout
-    assert (tmp_path / "kinds-of-motion.png").is_file()
-
-
-@pytest.mark.full
 def test_study(tmp_path, capsys):
     for command in ("sweep", "simulate"):
         assert main([command, str(EXAMPLES / "study.toml"), "-o", str(tmp_path)]) == 0
@@ -47,29 +34,3 @@ def test_study(tmp_path, capsys):
         *(f"moat-wall-sweep.{ending}" for ending in ("nc", "png", "txt")),
         *(f"moat-wall-1.5Hz-history.{ending}" for ending in ("nc", "png")),
     }
-
-
-@pytest.mark.full
-def test_unexplored_region(tmp_path):
-    script = EXAMPLES / "unexplored_region.py"
-    done = subprocess.run(
-        [sys.executable, "-W", "error", script, tmp_path, sample("4", "3")],
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stderr
-    assert f"small-gaps: {sample(20, 12)} rigs" in done.stdout
-    assert "  S4: " in done.stdout
-    for name in ("small-gaps", "soft-bumpers"):
-        for figure in (f"{name}.png", f"{name}-counts.png"):
-            assert (tmp_path / figure).is_file()
-
-
-@pytest.mark.full
-def test_two_motions(tmp_path):
-    script = EXAMPLES / "two_motions.py"
-    done = subprocess.run(
-        [sys.executable, "-W", "error", script, tmp_path], capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-    assert (tmp_path / "two-motions.png").is_file()

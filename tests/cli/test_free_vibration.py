@@ -124,12 +124,3 @@ def test_an_oscillator_without_isolator_is_held_by_stops():
     assert free == vi.Oscillator(2, None, stop, stop)
     with pytest.raises(InputError, match="nothing holds the mass"):
         vi.Oscillator(2)
-
-
-@pytest.mark.full
-def test_only_stops_that_deform_are_listed_with_a_deformation(run):
-    words = ("--displacement", "0.5 m", "--cycles", "1")
-    assert "deformed" not in run("simulate", FALL, *words)[1]
-    out = run("simulate", SPRING, *words)[1]
-    assert "right bumper    deformed by 0 m" in out
-    assert "left bumper     deformed" not in out

@@ -51,21 +51,6 @@ def test_a_building_in_millimetres_g_and_meganewtons(run, tmp_path):
     assert "e+" not in told
 
 
-@pytest.mark.full
-def test_a_study_is_drawn_in_physical_units_and_a_published_case_normalised(run, tmp_path):
-    (tmp_path / "building.toml").write_text(BUILDING)
-    for words, path, label in (
-        (("building.toml",), "building", "displacement (mm)"),
-        (("building.toml", "--normalised"), "building", "normalised excursion of"),
-        (("B2-G1-A3", "--frequencies", "1Hz,2Hz"), "B2-G1-A3", "normalised excursion of"),
-        (("B2-G1-A3", "--frequencies", "1Hz,2Hz", "--physical"), "B2-G1-A3", "displacement (mm)"),
-    ):
-        assert run(*words, "--figure", "svg")[0] == 0
-        text = (tmp_path / f"out/{path}-sweep.svg").read_text(encoding="utf-8")
-        assert label in text
-        assert ("normalised" in text) is (label == "normalised excursion of")
-
-
 def test_the_width_of_a_column(run, tmp_path):
     frequencies = ("B2-G1-A3", "--frequencies", "1Hz,2Hz")
     assert run(*frequencies, "--figure", "pdf", "--figure-width", "86mm")[0] == 0

@@ -55,13 +55,6 @@ def test_a_saddle_that_is_given(run, tmp_path):
     assert told["crossings"] == 0
 
 
-@pytest.mark.full
-def test_without_borders_there_is_no_saddle(run):
-    code, out, _ = run("B3-Ginf-A3", "--frequency", "0.7Hz", "--nodes", "4", *WINDOW)
-    assert code == 0
-    assert "no saddle was found on the borders between basins" in out
-
-
 @pytest.mark.parametrize(
     ("words", "named"),
     [
@@ -80,3 +73,10 @@ def test_what_is_refused(run, tmp_path, words, named):
     assert (code, out) == (2, "")
     assert named in errors
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.full
+def test_without_borders_there_is_no_saddle(run):
+    code, out, _ = run("B3-Ginf-A3", "--frequency", "0.7Hz", "--nodes", "4", *WINDOW)
+    assert code == 0
+    assert "no saddle was found on the borders between basins" in out

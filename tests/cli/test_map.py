@@ -3,11 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 
 import numpy as np
 import pytest
@@ -38,34 +33,9 @@ def test_text_and_files(run, tmp_path):
     np.testing.assert_allclose(data["gap_ratio"], np.linspace(0.2, 1, 5))
 
 
-@pytest.mark.full
-def test_json_and_again(run, tmp_path):
-    first, again = (json.loads(run(*WORDS, "--refine", "0", "--json")[1]) for _ in range(2))
-    assert (first.pop("replaced"), again.pop("replaced")) == ([], [first["files"]["figure"]])
-    assert first == again
-    assert (first["nodes"], first["computed"]) == (12, 12)
-    assert sum(first["shares"].values()) == pytest.approx(1.0)
-    data = xr.open_zarr(tmp_path / first["files"]["data"], consolidated=False)
-    for name, share in first["shares"].items():
-        number = data["scenario"].attrs["flag_meanings"].split().index(name)
-        assert float((data["scenario"] == number).mean()) == pytest.approx(share)
-    for point in first["border"]:
-        assert 1.0 < point["stiffness_ratio"] < 4.0
-
-
 def test_without_the_border(run):
     facts = json.loads(run(*WORDS, "--refine", "0", "--no-border", "--json")[1])
     assert facts["border"] == []
-
-
-@pytest.mark.full
-def test_physical_axes_of_a_case(run, tmp_path):
-    words = ("--vary", "gap=5mm:15mm:3", "--vary", "proportional_stiffness=100kN/m:1MN/m:log:3")
-    code, out, _ = run("B2-G1-A3", *words, "--refine", "0", *STEP, "--json")
-    assert code == 0
-    data = xr.open_zarr(tmp_path / json.loads(out)["files"]["data"], consolidated=False)
-    np.testing.assert_allclose(data["gap"], [0.005, 0.01, 0.015])
-    np.testing.assert_allclose(data["proportional_stiffness"], [1e5, 10**5.5, 1e6])
 
 
 def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
@@ -84,40 +54,6 @@ def test_an_amplitude_has_the_unit_of_what_shakes_the_rig(run, tmp_path):
     assert (code, out) == (2, "")
     assert errors.startswith("vibroimpact: error: --vary: amplitude: '0.1g' is a mass; a length")
     assert errors.count("\n") == 1
-
-
-@pytest.mark.full
-def test_a_command_that_was_killed_goes_on(tmp_path, told):
-    program = "import sys; from vibroimpact.cli import main; sys.exit(main(sys.argv[1:]))"
-    asked = (*WORDS, "--refine", sample("2", "1"), "--no-border")
-    words = [sys.executable, "-c", program, "map", *asked, "-o", "killed"]
-    child = subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.DEVNULL)
-    waited = time.monotonic()
-    while child.poll() is None and time.monotonic() - waited < 600.0:
-        if (tmp_path / f"killed/{NAME}.zarr").exists():
-            time.sleep(0.3)
-            os.kill(child.pid, signal.SIGKILL)
-            break
-        time.sleep(0.01)
-    assert child.wait() == -signal.SIGKILL
-    folder = tmp_path / "whole"
-    folder.mkdir()
-    again = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
-    assert again.returncode == 0, again.stderr
-    whole = json.loads(told(folder, *asked, "--json")[1])
-    first = xr.open_zarr(tmp_path / f"killed/{NAME}.zarr", consolidated=False).load()
-    second = xr.open_zarr(folder / whole["files"]["data"], consolidated=False).load()
-    xr.testing.assert_identical(first, second)
-
-
-@pytest.mark.full
-def test_another_map_in_the_same_place_is_refused(run):
-    assert run(*WORDS, "--refine", "0")[0] == 0
-    code, out, errors = run(*WORDS, "--refine", "1")
-    assert (code, out) == (2, "")
-    assert "--output: " in errors
-    assert "contains a map with other values of refine" in errors
-    assert run(*WORDS, "--refine", "1", "--name", "finer")[0] == 0
 
 
 @pytest.mark.parametrize(
@@ -188,10 +124,5 @@ def test_ranges(text, expected):
         (["B2-Ginf-A3"], "CASE|STUDY.toml: there is no stop"),
     ],
 )
-def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(run, tmp_path, words, named):
-    code, out, errors = run(*words)
-    assert (code, out) == (2, "")
-    assert errors.startswith("vibroimpact: error: ")
-    assert errors.count("\n") == 1
-    assert named in errors
-    assert list(tmp_path.iterdir()) == []
+def test_wrong_input_is_one_line_and_exit_2_and_nothing_written(refused, words, named):
+    assert named in refused(*words)

@@ -69,18 +69,6 @@ def test_changes_in_their_order_and_json(run, quake):
     assert largest["damping"] == 0.05
 
 
-@pytest.mark.full
-def test_one_of_several_components(run, tmp_path):
-    (tmp_path / "quake.V2").write_text("\n".join([*csmip(1, "90 DEG"), *csmip(2, "UP")]) + "\n")
-    code, _, errors = run("quake.V2")
-    assert code == 2
-    assert errors.startswith(
-        "vibroimpact: error: component: missing, but 'quake.V2' has 2 components; pass '90 DEG', "
-    )
-    assert run("quake.V2", "--component", "up", "--periods", "5")[0] == 0
-    assert (tmp_path / "out/quake.V2-up-record.nc").is_file()
-
-
 def test_a_study_takes_a_component(tmp_path, run):
     (tmp_path / "quake.V2").write_text("\n".join([*csmip(1, "90 DEG"), *csmip(2, "UP")]) + "\n")
     from pathlib import Path
@@ -110,7 +98,6 @@ def test_a_study_takes_a_component(tmp_path, run):
         (["--scale", "0"], "--scale: 0"),
         (["--scale", "2", "--peak", "1"], "--peak: '1' is given together"),
         (["--component", "east"], "--component: 'east' is not a component of 'quake.AT2'"),
-        (["--output", "/proc/vibroimpact"], "--output"),
     ],
 )
 def test_wrong_input_is_one_line_and_nothing_is_written(run, tmp_path, quake, words, line):

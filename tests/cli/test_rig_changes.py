@@ -6,21 +6,10 @@ import json
 
 import pytest
 
-import vibroimpact as vi
 from vibroimpact.cli.options import RigOptions
 from vibroimpact.cli.rig import subject
 
 COMMAND = "sweep"
-STUDY = """
-[oscillator]
-mass = "550 kg"
-isolator = { stiffness = "26.8 kN/m", damping = "1.1 kN s/m" }
-right = { stiffness = "510 kN/m", damping = 900, gap = "7.5 mm" }
-[excitation]
-amplitude = "0.05 g"
-[sweep]
-frequencies = [1, 2]
-"""
 FEW = ("--frequencies", "1Hz,2Hz")
 
 
@@ -79,22 +68,6 @@ def test_many_changes_make_a_file_name_that_any_disk_takes():
     other = subject("B2-G1-A3", RigOptions(gap="123456.789e-3", values=(*values, "left.gap=5")))
     assert len(what.slug) < 160
     assert what.slug != other.slug
-
-
-@pytest.mark.full
-def test_two_gaps_of_a_study_are_two_results(run, tmp_path):
-    (tmp_path / "x.toml").write_text(STUDY)
-    for gap in ("100mm", "200mm"):
-        code, told, _ = run("x.toml", "--gap", gap)
-        assert code == 0
-        assert told.startswith(f"x, gap {gap[:-2]} mm\n")
-        assert "replaced" not in told
-    names = {
-        f"x-gap-{gap}-sweep.{end}" for gap in ("100mm", "200mm") for end in ("nc", "png", "txt")
-    }
-    assert {p.name for p in (tmp_path / "out").iterdir()} == names
-    data = vi.load(tmp_path / "out/x-gap-200mm-sweep.nc")
-    assert data.attrs["title"] == "x, gap 200 mm"
 
 
 def test_the_parameter_set_of_a_study_that_an_option_replaces(tmp_path):

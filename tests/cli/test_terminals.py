@@ -131,22 +131,6 @@ def test_a_closed_stderr(tmp_path, stream):
     assert (wrong.returncode, wrong.stdout) == (2, "")
 
 
-@pytest.mark.full
-@pytest.mark.parametrize("streams", [*sample([">&-", "2>&-"], []), "<&- >&- 2>&-"])
-def test_closed_streams_with_processes(tmp_path, streams):
-    """The library that starts processes takes for granted that streams are open."""
-    line = (
-        f"{' '.join(PROGRAM)} ensemble B2-G1-A3 --uncertain gap normal:5% --draws 8"
-        f" --frequencies 1Hz,2Hz --where processes --threads 2 {streams}"
-    )
-    done = subprocess.run(["sh", "-c", line], cwd=tmp_path, capture_output=True, text=True)
-    # On a slow machine it also reports how far it is.
-    lines = [line for line in done.stderr.splitlines() if "sweeping" not in line]
-    assert (done.returncode, lines) == (0, [])
-    assert (tmp_path / "out/B2-G1-A3-ensemble.nc").is_file()
-    assert ("Files" in done.stdout) == (">&-" not in streams.removeprefix("2>&-"))
-
-
 NAME = "o\x1b[31m\x1b]0;x\x07\nut"
 """Of a folder: colours, which rich writes itself, a title of the window, a line of its own."""
 

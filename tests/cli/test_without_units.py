@@ -64,15 +64,6 @@ def test_no_unit_is_printed(study, tmp_path, capsys, words, expected):
     assert not unitless()  # any more
 
 
-@pytest.mark.full
-def test_the_same_rig_in_si_units(study, tmp_path, capsys):
-    study = tmp_path / "si.toml"
-    study.write_text(ONE.replace("[excitation]", 'units = "SI"\n[excitation]'))
-    words = ("--from", "0.1", "--to", "0.3", "--step", "0.02")
-    assert main(["sweep", str(study), *words, "-o", str(tmp_path)]) == 0
-    assert "gap 2 m" in capsys.readouterr().out
-
-
 def test_a_unit_of_an_option_makes_a_kilogram_of_1(study, tmp_path, capsys):
     words = ("--gap", "2 m", "--from", "0.1", "--to", "0.3", "--step", "0.02")
     assert main(["sweep", str(study), *words, "-o", str(tmp_path)]) == 0
@@ -112,23 +103,6 @@ def test_stated_none_refuses_a_unit_of_an_option(tmp_path, capsys, words):
     told = capsys.readouterr().err
     assert "has a unit, but the rig has none" in told
     assert len(told.strip().splitlines()) == 1
-
-
-@pytest.mark.full
-def test_designs_and_records_without_units(tmp_path, capsys):
-    rig, record = str(_none(tmp_path)), tmp_path / "shake.txt"
-    record.write_text("".join(f"{0.1 * n:.1f} {0.8 * (n % 7 - 3)}\n" for n in range(200)))
-    assert main(["design", rig, "--vary", "gap=1:3", "-o", str(tmp_path)]) == 0
-    summary = capsys.readouterr().out.partition("\nFiles\n")[0]
-    assert "Required gap: 5" in summary
-    assert not UNIT.findall(summary)
-    words = ["earthquake", rig, str(record), "-o", str(tmp_path)]
-    assert main([*words, "--unit", "g"]) == 2
-    assert "contains accelerations in g, but the rig has no units" in capsys.readouterr().err
-    assert main([*words, "--unit", "none"]) == 0
-    summary = capsys.readouterr().out.partition("\nFiles\n")[0]
-    assert "peak of the base" in summary
-    assert not UNIT.findall(summary)
 
 
 @pytest.mark.parametrize("of", ["force", "displacement", "unbalance"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import h5py
@@ -18,6 +19,7 @@ from vibroimpact.datasets.files import write_whole
 CASE = vi.laboratory.case("B2-G1-A3")
 
 
+@cache
 def made(kind: str) -> xr.Dataset:
     shaken = vi.Harmonic(CASE.amplitude, 1.1)
     match kind:
@@ -217,19 +219,6 @@ def test_several_there_and_back(tmp_path: Path) -> None:
     assert [p.name for p in tmp_path.iterdir()] == ["data.nc"]
 
 
-@pytest.mark.full
-def test_several_of_different_sizes_and_one_alone(tmp_path: Path) -> None:
-    """Groups share no dimension: each keeps its own length."""
-    motions = {kind: made(kind) for kind in ("one-sided", "sweep", "final state")}
-    path = vi.save(motions, tmp_path / "data.nc")
-    for kind, data in motions.items():
-        xr.testing.assert_equal(vi.load(path, group=kind.replace(" ", "_")), data)
-    alone = vi.save({"only": made("final state")}, tmp_path / "alone.nc")
-    xr.testing.assert_equal(vi.load(alone, group="only"), made("final state"))
-    with pytest.raises(vi.InputError, match="only"):
-        vi.load(alone)
-
-
 def test_a_motion_from_a_group_goes_on(tmp_path: Path) -> None:
     path = vi.save(several(), tmp_path / "data.nc")
     shaken = vi.Harmonic(CASE.amplitude, 1.1)
@@ -279,18 +268,6 @@ def test_groups_that_are_damaged_or_not_ours_are_refused(tmp_path: Path) -> None
         vi.load(foreign, group="forward_branch")
 
 
-@pytest.mark.full
-def test_several_replace_one_and_one_several(tmp_path: Path) -> None:
-    path = vi.save(made("simulation"), tmp_path / "data.nc")
-    vi.save(several(), path)
-    xr.testing.assert_equal(vi.load(path, group="2.6Hz_free"), made("no event"))
-    vi.save(made("no event"), path)
-    xr.testing.assert_equal(vi.load(path), made("no event"))
-    with pytest.raises(vi.InputError, match=r"^output: .* cannot be written"):
-        vi.save(several(), tmp_path / "missing" / "data.nc")
-    assert [p.name for p in tmp_path.iterdir()] == ["data.nc"]
-
-
 SHAKEN = {
     "harmonics": vi.Periodic(1.1, (0.4, 0.2), (0.3, 1.0), 0.2),
     "displacement": vi.Harmonic("8 mm", 1.1),
@@ -300,7 +277,7 @@ SHAKEN = {
 }
 
 
-@pytest.mark.parametrize("kind", sample([*SHAKEN], [*SHAKEN][::4]))
+@pytest.mark.parametrize("kind", sample([*SHAKEN], [*SHAKEN][-1:]))
 def test_any_shaking_comes_back(kind: str, tmp_path: Path) -> None:
     """What is worked out of a loaded motion is what it is of the motion itself."""
     rig = CASE.oscillator.replace(force=100.0)

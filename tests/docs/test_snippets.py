@@ -20,7 +20,7 @@ def name(page: Path) -> str:
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
-def test_blocks_run_and_print_what_is_shown(page, tmp_path, monkeypatch):
+def test_blocks_run_and_print_what_is_shown(page, tmp_path, monkeypatch, blank_pictures):
     monkeypatch.chdir(tmp_path)
     text = page.read_text(encoding="utf-8")
     try:

@@ -106,6 +106,7 @@ def watched(given, rig, amplitude, frequency, start, rows, low_high, samples, ev
         rows[which, U], rows[which, V] = state[FIRST], state[FIRST + 1]
 
 
+@pytest.mark.full
 @pytest.mark.parametrize("name", RIGS)
 def test_observers_see_the_motion_and_do_not_disturb_it(name: str) -> None:
     rows, low_high = np.zeros((7, ROW)), np.zeros(9)

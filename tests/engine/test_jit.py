@@ -86,6 +86,7 @@ else:
     run(SMALL + refused, tmp_path)
 
 
+@pytest.mark.full
 def test_processes_share_the_cache_safely(tmp_path: Path) -> None:
     """Two at once on an empty cache: one compiles, one waits and loads; so does a third."""
     (tmp_path / "small.py").write_text(ENTRY)

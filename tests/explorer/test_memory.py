@@ -11,7 +11,7 @@ from samples import sample
 from vibroimpact.explorer.session import Session
 from vibroimpact.explorer.state import MOST_STEPS, PageState
 
-MOVES = sample(2000, 20)
+MOVES = sample(2000, 12)
 
 
 def kept(page, devtools):

@@ -107,22 +107,6 @@ def test_knobs_are_turned_and_the_curves_are_those_of_python(shown):
             assert np.abs(y - y[low] - scale * (values - values[low])).max() < 0.2
 
 
-def test_what_is_wrong_stands_beside_the_field(shown):
-    shown.fill("#text-mass", "700 m")
-    shown.press("#text-mass", "Enter")
-    shown.wait_for_selector("#why-mass:not(:empty)")
-    assert "a mass greater than 0 is accepted" in shown.inner_text("#why-mass")
-    shown.fill("#text-mass", "0.7 t")
-    shown.press("#text-mass", "Enter")
-    shown.wait_for_selector("#why-mass:empty", state="attached")
-    settled(shown)
-    assert shown.input_value("#text-mass") == "700 kg"
-    assert shown.inner_text("#why-mass") == ""
-    shown.click("#undo")
-    settled(shown)
-    assert shown.input_value("#text-mass") == "550 kg"
-
-
 def test_laws_motions_and_basins(shown):
     shown.select_option("#law-stops", "rigid")
     shown.fill("#frequency", "1.1 Hz")

@@ -96,7 +96,7 @@ def test_from_slider_to_paint_and_nothing_grows(opened):
     page.evaluate(TURNED, {"id": "knob-stops-gap", "moves": 3})
     settle(page)
     count = page.evaluate("document.querySelectorAll('*').length")
-    took = page.evaluate(TURNED, {"id": "knob-stops-gap", "moves": sample(200, 25)})
+    took = page.evaluate(TURNED, {"id": "knob-stops-gap", "moves": sample(200, 8)})
     settle(page)
     # Loosely, for machines that do much else; `make bench` measures.
     assert took["median"] < 300
@@ -211,23 +211,6 @@ def test_scenarios_have_their_meanings_at_the_map(opened):
     assert [line.replace("\n", " ")[:2] for line in lines][:7] == [f"S{k}" for k in range(7)]
     assert "left hysteresis or non-regular resonances" in lines[4]
     assert page.get_attribute("#evidence abbr", "title") is not None
-
-
-def test_an_amplitude_has_the_unit_of_any_excitation(opened):
-    page = opened()
-    for given, label in (
-        ("120 N", "force amplitude F"),
-        ("5 mm", "base displacement X"),
-        ("0.4 kg m", "unbalance m e"),
-        ("0.05 g", "base acceleration A"),
-    ):
-        before = curve(page)
-        page.fill("#text-amplitude", given)
-        page.keyboard.press("Enter")
-        settle(page)
-        assert curve(page) != before
-        assert page.inner_text("label[for='text-amplitude']") == label
-        assert page.input_value("#text-amplitude") == given
 
 
 def test_laws_and_presets(opened):

@@ -183,14 +183,6 @@ def test_knobs_beyond_all_bounds_are_told_in_words(session, path):
                     session.make(stage, session.asked)
 
 
-@pytest.mark.full
-def test_without_damping_there_is_a_scenario(session):
-    told = session.take({"do": "change", "path": "isolator.damping", "value": 0})
-    assert "refused" not in told
-    classified = next(s for s in session.stages() if s.kind == "scenario" and s.long)
-    assert session.make(classified, session.asked)["scenario"] == "S4"
-
-
 def test_files(session, tmp_path):
     told = session.file("netcdf")
     path = tmp_path / told["file"]

@@ -11,10 +11,8 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
-from explorer.test_page import CLIPPED, curve, settle, until, until_bent
 from explorer.test_session import pictures
 from vibroimpact.explorer import share
-from vibroimpact.explorer.presets import preset
 from vibroimpact.explorer.session import Session
 from vibroimpact.explorer.state import begin
 from vibroimpact.model.study import read_rig_study
@@ -68,14 +66,6 @@ def test_no_text_that_is_sent_has_a_unit(session):
         assert found == []
         assert told["state"]["without_units"]
     assert not unitless()  # any more
-
-
-def test_the_same_texts_of_a_rig_with_units_have_them():
-    session = Session(preset("B2-G1-A3"))
-    sent = [session.told(), *pictures(session)]
-    found = [text for text in texts(sent) if UNIT.search(text) or "Hz" in text]
-    assert len(found) > 20
-    assert not sent[0]["state"]["without_units"]
 
 
 def test_pictures_are_in_the_numbers_of_the_rig():
@@ -146,18 +136,6 @@ def test_a_value_with_a_unit_is_refused(path):
     assert (knob["value"], knob["text"]) == (0.3, "0.3")
 
 
-def test_another_rig_has_its_own_units():
-    session = Session(begin(RIG))
-    told = session.take({"do": "preset", "name": "building with moat"})
-    assert not told["state"]["without_units"]
-    mass = next(one for one in told["state"]["controls"] if one["path"] == "mass")
-    assert mass["text"] == "5000 t"
-    told = session.take({"do": "undo"})
-    assert told["state"]["without_units"]
-    opened = session.take({"do": "open", "address": share.address(preset("B2-G1-A3"))})
-    assert not opened["state"]["without_units"]
-
-
 def test_files_keep_the_rig_without_units(tmp_path):
     state = begin(STATED, "bare")
     path = tmp_path / "bare.toml"
@@ -186,81 +164,3 @@ def test_a_study_file_states_that_a_number_is_a_force(tmp_path):
     assert again.shaking == begin(pushed).shaking
     assert again.oscillator.units == "none"
     assert "of='force'" in base64.b64decode(session.file("python")["bytes"]).decode()
-
-
-VISIBLE = """() => [document.body.innerText,
-    ...[...document.querySelectorAll("input[type=text], #frequency")].map((one) => one.value),
-    ...[...document.querySelectorAll("[aria-label], [aria-valuetext], [title]")].flatMap((one) =>
-        ["aria-label", "aria-valuetext", "title"].map((name) => one.getAttribute(name) ?? "")),
-    ...[...document.querySelectorAll("svg text, li")].map((one) => one.textContent),
-    document.getElementById("words").textContent]"""
-
-
-def seen(page):
-    """Every text of the page that has a unit; names of presets are those of other rigs."""
-    return [
-        line
-        for text in page.evaluate(VISIBLE)
-        for line in text.splitlines()
-        if (UNIT.search(line) or re.search(r"\b(?:Hz|mm|kN|N)\b", line)) and "CSV" not in line
-    ]
-
-
-@pytest.mark.full
-def test_the_page_shows_no_unit(opened):
-    page = opened(f"#{share.address(begin(RIG, 'bare'))}")
-    settle(page)
-    page.evaluate("document.getElementById('presets').replaceChildren()")
-    assert page.input_value("#text-stops-gap") == "2"
-    assert page.input_value("#frequency") == "1.8"
-    assert "frequency ω" in page.locator("#panels").inner_text()
-    before = curve(page)
-    page.check("#physical")
-    until_bent(page, before)
-    settle(page)
-    assert page.inner_text("#physical-label") == "not normalised"
-    page.click("#tab-words")
-    until(page, "document.getElementById('words-curves').textContent.includes('Resonances')")
-    assert "ω" in page.inner_text("#words")
-    assert page.evaluate(CLIPPED) == []
-    page.click("#tab-basins")
-    page.wait_for_selector("#basins li")
-    settle(page)
-    assert seen(page) == []
-    # Another rig shows its units again, at the same charts.
-    page.goto(f"{page.url.partition('#')[0]}#{share.address(preset('B2-G1-A3'))}")
-    until(page, "document.getElementById('text-mass').value === '550 kg'")
-    settle(page)
-    page.click("#tab-motion")
-    until(page, "document.getElementById('panels').innerText.includes('frequency (Hz)')")
-    assert "displacement (mm)" in page.locator("#views").inner_text()
-    assert page.inner_text("#physical-label") == "in mm and g"
-
-
-def test_a_click_chooses_omega(opened):
-    page = opened(f"#{share.address(begin(RIG, 'bare'))}")
-    settle(page)
-    box = page.locator("#panels .chart").first.bounding_box()
-    page.mouse.click(box["x"] + 62 + 1, box["y"] + box["height"] - 40)
-    until(page, "document.getElementById('frequency').value === '0.45'")
-    page.fill("#frequency", "2.5")
-    page.keyboard.press("Enter")
-    until(page, "location.hash.length > 1 && !document.getElementById('frequency-why').textContent")
-    settle(page)
-    state = share.from_address(page.evaluate("location.hash")[1:])
-    assert math.tau * state.shaking.frequency == pytest.approx(2.5)
-
-
-@pytest.mark.full
-def test_a_cycle_takes_a_moment_whatever_the_unit_of_time(opened):
-    """ω = 1.8 in seconds would be a cycle in 14 s of the page."""
-    page = opened(f"#{share.address(begin(RIG, 'bare'))}")
-    settle(page)
-    page.check("#play")
-    places = []
-    for _ in range(30):
-        page.wait_for_timeout(100)
-        places.append(page.locator("#stage .mass").get_attribute("d"))
-    x = [float(re.match(r"M([-\d.]+)", place)[1]) for place in places]
-    turns = sum((b - a) * (c - b) < 0 for a, b, c in zip(x, x[1:], x[2:], strict=False))
-    assert turns >= 2

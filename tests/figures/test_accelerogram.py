@@ -35,20 +35,6 @@ def test_the_record_with_its_peak_above_its_spectrum(tmp_path):
     assert len(alone.lines) == 3
 
 
-def test_two_components_and_one_damping():
-    spectrum = vi.response_spectrum([RECORD, RECORD.scaled(2)], PERIODS, 0.05)
-    ax = response_spectra(spectrum, quantity="spectral_displacement")
-    assert "mm" in ax.get_ylabel()
-    assert [line.get_label().split(",")[0] for line in ax.lines] == [
-        "first",
-        "second",
-        "RotD50",
-        "RotD100",
-    ]
-    expected = 1e3 * spectrum["spectral_displacement"].sel(orientation="RotD100").values[1:]
-    np.testing.assert_array_equal(ax.lines[3].get_ydata(), expected)
-
-
 def test_spectra_of_several_records_by_name():
     first, second = (vi.response_spectrum(RECORD.scaled(k), PERIODS, [0.02, 0.05]) for k in (1, 2))
     ax = response_spectra({"one": first, "two": second})

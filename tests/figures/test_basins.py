@@ -12,7 +12,7 @@ from matplotlib.colors import to_rgb
 
 import vibroimpact as vi
 from figures import test_assembly_figures as masses
-from vibroimpact.figures import basin_portrait, save_figure
+from vibroimpact.figures import basin_portrait
 from vibroimpact.figures.basins import COLOURS
 
 
@@ -78,12 +78,6 @@ def test_what_is_no_basin_is_told():
     ]
     with pytest.raises(vi.InputError, match="no basins"):
         basin_portrait(data.drop_vars("basin"))
-
-
-def test_axes_of_ones_own_and_a_file(tmp_path):
-    ax = basin_portrait(made(), title="B3-10mm-A3")
-    assert basin_portrait(made(), ax) is ax
-    assert save_figure(ax, tmp_path / "one.png").stat().st_size > 10_000
 
 
 @pytest.mark.full

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from functools import cache
 
-import matplotlib
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.colors import same_color
-from matplotlib.figure import Figure
 
 import vibroimpact as vi
-from samples import sample
-from vibroimpact.figures import bifurcation_curves, branch_diagram, save_figure
+from vibroimpact.figures import bifurcation_curves, branch_diagram
 from vibroimpact.figures.style import SWEEPS
 
 CASE = vi.laboratory.case("B2-G1-A3")
@@ -204,42 +201,6 @@ def test_names_leave_out_a_side_without_a_stop(side):
     assert not any(f"0{other}" in text for text in texts for other in "RL")
 
 
-def test_branches_are_named_under_a_sweep_too():
-    ax = branch_diagram(diagram(), sweep=swept())
-    assert {"1R 1L", "no contact"} <= {text.get_text() for text in ax.texts}
-
-
-def test_a_dense_sweep_leaves_the_branches_to_be_seen():
-    dense = vi.sweep(vi.Rig(CASE.oscillator, CASE.amplitude), np.arange(1.0, 4.0, 0.01))
-    line = marks(branch_diagram(diagram(), sweep=dense))["forward sweep"]
-    assert len(line.get_xdata()) / line.get_markevery() < 100
-    assert marks(branch_diagram(diagram(), sweep=swept()))["forward sweep"].get_markevery() == 1
-
-
-@pytest.mark.parametrize("made", [diagram, several, gaps])
-def test_names_stand_clear_of_marks_and_of_each_other_inside_the_panel(made):
-    ax = branch_diagram(made())
-    ax.figure.draw_without_rendering()
-    inside = ax.get_window_extent()
-    for text in ax.texts:
-        box = text.get_window_extent()
-        assert inside.contains(*box.min)
-        assert inside.contains(*box.max)
-    boxes = [text.get_window_extent() for text in ax.texts]
-    for i, box in enumerate(boxes):
-        assert not any(box.overlaps(other) for other in boxes[:i])
-        for line in marks(ax).values():
-            assert not any(box.contains(*spot) for spot in ax.transData.transform(points(line)))
-
-
-def test_other_parameters_are_named_with_their_units():
-    assert branch_diagram(gaps()).get_xlabel().startswith("gap of each side (")
-    data = vi.branch(vi.Rig(CASE.oscillator, SHAKEN), vary={"stiffness_ratio": (10.0, 30.0)})
-    label = branch_diagram(data).get_xlabel()
-    assert label.startswith("stiffness ratio")
-    assert label.endswith(" (–)")
-
-
 @pytest.mark.parametrize(
     ("quantity", "factor"),
     [
@@ -341,36 +302,6 @@ def test_curves_are_called_by_their_names():
 
 
 # Files, axes, and what is left alone
-
-
-@pytest.mark.parametrize("kind", sample(["png", "pdf", "svg"], ["svg"]))
-def test_the_same_file_every_time(kind, tmp_path):
-    def drawn():
-        yield branch_diagram(several(), sweep=swept(), title="branches")
-        yield bifurcation_curves(curve("fold"), title="curves")
-
-    first, second = (
-        [
-            save_figure(ax, tmp_path / f"{name}{i}.{kind}").read_bytes()
-            for i, ax in enumerate(drawn())
-        ]
-        for name in "ab"
-    )
-    assert first == second
-    assert min(map(len, first)) > 5000
-    assert not any(date in one for one in first for date in (b"CreationDate", b"dc:date"))
-
-
-def test_given_axes_are_drawn_on_and_the_rest_is_left_alone():
-    settings = dict(matplotlib.rcParams)
-    held = (diagram().copy(deep=True), swept().copy(deep=True), curve("fold").copy(deep=True))
-    one, other = Figure().subplots(1, 2)
-    assert branch_diagram(diagram(), one, sweep=swept()) is one
-    assert bifurcation_curves(curve("fold"), other) is other
-    assert one.figure.axes == [one, other]
-    assert dict(matplotlib.rcParams) == settings
-    for now, before in zip((diagram(), swept(), curve("fold")), held, strict=True):
-        xr.testing.assert_identical(now, before)
 
 
 # Refused

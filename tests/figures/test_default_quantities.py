@@ -120,9 +120,10 @@ def test_a_family_with_an_own_rig_is_drawn_in_its_units():
 
 
 @pytest.mark.parametrize(
-    ("rig", "published"), [RIGS["code"], RIGS["study of a case"], RIGS["own study"]]
+    ("rig", "published"),
+    sample([RIGS["code"], RIGS["study of a case"], RIGS["own study"]], [RIGS["own study"]]),
 )
-@pytest.mark.parametrize("command", sample([*COMMANDS], ["sweep"]))
+@pytest.mark.parametrize("command", sample([*COMMANDS], ["sweep", "branch"]))
 def test_on_the_command_line(command, rig, published, monkeypatch):
     options, eta, physical = COMMANDS[command]
     drawn = []
@@ -136,19 +137,6 @@ def test_on_the_command_line(command, rig, published, monkeypatch):
         words = [command, rig, *options, *([option] if option else [])]
         assert main(words) == 0
         assert (eta if shows_eta else physical) in drawn[-1]
-
-
-@pytest.mark.full
-def test_the_default_survives_a_file(tmp_path):
-    """As the file states that the rig is published."""
-    data = {
-        figures.resonance_curves: vi.sweep(CASE, GRID),
-        figures.branch_diagram: vi.branch(CASE, frequency=2.0, vary={"frequency": SPAN}),
-        figures.resonance_bands: vi.ensemble(CASE, GAP, partial(vi.sweeps, frequencies=GRID), 4),
-    }
-    for draw, one in data.items():
-        kept = vi.load(vi.save(one, tmp_path / "kept.nc"))
-        assert "eta" in labels(draw(kept))[0]
 
 
 def test_no_eta_where_the_motion_without_stops_is_unbounded():

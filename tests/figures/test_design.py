@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from itertools import combinations
 
 import numpy as np
 import pytest
@@ -34,22 +33,6 @@ def test_contours_over_two_parameters(data) -> None:
     at = np.argwhere(data["pareto"].transpose("stops.stiffness", "gap").values)
     np.testing.assert_allclose(dots.get_xdata(), 1e3 * GAPS[at[:, 1]])
     np.testing.assert_allclose(dots.get_ydata(), 1e-3 * STIFFNESSES[at[:, 0]])
-
-
-@pytest.mark.full
-def test_numbers_of_contours_stand_on_their_lines_apart_and_inside(data) -> None:
-    panels = design_chart(data)
-    panels[0].figure.draw_without_rendering()  # which moves them to where they stay
-    for ax in panels:
-        boxes = [text.get_window_extent() for text in ax.texts]
-        assert len(boxes) > 5
-        assert not any(a.overlaps(b) for a, b in combinations(boxes, 2))
-        assert all(ax.bbox.x0 < box.x0 and box.x1 < ax.bbox.x1 for box in boxes)
-        (lines,) = (one for one in ax.collections if len(one.get_array()) > 1 and not one.filled)
-        for text, box in zip(ax.texts, boxes, strict=True):
-            level = np.abs(lines.levels - float(text.get_text())).argmin()
-            path = ax.transData.transform_path(lines.get_paths()[level]).interpolated(200)
-            assert np.hypot(*(path.vertices - (box.p0 + box.p1) / 2.0).T).min() < 2.0  # pixels
 
 
 def test_the_line_where_nothing_is_hit_is_on_the_safe_side(data) -> None:
@@ -224,20 +207,6 @@ def test_what_exceeds_any_of_several_limits_is_hatched_up_to_its_own_edge(data) 
     assert {(True, False), (False, True), (False, False)} <= found
 
 
-@pytest.mark.full
-def test_designs_that_were_not_done_are_hatched_half_way_to_the_next(data) -> None:
-    for value in (np.nan, np.inf):
-        broken = data.copy(deep=True)
-        at = {"gap": 2, "stops.stiffness": 1}
-        for name in ("peak_displacement", "peak_acceleration", "peak_force", "penetration"):
-            broken[name][at] = value
-        inside = hatched(design_chart(limited(broken, penetration=1.0))[0])
-        step, ratio = GAPS[1] - GAPS[0], STIFFNESSES[1] / STIFFNESSES[0]
-        for share, expected in ((0.0, True), (0.4, True), (0.6, False)):
-            assert inside(GAPS[2] + share * step, STIFFNESSES[1]) is expected
-            assert inside(GAPS[2], STIFFNESSES[1] * ratio**share) is expected
-
-
 def test_where_no_design_was_done_all_is_hatched(data) -> None:
     names = ("peak_displacement", "peak_acceleration", "peak_force", "penetration", "hitting")
     nothing = data.assign({name: data[name] * np.nan for name in names})
@@ -264,30 +233,6 @@ def test_limits_that_all_or_none_exceed(data) -> None:
     for stiffness in (110.0, 500.0, 1900.0):
         assert inside(first - 1e-3, stiffness)
         assert not inside(first + 1e-3, stiffness)
-
-
-@pytest.mark.full
-def test_without_its_limits_a_design_is_hatched_half_way_to_the_next(data) -> None:
-    unknown = limited(data, penetration=0.025).assign_attrs(parameters="{}")
-    inside = hatched(design_chart(unknown)[0])
-    within = unknown["within_limits"].transpose("gap", "stops.stiffness").values
-    changes = 0
-    for gap, row in zip(GAPS[1:-1], within[1:-1], strict=True):
-        for k in np.flatnonzero(row[1:] != row[:-1]):
-            middle = np.sqrt(STIFFNESSES[k] * STIFFNESSES[k + 1])
-            assert inside(gap, 0.95 * middle) != row[k]
-            assert inside(gap, 1.05 * middle) != row[k + 1]
-            changes += 1
-    assert changes
-
-
-@pytest.mark.full
-def test_a_front_within_limits_is_named_so(data) -> None:
-    some = limited(data, penetration=0.025)
-    for ax in (pareto_front(some), *design_chart(some), *design_chart(some.isel(gap=0))):
-        words = [text.get_text() for text in ax.get_legend().get_texts()]
-        assert "not dominated within the limits" in words
-        assert "not dominated by another" not in words
 
 
 @pytest.mark.full
@@ -339,19 +284,3 @@ def test_the_present_design_is_marked() -> None:
         assert line.get_xdata() == [80.0, 80.0]
     beyond = design_chart(found.isel(gap=[0, 1]))[0]
     assert not [line for line in beyond.lines if line.get_marker() == "*"]
-
-
-@pytest.mark.full
-def test_gaps_that_differ_are_no_present_design(data) -> None:
-    """The rig of `data` has no common gap, so nothing is marked."""
-    for ax in design_chart(data):
-        assert not [line for line in ax.lines if line.get_marker() == "*"]
-
-
-@pytest.mark.full
-def test_a_rig_with_one_stop_has_a_chart_of_this_stop() -> None:
-    vary = {"gap": [0.02, 0.05], "stops.stiffness": [300.0, 500.0]}
-    found = vi.design_chart(RIGS["elastic"], vary, records=noise(8, count=60))
-    ax = design_chart(found)[0]
-    assert ax.get_xlabel() == "gap of the left side (mm)"
-    assert ax.get_ylabel() == "stiffness of the left bumper (N/m)"

@@ -50,21 +50,6 @@ def test_a_line_down_is_numbered_upright(ax) -> None:
     assert 270.0 < text.get_rotation() < 360.0
 
 
-def test_numbers_keep_clear_of_marks_and_of_one_another(ax) -> None:
-    levels = [(float(k), [slanted(0.3 * k, 0.1)]) for k in range(9)]
-    (marks,) = ax.plot([2.0, 2.0], [0.5, 2.0], "o")
-    (edge,) = ax.plot([1.5, 1.5], [0.0, 3.0], "--")
-    number_lines(ax, levels, [marks, edge])
-    ax.figure.draw_without_rendering()
-    boxes = [text.get_window_extent() for text in ax.texts]
-    assert len(boxes) > 7
-    assert not any(a.overlaps(b) for a, b in combinations(boxes, 2))
-    spots = ax.transData.transform(np.vstack([marks.get_xydata(), [[1.5, y] for y in (0, 1, 2)]]))
-    for box in boxes:
-        assert not any(box.contains(*spot) for spot in spots)
-        assert not box.x0 < spots[-1][0] < box.x1
-
-
 def test_a_number_hides_no_other_line(ax) -> None:
     """Where two lines come together, both are numbered where they are apart."""
     number_lines(ax, [(1.0, [slanted(1.0, 0.0)]), (2.0, [slanted(1.02, 0.1)])], [])
@@ -78,3 +63,18 @@ def test_a_line_without_room_has_no_number(ax) -> None:
     near = [(2.0, [slanted(1.5, 0.0)]), (3.0, [slanted(1.53, 0.0)])]
     number_lines(ax, [(1.0, [short, np.empty((0, 2))]), *near], [])
     assert not ax.texts
+
+
+def test_numbers_keep_clear_of_marks_and_of_one_another(ax) -> None:
+    levels = [(float(k), [slanted(0.3 * k, 0.1)]) for k in range(9)]
+    (marks,) = ax.plot([2.0, 2.0], [0.5, 2.0], "o")
+    (edge,) = ax.plot([1.5, 1.5], [0.0, 3.0], "--")
+    number_lines(ax, levels, [marks, edge])
+    ax.figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in ax.texts]
+    assert len(boxes) > 7
+    assert not any(a.overlaps(b) for a, b in combinations(boxes, 2))
+    spots = ax.transData.transform(np.vstack([marks.get_xydata(), [[1.5, y] for y in (0, 1, 2)]]))
+    for box in boxes:
+        assert not any(box.contains(*spot) for spot in spots)
+        assert not box.x0 < spots[-1][0] < box.x1

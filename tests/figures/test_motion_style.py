@@ -6,12 +6,9 @@ import json
 import re
 from functools import cache
 
-import matplotlib
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.colors import to_rgba
 from matplotlib.figure import Figure
 
 import vibroimpact as vi
@@ -171,22 +168,6 @@ def test_gaps_are_lines_at_their_place(draw):
     assert gaps(draw({"a": data, "b": hitting()}), 0) == pytest.approx([-9.0, -7.5, 7.5])
 
 
-@pytest.mark.parametrize("draw", [phase_portrait, hysteresis_cycle])
-def test_forward_is_red_and_backward_blue(draw):
-    assert SWEEPS["forward"].colour == "#c8102e"
-    assert SWEEPS["backward"].colour == "#1f4fbf"
-    for motions in (both(), dict(reversed(both().items()))):
-        ax = draw(motions)
-        drawn = {line.get_label(): line for line in curves(ax)}
-        assert list(drawn) == list(motions)
-        for way, look in SWEEPS.items():
-            assert drawn[f"{way} branch"].get_color() == look.colour
-            assert drawn[f"{way} branch"].get_linestyle() == look.dashes
-        marks = ["stroboscopic section"] if draw is phase_portrait else []
-        texts = [text.get_text() for text in ax.get_legend().get_texts()]
-        assert texts == [*motions, *marks]
-
-
 def test_other_motions_are_neither_red_nor_blue_and_differ():
     names = ["motion 1", "forward and backward branch", "motion 3", "forward branch"]
     ax = phase_portrait(dict(zip(names, [hitting(), free(), bare(), across()], strict=True)))
@@ -242,17 +223,6 @@ def test_section_points():
         whole = motion["cycle"].values % 1.0 == 0.0
         stored = [1e3 * motion["displacement"].values, motion["velocity"].values]
         np.testing.assert_array_equal(marks.get_offsets(), np.transpose(stored)[whole][:-1])
-
-
-def test_section_marks_show_which_motion():
-    ax = phase_portrait(both())
-    forward, backward = ax.collections
-    np.testing.assert_allclose(forward.get_facecolor()[0], to_rgba(SWEEPS["forward"].colour))
-    np.testing.assert_allclose(backward.get_facecolor()[0], (1, 1, 1, 1))  # open
-    assert np.array_equal(forward.get_offsets()[0], points(curves(ax)[0])[0])
-    # Many points are smaller, so that they do not cover each other.
-    (dots,) = phase_portrait(chaotic()).collections
-    assert dots.get_sizes()[0] < forward.get_sizes()[0]
 
 
 # Time histories of periodic motions
@@ -407,16 +377,6 @@ def test_the_magnified_part_is_about_the_shortest_flight():
     np.testing.assert_allclose(width, (low, high), rtol=1e-9)
 
 
-def test_the_length_of_the_magnified_part_can_be_chosen():
-    begin, end = shortest(chatter())
-    for zoom in (0.04, 0.1):
-        _, near = clearances(chatter(), cycles=1.0, zoom=zoom)
-        low, high = near.get_xlim()
-        assert high - low == pytest.approx(zoom)
-        apart = 0.5 * (low + high) - 0.5 * (begin + end)
-        assert min(abs(apart + turn) for turn in (-0.5, 0.0, 0.5)) < 1e-6
-
-
 def test_clearances_of_several_motions_and_of_one_bumper():
     whole, _ = clearances(both())
     names = [f"$G_{s}$, {way} branch" for way in SWEEPS for s in "RL"]
@@ -477,21 +437,6 @@ def test_orders_are_frequencies_above():
     assert ax.get_xlim()[0] < 0.0 < 12.0 < ax.get_xlim()[1]
     mixed = {"2 Hz": vi.fourier_spectrum(hitting()), "2.8 Hz": vi.fourier_spectrum(doubled())}
     assert spectrum_lines(mixed).child_axes == []  # two frequencies, no scale for both
-
-
-def test_spectra_side_by_side():
-    ax = spectrum_lines({name: vi.fourier_spectrum(data) for name, data in both().items()})
-    (at, _), (other, low) = stems(ax)
-    assert np.allclose(other - at, (other - at)[0])
-    assert 0.0 < (other - at)[0] < 0.5
-    assert np.allclose(0.5 * (at + other), np.arange(13))
-    for collection, look in zip(ax.collections, SWEEPS.values(), strict=True):
-        np.testing.assert_allclose(collection.get_colors()[0], to_rgba(look.colour))
-    assert [line.get_marker() for line in ax.lines] == ["o", "s"]
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == list(both())
-    # Free flight under a harmonic force is harmonic.
-    assert low[1] == pytest.approx(0.5 * float(free()["acceleration_excursion"]), rel=1e-9)
-    assert np.delete(low, 1).max() < 1e-9
 
 
 def test_a_dense_spectrum_is_a_line():
@@ -561,16 +506,6 @@ def test_page_shows_what_the_single_figures_show():
         assert high > 1e3 * float(motion["displacement_max"])
 
 
-def test_page_has_one_legend_below():
-    (legend,) = page()[0, 0].figure.legends
-    texts = [text.get_text() for text in legend.get_texts()]
-    assert len(set(texts)) == len(texts)
-    assert {"forward branch", "backward branch", "motion", "gaps"} < set(texts)
-    assert {"right contact", "left contact", "peak in contact"} < set(texts)
-    alone = motion_page({"free": bare()})[0, 0].figure.legends[0]
-    assert [text.get_text() for text in alone.get_texts()] == ["motion", "stroboscopic section"]
-
-
 def tripled() -> xr.Dataset:
     """Three cycles of a motion of period one, called a motion of period three."""
     data = vi.simulate(vi.Rig(CASE.oscillator, SHAKEN), 3, hitting(), samples=64)
@@ -595,77 +530,7 @@ def test_page_shows_whole_periods_and_fits_the_paper():
         assert long <= 297 / 25.4
 
 
-@pytest.mark.full
-def test_page_says_of_what_kind_each_motion_is():
-    titles = [ax.get_title() for ax in motion_page({"1.06 Hz": chaotic(), "cut": transient()})[0]]
-    assert titles == ["1.06 Hz\nchaotic", "cut"]
-    named = motion_page({"2 Hz, forward branch": {"forward branch": hitting()}})
-    assert named[0, 0].get_title() == "2 Hz, forward branch\nperiod 1"
-
-
-@pytest.mark.full
-def test_page_of_motions_that_do_not_repeat():
-    made = motion_page({"chaotic": chaotic(), "transient": transient()}, cycles=3.0, highest=5.0)
-    assert made[2, 0].get_xlim() == (0.0, 3.0)
-    # Of a simulation the last cycles, up to its end; they begin at the next sample.
-    low, high = made[2, 1].get_xlim()
-    assert high == 5.3
-    assert 2.3 <= low <= 2.3 + 1 / 64
-
-
 # Files, axes, and what is left alone
-
-
-@pytest.mark.parametrize("kind", sample(["png", "pdf", "svg"], ["pdf"]))
-def test_a_page_is_the_same_file_every_time(kind, tmp_path):
-    written = [
-        save_figure(motion_page({"2.8 Hz": doubled()})[0, 0], tmp_path / f"{name}.{kind}")
-        for name in "ab"
-    ]
-    first, second = (path.read_bytes() for path in written)
-    assert first == second
-    assert len(first) > 10_000
-    for date in (b"CreationDate", b"dc:date"):  # two made in the same second would agree
-        assert date not in first
-
-
-def test_the_text_of_an_svg_file_is_text(tmp_path):
-    path = save_figure(phase_portrait(hitting(), title="a title"), tmp_path / "a.svg")
-    assert ">a title</text>" in path.read_text(encoding="utf-8")
-
-
-def test_given_axes_are_drawn_on():
-    for draw in (phase_portrait, hysteresis_cycle):
-        ax = Figure().subplots()
-        assert draw(hitting(), ax) is ax
-        assert len(curves(ax)) == 1
-    ax = Figure().subplots()
-    assert spectrum_lines(vi.fourier_spectrum(hitting()), ax) is ax
-    pair = Figure().subplots(2, 1)
-    assert clearances(hitting(), pair) == tuple(pair)
-    assert len(curves(pair[1])) == 2
-    three = Figure().subplots(1, 3)
-    assert time_history(hitting(), three) == tuple(three)
-    # Side by side on one figure, each on its own.
-    figure = Figure()
-    left, right = figure.subplots(1, 2)
-    phase_portrait(hitting(), left)
-    hysteresis_cycle(hitting(), right)
-    assert figure.axes == [left, right]
-
-
-def test_pyplot_settings_and_data_are_left_alone():
-    kept = [motion.copy(deep=True) for motion in (hitting(), doubled())]
-    plt.get_fignums()
-    settings = {key: matplotlib.rcParams[key] for key in matplotlib.rcParams}
-    for draw in (phase_portrait, hysteresis_cycle, clearances, time_history):
-        draw({"forward": hitting(), "b": doubled()})
-    spectrum_lines(vi.fourier_spectrum(hitting()))
-    motion_page({"2.8 Hz": doubled()})
-    assert plt.get_fignums() == []
-    assert {key: matplotlib.rcParams[key] for key in matplotlib.rcParams} == settings
-    for motion, copy in zip((hitting(), doubled()), kept, strict=True):
-        xr.testing.assert_identical(motion, copy)
 
 
 # Refused

@@ -67,27 +67,3 @@ def test_axes_that_are_given_are_drawn_on_and_left_to_pyplot_to_show(name):
     assert all(ax.has_data() for ax in figure.axes[:count])
     picture = getattr(drawn, "_repr_png_", lambda: None)
     assert picture() is None  # or it would be shown twice
-
-
-@pytest.mark.full
-def test_a_page_is_drawn_on_given_axes_column_by_column():
-    figure, made = plt.subplots(5, 2)
-    plt.close(figure)
-    columns = {"2 Hz": steady(), "again": steady()}
-    page = figures.motion_page(columns, made)
-    assert page.shape == (5, 2)
-    assert [ax.get_title() for ax in page[0]] == ["2 Hz\nperiod 1", "again\nperiod 1"]
-    with pytest.raises(
-        vi.InputError, match=r"axes: 5 given; 10 are accepted, 5 for each of the 2 columns"
-    ):
-        figures.motion_page(columns, made[:, 0])
-
-
-@pytest.mark.full
-def test_what_is_returned_is_saved_as_it_is(tmp_path):
-    page, curves = DRAWN["motion_page"](), DRAWN["resonance_curves"]()
-    one = DRAWN["phase_portrait"]()
-    for number, what in enumerate((page, curves, one, one.figure, curves[0])):
-        assert figures.save_figure(what, tmp_path / f"{number}.png").stat().st_size > 10_000
-    with pytest.raises(vi.InputError, match="figure: 3"):
-        figures.save_figure(3, tmp_path / "3.png")

@@ -30,7 +30,7 @@ OTHERS = {
     "Mark",
 }
 """Names that draw no figure."""
-SAVED = sample([*EVERY], [*EVERY][::15])
+SAVED = sample([*EVERY], [*EVERY][::24])
 """Figures whose files are looked at; of the others only what is drawn."""
 OWN = [name for name, one in EVERY.items() if one.axes]
 """Figures that are drawn on axes of the user."""
@@ -46,7 +46,9 @@ def on_own_axes(one: Drawn) -> Figure:
     figure, made = plt.subplots(one.axes, 1, figsize=size, squeeze=False)
     plt.close(figure)
     axes = list(made.ravel())
-    one.draw(**({"ax": axes[0]} if one.axes == 1 else {"axes": axes}))
+    drawn = one.draw(**({"ax": axes[0]} if one.axes == 1 else {"axes": axes}))
+    assert list(np.ravel(drawn)) == axes
+    assert plt.get_fignums() == []
     return figure
 
 
@@ -58,7 +60,7 @@ def test_every_figure_is_drawn_here() -> None:
     assert {name.partition(",")[0] for name in EVERY} == set(figures.__all__) - OTHERS
 
 
-@pytest.mark.parametrize("name", sample([*EVERY], [*EVERY][::3]))
+@pytest.mark.parametrize("name", sample([*EVERY], [*EVERY][::8]))
 def test_at_the_width_of_a_column(name, tmp_path) -> None:
     with figure_size("86 mm"):
         figure = figure_of(EVERY[name].draw())
@@ -87,11 +89,26 @@ def test_on_the_screen(name) -> None:
 
 
 @pytest.mark.parametrize("size", sample([8.0, 10.0], [8.0]))
-@pytest.mark.parametrize("name", sample(OWN, OWN[::16]))
+@pytest.mark.parametrize("name", sample(OWN, OWN[::8]))
 def test_on_own_axes(name, size) -> None:
     with plt.rc_context({"font.size": size}):
+        settings = dict(plt.rcParams)
         figure = on_own_axes(EVERY[name])
+        assert dict(plt.rcParams) == settings
         assert problems(figure) == []
+
+
+@pytest.mark.parametrize("kind", sample(["png", "pdf", "svg"], ["pdf", "svg"]))
+@pytest.mark.parametrize("name", sample([*EVERY], [*EVERY][11::30]))
+def test_the_same_file_every_time(name, kind, tmp_path) -> None:
+    first, second = (
+        save_figure(figure_of(EVERY[name].draw()), tmp_path / f"{at}.{kind}").read_bytes()
+        for at in "ab"
+    )
+    assert first == second
+    assert not any(date in first for date in (b"CreationDate", b"dc:date"))  # of the same second
+    if kind == "svg":
+        assert b"</text>" in first  # letters, not their outlines
 
 
 def test_a_legend_follows_the_size_of_its_figure() -> None:

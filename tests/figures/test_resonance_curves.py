@@ -5,18 +5,14 @@ from __future__ import annotations
 import subprocess
 import sys
 from functools import cache
-from itertools import combinations
 
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.colors import same_color, to_rgb
-from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
-from matplotlib.text import Text
 
 import vibroimpact as vi
-from samples import sample
 from vibroimpact.figures import resonance_curves, save_figure
 from vibroimpact.figures.style import SWEEPS
 from vibroimpact.response.resonance import features
@@ -72,14 +68,6 @@ class TestPrimaryResonance:
             red, _, blue = to_rgb(found["backward sweep"].get_color())
             assert blue > 0.6 > 0.3 > red
             assert same_color(found["free flight"].get_color(), "black")
-
-    def test_readable_without_colour(self):
-        ax, _ = self.axes
-        forward, backward, free = (
-            lines(ax)[n] for n in ("forward sweep", "backward sweep", "free flight")
-        )
-        assert len({line.get_linestyle() for line in (forward, backward, free)}) == 3
-        assert len({line.get_marker() for line in (forward, backward, free)}) == 3
 
     def test_values(self):
         data = swept("B2-G1-A3", parameters="identified")
@@ -141,20 +129,6 @@ class TestPrimaryResonance:
         ]
         assert lower.get_legend() is None
 
-    def test_nothing_covers_anything(self):
-        axes = resonance_curves(swept("B2-G1-A3", parameters="identified"), title="B2-G1-A3")
-        figure = axes[0].figure
-        figure.draw_without_rendering()
-        texts = [t for t in figure.findobj(Text) if t.get_visible() and t.get_text().strip()]
-        boxes = [(t.get_text(), t.get_window_extent()) for t in texts]
-        for (name, box), (other, another) in combinations(boxes, 2):
-            assert not box.overlaps(another), (name, other)
-        legend = axes[0].get_legend().get_window_extent()
-        assert not any(legend.overlaps(ax.get_window_extent()) for ax in axes)
-        tight, whole = figure.get_tightbbox(), figure.bbox_inches
-        assert whole.x0 <= tight.x0 < tight.x1 <= whole.x1
-        assert whole.y0 <= tight.y0 < tight.y1 <= whole.y1
-
 
 class TestOtherSweeps:
     def test_left_hysteresis_is_told_from_right(self):
@@ -215,13 +189,6 @@ class TestOtherSweeps:
         assert len(arrows(upper)) == 1
         assert shades(upper) == []
 
-    def test_dense_sweep_marks_some_points_only(self):
-        data = swept("B2-G1-A3", 0.5, 4.0, 0.001)
-        upper, _ = resonance_curves(data)
-        line = lines(upper)["forward sweep"]
-        assert len(line.get_xdata()) > 3500
-        assert line.get_markevery()[1] > 50
-
     def test_absent_values(self, tmp_path):
         data = swept("B2-G1-A3").copy(deep=True)
         data["eta_a"][0, 3:6] = np.nan
@@ -233,13 +200,6 @@ class TestOtherSweeps:
         axes = resonance_curves(swept("B2-G1-A3").isel(frequency=[7]))
         save_figure(axes[0], tmp_path / "a.png")
 
-    def test_given_axes(self):
-        figure = Figure()
-        mine = figure.subplots(2, 1)
-        assert resonance_curves(swept("B2-G1-A3"), mine) == tuple(mine)
-        with pytest.raises(vi.InputError, match=r"axes: 1 given; 2 are accepted"):
-            resonance_curves(swept("B2-G1-A3"), mine[0])
-
     def test_several_rigs_are_refused(self):
         data = vi.sweeps([vi.laboratory.case("B2-G1-A3")], [1.0, 2.0])
         with pytest.raises(vi.InputError, match="one rig"):
@@ -247,18 +207,6 @@ class TestOtherSweeps:
 
 
 class TestFiles:
-    @pytest.mark.parametrize(
-        ("kind", "magic"),
-        [("png", b"\x89PNG"), *sample([("pdf", b"%PDF"), ("svg", b"<?xml")], [])],
-    )
-    def test_the_same_to_the_byte(self, tmp_path, kind, magic):
-        written = []
-        for name in ("a", "b"):
-            axes = resonance_curves(swept("B2-G1-A3"), title="B2-G1-A3")
-            written.append(save_figure(axes[0], tmp_path / f"{name}.{kind}").read_bytes())
-        assert written[0] == written[1]
-        assert written[0].startswith(magic)
-
     def test_unknown_format(self, tmp_path):
         axes = resonance_curves(swept("B2-G1-A3"))
         with pytest.raises(

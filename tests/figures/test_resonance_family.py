@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import cache
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from matplotlib.colors import same_color
@@ -49,14 +48,6 @@ class TestFamily:
                     expected = swept()[quantity].sel(rig=name, direction=direction)
                     np.testing.assert_array_equal(y[np.isfinite(y)], factor * expected)
 
-    def test_readable_without_colour(self):
-        ax = resonance_family(swept())
-        markers = [of(ax, name, "forward").get_marker() for name in CODES]
-        assert len(set(markers)) == len(CODES)
-        for name in CODES:
-            assert of(ax, name, "forward").get_linestyle() == "-"
-            assert of(ax, name, "backward").get_linestyle() == "--"
-
     def test_legend_in_the_order_of_the_rigs(self):
         labels = dict(zip(CODES, ("15 mm", "25 mm", "none"), strict=True))
         ax = resonance_family(swept(), labels=labels)
@@ -100,12 +91,6 @@ class TestFamily:
         data = swept(CODES, ("backward",))
         texts = [t.get_text() for t in resonance_family(data).get_legend().get_texts()]
         assert texts == [*CODES, "backward sweep", "free flight"]
-
-    def test_given_axes_and_no_pyplot(self):
-        ax = Figure().subplots()
-        assert resonance_family(swept(), ax) is ax
-        assert resonance_family(swept(), title="gaps").figure.get_suptitle() == "gaps"
-        assert not plt.get_fignums()
 
     @pytest.mark.parametrize(
         ("options", "told"),

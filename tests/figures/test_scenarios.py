@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 import vibroimpact as vi
-from vibroimpact.figures import Mark, feature_map, save_figure, scenario_cases, scenario_map
+from vibroimpact.figures import Mark, feature_map, scenario_cases, scenario_map
 from vibroimpact.figures.style import BUMPERS, SCENARIOS
 from vibroimpact.scenarios.scenario import Scenario
 
@@ -140,11 +140,6 @@ def test_laboratory_tests():
     assert axes[0].get_xlabel() == "total gap $G$ (mm)"
     texts = [t.get_text() for t in axes[0].figure.legends[0].get_texts()]
     assert texts == [f"{s.label}: {s.meaning}" for s in (Scenario.S2, Scenario.S3)]
-
-
-def test_the_same_map_makes_the_same_file(tmp_path):
-    one, two = (save_figure(scenario_map(made()), tmp_path / f"{k}.png") for k in "ab")
-    assert one.read_bytes() == two.read_bytes()
 
 
 @pytest.mark.full

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cache
-from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -79,20 +78,6 @@ def test_what_has_no_period_is_told_apart():
     assert list(line.get_ydata()) == [
         rows.get(kind, p) for kind, p in zip(kinds, [1, 0, 0, 0, 2, 4, 4], strict=True)
     ]
-
-
-def test_names_of_what_has_no_period_stand_clear_of_each_other():
-    kinds = ["periodic", "chaotic", "undecided", "periodic", "periodic", "periodic"]
-    data = diagram().isel(start=[0], gap=slice(6))
-    data = data.assign(
-        motion=(data["motion"].dims, np.array([kinds])),
-        period=(data["period"].dims, np.array([[1, 0, 0, 4, 16, 256]])),
-    )
-    _, middle, _ = section_diagram(data)
-    middle.figure.canvas.draw()
-    boxes = [t.get_window_extent() for t in middle.get_yticklabels()]
-    assert len(boxes) == 7
-    assert all(high.y0 - low.y1 > -0.3 * low.height for low, high in pairwise(boxes))
 
 
 def test_bifurcations_of_branches_are_marked():

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.colors import to_hex
-from matplotlib.figure import Figure
 
 import vibroimpact as vi
 from vibroimpact.figures import save_figure, time_history
@@ -234,19 +233,6 @@ def test_several_motions_have_strips_of_their_own():
     assert colours == [SWEEPS["forward"].colour, SWEEPS["backward"].colour]
     texts = [t.get_text() for t in axes[0].get_legend().get_texts()]
     assert texts == [*named, "gaps", "right contact", "left contact", *MARKS]
-
-
-def test_of_several_motions_the_longest_range_is_shown():
-    short, long = motion(cycles=1.5), motion(cycles=2.5)
-    axes = time_history({"a": short, "b": long}, cycles=9.0)
-    assert {ax.get_xlim() for ax in axes} == {(0.0, 2.5)}
-
-
-def test_axes_that_are_given():
-    given = Figure().subplots(3, 1)
-    assert time_history(motion(), given) == tuple(given)
-    with pytest.raises(vi.InputError, match=r"^axes: 1 given; 3 are accepted"):
-        time_history(motion(), given[0])
 
 
 def test_what_is_no_time_history_is_refused():

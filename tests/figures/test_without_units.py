@@ -91,10 +91,6 @@ def test_other_rigs_keep_their_units():
     assert ax.get_xlabel() == "relative displacement $u$ (mm)"
 
 
-def test_figures_accept_keywords(motion):
-    assert labels(figures.phase_portrait(motions=motion))[0] == "relative displacement $u$"
-
-
 @pytest.mark.parametrize(
     ("label", "without"),
     [

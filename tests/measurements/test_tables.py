@@ -109,6 +109,56 @@ def test_components_of_a_network_are_named_by_the_user(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("name", "unit", "variable"),
+    [("Beschleunigung", "m/s²", "acceleration"),
+     ("Tischbeschleunigung", "m/s²", "base_acceleration"),
+     ("Weg", "m", "displacement"), ("Verschiebung", "m", "displacement"),
+     ("Relativverschiebung", "m", "displacement"), ("Auslenkung", "m", "displacement"),
+     ("Geschwindigkeit", "m/s", "velocity"), ("Kraft", "N", "contact_force"),
+     ("Anschlagkraft", "N", "contact_force"), ("Accélération", "m/s²", "acceleration"),
+     ("Déplacement", "m", "displacement"), ("Aceleración", "m/s²", "acceleration"),
+     ("Spostamento", "m", "displacement"), ("Accelerazione base", "m/s²", "base_acceleration")],
+)  # fmt: skip
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "utf-16"])
+def test_names_in_other_languages(tmp_path, name, unit, variable, encoding):
+    rows = zip(TIME, A, strict=True)
+    text = "".join(f"{t:.4f};{a:.4f}\n".replace(".", ",") for t, a in rows)
+    data = read(tmp_path, f"Zeit [s];{name} [{unit}]\n" + text, encoding)
+    np.testing.assert_allclose(data[variable], A, rtol=1e-12)
+
+
+def test_a_column_that_is_not_understood_is_proposed_for_a_quantity_of_its_unit(tmp_path):
+    text = table("Time (s),ai0 (g),ai1 (mm)\n", TIME, A, B)
+    with pytest.raises(vi.InputError, match=r"columns=\{'acceleration': 'ai0'\}") as refused:
+        read(tmp_path, text)
+    assert str(refused.value).count("'ai0' is not understood") == 1
+    data = read(tmp_path, text, columns={"acceleration": "ai0"})
+    np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
+
+
+def test_resonance_curves_in_german(tmp_path):
+    rows = [(f, way) for way in ("aufwärts", "abwärts") for f in (1.0, 1.5, 2.0)]
+    text = "".join(f"{f};{way};{i}.5;{i}\n".replace(".", ",") for i, (f, way) in enumerate(rows, 1))
+    head = "Frequenz [Hz];Richtung;Weg Spitze-Spitze [mm];Beschleunigung pp [m/s²]\n"
+    data = read(tmp_path, head + text, "latin-1")
+    np.testing.assert_allclose(
+        data["displacement_excursion"].sel(direction="backward"), [0.0045, 0.0055, 0.0065]
+    )
+    np.testing.assert_allclose(data["acceleration_excursion"].sel(direction="forward"), [1, 2, 3])
+
+
+def test_a_unit_of_the_file_that_cannot_be_used_is_replaced_by_that_of_the_user(tmp_path):
+    text = table("Time (s),acc (V)\n", TIME, A)
+    with pytest.raises(vi.InputError, match=r"'1 V' is not.*pass the right one as units=\{'acc'"):
+        read(tmp_path, text)
+    np.testing.assert_allclose(read(tmp_path, text, units={"acc": "g"})["acceleration"], A * G)
+    path = tmp_path / "test.csv"
+    with pytest.raises(vi.InputError, match=r"'1 V' is not.*pass the right one as unit="):
+        vi.Record.read(path)
+    np.testing.assert_allclose(vi.Record.read(path, unit="g").acceleration, A * G)
+
+
+@pytest.mark.parametrize(
     ("line", "told"),
     [
         ("Samples: 300", "line 1: the file announces 300 values, but 200 follow"),
@@ -160,94 +210,7 @@ def test_stamps_in_whole_seconds_need_a_rate(tmp_path):
     assert "rounded, so the stated step of 0.05 s is used" in data.attrs["notes"]
 
 
-def test_a_logger_that_writes_utf_16(tmp_path):
-    data = read(tmp_path, table("Time (s)\tacc (g)\n", TIME, A, mark="\t"), "utf-16")
-    np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
-
-
-@pytest.mark.parametrize("row", ["{0:.3f},Run #2,{1:.4f} # note", "Run #2,{0:.3f},{1:.4f}"])
-def test_a_number_sign_within_a_cell_is_no_comment(tmp_path, row):
-    names = "Time (s),run,acc (g)" if row.startswith("{") else "run,Time (s),acc (g)"
-    rows = [row.format(t, a) for t, a in zip(TIME, A, strict=True)]
-    data = read(tmp_path, "\n".join([names, *rows]) + "\n")
-    np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("name", "unit", "variable"),
-    [("Beschleunigung", "m/s²", "acceleration"),
-     ("Tischbeschleunigung", "m/s²", "base_acceleration"),
-     ("Weg", "m", "displacement"), ("Verschiebung", "m", "displacement"),
-     ("Relativverschiebung", "m", "displacement"), ("Auslenkung", "m", "displacement"),
-     ("Geschwindigkeit", "m/s", "velocity"), ("Kraft", "N", "contact_force"),
-     ("Anschlagkraft", "N", "contact_force"), ("Accélération", "m/s²", "acceleration"),
-     ("Déplacement", "m", "displacement"), ("Aceleración", "m/s²", "acceleration"),
-     ("Spostamento", "m", "displacement"), ("Accelerazione base", "m/s²", "base_acceleration")],
-)  # fmt: skip
-@pytest.mark.parametrize("encoding", ["utf-8", "latin-1", "utf-16"])
-def test_names_in_other_languages(tmp_path, name, unit, variable, encoding):
-    rows = zip(TIME, A, strict=True)
-    text = "".join(f"{t:.4f};{a:.4f}\n".replace(".", ",") for t, a in rows)
-    data = read(tmp_path, f"Zeit [s];{name} [{unit}]\n" + text, encoding)
-    np.testing.assert_allclose(data[variable], A, rtol=1e-12)
-
-
-def test_a_column_that_is_not_understood_is_proposed_for_a_quantity_of_its_unit(tmp_path):
-    text = table("Time (s),ai0 (g),ai1 (mm)\n", TIME, A, B)
-    with pytest.raises(vi.InputError, match=r"columns=\{'acceleration': 'ai0'\}") as refused:
-        read(tmp_path, text)
-    assert str(refused.value).count("'ai0' is not understood") == 1
-    data = read(tmp_path, text, columns={"acceleration": "ai0"})
-    np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
-
-
 @pytest.mark.parametrize(("name", "each"), [("time_us", 1e6), ("millis", 1e3), ("t_ns", 1e9)])
 def test_units_of_times_in_names(tmp_path, name, each):
     data = read(tmp_path, table(f"{name},acc (g)\n", each * TIME, A))
     np.testing.assert_allclose(data["time"], TIME, rtol=1e-12, atol=1e-12)
-
-
-def test_times_since_1970_without_a_unit(tmp_path):
-    rows = (f"{1709632800000 + round(1e3 * t)},{a}\n" for t, a in zip(TIME, A, strict=True))
-    data = read(tmp_path, "timestamp,acc (g)\n" + "".join(rows))
-    np.testing.assert_allclose(np.diff(data["time"]), 0.005, rtol=1e-3)
-    assert "times are read in ms since 1970" in data.attrs["notes"]
-
-
-def test_values_that_loggers_write_for_none_are_missing(tmp_path):
-    text = table("Time (s),acc (g)\n", TIME, A).replace(
-        f"\n0.5000,{A[100]:.4f}", "\n0.5000,1.#QNAN"
-    )
-    data = read(tmp_path, text)
-    assert np.isnan(data["acceleration"][100])
-    assert int(np.isnan(data["acceleration"]).sum()) == 1
-
-
-def test_the_first_row_is_a_row_although_a_cell_of_it_is_a_word(tmp_path):
-    rows = enumerate(zip(TIME, A, strict=True))
-    text = "".join(f"{t:.4f},{a:.4f},{'start' if i == 0 else ''}\n" for i, (t, a) in rows)
-    data = read(tmp_path, "Time (s),acc (g),Marker\n" + text)
-    np.testing.assert_allclose(data["acceleration"], A * G, rtol=1e-12)
-    assert "Marker" in data.attrs["left_out"]
-
-
-def test_resonance_curves_in_german(tmp_path):
-    rows = [(f, way) for way in ("aufwärts", "abwärts") for f in (1.0, 1.5, 2.0)]
-    text = "".join(f"{f};{way};{i}.5;{i}\n".replace(".", ",") for i, (f, way) in enumerate(rows, 1))
-    head = "Frequenz [Hz];Richtung;Weg Spitze-Spitze [mm];Beschleunigung pp [m/s²]\n"
-    data = read(tmp_path, head + text, "latin-1")
-    np.testing.assert_allclose(
-        data["displacement_excursion"].sel(direction="backward"), [0.0045, 0.0055, 0.0065]
-    )
-    np.testing.assert_allclose(data["acceleration_excursion"].sel(direction="forward"), [1, 2, 3])
-
-
-def test_a_unit_of_the_file_that_cannot_be_used_is_replaced_by_that_of_the_user(tmp_path):
-    text = table("Time (s),acc (V)\n", TIME, A)
-    with pytest.raises(vi.InputError, match=r"'1 V' is not.*pass the right one as units=\{'acc'"):
-        read(tmp_path, text)
-    np.testing.assert_allclose(read(tmp_path, text, units={"acc": "g"})["acceleration"], A * G)
-    path = tmp_path / "test.csv"
-    with pytest.raises(vi.InputError, match=r"'1 V' is not.*pass the right one as unit="):
-        vi.Record.read(path)
-    np.testing.assert_allclose(vi.Record.read(path, unit="g").acceleration, A * G)

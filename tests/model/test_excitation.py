@@ -9,20 +9,8 @@ from vibroimpact.errors import InputError
 from vibroimpact.model import Bumper, Harmonic, Isolator, Oscillator, Periodic
 
 
-def test_text_with_units():
-    harmonic = Harmonic("0.05 g", "2.5Hz", "90 deg")
-    assert harmonic == Harmonic(0.4903325, 2.5, math.pi / 2)
-    assert Harmonic(frequency=2.5, amplitude=0.4903325).phase == 0.0
-
-
 def test_an_angular_frequency_is_converted():
     assert Harmonic(1.0, "5 rad/s").frequency == pytest.approx(5.0 / math.tau, rel=1e-15)
-
-
-def test_derived_values():
-    harmonic = Harmonic(1.0, 2.5)
-    assert harmonic.angular_frequency == math.tau * 2.5
-    assert harmonic.period == 0.4
 
 
 @pytest.mark.parametrize("bad", [0, 0.0, -2.5, "-2.5 Hz", math.nan, math.inf, "2.5 mm", False, ""])
@@ -41,10 +29,6 @@ def test_an_amplitude_is_not_negative(bad):
 def test_a_phase_is_a_finite_angle(bad):
     with pytest.raises(InputError, match=r"^phase: .*; an angle is accepted"):
         Harmonic(1.0, 1.0, bad)
-
-
-def test_zero_amplitude_is_ordinary():
-    assert Harmonic(0, 1).amplitude == 0.0
 
 
 def test_str():

@@ -1,9 +1,5 @@
 """The published rig: Table 1, Section 5, case codes."""
 
-import dataclasses
-import math
-import pickle
-
 import pytest
 
 from vibroimpact.errors import InputError
@@ -54,20 +50,6 @@ class TestTable1:
 
 
 class TestCase:
-    def test_table_parameters(self):
-        case = laboratory.case("B2-G1-A3")
-        rig = case.oscillator
-        assert case.code == "B2-G1-A3"
-        assert case.parameters == "table"
-        assert rig.mass == 550.0
-        assert rig.isolator.stiffness == 26290.0
-        assert rig.isolator.damping == 2 * 0.15 * math.sqrt(26290.0 * 550.0)
-        assert rig.right == rig.left
-        assert rig.right.stiffness == 510e3
-        assert rig.right.gap == 0.0075
-        assert rig.right.damping == pytest.approx(0.01 * 510e3 / rig.angular_frequency, rel=1e-15)
-        assert case.amplitude == 0.4903325
-
     @pytest.mark.parametrize(
         ("code", "stiffness", "gap"), [("B2-G1-A3", 26.8e3, 0.0075), ("B2-G2-A2", 31.9e3, 0.010)]
     )
@@ -76,10 +58,6 @@ class TestCase:
         bumper = Bumper(510e3, 900.0, gap)
         assert case.oscillator == Oscillator(550.0, Isolator(stiffness, 1100.0), bumper, bumper)
         assert case.parameters == "identified"
-
-    def test_identified_by_values_equal_to_the_names(self):
-        named = laboratory.case("B2-G1-A3", "identified")
-        assert laboratory.case("510kN/m-15mm-0.05g", "identified").oscillator == named.oscillator
 
     def test_accelerations_are_fractions_of_gravity(self):
         for name, share in (("A1", 0.03), ("A2", 0.04), ("A3", 0.05)):
@@ -92,13 +70,6 @@ class TestCase:
         assert frequencies[0] == 0.5
         assert frequencies[7] == 1.2
         assert frequencies[-1] == 5.0
-
-    def test_it_is_immutable_and_hashable(self):
-        case = laboratory.case("B2-G1-A3")
-        with pytest.raises(dataclasses.FrozenInstanceError):
-            case.amplitude = 1.0
-        assert hash(case) == hash(laboratory.case("B2-G1-A3"))
-        assert pickle.loads(pickle.dumps(case)) == case
 
     def test_it_prints(self):
         text = str(laboratory.case("B2-G1-A3", "identified"))
@@ -139,10 +110,6 @@ class TestCode:
         named = laboratory.case("B2-G1-A3")
         case = laboratory.case(code)
         assert (case.oscillator, case.amplitude) == (named.oscillator, named.amplitude)
-
-    def test_a_gap_value_is_the_total(self):
-        rig = laboratory.case("B3-10mm-A3").oscillator
-        assert rig.right.gap == rig.left.gap == 0.005
 
     @pytest.mark.parametrize("gap", ["0mm", "0", "0 m"])
     def test_a_gap_of_zero(self, gap):
@@ -232,9 +199,6 @@ class TestCampaign:
         assert codes[:5] == ["B1-G1-A1", "B1-G2-A1", "B1-G3-A1", "B1-G4-A1", "B2-G1-A1"]
         assert codes[16] == "B1-G1-A2"
         assert codes[-1] == "B4-G4-A3"
-
-    def test_each_is_the_case_of_its_code(self):
-        assert all(case == laboratory.case(case.code) for case in laboratory.campaign())
 
     def test_identified_parameters_do_not_cover_it(self):
         with pytest.raises(InputError, match="'identified' exists only for"):

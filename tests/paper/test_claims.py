@@ -76,13 +76,15 @@ NEEDS_DATA = {
     "fitted-portraits",
 }
 FULL_ONLY = pytest.mark.skipif(not samples.full, reason="computes the campaign again; --full")
+FOUND = samples.sample(LINEAR, LINEAR[::6])
+"""Claims of which the daily run asks; a change of the engine needs all."""
 OF_THE_TESTS = (*with_bumpers.CLAIMS, *jumps.CLAIMS, *maxima.CLAIMS, *motions.CLAIMS)
 
 
 @pytest.fixture(scope="module")
 def found() -> dict[str, Finding]:
     study = PublishedStudy(threads=2)
-    return {claim.key: claim.find(study) for claim in LINEAR}
+    return {claim.key: claim.find(study) for claim in FOUND}
 
 
 def test_keys_are_unique():
@@ -110,8 +112,8 @@ def test_verdicts(found):
     verdicts = {key: finding.verdict for key, finding in found.items()}
     lost = {key for key, verdict in verdicts.items() if verdict is Verdict.NOT_REPRODUCED}
     data = {key for key, verdict in verdicts.items() if verdict is Verdict.NEEDS_DATA}
-    assert lost == NOT_REPRODUCED
-    assert data == NEEDS_DATA
+    assert lost == NOT_REPRODUCED & verdicts.keys()
+    assert data == NEEDS_DATA & verdicts.keys()
 
 
 def test_numbers(found):
@@ -148,34 +150,37 @@ def test_what_is_not_reproduced_has_a_reason():
     assert set(REASONS) == NOT_REPRODUCED
 
 
+DECIDING = [
+    ("grazing-is-free-flight", "B4-G4-A1: η_a 1.08, η_d 0.07, jumps at 1.325 and 1.295 Hz"),
+    ("s3-secondary-without-hysteresis", "left hysteresis 0.5604 to 0.5682 Hz (0.008 Hz wide)"),
+    ("upward-jump-fades", "gap: holds in 5 of 12 sequences"),
+    ("upward-jump-fades", "acceleration: holds in 4 of 16 sequences"),
+    ("jumps-along-stiffness", "up 1.365 to 1.365 Hz"),
+    # Its motion at 1.1 Hz is chaotic: the height of that peak hangs on rounding.
+    ("no-secondary-for-g3-a1", "left out because contact begins there: 10000kN/m-G3-A1"),
+    ("secondary-only-small-gaps-large-accelerations", "B4-G2-A1 16% at 1.00 Hz, B4-G4-A2"),
+    (
+        "s2-impact-range",
+        "fitted parameters: 0.8 to 2.1 Hz, parameters of Table 1: 0.6 to 2.0 Hz",
+    ),
+    ("s4-pair-settles", "sign changes per cycle: 4, then 2"),
+    ("fitted-stiffness-as-table", "fitted 31.9 kN/m, for Table 1 28.7 kN/m (+11%)"),
+    ("tests-at-a2-a3", "B1-G1-A3 is S2 in a sweep from 0.5 Hz and S3 in a sweep from 0.44 Hz"),
+    ("s4-left-hystereses", "4 in sweeps from 0.3 Hz (2 of them above 0.44 Hz)"),
+    ("table-gaps", "12 of 12 agree"),
+    ("table-stiffness-ratios", "12 of 12 agree"),
+    ("hysteresis-of-the-example", "down at 1.985 Hz, up at 1.385 Hz"),
+    ("tests-by-scenario", "S1: 4, S2: 35, S3: 9"),
+    ("s5-resonance", "5.69 Hz"),
+    ("s4-quasi-periodic", "chaotic at 1.06 Hz: largest exponent +0.53"),
+    ("s4-impacts-with-frequency", "forward 2, 3, 4, 5; backward 1, 2, 3, 4"),
+    ("range-of-stiffness-ratios", "2.95 to 87.5"),
+]
+
+
 @pytest.mark.parametrize(
     ("key", "part"),
-    [
-        ("grazing-is-free-flight", "B4-G4-A1: η_a 1.08, η_d 0.07, jumps at 1.325 and 1.295 Hz"),
-        ("s3-secondary-without-hysteresis", "left hysteresis 0.5604 to 0.5682 Hz (0.008 Hz wide)"),
-        ("upward-jump-fades", "gap: holds in 5 of 12 sequences"),
-        ("upward-jump-fades", "acceleration: holds in 4 of 16 sequences"),
-        ("jumps-along-stiffness", "up 1.365 to 1.365 Hz"),
-        # Its motion at 1.1 Hz is chaotic: the height of that peak hangs on rounding.
-        ("no-secondary-for-g3-a1", "left out because contact begins there: 10000kN/m-G3-A1"),
-        ("secondary-only-small-gaps-large-accelerations", "B4-G2-A1 16% at 1.00 Hz, B4-G4-A2"),
-        (
-            "s2-impact-range",
-            "fitted parameters: 0.8 to 2.1 Hz, parameters of Table 1: 0.6 to 2.0 Hz",
-        ),
-        ("s4-pair-settles", "sign changes per cycle: 4, then 2"),
-        ("fitted-stiffness-as-table", "fitted 31.9 kN/m, for Table 1 28.7 kN/m (+11%)"),
-        ("tests-at-a2-a3", "B1-G1-A3 is S2 in a sweep from 0.5 Hz and S3 in a sweep from 0.44 Hz"),
-        ("s4-left-hystereses", "4 in sweeps from 0.3 Hz (2 of them above 0.44 Hz)"),
-        ("table-gaps", "12 of 12 agree"),
-        ("table-stiffness-ratios", "12 of 12 agree"),
-        ("hysteresis-of-the-example", "down at 1.985 Hz, up at 1.385 Hz"),
-        ("tests-by-scenario", "S1: 4, S2: 35, S3: 9"),
-        ("s5-resonance", "5.69 Hz"),
-        ("s4-quasi-periodic", "chaotic at 1.06 Hz: largest exponent +0.53"),
-        ("s4-impacts-with-frequency", "forward 2, 3, 4, 5; backward 1, 2, 3, 4"),
-        ("range-of-stiffness-ratios", "2.95 to 87.5"),
-    ],
+    [one for one in DECIDING if one[0] in {claim.key for claim in FOUND}],
 )
 def test_deciding_numbers(found, key, part):
     assert part in found[key].number

@@ -100,9 +100,9 @@ def test_random_rigs_of_all_laws_under_any_shaking() -> None:
 @pytest.mark.parametrize(
     ("seed", "which"),
     [
-        *((1, i) for i in (42, 44, 91, 156, 231, 240, 303, 309, 383, 396)),
-        *((1, i) for i in (97, 769, 1505, 3223)),
-        *sample([(1, 1138)], []),  # takes many seconds
+        *((1, i) for i in (42, 91, 240, 309, 396)),
+        # These take longer.
+        *((1, i) for i in sample((44, 97, 156, 231, 303, 383, 769, 1138, 1505, 3223), ())),
         (11, 6),
     ],
 )

@@ -118,17 +118,6 @@ def test_names_and_units_above_the_columns(tmp_path):
     assert vi.Record.read(path, 1, unit="m/s^2").peak == 3.0
 
 
-@pytest.mark.parametrize("line", ["# dt = 0.01", "dt: 10 ms", "Sampling interval=1e-2 s", "4 0.01"])
-def test_a_step_above_the_values(tmp_path, line):
-    path = written(tmp_path, f"made up\n{line}\n1\n2\n-3\n0\n")
-    record = vi.Record.read(path, unit="m/s^2")
-    np.testing.assert_array_equal(record.acceleration, [1.0, 2.0, -3.0, 0.0])
-    assert record.step == pytest.approx(0.01, rel=1e-14)
-    assert record.about.notes == ()
-    with pytest.raises(vi.InputError, match=r"^unit: missing, because .* states no unit .* is 3; "):
-        vi.Record.read(path)
-
-
 COMMAS = {
     "semicolons": "t;a (m/s^2)\n0,00;1,5\n0,01;-2,5\n0,02;3\n",
     "tabs": "t\ta (m/s^2)\n0,00\t1,5\n0,01\t-2,5\n0,02\t3,0\n",
@@ -205,14 +194,6 @@ def test_a_sample_that_is_missing_is_no_jitter(tmp_path, gone):
         assert "the step 10 ms replaces the uneven times in the file" in record.about.notes
 
 
-def test_a_step_beside_even_times(tmp_path):
-    path = written(tmp_path, "0,1\n0.1,2\n0.2,-3\n")
-    assert vi.Record.read(path, step=0.1, unit="m/s^2").step == 0.1
-    record = vi.Record.read(path, step=0.05, unit="m/s^2")
-    assert record.step == 0.05
-    assert "the step 50 ms replaces the step in the file, 0.1 s" in record.about.notes
-
-
 @pytest.mark.parametrize(
     "head", ["time_s acc_g", "time (s) acceleration (g)", "time[s]  acc[g]", "Time Acc(g)"]
 )
@@ -242,9 +223,3 @@ def test_times_that_only_count_rows_need_a_step(tmp_path, head, first):
     with pytest.raises(vi.InputError, match=r"only count the rows .*; pass step= \(--step\)"):
         vi.Record.read(path, unit="g")
     assert vi.Record.read(path, unit="g", step="5 ms").step == 0.005
-
-
-@pytest.mark.parametrize("head", ["time (s),a\n", "# dt = 1 s\ntime,a\n"])
-def test_a_stated_step_of_a_second_is_used(tmp_path, head):
-    rows = "\n".join(f"{i},{0.1 * math.sin(i)!r}" for i in range(40))
-    assert vi.Record.read(written(tmp_path, head + rows), unit="g").step == 1.0

@@ -114,14 +114,6 @@ def test_pairs_whose_names_repeat(tmp_path, head):
     check(written(tmp_path, head + pairs(2, "," if "," in head else " ")))
 
 
-def test_negative_numbers_that_touch_each_other(tmp_path):
-    head = "NPTS: 400, dt = .005 s, units: gal\n"
-    text = lines(A - 500.0, 8, "{:8.3f}")
-    assert "-4" in text.split()[0][1:]
-    with pytest.warns(vi.InputWarning, match="the mean"):
-        check(written(tmp_path, head + text), A - 500.0)
-
-
 COMPONENTS = {
     "network": "#SampleRate(Hz): 200\n#RecordLength(sec): 2.00\n#AmplitudeUnit:  gal. corr.\n"
     "#AmplitudeMAX. U: {most:.3f}~ -{least:.3f}\n#DataSequence: Time U(+); N(+); E(+)\n"

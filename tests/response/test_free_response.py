@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import vibroimpact as vi
+from samples import sample
 from vibroimpact.response.free_response import largest_flight, resonance, swept_flight
 
 SHAKEN = vi.Harmonic(0.3, 0.2)
@@ -68,9 +69,9 @@ def test_a_narrow_peak_between_the_samples_of_a_sweep_is_found() -> None:
     "isolator",
     [
         vi.FrictionIsolator(1.0, 0.005, 0.2),
-        vi.BilinearIsolator(2.0, 1.0, 0.3, 0.02),
+        *sample([vi.BilinearIsolator(2.0, 1.0, 0.3, 0.02)], []),
         vi.PolynomialIsolator(1.0, 0.02, 0.3),
-        vi.Isolator(1.0, 0.05, damping_exponent=3.0),
+        *sample([vi.Isolator(1.0, 0.05, damping_exponent=3.0)], []),
     ],
 )
 def test_no_sweep_reaches_beyond_the_largest_free_flight(isolator: vi.IsolatorLaw) -> None:

@@ -60,7 +60,7 @@ def test_no_energy_is_lost_count_of(isolator: str, stops: str, shaken: object) -
     assert float(balance) == pytest.approx(change, abs=1e-11 * scale)
 
 
-@pytest.mark.parametrize(("isolator", "stops"), CASES)
+@pytest.mark.parametrize(("isolator", "stops"), sample(CASES, CASES[1::2]))
 def test_the_extremes_are_those_of_many_samples(isolator: str, stops: str) -> None:
     oscillator = rig(isolator, stops)
     data = followed(oscillator, SHAKEN, 4000)
@@ -80,7 +80,7 @@ def test_the_extremes_are_those_of_many_samples(isolator: str, stops: str) -> No
         assert low - 1e-12 * size <= seen.min() <= low + near * size
 
 
-@pytest.mark.parametrize(("isolator", "stops"), CASES)
+@pytest.mark.parametrize(("isolator", "stops"), sample(CASES, CASES[1::2]))
 def test_contacts_are_those_of_many_samples(isolator: str, stops: str) -> None:
     """Impulses by the trapezoidal rule; deformations and forces at their largest."""
     oscillator = rig(isolator, stops)

@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 import vibroimpact as vi
-from vibroimpact.datasets.stops import dims_of
+from vibroimpact.datasets.stops import has_stops
 
 
 def grid(start: float, stop: float, step: float) -> list[float]:
@@ -37,7 +37,8 @@ class TestDataset:
         more = {"section": ("component",)}
         for name, one in data.data_vars.items():
             if "free_" not in name:
-                assert one.dims == dims_of(name, ("direction", "frequency")) + more.get(name, ())
+                dims = ("direction", "frequency", *(["stop"] if has_stops(name) else []))
+                assert one.dims == dims + more.get(name, ())
             assert not one.isnull().any()
 
     def test_it_says_how_it_was_made(self) -> None:

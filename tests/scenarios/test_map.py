@@ -25,8 +25,6 @@ from vibroimpact.scenarios.scenario import Scenario
 from vibroimpact.scenarios.sweep_frequencies import frequencies
 from vibroimpact.tasks import executors
 
-FREE = vi.Oscillator(1.0, vi.Isolator(1.0, 0.3))
-
 
 @pytest.mark.full
 def test_nodes_are_classified_as_one_by_one():
@@ -183,13 +181,3 @@ def test_a_physical_map_agrees_with_the_dimensionless_one():
     scaled = small().isel(gap_ratio=slice(2, 7, 2), stiffness_ratio=slice(4, 7, 2))
     np.testing.assert_array_equal(data["scenario"], scaled["scenario"])
     np.testing.assert_allclose(data["peak_eta_a_forward"], scaled["peak_eta_a_forward"], rtol=1e-6)
-
-
-@pytest.mark.full
-def test_progress_counts_up(tmp_path):
-    told = []
-    vi.scenario_map(None, AXES, **OPTIONS, progress=lambda *at: told.append(at))
-    done = [d for d, _ in told]
-    assert done == sorted(done)
-    assert [t for _, t in told] == sorted(t for _, t in told)
-    assert told[-1][0] == told[-1][1] == int((small()["level"] >= 0).sum())

@@ -25,13 +25,19 @@ AXES = {"stiffness_ratio": [1.0, 16.0], "gap_ratio": [0.2, 0.6, 0.9]}
 OPTIONS = {"refine": 1, "block": 2, "step": 0.1}
 
 
-def test_a_finished_map_is_read_and_not_computed(tmp_path):
-    first = vi.scenario_map(None, AXES, **OPTIONS, store=tmp_path / "map").load()
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """A finished map in a folder, and the same in memory."""
+    store = tmp_path_factory.mktemp("whole") / "map"
+    return store, vi.scenario_map(None, AXES, **OPTIONS, store=store).load()
+
+
+def test_a_finished_map_is_read_and_not_computed(whole):
     told = []
     again = vi.scenario_map(
-        None, AXES, **OPTIONS, store=tmp_path / "map", progress=lambda *at: told.append(at)
+        None, AXES, **OPTIONS, store=whole[0], progress=lambda *at: told.append(at)
     )
-    xr.testing.assert_identical(again.load(), first)
+    xr.testing.assert_identical(again.load(), whole[1])
     assert told == []
 
 
@@ -44,9 +50,8 @@ def test_a_finished_map_is_read_and_not_computed(tmp_path):
         ({"rig": vi.from_dimensionless(1.0, 1.0, 0.02, 0.15)}, "base"),
     ],
 )
-def test_a_store_with_another_map_is_refused_and_kept(tmp_path, changes, field):
-    store = tmp_path / "map"
-    first = vi.scenario_map(None, AXES, **OPTIONS, store=store).load()
+def test_a_store_with_another_map_is_refused_and_kept(whole, changes, field):
+    store, first = whole
     told = rf"store: .* contains a map with other values of {field};"
     with pytest.raises(vi.InputError, match=told):
         vi.scenario_map(vary=AXES, store=store, **{"rig": None, **OPTIONS, **changes})
@@ -86,7 +91,7 @@ def test_a_store_in_use_is_refused(tmp_path):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="kills a process")
-def test_what_a_killed_process_leaves_does_no_harm(tmp_path):
+def test_what_a_killed_process_leaves_does_no_harm(whole, tmp_path):
     """Its lock is not held any more, though the file of it stays."""
     store, lock = tmp_path / "map", tmp_path / ".map.lock"
     code = f"""
@@ -103,15 +108,8 @@ def test_what_a_killed_process_leaves_does_no_harm(tmp_path):
     assert done.returncode == -signal.SIGKILL
     assert lock.exists()
     again = vi.scenario_map(None, AXES, **OPTIONS, store=store).load()
-    xr.testing.assert_identical(again, vi.scenario_map(None, AXES, **OPTIONS).load())
+    xr.testing.assert_identical(again, whole[1])
     assert not lock.exists()
-
-
-@pytest.fixture(scope="module")
-def whole(tmp_path_factory):
-    """A finished map in a folder, and the same in memory."""
-    store = tmp_path_factory.mktemp("whole") / "map"
-    return store, vi.scenario_map(None, AXES, **OPTIONS, store=store).load()
 
 
 def chunks(array):

@@ -65,6 +65,7 @@ def test_bifurcations_scale_with_the_gap(kind: str) -> None:
     np.testing.assert_allclose(curve["amplitude"] / curve["gap"], expected, rtol=1e-8)
 
 
+@pytest.mark.full
 def test_a_curve_of_tori_goes_through_those_of_branches_elsewhere() -> None:
     rig = vi.Rig(PAIR, vi.Harmonic("0.2 g", "1.5 Hz"))
     start = first(neighbours(0.02), "Neimark-Sacker")

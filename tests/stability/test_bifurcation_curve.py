@@ -218,7 +218,7 @@ OVER = [
 ]
 
 
-@pytest.mark.parametrize(("left", "other", "low", "high"), sample(OVER, OVER[:2]))
+@pytest.mark.parametrize(("left", "other", "low", "high"), sample(OVER, OVER[:1]))
 def test_grazing_of_rigid_stops_in_closed_form(left, other, low, high):
     """Behind it the map is a square root, and Newton's method goes to and fro."""
     rig = vi.Oscillator(550.0, vi.Isolator(26.8e3, 1.1e3), vi.RigidStop(0.6, 0.025), left)

@@ -33,6 +33,7 @@ def beside_the_cusp(other: str, low: float, high: float):
     )
 
 
+@pytest.mark.full
 def test_a_closed_curve_is_gone_round_once():
     """Its section moves on the way, and it begins beside a cusp."""
     found = beside_the_cusp("gap", 1e-4, 3e-2)

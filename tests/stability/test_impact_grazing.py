@@ -180,6 +180,7 @@ def test_a_chatter_loses_its_impacts_one_by_one(chattering):
         assert len(found) == data.sizes["bifurcation"]  # nothing is listed twice
 
 
+@pytest.mark.full
 def test_a_chattering_branch_is_the_same_from_both_ends(chattering):
     values = [
         data["bifurcation_value"].values[data["bifurcation_value"].values > 0.07557485]

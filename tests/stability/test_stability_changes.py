@@ -13,7 +13,7 @@ from vibroimpact.stability.bifurcations import unexplained
 from vibroimpact.stability.branch import _both_ways, _first_orbit
 
 
-@pytest.mark.parametrize("gap", [None, 0.006331861949463645])
+@pytest.mark.parametrize("gap", sample([None, 0.006331861949463645], [0.006331861949463645]))
 def test_a_symmetry_breaking_of_an_orbit_that_does_not_reach_the_only_stop(gap):
     """Symmetry is a property of the motion: the bifurcation is the same with a stop or without."""
     left = None if gap is None else vi.Bumper(5074.3966275400335, 0.0, gap)

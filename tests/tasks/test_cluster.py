@@ -13,7 +13,6 @@ import pytest
 
 import vibroimpact as vi
 from samples import sample
-from vibroimpact.cli import main
 from vibroimpact.tasks.cluster import Cluster
 from vibroimpact.tasks.threads import LostError, each
 
@@ -94,17 +93,6 @@ def test_everything_else_of_many_tasks(cluster, computed):
 
 
 @pytest.mark.full
-def test_from_the_command_line(cluster, tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    words = ("bifurcation", "B3-10mm-A3", "--vary", "frequency=1Hz:1.2Hz:3")
-    found = []
-    for where in ("threads", cluster.scheduler.address):
-        assert main((*words, "--where", where, "--output", where[:3])) == 0
-        found.append(vi.load(f"{where[:3]}/B3-10mm-A3-frequency-diagram.nc"))
-    assert found[0].identical(found[1])
-
-
-@pytest.mark.full
 def test_a_map_outlives_workers(cluster, on_threads):
     killed = []
 
@@ -121,6 +109,7 @@ def test_a_map_outlives_workers(cluster, on_threads):
     assert there.identical(on_threads)
 
 
+@pytest.mark.full
 def test_a_map_is_completed_when_the_scheduler_died(tmp_path, on_threads):
     local = distributed.LocalCluster(
         n_workers=1, threads_per_worker=2, processes=False, dashboard_address=":0"
@@ -266,6 +255,7 @@ def test_a_closed_client_is_refused():
         each(lambda item, _: item, range(3), threads=Cluster(client))
 
 
+@pytest.mark.full
 def test_workers_that_join_later_take_part():
     joined = []
     with _local(1, processes=False) as (local, client):

@@ -45,8 +45,7 @@ class Measure(NamedTuple):
 
     def scaled(self, difference: NDArray[np.floating[Any]]) -> _Array:
         """A difference of points over the window's sides."""
-        found: _Array = difference / (self.high - self.low)
-        return found
+        return difference / (self.high - self.low)
 
     def length(self, points: _Array) -> float:
         """Of the line through points."""
@@ -67,8 +66,7 @@ def broken(points: _Array, measure: Measure) -> _Array:
     So it is at a rigid stop: a state about to strike it is one with the state that has struck it.
     """
     gaps = np.linalg.norm(measure.scaled(np.diff(points, axis=0)), axis=1)
-    found: _Array = np.insert(points, np.flatnonzero(gaps > 1.01 * measure.spacing) + 1, np.nan, 0)
-    return found
+    return np.insert(points, np.flatnonzero(gaps > 1.01 * measure.spacing) + 1, np.nan, 0)
 
 
 class Allowance:

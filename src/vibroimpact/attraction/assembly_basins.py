@@ -21,11 +21,13 @@ from vibroimpact.attraction.attractor_variables import (
     ranked,
     renamed,
 )
+from vibroimpact.attraction.attractors import check_loses, described
 from vibroimpact.attraction.find_attractors import MOST
+from vibroimpact.attraction.node_labels import NOWHERE, UNDECIDED, NodeLabels, label_nodes
 from vibroimpact.engine import lyapunov
 from vibroimpact.engine.status import MORE_CYCLES, Status
 from vibroimpact.errors import InputError, shown
-from vibroimpact.grids.refinement import UNKNOWN, Nodes
+from vibroimpact.grids.refinement import Nodes
 from vibroimpact.model import Assembly
 from vibroimpact.model.quantities import LENGTH, VELOCITY, Quantity
 from vibroimpact.model.quantity_lists import read_span
@@ -33,24 +35,16 @@ from vibroimpact.model.rig import Rig
 from vibroimpact.response.assembly_rows import coordinates
 from vibroimpact.response.hold_rows import Settling
 from vibroimpact.response.prepared_rig import PreparedRig, prepare
-from vibroimpact.stability.equivalence import ALIKE, SAME, distance
+from vibroimpact.stability.equivalence import ALIKE, distance, same
 from vibroimpact.stability.nearest_state import nearest_state
-from vibroimpact.stability.settled_motion import Settled, approach, later, reach
-from vibroimpact.stability.steady import describe_motion
+from vibroimpact.stability.settled_motion import Settled, approach
 from vibroimpact.tasks.threads import Progress, Workers, each
 
 _Array = NDArray[np.float64]
-_Labels = NDArray[np.int16]
-
-UNDECIDED, NOWHERE = -1, -2
-"""Number of a state that was given up, and of a state beyond a rigid stop."""
 _TOLERANCE = 1e-9
 """Of the states that are compared: finer than `SAME`."""
 _VISITS = 1000
 """Cycles by which a motion that does not repeat itself is known."""
-_SAMPLES, _WINDOW, _EXPONENTS = 64, 200, 20_000
-_LOSES = 1e-9
-"""Least share of a volume that dies out in a cycle."""
 _KEPT = ("displacement_excursion", "acceleration_excursion", "eccentricity", "impacts")
 
 
@@ -78,10 +72,7 @@ class Coordinate(NamedTuple):
 class _End(NamedTuple):
     """Where a motion went."""
 
-    state: _Array
-    period: int
-    cycles: int
-    status: Status
+    found: Settled
     visited: _Array
     """Displacements of the first mass at the section, sorted; of a motion that does not repeat."""
 
@@ -89,12 +80,8 @@ class _End(NamedTuple):
 class _Known(NamedTuple):
     """A motion that is known."""
 
-    found: Settled
+    end: _End
     motion: xr.Dataset
-    points: _Array
-    """Points of the section of one period."""
-    size: float
-    visited: _Array
 
 
 def read_plane(plane: object, assembly: Assembly) -> tuple[Coordinate, Coordinate]:
@@ -153,16 +140,13 @@ def assembly_basins(
     search = _Search(rig, start, plane, max_cycles, max_events)
     counts = plan.shape[::-1]
     axes = [np.linspace(one.low, one.high, n) for one, n in zip(plane, counts, strict=True)]
-    labels = np.full(plan.shape, UNKNOWN, dtype=np.int8)
-    cycles = np.full(plan.shape, -1, dtype=np.int32)
-    levels = np.full(plan.shape, -1, dtype=np.int8)
-    outside = np.int8(127)
-    for level in range(plan.refine + 1):
-        chosen = np.flatnonzero(plan.nodes_to_compute(level, labels) & (labels == UNKNOWN))
+
+    def label(at: slice | NDArray[np.int64]) -> tuple[NDArray[np.int8], NDArray[np.int32]]:
+        chosen = np.arange(plan.shape[0] * plan.shape[1])[at]
         rows, columns = np.divmod(chosen, plan.shape[1])
         starts = {
-            int(k): state
-            for k, i, j in zip(chosen, rows, columns, strict=True)
+            k: state
+            for k, (i, j) in enumerate(zip(rows, columns, strict=True))
             if (state := search.at(axes[0][j], axes[1][i])) is not None
         }
         ends = each(
@@ -171,18 +155,13 @@ def assembly_basins(
             threads=workers,
             progress=progress,
         )
-        flat = labels.ravel()
-        flat[chosen] = outside
+        owner = np.full(len(chosen), NOWHERE, dtype=np.int8)
+        cycles = np.full(len(chosen), -1, dtype=np.int32)
         for k, end in zip(starts, ends, strict=True):
-            # One more than the number of the motion; 0 is given up.
-            flat[k] = search.number(end) + 1
-            cycles.ravel()[k] = end.cycles
-        levels.ravel()[chosen] = level
-        if level:
-            plan.fill(level, labels)
-    numbers = labels.astype(np.int16) - np.int16(1)
-    numbers[labels == outside] = NOWHERE
-    return _dataset(search, plane, axes, plan, numbers, cycles, levels)
+            owner[k], cycles[k] = search.number(end), end.found.cycles
+        return owner, cycles
+
+    return _dataset(search, plane, axes, plan, label_nodes(plan, label))
 
 
 class _Search:
@@ -231,56 +210,34 @@ class _Search:
         if status is Status.NOT_SETTLED or (status is Status.DONE and not int(row.period)):
             status, rows = self.engine.sections(reached.copy(), _VISITS, self.max_events)
             visited = np.sort(rows[:, lyapunov.SECTION])
-        return _End(reached, int(row.period), int(row.cycles), status, visited)
+        found = Settled(self.engine, reached, int(row.period), int(row.cycles), status)
+        return _End(found, visited)
 
     def number(self, end: _End) -> int:
         """Return the number of the motion at which one ends, which is added if it is new."""
-        if end.status is not Status.DONE:
+        if end.found.status is not Status.DONE:
             return UNDECIDED
         for number, one in enumerate(self.known):
-            if one.found.period == end.period and self._is(one, end):
+            if one.end.found.period == end.found.period and self._is(one.end, end):
                 return number
-        found = approach(
-            self.rig, end.state.copy(), max_cycles=self.max_cycles, max_events=self.max_events
-        )
+        state = end.found.state.copy()
+        found = approach(self.rig, state, max_cycles=self.max_cycles, max_events=self.max_events)
         if found.status not in (Status.DONE, Status.NOT_SETTLED):
             return UNDECIDED
-        motion = describe_motion(found, _SAMPLES, _WINDOW, _EXPONENTS, self.max_events)
-        self._check_loses(motion)
+        motion = described(found, self.max_events)
+        check_loses(motion, found, "rig: a motion", "add damping to the links")
         if len(self.known) == MOST:
             raise InputError(
                 f"rig: more than {MOST} motions were found, so perhaps every state has its own "
                 f"motion; add damping, narrow the plane, or raise {MORE_CYCLES}"
             )
-        size = reach(found, found.state)
-        self.known.append(_Known(found, motion, self._points(found), size, end.visited))
+        self.known.append(_Known(_End(found, end.visited), motion))
         return len(self.known) - 1
 
-    def _is(self, one: _Known, end: _End) -> bool:
-        if not end.period:
-            return distance(one.visited, end.visited) <= ALIKE
-        apart = np.abs(one.points - self._scaled(end.state)).max(axis=1)
-        return bool((apart <= SAME * one.size).any())
-
-    def _scaled(self, state: _Array) -> _Array:
-        point = self.states.point(state).copy()
-        point[self.states.velocities()] /= self.engine.shaking.angular_frequency
-        return point
-
-    def _points(self, found: Settled) -> _Array:
-        points, state = [], found.state
-        for _ in range(found.period):
-            points.append(self._scaled(state))
-            _, state = later(found, state, 1.0, self.max_events)
-        return np.array(points).reshape(-1, self.states.parts)
-
-    def _check_loses(self, motion: xr.Dataset) -> None:
-        lost = float(motion["effective_damping"]) / self.engine.shaking.frequency
-        if abs(lost) < _LOSES:
-            raise InputError(
-                "rig: a motion loses no energy, so neighbouring states do not lead to a common "
-                "motion and there are no basins; add damping to the links"
-            )
+    def _is(self, one: _End, other: _End) -> bool:
+        if other.found.period:
+            return same(one.found, other.found, self.max_events)
+        return distance(one.visited, other.visited) <= ALIKE
 
 
 def _dataset(
@@ -288,14 +245,13 @@ def _dataset(
     plane: tuple[Coordinate, Coordinate],
     axes: list[_Array],
     plan: Nodes,
-    labels: _Labels,
-    cycles: NDArray[np.int32],
-    levels: NDArray[np.int8],
+    nodes: NodeLabels,
 ) -> xr.Dataset:
     order = ranked([one.motion for one in search.known])
     known = [search.known[number].motion for number in order]
     dims = (plane[1].name, plane[0].name)
-    variables = basin_variables(renamed(labels, order), cycles, levels, plan, dims, known)
+    nodes = nodes._replace(motion=renamed(nodes.motion, order))
+    variables = basin_variables(nodes, plan, dims, known)
     for name in _KEPT if known else ():
         columns = np.array([one[name].values for one in known])
         variables[name] = (("attractor", *known[0][name].dims), columns)

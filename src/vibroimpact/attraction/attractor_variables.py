@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vibroimpact.attraction.attractors import Attractor
 from vibroimpact.attraction.basin_fractions import interval
 from vibroimpact.attraction.basin_metrics import entropies, uncertainty_exponent
+from vibroimpact.attraction.node_labels import NodeLabels
 from vibroimpact.datasets.stops import stops_of
 from vibroimpact.grids.refinement import Nodes
 from vibroimpact.model import Oscillator
@@ -47,9 +48,7 @@ def renamed(labels: NDArray[np.int16], order: Sequence[int]) -> NDArray[np.int16
 
 
 def basin_variables(
-    labels: NDArray[np.int16],
-    cycles: NDArray[np.int32],
-    levels: NDArray[np.int8],
+    nodes: NodeLabels,
     plan: Nodes,
     dims: tuple[str, str],
     motions: Sequence[xr.Dataset],
@@ -67,6 +66,7 @@ def basin_variables(
     motions
         In the order of their numbers.
     """
+    labels, cycles, levels = nodes
     step = plan.spacing(0)
     drawn = max(int((labels[::step, ::step] >= -1).sum()), 1)
     mixed, exponent = entropies(labels), uncertainty_exponent(labels)

@@ -21,13 +21,11 @@ from vibroimpact.stability.steady import describe_motion
 
 _Array = NDArray[np.float64]
 
-_SAMPLES = 64
-_WINDOW = 200
-_EXPONENTS = 20_000
+_SAMPLES, _WINDOW, _EXPONENTS = 64, 200, 20_000
 _VISITS = 20_000
 """Cycles of a motion that wanders, by which the cells that it visits are known."""
 _LOSES = 1e-9
-"""Least share of an area that dies out in a cycle."""
+"""Least share of an area, or of a volume, that dies out in a cycle."""
 
 
 class Attractor(NamedTuple):
@@ -62,13 +60,14 @@ def attractor(stage: Stage, state: _Array, found: Settled, owner: int) -> Attrac
         If nothing dies out there, so that there is no end.
     """
     max_events = stage.max_events
-    motion = describe_motion(found, _SAMPLES, _WINDOW, _EXPONENTS, max_events)
+    motion = described(found, max_events)
     period = int(motion["period"])
     if str(motion["motion"].values) == "undecided" and not math.isfinite(
         float(motion["effective_damping"])
     ):
         return Status.TOO_MANY_EVENTS
-    _check_loses(motion, stage, state)
+    begin = f"oscillator: the motion from {state[2]:.6g} m and {state[3]:.6g} m/s"
+    check_loses(motion, found, begin, "give the isolator damping")
     if period and not found.period:  # it settles slowly, and was found by Newton's method
         there = engine_state(stage.oscillator, as_state(motion["final_state"]))
         found = found._replace(state=there, period=period, status=Status.DONE)
@@ -80,13 +79,18 @@ def attractor(stage: Stage, state: _Array, found: Settled, owner: int) -> Attrac
     return Attractor(found, motion, points, rows)
 
 
-def _check_loses(motion: xr.Dataset, stage: Stage, state: _Array) -> None:
-    lost = float(motion["effective_damping"]) / stage.excitation.frequency
+def described(found: Settled, max_events: int) -> xr.Dataset:
+    """Return what `steady` says of a motion."""
+    return describe_motion(found, _SAMPLES, _WINDOW, _EXPONENTS, max_events)
+
+
+def check_loses(motion: xr.Dataset, found: Settled, which: str, remedy: str) -> None:
+    """Raise an error if a motion loses no energy."""
+    lost = float(motion["effective_damping"]) / found.excitation.frequency
     if abs(lost) < _LOSES:
         raise InputError(
-            f"oscillator: the motion from {state[2]:.6g} m and {state[3]:.6g} m/s loses no energy, "
-            "so neighbouring states do not lead to a common motion and there are no basins; give "
-            "the isolator damping"
+            f"{which} loses no energy, so neighbouring states do not lead to a common motion and "
+            f"there are no basins; {remedy}"
         )
 
 

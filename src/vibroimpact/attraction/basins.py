@@ -20,7 +20,8 @@ from vibroimpact.attraction.attractor_variables import (
 from vibroimpact.attraction.basin_metrics import border_distances
 from vibroimpact.attraction.find_attractors import Search
 from vibroimpact.attraction.label_states import Stage
-from vibroimpact.attraction.state_grid import Lattice, lattice
+from vibroimpact.attraction.node_labels import NodeLabels, label_nodes
+from vibroimpact.attraction.state_grid import lattice
 from vibroimpact.attraction.state_window import walls, window
 from vibroimpact.datasets.description import (
     describe,
@@ -28,7 +29,7 @@ from vibroimpact.datasets.description import (
 )
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError, shown
-from vibroimpact.grids.refinement import UNKNOWN, Nodes
+from vibroimpact.grids.refinement import Nodes
 from vibroimpact.model import Assembly, AssemblyState, Oscillator, State, to_si
 from vibroimpact.model.argument_types import MaxEvents, PositiveInt, Refinements, whole
 from vibroimpact.model.public import public
@@ -40,10 +41,6 @@ from vibroimpact.response.assembly_rig import check_size
 from vibroimpact.tasks.executors import THREADS, workers_for
 from vibroimpact.tasks.threads import Progress
 
-_Labels = NDArray[np.int16]
-
-UNDECIDED, NOWHERE = -1, -2
-"""Number of a state that was given up, and of a state beyond a rigid stop."""
 MOST_NODES = 100_000_000
 
 
@@ -189,8 +186,14 @@ def basins(
         wide, fast = wide or found[0], fast or found[1]
     ranges = wide, fast
     points = lattice(*ranges, plan.shape[::-1], others)
-    labels, cycles, levels = _labelled(search, points, plan, progress)
-    data = _dataset(search, ranges, plan, labels, cycles, levels)
+    low, high = walls(stage)
+    outside = (points.displacement < low) | (points.displacement > high)
+
+    def label(at: slice | NDArray[np.int64]) -> tuple[NDArray[np.int8], NDArray[np.int32]]:
+        found = search.label(points[at], progress)
+        return found.owner, found.cycles
+
+    data = _dataset(search, ranges, plan, label_nodes(plan, label, outside))
     return describe(
         data,
         "vibroimpact.basins",
@@ -239,55 +242,25 @@ def _others(
     return np.array([*(given.get(side, 0.0) for side in SIDES), memory])
 
 
-def _labelled(
-    search: Search, points: Lattice, plan: Nodes, progress: Progress | None
-) -> tuple[_Labels, NDArray[np.int32], NDArray[np.int8]]:
-    """Return motion, cycles and level of each node; -1 where the state was given up."""
-    low, high = walls(search.stage)
-    outside = (points.displacement < low) | (points.displacement > high)
-    # One more than the number of the motion; 0 is given up.
-    known = np.full(plan.shape, UNKNOWN, dtype=np.int8)
-    cycles = np.full(plan.shape, -1, dtype=np.int32)
-    levels = np.full(plan.shape, -1, dtype=np.int8)
-    wall = np.int8(127)
-    known[:, outside] = wall
-    for level in range(plan.refine + 1):
-        chosen = plan.nodes_to_compute(level, known)
-        chosen &= known == UNKNOWN
-        at = slice(None) if chosen.all() else np.flatnonzero(chosen)
-        del chosen
-        found = search.label(points[at], progress)
-        known.ravel()[at] = found.owner + np.int8(1)
-        cycles.ravel()[at] = found.cycles
-        levels.ravel()[at] = level
-        if level:
-            plan.fill(level, known)
-    labels = known.astype(np.int16) - np.int16(1)
-    labels[known == wall] = NOWHERE
-    return labels, cycles, levels
-
-
 def _dataset(
     search: Search,
     ranges: tuple[tuple[float, float], tuple[float, float]],
     plan: Nodes,
-    labels: _Labels,
-    cycles: NDArray[np.int32],
-    levels: NDArray[np.int8],
+    nodes: NodeLabels,
 ) -> xr.Dataset:
     order = ranked([one.motion for one in search.known])
     # Motions that no state of the grid leads to, but one of the search's own, are left out.
-    order = [number for number in order if (labels == number).any()]
+    order = [number for number in order if (nodes.motion == number).any()]
     known = [search.known[number] for number in order]
     u, v = (np.linspace(*one, n) for one, n in zip(ranges, plan.shape[::-1], strict=True))
     omega = search.stage.excitation.angular_frequency
-    labels = renamed(labels, order)
+    nodes = nodes._replace(motion=renamed(nodes.motion, order))
     points = [one.points[:, :2] / [1.0, omega] for one in known]
     dims, motions = ("velocity", "displacement"), [one.motion for one in known]
     values: dict[str, Any] = {
-        **basin_variables(labels, cycles, levels, plan, dims, motions),
+        **basin_variables(nodes, plan, dims, motions),
         **variables(search.stage.oscillator, known),
-        "border_distance": ("attractor", border_distances(labels, u, v / omega, points)),
+        "border_distance": ("attractor", border_distances(nodes.motion, u, v / omega, points)),
     }
     data = xr.Dataset(
         values, {"velocity": v, "displacement": u, "attractor": np.arange(len(known))}

@@ -33,8 +33,7 @@ def crossings(one: _Array, other: _Array) -> _Array:
         along, across = _cross(between, its_way[j]) / turn, _cross(between, way[i]) / turn
     met = (along >= 0.0) & (along < 1.0) & (across >= 0.0) & (across < 1.0)
     order = np.argsort(i[met] + along[met], kind="stable")
-    points: _Array = (begin[i] + along[:, None] * way[i])[met][order]
-    return points
+    return (begin[i] + along[:, None] * way[i])[met][order]
 
 
 def _pieces(points: _Array) -> tuple[_Array, _Array]:
@@ -45,5 +44,4 @@ def _pieces(points: _Array) -> tuple[_Array, _Array]:
 
 
 def _cross(one: _Array, other: _Array) -> _Array:
-    found: _Array = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
-    return found
+    return one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]

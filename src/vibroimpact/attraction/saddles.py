@@ -84,7 +84,7 @@ def saddle_points(orbit: Orbit, where: str) -> list[Saddle]:
             )
         real, ways = values.real, vectors.real
         found.append(Saddle(here, point[:2].copy(), real[0], ways[:, 0], real[1], ways[:, 1]))
-        _, _, point = evaluated(one, point, here.facts[0])
+        _, _, point = evaluated(one, point, here.mode)
     return found
 
 
@@ -106,7 +106,7 @@ def check_flies(stage: Stage, orbit: Orbit) -> None:
                 "speed, so the manifolds of the saddle do not lie in a plane; choose a phase at "
                 "which the mass touches no stop"
             )
-        _, _, point = evaluated(one, point, orbit.facts[0])
+        _, _, point = evaluated(one, point, orbit.mode)
 
 
 def relaxed(point: _Array) -> _Array:

@@ -149,8 +149,7 @@ def follow(
 
 def predicted(path: Path[P], here: P, length: float) -> Array:
     """Where a step along the tangent leads."""
-    point: Array = here.y + length * here.tangent * path.scale
-    return point
+    return here.y + length * here.tangent * path.scale
 
 
 def is_other_curve(path: Path[P], found: Array, aim: Array, length: float) -> bool:
@@ -189,5 +188,4 @@ def unit_tangent(jacobian: Array, along: Array, seen: Array) -> Array:
     except np.linalg.LinAlgError:
         last: Array = np.linalg.svd(jacobian)[2][-1]
         found = last if last @ (along * seen) >= 0.0 else -last
-    unit: Array = found / _length(found * seen)
-    return unit
+    return found / _length(found * seen)

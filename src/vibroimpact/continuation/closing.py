@@ -68,5 +68,4 @@ def crossing(path: Path[P], here: P, there: P, mark: Array, tangent: Array) -> A
     step = distance(path, here.y, there.y)
     if min(distance(path, end.y, mark) for end in (here, there)) > _NEAR * step:
         return None
-    guess: Array = here.y + before / (before - behind) * (there.y - here.y)
-    return guess
+    return here.y + before / (before - behind) * (there.y - here.y)

@@ -12,7 +12,7 @@ from vibroimpact._version import __version__
 from vibroimpact.datasets.variable import Described, Variable
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.engine.status import Status
-from vibroimpact.model import Assembly, Harmonic, Periodic, Repeated, Rig
+from vibroimpact.model import Assembly, Harmonic, Oscillator, Periodic, Repeated, Rig
 from vibroimpact.model.excitation import ON_THE_MASS, amplitude_of
 from vibroimpact.model.rig import System
 from vibroimpact.model.written_units import ATTRIBUTE, NONE, parameters_without_units
@@ -182,6 +182,13 @@ def rig_parameters(rig: Rig, *left_out: str) -> dict[str, Any]:
 def system_parameters(system: System) -> dict[str, Any]:
     """Return an oscillator or an assembly by its kind, for the attributes of a dataset."""
     return {"assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump()}
+
+
+def system_of(parameters: Mapping[str, Any]) -> System:
+    """Return the system in the parameters of a dataset."""
+    if "assembly" in parameters:
+        return Assembly.model_validate(parameters["assembly"])
+    return Oscillator.model_validate(parameters["oscillator"])
 
 
 def excitation_from(parameters: Mapping[str, Any], **others: float) -> Repeated:

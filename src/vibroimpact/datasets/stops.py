@@ -25,11 +25,6 @@ def has_stops(name: str) -> bool:
     return name in VARIABLES and VARIABLES[name].part == "stop"
 
 
-def dims_of(name: str, dims: tuple[str, ...]) -> tuple[str, ...]:
-    """Return these dims of a variable of oscillators and, where it has it, the dim ``stop``."""
-    return (*dims, "stop") if has_stops(name) else dims
-
-
 def stops_of(*oscillators: Oscillator) -> NDArray[np.str_]:
     """Return the names of the stops that at least one of the oscillators has."""
     found = [s for s in SIDES if any(getattr(one, s) is not None for one in oscillators)]

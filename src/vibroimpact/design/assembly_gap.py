@@ -9,10 +9,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, follow_all
-from vibroimpact.earthquakes.peak_demands import MAX_EVENTS
+from vibroimpact.earthquakes.assembly_demands import RunColumns
+from vibroimpact.earthquakes.peak_demands import Shaken, follow
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.assembly.plan import Drift
+from vibroimpact.engine.earthquakes import OUTCOME
 from vibroimpact.engine.observers import phases
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
@@ -53,16 +54,16 @@ def gaps_for_records(
     free = assembly.without_stops()
     # What closes at a stop is the drift of its bodies the other way.
     closing = [Drift(*assembly.ends(stop)[::-1]) for stop in assembly.stops.values()]
-    runs = [AssemblyRuns(free, record, np.ones(1), closing) for record in records.values()]
-    found = follow_all(runs, tail, MAX_EVENTS, workers, progress)
-    for (status,) in (one.status for one in found):
+    runs = [Shaken(free, record, np.ones(1), closing) for record in records.values()]
+    rows = follow(runs, tail=tail, threads=workers, progress=progress)[:, 0]
+    for status in map(Status, rows[:, OUTCOME].astype(int).tolist()):
         if status is Status.NOT_FINITE:
             raise InputError(_GROWS)
         if status is not Status.DONE:
             raise InputError(
                 f"shaking: the motion without stops could not be computed: {status.advice}"
             )
-    reached = np.array([one.of_drift(phases.D_MOST)[0] for one in found])
+    reached = RunColumns(rows, runs[0].layout).of_drift(phases.D_MOST)
     (gap,) = quantiles(reached, [fractile], 0)
     return xr.Dataset(
         {"required_gap": ("stop", gap), "peak_closing": (("record", "stop"), reached)},

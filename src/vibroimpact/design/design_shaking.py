@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 from vibroimpact.datasets.description import excitation_parameters
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.design.worst_sine import Sines
-from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, peaks_of_assemblies
-from vibroimpact.earthquakes.peak_demands import MAX_EVENTS, Shaken, peaks
+from vibroimpact.earthquakes.peak_demands import Shaken, peaks
 from vibroimpact.earthquakes.run_plan import digest, in_words, suite
 from vibroimpact.earthquakes.suites import UNSTABLE, quantiles
 from vibroimpact.engine.status import Status
@@ -124,24 +123,12 @@ class ByRecords(NamedTuple):
     ) -> dict[str, NDArray[Any]]:
         """Of each record and rig, as arrays (record, rig)."""
         records = list(self.records.values())
-        oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
-        if len(oscillators) < len(rigs):
-            every = [
-                AssemblyRuns(rig, record, np.ones(1))  # type: ignore[arg-type]
-                for record in records
-                for rig in rigs
-            ]
-            of_runs = peaks_of_assemblies(every, self.tail, MAX_EVENTS, workers, progress)
-            kept = {*DIMS, "status"}
-            found = {name: values for name, values in of_runs.items() if name in kept}
-        else:
-            one = np.ones(1)
-            found = peaks(
-                [Shaken(rig, record, one) for record in records for rig in oscillators],
-                tail=self.tail,
-                threads=workers,
-                progress=progress,
-            )
+        found = peaks(
+            [Shaken(rig, record, np.ones(1)) for record in records for rig in rigs],
+            tail=self.tail,
+            threads=workers,
+            progress=progress,
+        )
         values: dict[str, NDArray[Any]] = {
             name: v.reshape(len(records), len(rigs), *v.shape[2:]) for name, v in found.items()
         }

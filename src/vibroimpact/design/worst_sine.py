@@ -163,8 +163,7 @@ class Sines(NamedTuple):
                 f"at a natural frequency of {natural:.3g} Hz, but at most {MOST} are accepted; "
                 "narrow the frequency range or raise step"
             )
-        found: _Array = np.linspace(low, max(high, low), count)
-        return found
+        return np.linspace(low, max(high, low), count)
 
     def worst(
         self, rigs: Sequence[System], workers: Workers, progress: Progress | None

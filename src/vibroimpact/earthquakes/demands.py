@@ -18,7 +18,6 @@ from vibroimpact.datasets.description import describe
 from vibroimpact.datasets.stops import by_stop, has_stops, stops_of
 from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.earthquakes import assembly_demands
-from vibroimpact.earthquakes.assembly_demands import AssemblyRuns, peaks_of_assemblies
 from vibroimpact.earthquakes.intensity import Measure, measure
 from vibroimpact.earthquakes.peak_demands import (
     MAX_EVENTS,
@@ -281,20 +280,7 @@ class _Task(NamedTuple):
         count = self.factors.shape[1]
         places = list(itertools.product(*(range(s.start, s.stop) for s in one.rigs)))
         chosen = range(one.records.start, one.records.stop)
-        follow = self._of_oscillators if self.assembly is None else self._of_assemblies
-        found = follow(places, chosen, progress)
-        shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
-        scale = len(shape) - 1
-        return {
-            name: np.moveaxis(v.reshape(*shape, *v.shape[2:]), scale, 1)
-            for name, v in found.items()
-        }
-
-    def _of_oscillators(
-        self, places: list[tuple[int, ...]], chosen: range, progress: Progress | None
-    ) -> dict[str, NDArray[Any]]:
-        """Return the results of oscillators, shape (run, scale) and, if so, stop."""
-        rigs = [self.rigs.oscillator(at) for at in places]
+        rigs = [self.rigs.system(at) for at in places]
         found = peaks(
             [Shaken(rig, self.records[n], self.factors[n]) for n in chosen for rig in rigs],
             tail=self.tail,
@@ -303,24 +289,16 @@ class _Task(NamedTuple):
             threads=self.threads,
             progress=progress,
         )
-        stops = self.parts["stop"]
-        for name in filter(has_stops, found):
-            own = zip(rigs * len(chosen), found[name], strict=True)
-            found[name] = np.array([by_stop(rig, both, stops) for rig, both in own])
-        return found
-
-    def _of_assemblies(
-        self, places: list[tuple[int, ...]], chosen: range, progress: Progress | None
-    ) -> dict[str, NDArray[Any]]:
-        """Return the results of assemblies, shape (run, scale) and, if so, part."""
-        systems = [self.rigs.system(at) for at in places]
-        runs_of = [
-            AssemblyRuns(one, self.records[n], self.factors[n])
-            for n in chosen
-            for one in systems
-            if isinstance(one, Assembly)
-        ]
-        return peaks_of_assemblies(runs_of, self.tail, self.max_events, self.threads, progress)
+        oscillators = [rig for rig in rigs if isinstance(rig, Oscillator)]
+        for name in filter(has_stops, found) if oscillators else ():
+            own = zip(oscillators * len(chosen), found[name], strict=True)
+            found[name] = np.array([by_stop(rig, both, self.parts["stop"]) for rig, both in own])
+        shape = (len(chosen), *(s.stop - s.start for s in one.rigs), count)
+        scale = len(shape) - 1
+        return {
+            name: np.moveaxis(v.reshape(*shape, *v.shape[2:]), scale, 1)
+            for name, v in found.items()
+        }
 
 
 def _complete(group: zarr.Group, task: _Task, most: int, progress: Progress | None) -> None:

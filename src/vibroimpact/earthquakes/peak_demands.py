@@ -7,17 +7,23 @@ history is kept.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.earthquakes.assembly_demands import peaks_of_assemblies
 from vibroimpact.earthquakes.free_vibration import BLOCKS, SMALL, block, free_tail, settles
 from vibroimpact.engine import earthquakes as found
 from vibroimpact.engine import sections
+from vibroimpact.engine.assembly.plan import Drift
 from vibroimpact.engine.observers import demand, extremes
-from vibroimpact.model import Oscillator, Record, equilibrium
-from vibroimpact.model.rig import Rig
+from vibroimpact.engine.observers.phases import Layout
+from vibroimpact.model import Assembly, Oscillator, Record, equilibrium
+from vibroimpact.model.rig import Rig, System
+from vibroimpact.response.assembly_rig import assembly_numbers
+from vibroimpact.response.assembly_state import assembly_vector
 from vibroimpact.response.engine_input import engine_rig, engine_state
 from vibroimpact.response.softening_limit import judged
 from vibroimpact.tasks.threads import Progress, Tally, Workers, each, worker_count
@@ -44,19 +50,48 @@ RESIDUALS = ("residual_displacement", "residual_swing")
 MAX_EVENTS = 10_000
 """Contacts and detachments in a step of a record at which a motion is given up."""
 
-_FOUND = demand.EVERYTHING + found.BEHIND
-"""What the engine finds of a run."""
-
 _AT_ONCE = 64
 """Scales of one call of the engine, at most."""
 
 
 class Shaken(NamedTuple):
-    """A rig, a record, and the numbers that the record is multiplied by."""
+    """An oscillator or an assembly, a record, and the numbers that the record is multiplied by."""
 
-    oscillator: Oscillator
+    system: System
     record: Record
     factors: _Array
+    drifts: Sequence[Drift] | None = None
+    """Drifts of an assembly that are measured. Default: those of the links."""
+
+    @property
+    def layout(self) -> Layout:
+        """Where the numbers of an assembly's masses, stops and drifts stand."""
+        system = self.system
+        assert isinstance(system, Assembly)
+        drifts = system.links if self.drifts is None else self.drifts
+        return Layout(len(system.names), len(system.stops), len(drifts))
+
+
+class _Prepared(NamedTuple):
+    """The engine's vectors of a rig and its rest, and how many numbers are found of each run."""
+
+    vector: _Array
+    rest: _Array
+    numbers: int
+    moves_on: bool
+    """Whether it depends on the motion where the mass comes to rest."""
+
+
+def _prepared(one: Shaken) -> _Prepared:
+    system, record = one.system, one.record
+    if isinstance(system, Assembly):
+        vector = assembly_numbers(system, record, tables=True, drifts=one.drifts)
+        count = one.layout.width + one.layout.stops
+        rest = assembly_vector(system, equilibrium(system))
+        return _Prepared(vector, rest, count + found.BEHIND, False)
+    rest = engine_state(system, equilibrium(system))
+    count = demand.EVERYTHING + found.BEHIND
+    return _Prepared(engine_rig(Rig(system, record)), rest, count, settles(system))
 
 
 def peaks(
@@ -69,19 +104,20 @@ def peaks(
     threads: Workers = None,
     progress: Progress | None = None,
     by_line: bool = False,
-) -> dict[str, NDArray[np.generic]]:
+) -> dict[str, NDArray[Any]]:
     """Return the peaks of rigs through records, at several scales each, from their rest.
 
     Parameters
     ----------
     shaken
-        The rigs with their records; all have the same number of factors.
+        The rigs with their records; all have the same number of factors, and assemblies parts of
+        the same names.
     tail
         Duration of free vibration after each record (s); None for that of `free_tail`.
     energies
-        Whether `ENERGIES` are found, too, which takes several times as long.
+        Whether `ENERGIES` of oscillators are found, too, which takes several times as long.
     residuals
-        Whether `RESIDUALS` are found, too.
+        Whether `RESIDUALS` of oscillators are found, too.
     max_events
         See `MAX_EVENTS`.
     threads
@@ -96,36 +132,67 @@ def peaks(
     dict of ndarray, shape (shaken, factor)
         `PEAKS`, further requested quantities, and ``status``: a `Status` each, 0 where the run was
         done. All values of another run are NaN but for its status. Values of stops have the
-        right and the left side as a further axis, 0 where the rig has no stop.
+        right and the left side as a further axis, 0 where the rig has no stop. Of assemblies the
+        peaks are `assembly_demands.PEAKS`, with the masses, links or stops as a further axis.
+    """
+    rows = follow(
+        shaken,
+        tail=tail,
+        energies=energies,
+        residuals=residuals,
+        max_events=max_events,
+        threads=threads,
+        progress=progress,
+        by_line=by_line,
+    )
+    if shaken and isinstance(shaken[0].system, Assembly):
+        return peaks_of_assemblies(rows, shaken[0].layout)
+    return _named(shaken, rows, energies, residuals)
+
+
+def follow(
+    shaken: Sequence[Shaken],
+    *,
+    tail: float | None = None,
+    energies: bool = False,
+    residuals: bool = False,
+    max_events: int = MAX_EVENTS,
+    threads: Workers = None,
+    progress: Progress | None = None,
+    by_line: bool = False,
+) -> _Array:
+    """Return what the engine finds of each run, shape (shaken, factor, number).
+
+    Parameters are those of `peaks`.
     """
     count = len(shaken[0].factors) if shaken else 0
-    rows = np.full((len(shaken), count, _FOUND), np.nan)
+    ready = [_prepared(one) for one in shaken]
+    rows = np.full((len(shaken), count, ready[0].numbers if ready else 0), np.nan)
     workers = worker_count(threads)
     # Few rigs with many scales are dealt out, too.
     few = max(1, min(_AT_ONCE, -(-count * len(shaken) // (4 * workers))))
     parts = [(n, slice(i, i + few)) for n in range(len(shaken)) for i in range(0, count, few)]
-    vectors = [engine_rig(Rig(one.oscillator, one.record)) for one in shaken]
-    starts = [engine_state(one.oscillator, equilibrium(one.oscillator)) for one in shaken]
-    found.respond.prepare(*vectors)
+    found.respond.prepare(*(one.vector for one in ready))
     items = [
-        (shaken[n]._replace(factors=np.array(shaken[n].factors[some])), vectors[n], starts[n])
+        (shaken[n]._replace(factors=np.array(shaken[n].factors[some], dtype=float)), ready[n])
         for n, some in parts
     ]
 
-    def task(item: tuple[Shaken, _Array, _Array], tally: Tally) -> _Array:
-        (rig, record, factors), vector, start = item
-        mine = np.empty((len(factors), _FOUND))
-        rests = residuals and settles(rig)
+    def task(item: tuple[Shaken, _Prepared], tally: Tally) -> _Array:
+        (system, record, factors, _), engine = item
+        rig = Rig(system, record)
+        mine = np.empty((len(factors), engine.numbers))
+        rests = residuals and engine.moves_on
         found.respond(
-            vector,
+            engine.vector,
             np.array(record.acceleration),  # which is not to be written to: another type, refused
             record.step,
             factors,
-            free_tail(Rig(rig, record)) if tail is None else tail,
-            start,
+            free_tail(rig) if tail is None else tail,
+            engine.rest,
             max_events,
             int(energies),
-            block(Rig(rig, record)),
+            block(rig) if rests else 0.0,
             BLOCKS if rests else 0,
             SMALL,
             tally,
@@ -134,28 +201,30 @@ def peaks(
         )
         return mine
 
+    runs = len(shaken) * count
     steps = count * sum(len(one.record.acceleration) - 1 for one in shaken)
-    told = progress if by_line else _by_run(progress, len(shaken) * count)
-    done = each(task, items, steps=steps, threads=threads, progress=told)
-    for (n, some), mine in zip(parts, done, strict=True):
+    told = partial(_by_run, progress, runs) if progress and not by_line else progress
+    each_found = each(task, items, steps=steps, threads=threads, progress=told)
+    for (n, some), mine in zip(parts, each_found, strict=True):
         rows[n, some] = mine
-    return _named(shaken, rows, energies, residuals)
+    return rows
 
 
-def _by_run(progress: Progress | None, runs: int) -> Progress | None:
-    """Progress that counts runs, from that which counts the steps of all their records."""
-    return progress and (lambda done, total: progress(done * runs // (total or 1), runs))
+def _by_run(progress: Progress, runs: int, done: int, total: int | None) -> None:
+    """Count runs, from the steps of all their records that are done."""
+    progress(done * runs // (total or 1), runs)
 
 
 def _named(
     shaken: Sequence[Shaken], rows: _Array, energies: bool, residuals: bool
-) -> dict[str, NDArray[np.generic]]:
-    """The engine's numbers in SI units, by name."""
-    mass = np.array([one.oscillator.mass for one in shaken])[:, np.newaxis]
+) -> dict[str, NDArray[Any]]:
+    """The engine's numbers of oscillators in SI units, by name."""
+    oscillators = [one.system for one in shaken if isinstance(one.system, Oscillator)]
+    mass = np.array([one.mass for one in oscillators])[:, np.newaxis]
     farthest = np.maximum(rows[..., extremes.U_MOST], -rows[..., extremes.U_LEAST])
     status = [
-        judged(one.oscillator, row[:, found.OUTCOME], far)
-        for one, row, far in zip(shaken, rows, farthest, strict=True)
+        judged(one, row[:, found.OUTCOME], far)
+        for one, row, far in zip(oscillators, rows, farthest, strict=True)
     ]
     acceleration = np.maximum(rows[..., extremes.A_MOST], -rows[..., extremes.A_LEAST])
     columns: list[_Array] = [
@@ -167,16 +236,16 @@ def _named(
         mass[..., np.newaxis] * rows[..., [extremes.IMPULSE_RIGHT, extremes.IMPULSE_LEFT]],
         rows[..., [extremes.HITS_RIGHT, extremes.HITS_LEFT]],
     ]
-    values: dict[str, NDArray[np.generic]] = dict(zip(PEAKS, columns, strict=True))
+    values: dict[str, NDArray[Any]] = dict(zip(PEAKS, columns, strict=True))
     if energies:
         sums = (demand.WORK, demand.LOST, demand.LOST_STOPS)
         values |= {name: mass * rows[..., at] for name, at in zip(ENERGIES, sums, strict=True)}
     if residuals:
         rest, swing = rows[..., found.REST], rows[..., found.SWING]
-        for n, one in enumerate(shaken):
-            if not settles(one.oscillator):
+        for n, one in enumerate(oscillators):
+            if not settles(one):
                 done = rows[n, :, found.OUTCOME] == 0.0
-                rest[n] = np.where(done, equilibrium(one.oscillator).displacement, np.nan)
+                rest[n] = np.where(done, equilibrium(one).displacement, np.nan)
                 swing[n] = np.where(done, 0.0, np.nan)
         values |= {RESIDUALS[0]: rest, RESIDUALS[1]: swing}
     values["status"] = np.array(status, dtype=np.int64).reshape(farthest.shape)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list, is_list
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model import Oscillator, Record, Rig
+from vibroimpact.model import Record, Rig
 from vibroimpact.model.parameter_ranges import Values, Varied, read_values, stated
 from vibroimpact.model.parameters import set_values
 from vibroimpact.model.read_rig import as_rigs, as_rigs_of_any_masses, is_one_rig
@@ -46,12 +46,6 @@ class Runs(NamedTuple):
             *((len(self.rigs),) if self.several else ()),
             *(len(one.values) for one in self.varied),
         )
-
-    def oscillator(self, at: tuple[int, ...]) -> Oscillator:
-        """The oscillator at a place along the dims, as `system` returns it."""
-        found = self.system(at)
-        assert isinstance(found, Oscillator)
-        return found
 
     def system(self, at: tuple[int, ...]) -> System:
         """The oscillator or the assembly at a place along the dims.

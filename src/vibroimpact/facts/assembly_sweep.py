@@ -16,12 +16,12 @@ from vibroimpact.datasets.vocabulary import VARIABLES
 from vibroimpact.facts.assembly import assembly_of
 from vibroimpact.facts.largest import largest, place
 from vibroimpact.facts.number_format import heading as unit_heading
-from vibroimpact.facts.sweeps import ranges, steps, steps_text
+from vibroimpact.facts.sweeps import jump_columns, ranges, steps, steps_text
 from vibroimpact.facts.tables import Column, table_of
-from vibroimpact.model.frequency_text import forcing_heading, forcings
+from vibroimpact.model.frequency_text import forcings
 from vibroimpact.model.units import plain
 from vibroimpact.response.curve_pair import Direction, Swept
-from vibroimpact.response.resonance import jumps
+from vibroimpact.response.resonance import jumps, runs
 
 _PROMINENCE = 0.02
 """Smallest prominence of a resonance, as a share of the largest value of its curve."""
@@ -160,19 +160,9 @@ def _jumps_table(found: list[dict[str, Any]]) -> RenderableType:
     """Return the jumps as a table, and where to look for their folds."""
     if not found:
         return Text("Jumps: none")
-    turn, heading = forcing_heading("between")
-    heading = heading if turn == 1.0 else f"between {heading}"
-    columns = (
-        Column("sweep", "direction", left=True),
-        Column("jump", lambda one: "upward" if one["upward"] else "downward", left=True),
-        Column(
-            heading,
-            lambda one: f"{plain(turn * one['before'])} and {plain(turn * one['after'])}",
-            left=True,
-        ),
+    columns = jump_columns(
         Column("mass", "mass", left=True),
         *(_ends(found, name) for name in ("peak_displacement", "peak_acceleration")),
-        Column("", lambda one: "" if one["settled"] else "not settled", left=True),
     )
     hint = "vibroimpact branch locates the folds between these frequencies"
     title = "Jumps, of the mass that changes most"
@@ -201,8 +191,7 @@ def _ranges(data: xr.Dataset, where: xr.DataArray) -> list[dict[str, Any]]:
 
 def _runs(data: xr.Dataset, where: NDArray[np.bool_]) -> list[tuple[float, float]]:
     frequency = data["frequency"].values
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], where.astype(int), [0]])))
-    return [(float(frequency[a]), float(frequency[b - 1])) for a, b in edges.reshape(-1, 2)]
+    return [(float(frequency[first]), float(frequency[last])) for first, last in runs(where)]
 
 
 def _differing(data: xr.Dataset) -> list[dict[str, float]]:

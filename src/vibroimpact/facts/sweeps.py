@@ -89,21 +89,29 @@ def _kind(peak: Peak) -> str:
 def _jumps(found: Features) -> RenderableType:
     if not found.jumps:
         return Text("Jumps: none")
+    columns = jump_columns(
+        Column("η_a", lambda one: " → ".join(plain(end, 4) for end in one["eta_a"]), left=True),
+        Column("η_d", lambda one: " → ".join(plain(end, 4) for end in one["eta_d"]), left=True),
+    )
+    rows = [{**jump._asdict(), "upward": jump.upward} for jump in found.jumps]
+    return table_of(rows, columns, "Jumps")
+
+
+def jump_columns(*ends: Column) -> tuple[Column, ...]:
+    """Return the columns of a table of jumps, with those of the values before and after each."""
     turn, heading = forcing_heading("between")
     heading = heading if turn == 1.0 else f"between {heading}"
-    columns = (
-        Column("sweep", lambda one: one.direction, left=True),
-        Column("jump", lambda one: "upward" if one.upward else "downward", left=True),
+    return (
+        Column("sweep", "direction", left=True),
+        Column("jump", lambda one: "upward" if one["upward"] else "downward", left=True),
         Column(
             heading,
-            lambda one: f"{plain(turn * one.before)} and {plain(turn * one.after)}",
+            lambda one: f"{plain(turn * one['before'])} and {plain(turn * one['after'])}",
             left=True,
         ),
-        Column("η_a", lambda one: " → ".join(plain(end, 4) for end in one.eta_a), left=True),
-        Column("η_d", lambda one: " → ".join(plain(end, 4) for end in one.eta_d), left=True),
-        Column("", lambda one: "" if one.settled else "not settled", left=True),
+        *ends,
+        Column("", lambda one: "" if one["settled"] else "not settled", left=True),
     )
-    return table_of(found.jumps, columns, "Jumps")
 
 
 def _hysteresis(data: xr.Dataset, found: Features) -> RenderableType:

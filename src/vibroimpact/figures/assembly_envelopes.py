@@ -17,7 +17,7 @@ from vibroimpact.figures.assembly_motion import chains, history
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.legends import add_legend
-from vibroimpact.figures.motion_style import looks
+from vibroimpact.figures.motion_style import by_name, looks
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.style import EDGE, Look, panels
 from vibroimpact.model import Assembly
@@ -64,10 +64,7 @@ def mass_envelopes(
     InputError
         If a dataset does not hold such a motion, or if the motions are of different masses.
     """
-    if isinstance(motions, Mapping) and not isinstance(motions, xr.Dataset):
-        named = dict(motions)
-    else:
-        named = {"motion": motions}
+    named = by_name(motions, "motion")
     if not named:
         raise InputError("motions: empty; pass at least one motion of an assembly")
     every = {name: history(motion).assembly for name, motion in named.items()}

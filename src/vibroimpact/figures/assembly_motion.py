@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from vibroimpact.errors import InputError
@@ -76,16 +75,7 @@ class History(NamedTuple):
 
     def contacts(self, stop: str) -> list[tuple[float, float]]:
         """Return starts and ends of the contacts of a stop, cut to what is drawn."""
-        mine = self.motion["event_stop"].values == stop
-        kind, at = self.motion["event_contact"].values[mine], self.event_at[mine]
-        begins, ends = at[kind == BEGINS], at[kind == 0]
-        if len(ends) and (not len(begins) or ends[0] < begins[0]):
-            begins = np.concatenate([[-math.inf], begins])
-        if len(begins) > len(ends):
-            ends = np.concatenate([ends, [math.inf]])
-        first, last = self.span
-        pairs = zip(np.maximum(begins, first), np.minimum(ends, last), strict=True)
-        return [(float(a), float(b)) for a, b in pairs if a <= b]
+        return contact_spans(self.motion, stop, self.event_at, self.span)
 
     def hits(self, stop: str) -> NDArray[np.intp]:
         """Return the indices of the impacts on a rigid stop that are drawn."""
@@ -98,6 +88,30 @@ class History(NamedTuple):
     def touched(self) -> list[str]:
         """Return the stops that are touched in what is drawn, in the order of the assembly."""
         return [name for name in self.assembly.stops if self.contacts(name) or len(self.hits(name))]
+
+
+def contact_spans(
+    motion: xr.Dataset, stop: str, at: _Array, span: tuple[float, float]
+) -> list[tuple[float, float]]:
+    """Return starts and ends of the contacts with one stop, even if one lasts the whole motion.
+
+    Parameters
+    ----------
+    at
+        When each event is.
+    span
+        When the motion begins and ends.
+    """
+    mine = motion["event_stop"].values == stop
+    kind, at = motion["event_contact"].values[mine], at[mine]
+    begins, ends = at[kind == BEGINS], at[kind == 0]
+    if len(ends) and (not len(begins) or ends[0] < begins[0]):
+        begins = np.concatenate([[-math.inf], begins])
+    if len(begins) > len(ends):
+        ends = np.concatenate([ends, [math.inf]])
+    first, last = span
+    pairs = zip(np.maximum(begins, first), np.minimum(ends, last), strict=True)
+    return [(float(a), float(b)) for a, b in pairs if a <= b]
 
 
 def history(motion: Any, cycles: float | None = None) -> History:
@@ -138,22 +152,13 @@ def band_of(assembly: Assembly, stop: str) -> Band:
 
 def draw_contacts(ax: Axes, shown: History, stops: list[str]) -> None:
     """Draw the contacts of some stops as bands: one strip of the panel for each stop."""
-    strip = 1.0 / max(len(stops), 1)
     for i, name in enumerate(stops):
-        ax.broken_barh(
-            [(a, b - a) for a, b in shown.contacts(name)],
-            (1.0 - (i + 1) * strip, strip),
-            transform=ax.get_xaxis_transform(),
-            zorder=0,
-            **band_of(shown.assembly, name).style,
-        )
+        band_of(shown.assembly, name).draw(ax, shown.contacts(name), (i, len(stops)))
 
 
 def contact_legend(assembly: Assembly, stops: list[str]) -> list[Any]:
     """Return the legend entries of the bands of some stops."""
-    return [
-        Patch(label=f"contact, {literal(name)}", **band_of(assembly, name).style) for name in stops
-    ]
+    return [band_of(assembly, name).entry(f"contact, {literal(name)}") for name in stops]
 
 
 def refuse_masses(data: Any, instead: str) -> None:

@@ -145,7 +145,7 @@ def _gaps(ax: Axes, assembly: Assembly, first: str, second: str, approach: bool)
             edge = min(low, line.min()) if side > 0 else max(high, line.max())
             ax.fill_between(x, line, edge, zorder=0, **how)
             ax.plot(x, line, color="black", linestyle="--", linewidth=0.8, zorder=2)
-        entries.append(Patch(label=literal(name), **band.style))
+        entries.append(band.entry(literal(name)))
     ax.set_xlim(left, right)
     ax.set_ylim(low, high)
     return entries

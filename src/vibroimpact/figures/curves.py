@@ -12,7 +12,7 @@ from vibroimpact.figures.branches import MARKS, axis_unit
 from vibroimpact.figures.finish import finished
 from vibroimpact.figures.labels import Names
 from vibroimpact.figures.legends import add_legend
-from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new, by_name
 
 
 @finished
@@ -40,11 +40,7 @@ def bifurcation_curves(
     InputError
         If a dataset holds no curve, or if the parameters of the datasets differ.
     """
-    if isinstance(curves, Mapping) and not isinstance(curves, xr.Dataset):
-        names = [str(name) for name in curves]
-        given = list(curves.values())
-    else:
-        names, given = [""], [curves]
+    names, given = list(by_name(curves)), list(by_name(curves).values())
     if not given or any("other_parameter" not in data.attrs for data in given):
         wrong = "one of them is not a bifurcation curve" if given else "empty"
         raise InputError(f"curves: {wrong}; pass results of bifurcation_curve")

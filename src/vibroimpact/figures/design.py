@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import textwrap
 from typing import Any
@@ -15,6 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from vibroimpact.datasets.description import motion_parameters, system_of
 from vibroimpact.datasets.stops import over_parts
 from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.design.limits import excesses
@@ -26,7 +26,7 @@ from vibroimpact.figures.levels import number_lines
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.plane import scale_axis
 from vibroimpact.figures.style import Look, panels
-from vibroimpact.model import GRAVITY, Assembly, Oscillator, Rig
+from vibroimpact.model import GRAVITY, Rig
 from vibroimpact.model.parameters import PARAMETERS, in_units, parameter, usual
 from vibroimpact.model.quantities import DIMENSIONLESS, LENGTH, Quantity
 from vibroimpact.model.written_units import unitless
@@ -185,14 +185,10 @@ def present_values(data: xr.Dataset, dims: list[str]) -> list[float]:
 
     A value is NaN if the rig has none, for example a common gap if the gaps of its stops differ.
     """
-    about = json.loads(data.attrs["parameters"])
-    if "assembly" in about:
-        rig = Rig(Assembly.model_validate(about["assembly"]))
-    elif "oscillator" in about:
-        rig = Rig(Oscillator.model_validate(about["oscillator"]))
-    else:
+    parameters = motion_parameters(data)
+    if not {"assembly", "oscillator"} & set(parameters):
         return [math.nan for _ in dims]
-    found = []
+    rig, found = Rig(system_of(parameters)), []
     for dim in dims:
         try:
             value = parameter(dim, rig).read(rig)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,6 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
+from vibroimpact.datasets.description import motion_parameters, system_of
 from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.earthquakes.suites import fractiles
 from vibroimpact.errors import InputError
@@ -21,7 +21,6 @@ from vibroimpact.figures.motion_style import axes_or_new
 from vibroimpact.figures.notebook import Panels
 from vibroimpact.figures.resonance_panels import draws_eta
 from vibroimpact.figures.style import MOTIONS, SWEEPS, fit_x_axis, panels
-from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.model.parameters import parameter
 
 _HATCHES = {"forward": "", "backward": "////"}
@@ -230,7 +229,4 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
 
 def _words(data: xr.Dataset, name: str) -> str:
     """Return the name of a parameter in words, as it is in the rig of the dataset."""
-    given = json.loads(data.attrs["parameters"])
-    kind: type[Oscillator | Assembly] = Assembly if "assembly" in given else Oscillator
-    system = kind.model_validate(given["assembly" if kind is Assembly else "oscillator"])
-    return parameter(name, system).long_name
+    return parameter(name, system_of(motion_parameters(data))).long_name

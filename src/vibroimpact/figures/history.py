@@ -10,7 +10,6 @@ import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.figures.base_motion import base_label
@@ -26,7 +25,7 @@ from vibroimpact.figures.motion_style import (
     shown,
 )
 from vibroimpact.figures.notebook import Panels
-from vibroimpact.figures.style import BANDS, EDGE, panels
+from vibroimpact.figures.style import BANDS, EDGE, Band, panels
 
 
 class _Panel(NamedTuple):
@@ -119,29 +118,12 @@ def history_panel(ax: Axes, curves: list[DrawnMotion], panel: _Panel) -> None:
     ax.set_xlim(min(c.at[0] for c in curves), max(c.at[-1] for c in curves))
     ax.axhline(0.0, color=EDGE, linewidth=0.6, zorder=1)
     for i, curve in enumerate(curves):
-        strip = 1.0 / len(curves)
         for name in SIDES:
-            colour, hatch = _band(curve, name, len(curves))
-            ax.broken_barh(
-                [(a, b - a) for s, a, b in curve.touching if s == name],
-                (1.0 - (i + 1) * strip, strip),
-                transform=ax.get_xaxis_transform(),
-                facecolor=colour,
-                edgecolor=EDGE,
-                hatch=hatch,
-                linewidth=0.3,  # so that a grazing contact is seen, too
-                label=f"{name} contact",
-                zorder=0,
-            )
+            spans = [(a, b) for s, a, b in curve.touching if s == name]
+            band = _band(curve, name, len(curves))
+            band.draw(ax, spans, (i, len(curves)), label=f"{name} contact")
         values = in_unit(panel.factor) * curve.values[panel.variable]
-        ax.plot(
-            curve.at,
-            values,
-            color=curve.look.colour,
-            linestyle=curve.look.dashes,
-            linewidth=1.1,
-            zorder=3,
-        )
+        ax.plot(curve.at, values, zorder=3, **_line(curve))
         for ends, filled in ((1, True), (2, False)):
             at = np.array([contact[ends] for contact in curve.touching])
             inside = (at > curve.at[0]) & (at < curve.at[-1])
@@ -181,19 +163,16 @@ def history_legend(curves: list[DrawnMotion]) -> list[Artist]:
 
     An impact on a rigid stop has a star, but no band: it takes no time.
     """
-    entries: list[Artist] = [
-        Line2D([], [], color=c.look.colour, linestyle=c.look.dashes, lw=1.1, label=c.look.label)
-        for c in curves
-    ]
+    entries: list[Artist] = [Line2D([], [], label=c.look.label, **_line(c)) for c in curves]
     present = [name for name in SIDES if any(name in c.gaps for c in curves)]
     if present:
         entries.append(gap_entry(len(present)))
     touched = {name for c in curves for name, _, _ in c.touching}
-    for name in (name for name in present if name in touched):
-        colour, hatch = _band(curves[0], name, len(curves))
-        entries.append(
-            Patch(facecolor=colour, edgecolor=EDGE, lw=0.3, hatch=hatch, label=f"{name} contact")
-        )
+    entries += [
+        _band(curves[0], name, len(curves)).entry(f"{name} contact")
+        for name in present
+        if name in touched
+    ]
     colour = curves[0].look.colour
     marks = []
     if touched:
@@ -216,9 +195,15 @@ def history_legend(curves: list[DrawnMotion]) -> list[Artist]:
     return entries
 
 
-def _band(curve: DrawnMotion, side: str, motions: int) -> tuple[Any, str]:
-    colour, hatch, _ = BANDS[SIDES.index(side)]
-    return ((curve.look.colour, 0.15) if motions > 1 else colour), hatch
+def _line(curve: DrawnMotion) -> dict[str, Any]:
+    return curve.look._replace(width=1.1).line
+
+
+def _band(curve: DrawnMotion, side: str, motions: int) -> Band:
+    band = BANDS[SIDES.index(side)]
+    colour = (curve.look.colour, 0.15) if motions > 1 else band.colour
+    # The edge shows a grazing contact, too.
+    return band._replace(colour=colour, edge=EDGE, width=0.3)
 
 
 def _at_event(curve: DrawnMotion, values: Any, at: Any, *, behind: bool) -> Any:

@@ -14,7 +14,7 @@ from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.errors import InputError
 from vibroimpact.figures.base_motion import base_label
 from vibroimpact.figures.finish import finished, in_unit
-from vibroimpact.figures.motion_style import axes_or_new, looks
+from vibroimpact.figures.motion_style import axes_or_new, by_name, looks
 from vibroimpact.model.written_units import unitless
 
 _LABELS = {
@@ -60,12 +60,9 @@ def spectrum_lines(
     if not 0.0 < highest < math.inf:
         raise InputError(f"highest: {highest!r}; a finite order greater than 0 is accepted")
     # A dataset is a mapping, too.
-    if isinstance(spectra, Mapping) and not isinstance(spectra, xr.Dataset):
-        given = dict(spectra)
-    else:
-        given = {"motion": spectra}
-        if isinstance(spectra, xr.Dataset) and "mass" in spectra.dims:
-            given = {name: spectra.sel(mass=name) for name in spectra["mass"].values.tolist()}
+    given = by_name(spectra, "motion")
+    if isinstance(spectra, xr.Dataset) and "mass" in spectra.dims:
+        given = {name: spectra.sel(mass=name) for name in spectra["mass"].values.tolist()}
     if not given:
         raise InputError("spectra: empty; pass at least one result of fourier_spectrum")
     for name, data in given.items():

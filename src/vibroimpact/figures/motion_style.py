@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -54,6 +54,12 @@ class DrawnMotion(NamedTuple):
     """Gap (m) on each side with a bumper."""
 
 
+def by_name(data: Any, alone: str = "") -> dict[str, Any]:
+    """Return datasets by name: those of a mapping, or one dataset alone."""
+    several = isinstance(data, Mapping) and not isinstance(data, xr.Dataset)
+    return {str(name): one for name, one in data.items()} if several else {alone: data}
+
+
 def named(
     motions: xr.Dataset | Mapping[str, xr.Dataset], records: bool = False
 ) -> dict[str, xr.Dataset]:
@@ -66,10 +72,7 @@ def named(
         through a `Record` is passed without ``records``.
     """
     # A dataset is a mapping, too.
-    if isinstance(motions, Mapping) and not isinstance(motions, xr.Dataset):
-        given = dict(motions)
-    else:
-        given = {"motion": motions}
+    given = by_name(motions, "motion")
     if not given:
         raise InputError(
             "motions: empty; pass at least one motion, the result of steady or simulate"

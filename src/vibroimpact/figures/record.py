@@ -6,16 +6,14 @@ import json
 from collections.abc import Iterable
 from typing import Any
 
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from vibroimpact.datasets.description import motion_parameters
 from vibroimpact.datasets.stops import SIDES
 from vibroimpact.errors import InputError
+from vibroimpact.figures.assembly_motion import contact_spans
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.history import gap_entry
 from vibroimpact.figures.legends import add_legend
@@ -121,13 +119,9 @@ def gap_lines(ax: Axes, stops: dict[str, dict[str, Any]]) -> None:
 
 def stops_legend(stops: dict[str, dict[str, Any]], motion: xr.Dataset) -> list[Any]:
     """Return legend entries of the gap lines, and of the contact bands of touched stops."""
-    handles: list[Any] = []
-    if stops:
-        handles.append(gap_entry(len(stops)))
-    for side in stops:
-        if not len(_spans(motion, side)):
-            continue
-        handles.append(Patch(label=f"{side} contact", **BANDS[SIDES.index(side)].style))
+    handles: list[Any] = [gap_entry(len(stops))] if stops else []
+    touched = [side for side in stops if _spans(motion, side)]
+    handles += [BANDS[SIDES.index(side)].entry(f"{side} contact") for side in touched]
     return handles
 
 
@@ -149,23 +143,9 @@ def mark_end(axes: Iterable[Axes], motion: xr.Dataset) -> list[Any]:
 def contact_bands(ax: Axes, motion: xr.Dataset) -> None:
     """Draw bands where the mass touches a stop."""
     for side in _SIDES:
-        spans = _spans(motion, side)
-        ax.broken_barh(
-            [(float(a), float(b - a)) for a, b in spans],
-            (0.0, 1.0),
-            transform=ax.get_xaxis_transform(),
-            zorder=0,
-            **BANDS[SIDES.index(side)].style,
-        )
+        BANDS[SIDES.index(side)].draw(ax, _spans(motion, side))
 
 
-def _spans(motion: xr.Dataset, stop: str) -> NDArray[np.float64]:
-    """Return starts and ends of the contacts with one stop, even if one lasts the whole motion."""
-    at = motion["event_stop"].values == stop
-    kind, time = motion["event_contact"].values[at], motion["event_time"].values[at]
-    begins, ends = time[kind == 1], time[kind == 0]
-    if len(ends) and (not len(begins) or ends[0] < begins[0]):
-        begins = np.concatenate([motion["time"].values[:1], begins])
-    if len(begins) > len(ends):
-        ends = np.concatenate([ends, motion["time"].values[-1:]])
-    return np.column_stack([begins, ends])
+def _spans(motion: xr.Dataset, stop: str) -> list[tuple[float, float]]:
+    time = motion["time"].values
+    return contact_spans(motion, stop, motion["event_time"].values, (time[0], time[-1]))

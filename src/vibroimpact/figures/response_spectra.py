@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from vibroimpact.errors import InputError
 from vibroimpact.figures.finish import finished, in_unit
 from vibroimpact.figures.legends import add_legend
-from vibroimpact.figures.motion_style import axes_or_new
+from vibroimpact.figures.motion_style import axes_or_new, by_name
 from vibroimpact.figures.style import CURVES, also_in_g, fit_x_axis
 from vibroimpact.model import Record
 from vibroimpact.model.names import literal
@@ -105,8 +105,7 @@ def response_spectra(
 def _named(spectrum: Any) -> dict[str, xr.Dataset]:
     """Return the spectra by name, a single one without a name."""
     # A dataset is a mapping, too.
-    several = isinstance(spectrum, Mapping) and not isinstance(spectrum, xr.Dataset)
-    given = {str(name): one for name, one in spectrum.items()} if several else {"": spectrum}
+    given = by_name(spectrum)
     if not given:
         raise InputError("spectrum: empty; pass at least one result of response_spectrum")
     for name, one in given.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -160,15 +161,38 @@ EDGE = "0.55"
 class Band(NamedTuple):
     """How contacts of a stop are drawn. The edge alone is seen of a contact that is short."""
 
-    colour: str
+    colour: Any
     hatch: str
     edge: str
+    width: float = 0.7
 
     @property
     def style(self) -> dict[str, Any]:
         """Keywords of a patch."""
         how = {"facecolor": self.colour, "edgecolor": self.edge, "hatch": self.hatch}
-        return {**how, "linewidth": 0.7}
+        return {**how, "linewidth": self.width}
+
+    def draw(
+        self,
+        ax: Axes,
+        spans: Iterable[tuple[float, float]],
+        strip: tuple[int, int] = (0, 1),
+        **options: Any,
+    ) -> None:
+        """Draw time spans as bands, over the whole height or in one of several strips."""
+        number, count = strip
+        ax.broken_barh(
+            [(first, last - first) for first, last in spans],
+            (1.0 - (number + 1) / count, 1.0 / count),
+            transform=ax.get_xaxis_transform(),
+            zorder=0,
+            **self.style,
+            **options,
+        )
+
+    def entry(self, label: str) -> Patch:
+        """Return a legend entry."""
+        return Patch(label=label, **self.style)
 
 
 BANDS = (

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from vibroimpact.identification.least_squares import Problem, Values
+from vibroimpact.identification.least_squares import Problem, minimized
 
 Array = NDArray[np.float64]
 
@@ -50,31 +50,11 @@ class SearchResult(NamedTuple):
 def local(problem: Problem, x: Array, most: int = 60, precise: bool = False) -> Ended:
     """Least squares from one place, within the bounds."""
     before = problem.evaluations
-    seen: dict[bytes, Values] = {}
-
-    def values(y: Array) -> Values:
-        key = y.tobytes()
-        if key not in seen:
-            seen.clear()  # the last one is all that a derivative needs
-            seen[key] = problem.values(y)
-        return seen[key]
-
-    inside = np.clip(x, problem.low, problem.high)
     tight = 1e-13 if precise else 1e-7
-    done = scipy.optimize.least_squares(
-        lambda y: values(y).residuals,
-        inside,
-        jac=lambda y: problem.jacobian(y, fine=precise, at=values(y)),
-        bounds=(problem.low, problem.high),
-        x_scale="jac" if precise else 1.0,
-        ftol=tight,
-        xtol=tight,
-        gtol=tight,
-        max_nfev=most,
-    )
-    x = np.where(done.x - problem.low < _AT_BOUND, problem.low, done.x)
+    end, cost = minimized(problem, x, (tight, tight, tight), most, precise=precise)
+    x = np.where(end - problem.low < _AT_BOUND, problem.low, end)
     x = np.where(problem.high - x < _AT_BOUND, problem.high, x)
-    return Ended(x, float(done.cost), problem.evaluations - before)
+    return Ended(x, cost, problem.evaluations - before)
 
 
 def search(

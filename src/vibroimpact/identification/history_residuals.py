@@ -209,8 +209,7 @@ class HistoryTest:
             self.doubt[c][np.isfinite(v)] * self.size[c] * self.weights[c] / self._spread[c]
             for c, v in self.measured.items()
         ]
-        found: Array = np.concatenate(parts)
-        return found
+        return np.concatenate(parts)
 
     @property
     def channels(self) -> list[str]:

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple, Protocol
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import NDArray
 
@@ -153,8 +154,7 @@ class Problem:
             part = np.zeros(test.count)
             part[: test.points_count] = sigma * test.shares
             parts.append(part)
-        shares: Array = np.concatenate([*parts, np.zeros(self._priors)])
-        return shares
+        return np.concatenate([*parts, np.zeros(self._priors)])
 
     @property
     def start(self) -> Array:
@@ -167,8 +167,7 @@ class Problem:
     def measured(self) -> Flags:
         """Which residuals are those of measured values."""
         parts = [np.arange(t.count) < t.points_count for t in self.tests]
-        found: Flags = np.concatenate([*parts, np.zeros(self._priors, dtype=bool)])
-        return found
+        return np.concatenate([*parts, np.zeros(self._priors, dtype=bool)])
 
     @property
     def shares_of_curves(self) -> Array:
@@ -181,8 +180,7 @@ class Problem:
     def jumps(self) -> Flags:
         """Which residuals are those of the jumps of curves."""
         parts = [(np.arange(t.count) >= t.points_count) & (t.kind == "curves") for t in self.tests]
-        found: Flags = np.concatenate([*parts, np.zeros(self._priors, dtype=bool)])
-        return found
+        return np.concatenate([*parts, np.zeros(self._priors, dtype=bool)])
 
     @property
     def _priors(self) -> int:
@@ -302,5 +300,54 @@ class Problem:
 def softened(residuals: Array, tail: float) -> Array:
     """Residuals whose squares grow as their size does beyond the tail."""
     share = (residuals / tail) ** 2
-    soft: Array = np.sign(residuals) * tail * np.sqrt(2.0 * share / (np.sqrt(1.0 + share) + 1.0))
-    return soft
+    return np.sign(residuals) * tail * np.sqrt(2.0 * share / (np.sqrt(1.0 + share) + 1.0))
+
+
+def minimized(
+    problem: Problem,
+    x: Array,
+    tolerances: tuple[float, float, float],
+    most: int,
+    *,
+    among: Flags | None = None,
+    precise: bool = False,
+) -> tuple[Array, float]:
+    """Return where the least squares from a place within the bounds end, and the cost there.
+
+    Parameters
+    ----------
+    tolerances
+        Of the cost, the place and the gradient, as of `scipy.optimize.least_squares`.
+    most
+        Evaluations of the residuals, without those of derivatives.
+    among
+        Unknowns that are varied. Default: all.
+    precise
+        Whether derivatives are central, and scale the unknowns.
+    """
+    free = np.ones(len(x), dtype=bool) if among is None else among
+    seen: dict[bytes, Values] = {}
+
+    def whole(y: Array) -> Array:
+        full = x.copy()
+        full[free] = y
+        return full
+
+    def values(y: Array) -> Values:
+        key = y.tobytes()
+        if key not in seen:
+            seen.clear()  # the last one is all that a derivative needs
+            seen[key] = problem.values(whole(y))
+        return seen[key]
+
+    low, high = problem.low[free], problem.high[free]
+    done = scipy.optimize.least_squares(
+        lambda y: values(y).residuals,
+        np.clip(x[free], low, high),
+        jac=lambda y: problem.jacobian(whole(y), fine=precise, at=values(y), only=free),
+        bounds=(low, high),
+        x_scale="jac" if precise else 1.0,
+        **dict(zip(("ftol", "xtol", "gtol"), tolerances, strict=True)),
+        max_nfev=most,
+    )
+    return whole(done.x), float(done.cost)

@@ -14,7 +14,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from vibroimpact.identification.least_squares import Problem
+from vibroimpact.identification.least_squares import Problem, minimized
 from vibroimpact.identification.robust_loss import moments
 from vibroimpact.identification.uncertainty import Spread
 
@@ -57,27 +57,7 @@ def refitted(
     start[held] = value
     if not others.any():
         return start, problem.cost(start)
-
-    def whole(y: Array) -> Array:
-        full = start.copy()
-        full[others] = y
-        return full
-
-    def derivative(y: Array) -> Array:
-        return problem.jacobian(whole(y), only=others)
-
-    low, high = problem.low[others], problem.high[others]
-    done = scipy.optimize.least_squares(
-        lambda y: problem.values(whole(y)).residuals,
-        np.clip(start[others], low, high),
-        jac=derivative,
-        bounds=(low, high),
-        ftol=1e-6,
-        xtol=1e-8,
-        gtol=1e-8,
-        max_nfev=25,
-    )
-    return whole(done.x), float(done.cost)
+    return minimized(problem, start, (1e-6, 1e-8, 1e-8), 25, among=others)
 
 
 class _Refits:

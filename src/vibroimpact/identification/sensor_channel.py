@@ -72,8 +72,7 @@ def corrected(name: str, shown: Array, sensors: dict[str, float]) -> Array:
     """The values of a history of which a sensor makes what it shows."""
     if name == "velocity":
         return shown
-    found: Array = (shown - sensors[f"{name}_offset"]) / (sensors[f"{name}_scale"] or 1.0)
-    return found
+    return (shown - sensors[f"{name}_offset"]) / (sensors[f"{name}_scale"] or 1.0)
 
 
 def kinematics(time: Array, known: dict[str, Array], base: Array | None) -> tuple[Array, Array]:

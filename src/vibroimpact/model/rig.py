@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TypeAlias, TypeVar, cast
+from typing import Any, TypeAlias, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -132,26 +132,20 @@ class Rig:
                 )
             if shaking is not None:
                 shaking = shaking.replace(frequency=own)
-        self._set(system, _on_a_mass(system, shaking), own, amplitudes, name)
+        vars(self).update(
+            system=system,
+            shaking=_on_a_mass(system, shaking),
+            frequency=own,
+            amplitudes=amplitudes,
+            name=name,
+            published=False,
+        )
 
-    def _set(
-        self,
-        system: System,
-        shaking: Repeated | Record | None,
-        frequency: float | None,
-        amplitudes: tuple[float, ...] | None,
-        name: str | None,
-        published: bool = False,
-    ) -> None:
-        for attribute, value in (
-            ("system", system),
-            ("shaking", shaking),
-            ("frequency", frequency),
-            ("amplitudes", amplitudes),
-            ("name", name),
-            ("published", published),
-        ):
-            object.__setattr__(self, attribute, value)
+    def _with(self, **changes: Any) -> Rig:
+        """Return a copy with other attributes, which are not checked."""
+        made = object.__new__(Rig)
+        vars(made).update(vars(self) | changes)
+        return made
 
     @property
     def oscillator(self) -> Oscillator:
@@ -231,10 +225,7 @@ class Rig:
         published: bool = False,
     ) -> Rig:
         """Return a rig with the shape of a periodic shaking, but with an open frequency."""
-        rig = cls(system, shaking, name=name)
-        object.__setattr__(rig, "frequency", None)
-        object.__setattr__(rig, "published", published)
-        return rig
+        return cls(system, shaking, name=name)._with(frequency=None, published=published)
 
     @property
     def sine(self) -> Harmonic:
@@ -275,8 +266,7 @@ class Rig:
             As in `periodic`. Also if the frequency is invalid.
         """
         moved = Rig(self.system, self.periodic, frequency, self.name)
-        object.__setattr__(moved, "published", self.published)
-        return moved
+        return moved._with(published=self.published)
 
     @property
     def is_shaken(self) -> bool:
@@ -302,11 +292,7 @@ class Rig:
     @property
     def hardest(self) -> Rig:
         """The rig with the largest of its amplitudes alone; a rig with one amplitude as it is."""
-        if self.amplitudes is None:
-            return self
-        hardest = object.__new__(Rig)
-        hardest._set(self.system, self.shaking, self.frequency, None, self.name, self.published)
-        return hardest
+        return self if self.amplitudes is None else self._with(amplitudes=None)
 
     def levels(self, count: int) -> NDArray[np.float64]:
         """Return the amplitude at each of the frequencies of a sweep (m/s², m or N).
@@ -344,16 +330,7 @@ class Rig:
         frequency = self.frequency
         if isinstance(shaking, Harmonic | Periodic) and not (frequency is None and keep_open):
             frequency = shaking.frequency
-        changed = object.__new__(Rig)
-        changed._set(
-            system,
-            shaking or self.shaking,
-            frequency,
-            self.amplitudes,
-            self.name,
-            self.published,
-        )
-        return changed
+        return self._with(system=system, shaking=shaking or self.shaking, frequency=frequency)
 
     def __repr__(self) -> str:
         parts = [repr(self.system)]

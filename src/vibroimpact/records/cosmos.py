@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.header import duration_conflict, read_peak
+from vibroimpact.records.header import check_stated, duration_conflict, each_channel, read_peak
 from vibroimpact.tables.file import File
 
 _BEGINS = re.compile(r"\(Format v\S* with\s+(\d+) text lines\)", re.IGNORECASE)
@@ -62,14 +62,7 @@ def recognises(file: File) -> bool:
 
 def read(file: File) -> list[Channel]:
     """Read the channels of a file."""
-    found: list[Channel] = []
-    at = 0
-    while at < len(file.lines):
-        channel, at = _channel(file, at)
-        found.append(channel)
-        while at < len(file.lines) and not file.lines[at].strip():
-            at += 1
-    return found
+    return each_channel(file, _channel)
 
 
 def _expected(file: File, at: int, pattern: re.Pattern[str], what: str) -> re.Match[str]:
@@ -117,8 +110,7 @@ def _channel(file: File, first: int) -> tuple[Channel, int]:
     at += 1 + comments
     data = _expected(file, at, _DATA, "line above the values")
     count, width = int(data[1]), int(data[4])
-    if count < 1:
-        raise file.refused(at, f"the header states {count} values; at least 2 are accepted")
+    check_stated(file, at, count)
     values, at = file.numbers(at + 1, count, width)
     if at < len(file.lines):
         file.behind(at, count, width)

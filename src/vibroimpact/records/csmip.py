@@ -18,7 +18,13 @@ import re
 from typing import Any
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.header import duration_conflict, read_peak, read_times
+from vibroimpact.records.header import (
+    check_stated,
+    duration_conflict,
+    each_channel,
+    read_peak,
+    read_times,
+)
 from vibroimpact.tables.file import File
 from vibroimpact.tables.units import spelled
 
@@ -79,15 +85,7 @@ def recognises_renadic(file: File) -> bool:
 
 def read(file: File) -> list[Channel]:
     """Read the channels of a file."""
-    found: list[Channel] = []
-    at = 0
-    while at < len(file.lines):
-        if not file.lines[at].strip():
-            at += 1
-            continue
-        channel, at = _channel(file, at)
-        found.append(channel)
-    return found
+    return each_channel(file, _channel)
 
 
 def _channel(file: File, first: int) -> tuple[Channel, int]:
@@ -132,16 +130,10 @@ def _head(file: File, first: int, last: int) -> _Head:
     return found
 
 
-def _count(file: File, at: int, count: int) -> int:
-    if count < 1:
-        raise file.refused(at, f"the header states {count} values; at least 2 are accepted")
-    return count
-
-
 def _series(file: File, above: int, data: re.Match[str], head: _Head) -> tuple[Channel, int]:
     """The values below a line that describes them."""
     line = file.lines[above]
-    count = _count(file, above, int(data[1]))
+    count = check_stated(file, above, int(data[1]))
     if (also := head.get(_COUNT)) and int(also[1][1]) != count:
         raise file.refused(
             above,
@@ -170,7 +162,7 @@ def _pairs(file: File, first: int, head: _Head) -> tuple[Channel, int]:
     """Times and values in turn, of which the header states the number and the unit."""
     if _COUNT not in head:
         raise file.refused(first - 1, "the header has no number of points; pass a complete file")
-    count = _count(file, head[_COUNT][0], int(head[_COUNT][1][1]))
+    count = check_stated(file, head[_COUNT][0], int(head[_COUNT][1][1]))
     numbers, at = file.numbers(first, 2 * count, _PAIR_WIDTH, each=2)
     file.behind(at, 2 * count, _PAIR_WIDTH, each=2)
     unit, scale = _scaled(head[_RAW_UNIT][1][1] if _RAW_UNIT in head else "")

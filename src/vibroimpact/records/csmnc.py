@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.header import duration_conflict, read_peak
+from vibroimpact.records.header import check_stated, duration_conflict, read_peak
 from vibroimpact.tables.file import File
 from vibroimpact.tables.units import spelled
 
@@ -31,8 +31,7 @@ def read(file: File) -> list[Channel]:
     """Read the component of a file."""
     counted, points = file.require_line(_COUNT, "the number of points")
     count, step = int(points[1]), float(points[2])
-    if count < 1:
-        raise file.refused(counted, f"the header states {count} values; pass at least 2 values")
+    check_stated(file, counted, count)
     at = counted + 1
     while not _VALUES.fullmatch(file.line(at)):
         at += 1

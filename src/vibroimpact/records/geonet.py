@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.header import duration_conflict, read_peak
+from vibroimpact.records.header import check_stated, duration_conflict, each_channel, read_peak
 from vibroimpact.tables.file import File
 from vibroimpact.tables.statements import Peak
 
@@ -28,14 +28,7 @@ def recognises(file: File) -> bool:
 
 def read(file: File) -> list[Channel]:
     """Read the components of a file."""
-    found = []
-    at = 0
-    while at < len(file.lines):
-        channel, at = _component(file, at)
-        found.append(channel)
-        while at < len(file.lines) and not file.lines[at].strip():
-            at += 1
-    return found
+    return each_channel(file, _component)
 
 
 def _begins(line: str) -> bool:
@@ -52,9 +45,7 @@ def _component(file: File, first: int) -> tuple[Channel, int]:
     integers, at = file.numbers(first + _TEXT, 40, _WIDTH)
     reals, at = file.numbers(at, 60, _WIDTH)
     counts = [int(count) for count in integers[33:36]]
-    if counts[0] < 1:
-        told = f"the header states {counts[0]} values of acceleration; at least 2 are accepted"
-        raise file.refused(first + _TEXT + 3, told)
+    check_stated(file, first + _TEXT + 3, counts[0], "values of acceleration")
     values, at = file.numbers(at, counts[0], _WIDTH)
     for count in counts[1:]:
         _, at = file.numbers(at, count, _WIDTH)

@@ -2,16 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vibroimpact.records.channel import Channel
 from vibroimpact.tables.checks import duration_contradiction
 from vibroimpact.tables.file import File
 from vibroimpact.tables.statements import Number, Peak, Statements, last_digit, same
 from vibroimpact.tables.times import spacing
 from vibroimpact.tables.units import spelled
+
+
+def each_channel(file: File, read: Callable[[File, int], tuple[Channel, int]]) -> list[Channel]:
+    """Read the channels of a file in turn; `read` returns one, and the line after it."""
+    found = []
+    at = 0
+    while at < len(file.lines):
+        if file.lines[at].strip():
+            channel, at = read(file, at)
+            found.append(channel)
+        else:
+            at += 1
+    return found
+
+
+def check_stated(file: File, at: int, count: int, what: str = "values") -> int:
+    """Check a number of values that a line states, and return it."""
+    if count < 1:
+        raise file.refused(at, f"the header states {count} {what}; at least 2 are accepted")
+    return count
 
 
 def read_peak(at: int, number: str, unit: str | None, text: str = "") -> tuple[Peak, ...]:

@@ -15,6 +15,7 @@ from __future__ import annotations
 import re
 
 from vibroimpact.records.channel import Channel, Format
+from vibroimpact.records.header import check_stated
 from vibroimpact.tables.file import File
 from vibroimpact.tables.units import stated_acceleration, stated_unit
 
@@ -68,8 +69,7 @@ def read(file: File) -> list[Channel]:
                 at, f"{line.strip()!r} states no number of values; NPTS= is accepted"
             )
         count, step = int(found[1]), _float(stepped[1]) if stepped else None
-    if count < 1:
-        raise file.refused(at, "the header states 0 values; at least 2 are accepted")
+    check_stated(file, at, count)
     values, behind = file.numbers(at + 1, count)
     again = _announced(file, behind, len(file.lines))
     if again is not None:

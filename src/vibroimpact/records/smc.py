@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.records.channel import Channel, Format
-from vibroimpact.records.header import read_peak, read_times
+from vibroimpact.records.header import check_stated, read_peak, read_times
 from vibroimpact.tables.file import File
 from vibroimpact.tables.statements import Peak
 
@@ -44,8 +44,7 @@ def read(file: File) -> list[Channel]:
     integers, at = file.numbers(_TEXT, 48, 10)
     reals, at = file.numbers(at, 50, _REAL_WIDTH)
     count, comments, rate = int(integers[16]), int(integers[15]), float(reals[1])
-    if count < 1:
-        raise file.refused(_TEXT + 2, f"the header states {count} values; at least 2 are accepted")
+    check_stated(file, _TEXT + 2, count)
     for _ in range(max(comments, 0)):
         if not file.line(at).startswith("|"):
             told = (

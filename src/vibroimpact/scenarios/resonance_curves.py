@@ -151,5 +151,4 @@ def swept_alone(
 
 
 def _uneven(eccentricity: Array, excursion: Array) -> Flags:
-    off: Flags = np.abs(eccentricity) > UNEVEN * excursion
-    return off
+    return np.abs(eccentricity) > UNEVEN * excursion

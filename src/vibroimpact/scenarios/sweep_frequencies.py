@@ -153,5 +153,4 @@ def grid(high: float, step: float) -> NDArray[np.float64]:
             f"frequency of the rig, so the sweep would have {count:.3g} frequencies, more than "
             f"the maximum of {MOST}; lower the stiffness of the stops"
         )
-    values: NDArray[np.float64] = LOW + step * np.arange(math.ceil(count) + 1, dtype=np.float64)
-    return values
+    return LOW + step * np.arange(math.ceil(count) + 1, dtype=np.float64)

@@ -212,8 +212,7 @@ class Locus:
         along both parameters.
         """
         if here.system.kind == GRAZING:
-            sense: _Array = _along_parameters(here.tangent)
-            return sense
+            return _along_parameters(here.tangent)
         y = here.y - _BEHIND * here.tangent * self.scale
         behind = here.system.value(y)
         if behind is None or not _same(here, behind[0]):
@@ -222,8 +221,7 @@ class Locus:
         if seen is None or earlier is None:
             return None
         change = np.append(seen[0] - earlier[0], here.y[-1] - y[-1]) / self.scale
-        carried: _Array = change / np.linalg.norm(change * self.seen)
-        return carried
+        return change / np.linalg.norm(change * self.seen)
 
     def lost(self, here: Place) -> str:
         """See `Path`."""

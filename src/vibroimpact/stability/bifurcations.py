@@ -26,7 +26,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vibroimpact.continuation.zero import between_zeros, zero_within
-from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import VALUE, Orbit, corrected, evaluated, is_fixed
 from vibroimpact.stability.orbit_curve import Station, solved
@@ -221,13 +220,13 @@ def _own_image(near: Orbit) -> Orbit | None:
         return None
     if not section.family.excitation.half_wave:
         return None
-    half, mode = section.simpler(section.count, mirror=True), near.facts[section_map.MODE]
+    half, mode = section.simpler(section.count, mirror=True), near.mode
 
     def at(value: float) -> Orbit | None:
         point = near.point.copy()
         point[VALUE] = value
         status, found = corrected(half, point, mode)
-        away = (found.point - near.point) / section.scale * section.seen
+        away = section.scaled(found.point - near.point)
         close = np.linalg.norm(away) <= _MIRRORS
         return found if status is Status.DONE and close and not any(found.contacts) else None
 
@@ -304,9 +303,7 @@ def _locate(
     back = replace(there, tangent=-there.tangent)
     ends = [(here, there, 1.0), (back, here, -1.0)]
     for start, end, sense in ends:
-        scale = start.orbit.section.scale
-        seen = start.orbit.section.seen
-        chord = (end.orbit.point - start.orbit.point) / scale * seen
+        chord = start.orbit.section.scaled(end.orbit.point - start.orbit.point)
         length = float(chord @ start.tangent)
         if length <= 0.0:
             continue
@@ -346,10 +343,10 @@ def bifurcating_orbits(found: Bifurcation) -> Iterator[Station]:
     normal /= size
     for distance in _OFF:
         point = found.orbit.point + distance * normal * section.scale
-        status, orbit = corrected(target, point, found.orbit.facts[section_map.MODE], normal)
+        status, orbit = corrected(target, point, found.orbit.mode, normal)
         if status is not Status.DONE:
             continue
-        away = (orbit.point - found.orbit.point) / section.scale * section.seen
+        away = section.scaled(orbit.point - found.orbit.point)
         # It must not have slid back to the orbit that was there before, nor to another such one.
         if 0.3 * distance <= np.linalg.norm(away) <= 30.0 * distance and not is_of_simpler_map(
             orbit

@@ -188,8 +188,7 @@ def _why(trace: arclength.Trace[Station]) -> str:
         return trace.ended
     chosen = (trace.points[0], trace.points[len(trace.points) // 2], trace.points[-1])
     first, middle, last = (
-        float(np.linalg.norm((one.y / one.orbit.section.scale * one.orbit.section.seen)[:-1]))
-        for one in chosen
+        float(np.linalg.norm(one.orbit.section.scaled(one.y)[:-1])) for one in chosen
     )
     if last > _GROWN * first and last > middle:
         times = last / first

@@ -64,11 +64,11 @@ class Rested:
             return False
         point = last.point.copy()
         point[VALUE] = here.value
-        status, there = corrected(last.section, point, float(last.facts[section_map.MODE]))
+        status, there = corrected(last.section, point, last.mode)
         seen = at_phase(there, here.section.family.phase) if status is Status.DONE else None
         if seen is None or seen.section.period != here.section.period or not rests(seen):
             return False
-        away = (seen.point - here.point) / here.section.scale * here.section.seen
+        away = here.section.scaled(seen.point - here.point)
         return bool(np.abs(away).max() <= _FIXED)
 
 
@@ -77,7 +77,7 @@ def placed_at_rest(found: Orbit) -> Orbit:
 
     A state beside it, without velocity but in flight, would have a contact more.
     """
-    mode = int(found.facts[section_map.MODE])
+    mode = int(found.mode)
     if not mode or found.section.family.of_several_masses:
         return found
     system = found.section.family.system(found.value)

@@ -67,6 +67,11 @@ class Section:
         """
         return _components(2 * self.family.layout.masses, len(self.scale))
 
+    def scaled(self, change: _Array) -> _Array:
+        """Return a change of a point in scaled components, of which lengths count those `seen`."""
+        found: _Array = change / self.scale * self.seen
+        return found
+
     @property
     def period(self) -> int:
         """Of its fixed points, in forcing cycles."""
@@ -119,6 +124,11 @@ class Orbit:
     def value(self) -> float:
         """The parameter."""
         return float(self.point[VALUE])
+
+    @property
+    def mode(self) -> float:
+        """Which stops are touched at the section."""
+        return float(self.facts[section_map.MODE])
 
     @property
     def place(self) -> str:
@@ -190,11 +200,10 @@ class Orbit:
         simpler = self.section.parent()
         if simpler is None:
             return None
-        status, seen, image = evaluated(simpler, self.point, self.facts[section_map.MODE])
+        status, seen, image = evaluated(simpler, self.point, self.mode)
         if status is not Status.DONE:
             return None
-        miss = (image - seen.point) / simpler.scale * simpler.seen
-        return float(seen.facts[section_map.RESIDUAL]), miss
+        return float(seen.facts[section_map.RESIDUAL]), simpler.scaled(image - seen.point)
 
     @property
     def rig(self) -> Rig:
@@ -297,7 +306,7 @@ def evaluated(section: Section, point: _Array, mode: float) -> tuple[Status, Orb
 
 def is_fixed(section: Section, found: Orbit, tolerance: float) -> bool:
     """Whether an orbit is fixed under another map, to a scaled tolerance."""
-    status, image, _ = evaluated(section, found.point, found.facts[section_map.MODE])
+    status, image, _ = evaluated(section, found.point, found.mode)
     return status is Status.DONE and bool(image.facts[section_map.RESIDUAL] <= tolerance)
 
 
@@ -329,7 +338,7 @@ def beyond(found: Orbit, what: str, where: str) -> str:
 
 def vector_of(found: Orbit) -> _Array:
     """The state at the section as the engine's vector."""
-    mode = float(found.facts[section_map.MODE])
+    mode = found.mode
     return found.section.family.layout.vector(found.point[:VALUE], mode)
 
 
@@ -374,7 +383,7 @@ def images(found: Orbit, *, mirrored: bool) -> Iterator[tuple[_Array, float]]:
     its period has cycles, an odd number.
     """
     section = found.section
-    point, mode = found.point, float(found.facts[section_map.MODE])
+    point, mode = found.point, found.mode
     yield point, mode
     halves = mirrored or section.mirror
     one = Section(section.family, 1, halves, section.scale)
@@ -382,5 +391,5 @@ def images(found: Orbit, *, mirrored: bool) -> Iterator[tuple[_Array, float]]:
         status, evaluation, point = evaluated(one, point, mode)
         if status is not Status.DONE:
             return
-        mode = float(evaluation.facts[section_map.MODE])
+        mode = evaluation.mode
         yield point, mode

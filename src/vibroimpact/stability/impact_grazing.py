@@ -18,7 +18,6 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
     VALUE,
@@ -105,7 +104,7 @@ def dies_out(last: Orbit, earlier: Callable[[float], Orbit | None]) -> tuple[Orb
 
 def _clear_of(last: Orbit, guess: _Array, ahead: _Array) -> tuple[Orbit, float] | None:
     """The orbit without an impact whose clearance vanishes, near a guess, and ahead of the last."""
-    section, mode = last.section, float(last.facts[section_map.MODE])
+    section, mode = last.section, last.mode
     for aside in _ASIDE:
         for sense in (1.0, -1.0):
             point = guess + sense * aside * section.held * section.scale
@@ -114,7 +113,7 @@ def _clear_of(last: Orbit, guess: _Array, ahead: _Array) -> tuple[Orbit, float] 
                 found = _closest(found, sense)
                 # Of a poor guess both sides may be clear, or it leads to another branch.
                 missed, gone, way = (
-                    change / section.scale * section.seen
+                    section.scaled(change)
                     for change in (found.point - guess, found.point - last.point, ahead)
                 )
                 nearer = missed @ missed < gone @ gone
@@ -129,7 +128,7 @@ def _closest(clear: Orbit, sense: float) -> Orbit:
     step = 1e-8 * section.scale[VALUE]  # towards the grazing
     for _ in range(_HALVINGS):
         point = clear.point - sense * step * clear.section.held
-        status, found = corrected(section, point, clear.facts[section_map.MODE])
+        status, found = corrected(section, point, clear.mode)
         left = margin_of(found) if status is Status.DONE else math.nan
         if not (found.contacts == clear.contacts and 0.0 <= left < margin):
             step *= 0.5
@@ -144,7 +143,7 @@ def _closest(clear: Orbit, sense: float) -> Orbit:
 
 def taken_up(grazing: Orbit) -> tuple[Orbit, _Array] | None:
     """The branch with the impact beside the orbit that grazes, and its tangent."""
-    section, mode = grazing.section, float(grazing.facts[section_map.MODE])
+    section, mode = grazing.section, grazing.mode
     gradient = _margin_gradient(grazing)
     size = float(gradient @ gradient)
     if not _FLAT < size < 1.0 / _FLAT:
@@ -214,8 +213,7 @@ def _beside(orbit: Orbit, change: _Array) -> _Array:
     """An orbit's point changed by scaled components; what has no scale does not change."""
     scale = orbit.section.scale
     moved = np.multiply(change, scale, out=np.zeros_like(change), where=change != 0.0)
-    point: _Array = orbit.point + moved
-    return point
+    return orbit.point + moved
 
 
 def _margin_gradient(orbit: Orbit) -> _Array:
@@ -226,7 +224,7 @@ def _margin_gradient(orbit: Orbit) -> _Array:
         for step in (_PROBE, -_PROBE):
             point = orbit.point.copy()
             point[j] += step * section.scale[j]
-            status, there, _ = evaluated(section, point, orbit.facts[section_map.MODE])
+            status, there, _ = evaluated(section, point, orbit.mode)
             ends.append(margin_of(there) if status is Status.DONE else math.nan)
         gradient[j] = (ends[0] - ends[1]) / (2.0 * _PROBE)
     return gradient

@@ -6,7 +6,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.engine import section_map
 from vibroimpact.engine.state import MODE
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, warn_of_result
@@ -113,7 +112,7 @@ def _least(
             status, found = corrected(Section(fam, period, False, wide), point, mode)
             if status is Status.DONE:
                 section = Section(fam, period, False, scales(fam, span, found.point))
-                status, found = corrected(section, found.point, found.facts[section_map.MODE])
+                status, found = corrected(section, found.point, found.mode)
                 break
     return status, reduced(found) if status is Status.DONE else found
 
@@ -206,7 +205,7 @@ def reduced(found: Orbit) -> Orbit:
     for count in range(1, section.count):
         simpler = section.simpler(count, mirror=False)
         if section.count % count == 0 and is_fixed(simpler, found, 1e-9):
-            status, simple = corrected(simpler, found.point, found.facts[section_map.MODE])
+            status, simple = corrected(simpler, found.point, found.mode)
             return simple if status is Status.DONE else found
     return found
 
@@ -217,7 +216,7 @@ def symmetric_if_so(found: Orbit) -> Orbit:
     if not own_mirror(found, 1e-9):
         return found
     half = section.simpler(section.count, mirror=True)
-    status, mirrored = corrected(half, found.point, found.facts[section_map.MODE])
+    status, mirrored = corrected(half, found.point, found.mode)
     return mirrored if status is Status.DONE else found
 
 

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from vibroimpact.continuation.arclength import distance, is_other_curve, predicted
 from vibroimpact.continuation.closing import returned
-from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.model import Assembly, Oscillator
 from vibroimpact.stability.chatter import Rested, completed_elsewhere, placed_at_rest, rests
@@ -112,7 +111,7 @@ class Branch:
         """Predict and correct: an orbit of the same branch, whatever its contacts."""
         section = here.orbit.section
         aim, normal = predicted(self, here, length), here.tangent
-        mode = here.orbit.facts[section_map.MODE]
+        mode = here.orbit.mode
         bound = min(max(aim[VALUE], self.low), self.high)
         limited = section.family.parameter.most is not None or not section.family.straight
         if limited and bound not in (aim[VALUE], here.orbit.value):
@@ -197,7 +196,7 @@ class Branch:
         share = (value - here.orbit.value) / (here.tangent[VALUE] * self.scale[VALUE])
         point = predicted(self, here, share)
         point[VALUE] = value
-        mode = here.orbit.facts[section_map.MODE]
+        mode = here.orbit.mode
         status, found = corrected(here.orbit.section, point, mode)
         if status is not Status.DONE or found.contacts != here.orbit.contacts:
             return []
@@ -213,7 +212,7 @@ class Branch:
             return False
         if phase not in self.marks:
             self.marks[phase] = list(self._marks(phase))
-        mode = there.orbit.facts[section_map.MODE]
+        mode = there.orbit.mode
 
         def solved(guess: _Array, normal: _Array) -> _Array | None:
             status, found = corrected(section, guess, mode, normal)
@@ -337,14 +336,14 @@ class Branch:
         # The map just beyond, where it has the new contacts: at a point that is no orbit yet.
         for ahead in _BEYOND:
             point = last.point + ahead * tangent * self.scale
-            status, other, _ = evaluated(last.section, point, last.facts[section_map.MODE])
+            status, other, _ = evaluated(last.section, point, last.mode)
             if status is Status.DONE and other.contacts != contacts:
                 break
         else:
             return None
         if at_wall(last, other):
             return None  # the way back (`dies_out` finds the way on)
-        mode = other.facts[section_map.MODE]
+        mode = other.mode
         for sign in (1.0, -1.0):
             elsewhere = None
             # Forwards first: a corner may turn the branch back, but need not.
@@ -410,5 +409,5 @@ def _born_grazing(met: Orbit) -> str:
 def near_other_contacts(last: Orbit, along: _Array, ahead: float) -> bool:
     """Whether the map has other contacts a little further along the branch."""
     point = last.point + ahead * last.tangent(along) * last.section.scale
-    status, other, _ = evaluated(last.section, point, last.facts[section_map.MODE])
+    status, other, _ = evaluated(last.section, point, last.mode)
     return status is Status.DONE and other.contacts != last.contacts

@@ -14,7 +14,6 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.stability.fixed_points import (
     VALUE,
@@ -49,7 +48,7 @@ def is_of_simpler_map(found: Orbit) -> bool:
 def simplest(found: Orbit) -> Orbit:
     """An orbit as that of the simplest map whose fixed point it is."""
     while is_of_simpler_map(found) and (section := found.section.parent()) is not None:
-        _, found, _ = evaluated(section, found.point, found.facts[section_map.MODE])
+        _, found, _ = evaluated(section, found.point, found.mode)
     return found
 
 
@@ -66,10 +65,8 @@ def parent(here: Orbit, there: Orbit) -> Orbit | None:
     if found is None:
         return None
     # From afar the images may have changed sides elsewhere.
-    scale = here.section.scale
-    seen = here.section.seen
-    step = np.linalg.norm((there.point - here.point) / scale * seen)
-    away = np.linalg.norm((found.point - nearer.point) / scale * seen)
+    step = np.linalg.norm(here.section.scaled(there.point - here.point))
+    away = np.linalg.norm(here.section.scaled(found.point - nearer.point))
     return found if away <= step else None
 
 
@@ -81,7 +78,7 @@ def shrinks_onto(last: Orbit) -> Orbit | None:
     here = last
     for _ in range(_HALVINGS):
         middle = 0.5 * (here.point + grazing.point)
-        status, nearer = corrected(here.section, middle, here.facts[section_map.MODE])
+        status, nearer = corrected(here.section, middle, here.mode)
         if status is not Status.DONE or nearer.missed is None:
             return None
         if not _SHRINKS[0] <= _miss(nearer) / _miss(here) <= _SHRINKS[1]:
@@ -101,7 +98,7 @@ def _zero(near: Orbit, test: Callable[[Orbit], float]) -> Orbit | None:
     if section is None or near.missed is None:
         return None
     guess = near.point + 0.5 * near.missed[1] * section.scale
-    mode = float(near.facts[section_map.MODE])
+    mode = near.mode
     first = float(guess[VALUE])
     values = [first, first + 1e-6 * section.scale[VALUE]]
     tests: list[float] = []

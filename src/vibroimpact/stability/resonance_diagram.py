@@ -12,7 +12,6 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from vibroimpact.arguments import check_list
-from vibroimpact.engine import section_map
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError, shown
 from vibroimpact.model.argument_types import (
@@ -186,7 +185,6 @@ def on_branch(orbit: Orbit, one: Followed) -> bool:
     if section.period != orbit.section.period or section.mirror != orbit.section.mirror:
         return False
     seen_there: dict[float, list[_Array]] = {}
-    scale = section.scale
     for here, there in itertools.pairwise(one.stations):
         phase = here.orbit.section.family.phase
         if here.piece != there.piece or there.orbit.section.family.phase != phase:
@@ -200,21 +198,18 @@ def on_branch(orbit: Orbit, one: Followed) -> bool:
             else (orbit.value - here.orbit.value) / (there.orbit.value - here.orbit.value)
         )
         guess = here.orbit.point + share * (there.orbit.point - here.orbit.point)
-        counts = here.orbit.section.seen
-        reach = _CLOSE + np.linalg.norm((there.orbit.point - here.orbit.point) / scale * counts)
+        reach = _CLOSE + np.linalg.norm(section.scaled(there.orbit.point - here.orbit.point))
         if phase not in seen_there:
             seen = at_phase(orbit, phase)
             mirrored = orbit.section.family.symmetric
             there_too = () if seen is None else images(seen, mirrored=mirrored)
             seen_there[phase] = [point for point, _ in there_too]
-        near = [
-            z for z in seen_there[phase] if np.linalg.norm((z - guess) / scale * counts) <= reach
-        ]
+        near = [z for z in seen_there[phase] if np.linalg.norm(section.scaled(z - guess)) <= reach]
         if not near:
             continue
-        status, found = corrected(here.orbit.section, guess, here.orbit.facts[section_map.MODE])
+        status, found = corrected(here.orbit.section, guess, here.orbit.mode)
         if status is Status.DONE and any(
-            np.linalg.norm((found.point - z) / scale * counts) <= _SAME for z in near
+            np.linalg.norm(section.scaled(found.point - z)) <= _SAME for z in near
         ):
             return True
     return False

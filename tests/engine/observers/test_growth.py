@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
 
 import vibroimpact as vi
-from vibroimpact.engine import flow, lyapunov
+from vibroimpact.engine import flow, lyapunov, native
 from vibroimpact.engine.entry import entry
 from vibroimpact.engine.event import LIMIT, TURN
-from vibroimpact.engine.flow_dispatch import planned
+from vibroimpact.engine.flow_dispatch import flow_of, planned
 from vibroimpact.engine.memory import pointer
 from vibroimpact.engine.motion import STATE
 from vibroimpact.engine.observers import growth
@@ -199,11 +200,15 @@ def grown_over(given, rig, length, event, q, logarithms):
 def test_pieces_that_end_otherwise_than_their_stretch_leave_the_growth_unknown():
     damping, length = 40.0, 0.5  # of the second row, e^−20 is left
     rig = prepare(vi.Rig(free(damping), vi.Harmonic(1.0, 1.0))).vector
+    # As Python, if it would be compiled for this call alone.
+    grow = (
+        partial(grown_over.function, flow_of(rig).memory) if native.find_library() else grown_over
+    )
     q, logarithms = np.zeros((DISTURBANCE, DISTURBANCE)), np.zeros(2)
-    grown_over(rig, length, LIMIT, q, logarithms)
+    grow(rig, length, LIMIT, q, logarithms)
     assert logarithms.sum() == pytest.approx(-damping * length, rel=1e-9)
     q, logarithms = np.zeros((DISTURBANCE, DISTURBANCE)), np.zeros(2)
-    grown_over(rig, length, TURN, q, logarithms)  # which no piece meets
+    grow(rig, length, TURN, q, logarithms)  # which no piece meets
     assert np.isfinite(logarithms[0])
     assert np.isnan(logarithms[1])
     assert np.isfinite(q).all()

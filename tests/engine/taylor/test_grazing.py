@@ -16,7 +16,7 @@ import vibroimpact as vi
 from engine.taylor.rigs import ISOLATORS, SHAKEN, STOPS
 from samples import sample
 
-DEPTHS = [10.0**-n for n in range(2, 14)]
+DEPTHS = [10.0**-n for n in sample(range(2, 14), (2, 7, 12))]
 CYCLES = 2.0
 START = vi.State(0.1, 0.3)
 ROUNDING = 100 * 2.0**-52

@@ -9,11 +9,13 @@ import pytest
 
 import vibroimpact as vi
 from engine.taylor.rigs import ISOLATORS, SHAKEN, between, followed, pairs, started
+from samples import sample
 
 FREQUENCY = 0.9 / math.tau
 SAMPLES = 4096
 
 
+@pytest.mark.full
 @pytest.mark.parametrize(("isolator", "stop"), pairs("pounding"))
 def test_extremes_are_just_above_those_of_dense_samples(isolator: str, stop: str) -> None:
     rig = between(isolator, stop)
@@ -40,7 +42,7 @@ def test_samples_lie_on_the_motion(isolator: str, stop: str) -> None:
         np.testing.assert_allclose(found, end[2:4], atol=1e-12)
 
 
-@pytest.mark.parametrize("isolator", ISOLATORS)
+@pytest.mark.parametrize("isolator", sample([*ISOLATORS], [*ISOLATORS][::3]))
 def test_the_acceleration_is_that_of_the_velocity(isolator: str) -> None:
     """u′ sampled densely, its differences plus the shaking: the absolute acceleration."""
     data = vi.simulate(

@@ -55,7 +55,7 @@ PAIRS = sample([*product(STOPS, STOPS)], [*product(STOPS, STOPS)][::5])
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: law.kind)
-@pytest.mark.parametrize("force", [0.0, 1.0, 5.0, -9.0])
+@pytest.mark.parametrize("force", sample([0.0, 1.0, 5.0, -9.0], [0.0, -9.0]))
 def test_one_mass_rests_where_the_oscillator_does(law, force):
     tried = 0
     for right, left in PAIRS:

@@ -173,8 +173,7 @@ class FormulaStop(StopLaw):
 
     def engine_numbers(self) -> StopNumbers:
         """Return the numbers by which the engine follows the formula."""
-        made: StopNumbers = self.law.engine_numbers()
-        return made
+        return self.law.engine_numbers()
 
     def static_force(self, deformation: float) -> float:
         """Return the force (N) of the stop at a slow deformation (m)."""
