@@ -16,6 +16,7 @@ import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
+import distribution
 import vibroimpact as vi
 
 ROOT = Path(__file__).parents[1]
@@ -44,6 +45,13 @@ def test_describing_a_rig_needs_no_compiler():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []
+
+
+def test_what_tries_a_wheel_exists():
+    for name in (*distribution.QUICK, *distribution.SHIPPED):
+        file, _, function = name.partition("::")
+        assert (ROOT / file).exists(), name
+        assert not function or f"def {function}(" in (ROOT / file).read_text(encoding="utf-8"), name
 
 
 def test_what_draws_and_prints_is_not_loaded_with_the_names():
