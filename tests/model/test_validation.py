@@ -200,7 +200,7 @@ def test_help_shows_the_model_and_not_pydantic(model):
     assert "Parameters" in text
     assert "replace(" in text
     assert "model_dump" not in text
-    assert text.count("\n") < 150
+    assert len(text.split()) < 1000  # Python 3.13 breaks long signatures into lines
 
 
 def test_no_pydantic_traceback_hangs_on_the_error():
