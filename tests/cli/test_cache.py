@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from vibroimpact.engine import native
-from vibroimpact.engine.compiled_code import own_folder
+from vibroimpact.engine.cache import own_folder
 
 COMMAND = "cache"
 HOLD = """

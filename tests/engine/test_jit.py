@@ -12,7 +12,8 @@ import pytest
 
 from engine.compiled import ENTRIES, RIGS, compile_for, entries
 from samples import sample
-from vibroimpact.engine import jit, native
+from vibroimpact.engine import cache as files
+from vibroimpact.engine import native
 from vibroimpact.engine.flow_dispatch import _ADVANCE
 
 ENTRY = """\
@@ -165,7 +166,7 @@ def test_entries_and_functions_of_flows_are_loaded() -> None:
     assert len(entries()) >= 9
     for part in (*RIGS, ENTRIES):
         compile_for(part)  # at once where it has been
-    assert NOTICE not in run(LOAD, jit.cache_directory().parent)
+    assert NOTICE not in run(LOAD, files.own_folder().parent)
 
 
 def test_where_the_cache_cannot_be_written_a_process_compiles_for_itself_and_says_so_once(
@@ -189,10 +190,10 @@ def test_without_the_compiler_an_entry_is_the_function() -> None:
 def test_the_folder_changes_with_the_sources(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for source in Path(jit.__file__).parent.glob("*.py"):
+    for source in Path(files.__file__).parent.glob("*.py"):
         (tmp_path / source.name).write_bytes(source.read_bytes())
-    monkeypatch.setattr(jit, "__file__", str(tmp_path / "jit.py"))
-    before = jit.cache_directory()
-    assert jit.cache_directory() == before
+    monkeypatch.setattr(files, "__file__", str(tmp_path / "cache.py"))
+    before = files.own_folder()
+    assert files.own_folder() == before
     (tmp_path / "crossing.py").write_text("# edited")
-    assert jit.cache_directory() != before
+    assert files.own_folder() != before

@@ -9,7 +9,7 @@ import sys
 import numpy as np
 import pytest
 
-from vibroimpact.engine import jit, native, spectra
+from vibroimpact.engine import cache, native, spectra
 from vibroimpact.engine.plain_entries import Alone
 
 LOAD = """\
@@ -24,7 +24,7 @@ assert stats.cache_hits and not stats.cache_misses
 @pytest.mark.skipif(native.find_library() is not None, reason="the engine is machine code already")
 def test_the_next_process_finds_it_compiled() -> None:
     spectra.respond.prepare()
-    environment = {**os.environ, "VIBROIMPACT_CACHE_DIR": str(jit.cache_directory().parent)}
+    environment = {**os.environ, "VIBROIMPACT_CACHE_DIR": str(cache.own_folder().parent)}
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", LOAD], env=environment, capture_output=True, text=True
     )

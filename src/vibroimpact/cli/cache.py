@@ -33,7 +33,8 @@ def cache(*, clean: Literal["others", "all"] | None = None, json: opt.Json = Fal
     from json import dumps
 
     from vibroimpact.engine import native
-    from vibroimpact.engine.compiled_code import list_compiled_code, own_folder, remove
+    from vibroimpact.engine.cache import own_folder
+    from vibroimpact.engine.compiled_code import list_compiled_code, remove
     from vibroimpact.facts.compiled_code import text
     from vibroimpact.facts.tables import as_text
 

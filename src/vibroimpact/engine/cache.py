@@ -1,4 +1,4 @@
-"""The files of compiled code: who may have written them, and whether they are as they were written.
+"""The files of compiled code: where they are, who may have written them, and whether they changed.
 
 numba keeps code as pickles, so whoever can write to them can run code, and it loads a damaged file
 without noticing. A folder that others may write to is therefore not used, and each file has its
@@ -10,10 +10,37 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
+import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from platformdirs import user_cache_path
+
 _DIGEST = ".sha256"
+
+
+def own_folder() -> Path:
+    """Folder of the compiled code of exactly these sources, compilers and processor.
+
+    numba checks the file of an entry only, not at the kernels that it calls, and would run
+    stale code after an edit elsewhere; a folder named after everything cannot be stale. Without
+    numba nothing is compiled, so the folder does not exist.
+    """
+    root = os.environ.get("VIBROIMPACT_CACHE_DIR")
+    base = Path(root) if root else user_cache_path("vibroimpact", appauthor=False)
+    try:
+        import llvmlite
+        import numba
+    except ImportError:
+        return base / "engine-none"
+    here = Path(__file__).parent
+    digest = hashlib.sha256(str(here).encode())  # numba's index names the folder, too
+    for path in sorted(here.rglob("*.py")):
+        digest.update(path.read_bytes())
+    host = numba.core.registry.cpu_target.target_context.codegen().magic_tuple()
+    for part in (numba.__version__, llvmlite.__version__, sys.version, host):
+        digest.update(repr(part).encode())
+    return base / f"engine-{digest.hexdigest()[:16]}"
 
 
 def make_folder(folder: Path, base: Path) -> None:

@@ -78,7 +78,7 @@ class Compiled:
 
             arguments, result = normalize_signature(self.signature)  # type: ignore[no-untyped-call]
             signature = result(numba.typeof(given), *arguments)  # type: ignore[no-untyped-call]
-            version = jit.cache_directory()
+            version = cache.own_folder()
             directory = version / flow.__name__
             try:
                 cache.make_folder(directory, version.parent)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shutil
 import time
 from collections.abc import Iterator
@@ -11,9 +10,6 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 from filelock import FileLock, Timeout
-from platformdirs import user_cache_path
-
-from vibroimpact.engine import jit
 
 
 class CompiledCode(NamedTuple):
@@ -27,16 +23,6 @@ class CompiledCode(NamedTuple):
     flows: tuple[str, ...]
     age: float
     """Time since code was last compiled into the folder (s)."""
-
-
-def own_folder() -> Path:
-    """Folder of the code that this version compiles; without numba it compiles none."""
-    try:
-        return jit.cache_directory()
-    except ImportError:
-        root = os.environ.get("VIBROIMPACT_CACHE_DIR")
-        base = Path(root) if root else user_cache_path("vibroimpact", appauthor=False)
-        return base / "engine-none"
 
 
 def list_compiled_code(own: Path) -> list[CompiledCode]:

@@ -1,4 +1,4 @@
-"""Every compiler option of the engine, and why; and the cache of compiled code.
+"""Every compiler option of the engine, and why; and what is announced when code is compiled.
 
 Two decorators: `kernel` for the functions that the physics is made of, `entry` for the few
 that Python calls. An entry carries the kernels that it calls, so only entries are compiled
@@ -7,9 +7,6 @@ and cached.
 
 from __future__ import annotations
 
-import hashlib
-import os
-import sys
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -17,7 +14,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from platformdirs import user_cache_path
 
 from vibroimpact.engine.compiler import njit
 from vibroimpact.stderr import print_line
@@ -87,27 +83,6 @@ def _within(dispatcher: Any) -> Any:
 
 def _refused(*args: Any, **kwargs: Any) -> Any:
     raise TypeError("a kernel was called from Python; only entries may be")
-
-
-def cache_directory() -> Path:
-    """Folder of the compiled code of exactly these sources, compilers and processor.
-
-    numba checks the file of an entry only, not at the kernels that it calls, and would run
-    stale code after an edit elsewhere; a folder named after everything cannot be stale.
-    """
-    import llvmlite
-    import numba
-
-    here = Path(__file__).parent
-    digest = hashlib.sha256(str(here).encode())  # numba's index names the folder, too
-    for path in sorted(here.rglob("*.py")):
-        digest.update(path.read_bytes())
-    host = numba.core.registry.cpu_target.target_context.codegen().magic_tuple()
-    for part in (numba.__version__, llvmlite.__version__, sys.version, host, OPTIONS):
-        digest.update(repr(part).encode())
-    root = os.environ.get("VIBROIMPACT_CACHE_DIR")
-    base = Path(root) if root else user_cache_path("vibroimpact", appauthor=False)
-    return base / f"engine-{digest.hexdigest()[:16]}"
 
 
 def say(why: str = "") -> None:
