@@ -205,19 +205,32 @@ def impacts(settle: Any) -> Any:
 impact = impacts(settles)
 
 
+@kernel
+def _jump(plan: Vector, mode: int, f: int) -> None:
+    """Let the stops beside one whose force jumps leave what they touch with an acceleration."""
+    stops, zeros = int(plan[at.STOP]), beyond(plan, int(plan[at.ZEROS]))
+    count = int(plan[at.STOPS])
+    coupling = beyond(plan, int(plan[at.COUPLING]) + f * count)
+    for g in range(count):
+        kind = plan[stops + g * at.STOP_WIDTH + at.KIND]
+        curved = kind == at.LINK or (kind == at.PUSHING and mode >> g & 1 == 1)
+        if g != f and coupling[g] != 0.0 and not curved:
+            zeros[g] = min(zeros[g], 2.0)
+
+
 @apart
 def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector) -> tuple[int, int]:
     """Go through the event of a stop whose watched function is zero; the mode and what it was."""
-    count = int(plan[at.STOPS])
     one = int(plan[at.STOP]) + f * at.STOP_WIDTH
     zeros = beyond(plan, int(plan[at.ZEROS]))
-    coupling = beyond(plan, int(plan[at.COUPLING]) + f * count)
     rigid = plan[one + at.KIND] == at.RIGID
     dashpot = plan[one + at.RELAXATION] < math.inf
     bit = 1 << f
     if mode >> f & 1:
         # The bodies part with a jerk, or with an acceleration where the force has jumped.
         jumped = zeros[f] == JUMPED
+        if jumped:
+            _jump(plan, mode, f)
         zeros[f] = 2.0 if jumped else 3.0
         kind = REST_ENDS
         if not rigid:
@@ -235,9 +248,7 @@ def switch_mode(plan: Vector, mode: int, f: int, y: Vector, deformation: Vector)
     if not dashpot:
         deformation[f] = 0.0
     else:
-        for g in range(count):
-            if g != f and coupling[g] != 0.0:
-                zeros[g] = min(zeros[g], 2.0)
+        _jump(plan, mode, f)
     return mode | bit, CONTACT
 
 
