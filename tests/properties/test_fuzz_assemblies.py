@@ -34,7 +34,8 @@ EXACT = 1e-9
 ROUNDING = 1e-13
 """Of the largest kinetic energy: the rounding of a balance in which hardly any energy is left."""
 NOTHING = 1e-14
-"""m, by which a mass that is held at zero may move; times the forces, in J."""
+"""Share of the forces that is rounding. In m, by which a mass that is held at zero may move; times
+the forces, in J."""
 GIVEN_UP = "given up"
 BALANCED = 4
 """Of so many the energy balance of one is drawn up, which takes longer than all else."""
