@@ -22,6 +22,7 @@ from vibroimpact.model.assembly.damping import DAMPINGS, AnyDamping, Modes
 from vibroimpact.model.assembly.link import Link, read_link
 from vibroimpact.model.assembly.matrices import Matrices
 from vibroimpact.model.assembly.names import GROUND, check_body, check_known, check_part_name
+from vibroimpact.model.assembly.numbers import AssemblyNumbers, made_of
 from vibroimpact.model.frozen_mapping import FrozenMapping
 from vibroimpact.model.isolators import IsolatorLaw
 from vibroimpact.model.isolators.design import design_keys
@@ -397,6 +398,10 @@ class Assembly(Model):
         This is never so, because an assembly has no units only if ``units="none"`` was passed.
         """
         return False
+
+    @cached_property
+    def _numbers(self) -> AssemblyNumbers:
+        return made_of(self)
 
     @cached_property
     def _modes(self) -> Modes:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from vibroimpact.model.assembly.assembly import Assembly
 from vibroimpact.model.assembly.link import AnyLaw, Link
 from vibroimpact.model.assembly.names import GROUND
+
+if TYPE_CHECKING:
+    from vibroimpact.model.assembly.assembly import Assembly
 
 GROUND_INDEX = -1
 """Index of the ground."""
@@ -49,9 +51,14 @@ class AssemblyNumbers(NamedTuple):
 
 
 def numbers(assembly: Assembly) -> AssemblyNumbers:
-    """Return an assembly as numbers and arrays."""
+    """Return an assembly as numbers and arrays, which are made once and not to be changed."""
+    return assembly._numbers
+
+
+def made_of(assembly: Assembly) -> AssemblyNumbers:
+    """Make the numbers of an assembly, whose arrays are read-only."""
     linear = [link for link in assembly.links.values() if link.law.linear]
-    return AssemblyNumbers(
+    found = AssemblyNumbers(
         assembly.names,
         assembly.mass_matrix,
         assembly.matrix_of_links("damping", linear) + assembly.rule_damping,
@@ -65,6 +72,10 @@ def numbers(assembly: Assembly) -> AssemblyNumbers:
         ),
         tuple(_part(assembly, name, stop) for name, stop in assembly.stops.items()),
     )
+    for one in found:
+        if isinstance(one, np.ndarray):
+            one.setflags(write=False)
+    return found
 
 
 def _part(assembly: Assembly, name: str, link: Link) -> PartNumbers:
