@@ -86,6 +86,33 @@ def test_numba_that_is_needed_and_lacking_is_named_in_one_line(tmp_path) -> None
     assert "install it with: pip install numba" in line
 
 
+OWN_OBSERVER = """\
+import numpy as np
+from engine.observers.test_power import find_power
+from vibroimpact.engine.parameters import free_rig
+find_power(free_rig(), 1.0, 0.4, 0.0, np.zeros(20), 1, np.zeros(4))
+print("compiled")
+"""
+
+
+@here
+@pytest.mark.parametrize("kernels", [False, True])
+def test_an_observer_of_ones_own_is_compiled_or_says_how(kernels: bool) -> None:
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1])}
+    environment.pop("VIBROIMPACT_KERNELS", None)
+    if kernels:
+        environment["VIBROIMPACT_KERNELS"] = "1"
+    done = subprocess.run(
+        [sys.executable, "-c", OWN_OBSERVER], env=environment, capture_output=True, text=True
+    )
+    if kernels:
+        assert done.stdout == "compiled\n", done.stderr
+    else:
+        last = done.stderr.splitlines()[-1]
+        assert "find_power: the engine's machine code does not contain it" in last
+        assert "VIBROIMPACT_KERNELS=1" in last
+
+
 @here
 @pytest.mark.full
 @pytest.mark.skipif(native.machine() != "x86_64", reason="levels are named as numba names them")

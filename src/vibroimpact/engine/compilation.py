@@ -12,7 +12,8 @@ from filelock import FileLock
 
 from vibroimpact import stderr
 from vibroimpact.engine import cache, jit, native
-from vibroimpact.engine.compiler import PLAIN
+from vibroimpact.engine.compiler import COMPILES, PLAIN
+from vibroimpact.errors import InputError
 
 
 @contextmanager
@@ -73,6 +74,12 @@ class Compiled:
                     self.symbol(flow), self.signature, self.FIRST
                 )
                 return
+            if not COMPILES:
+                raise InputError(
+                    f"{self.__name__}: the engine's machine code does not contain it, so numba "
+                    "has to compile it and the kernels that it calls; set the environment variable "
+                    "VIBROIMPACT_KERNELS=1 before vibroimpact is imported"
+                )
             import numba
             from numba.core.sigutils import normalize_signature
 
