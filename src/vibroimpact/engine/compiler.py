@@ -19,9 +19,10 @@ if TYPE_CHECKING or COMPILES:
     try:
         import numba
     except ImportError:
+        _why = native.choose().why or "VIBROIMPACT_KERNELS is set"
         raise InputError(
-            f"engine: {native.choose().why}, so numba has to compile it, and numba is not "
-            "installed; install it with: pip install numba"
+            f"engine: {_why}, so numba has to compile it, and numba is not installed; install it "
+            "with: pip install numba"
         ) from None
     from numba import njit
     from numba.core import cgutils, types

@@ -47,7 +47,7 @@ PRESENT: dict[str, Any] = {
     "markeredgecolor": "white",
     "markeredgewidth": 0.6,
 }
-"""Colour of the mark of the present design."""
+"""Keywords of the mark of the present design."""
 _LEVELS = 9
 
 

@@ -5,7 +5,9 @@ between two events. `before` and `after` are the states at its ends (a vector, s
 holds its length, its event and when it begins (`state.stretch_room`); it writes to its notes alone.
 What happens in between it reads from the channels of the stretch (`channels`), the same for one
 mass and several: series of displacements, velocities, accelerations, clearances, forces and
-deformations, with exact extremes (`channels.widen`).
+deformations, with exact extremes (`channels.widen`, of a range that begins as +inf, -inf or 0, 0).
+A piece is touched as a whole or not at all: its clearance is 0 throughout, or positive inside. The
+deformation's slope is the closing speed only then; untouched it fades, at rigid stops it is 0.
 
     largest_power = observed(see_power)         # the loop of `event_loop`, for all flows
 
@@ -14,8 +16,9 @@ deformations, with exact extremes (`channels.widen`).
 
 `tests/engine/observers/test_power.py` is all that one takes: the kernel, its loop, an entry that
 starts with `opening.open_entry`, and a comparison with dense samples. numba compiles the entry when
-it is first called; the library of machine code has those of this package (`make kernels`). Without
-the compiler (`NUMBA_DISABLE_JIT=1`) a first try is quicker.
+it is first called, outside of the tests if `VIBROIMPACT_KERNELS=1` is set; the library of machine
+code has those of this package (`make kernels`). Without the compiler (`NUMBA_DISABLE_JIT=1`) a
+first try is quicker.
 
 Some observers here are functions of the flow (`flow`) instead: one mass has bounds that let
 `extremes` pass over most of a motion, and channels show no disturbances.

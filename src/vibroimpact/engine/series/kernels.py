@@ -198,11 +198,22 @@ _made: dict[tuple[Callable[..., None], Any], tuple[Any, int]] = {}
 
 def address(formula: Callable[..., None], shape: Any) -> int:
     """Where the machine code of a formula for a shape stands."""
+    return made_once(formula, shape, _emitted)
+
+
+def made_once(
+    formula: Callable[..., None], shape: Any, emit: Callable[[Callable[..., None], Any], ir.Module]
+) -> int:
+    """As `address`, of code that is made in another way.
+
+    Code is kept as long as the process, because plans hold its address: some MB a shape, which
+    depends on the structure of a rig alone and on no value.
+    """
     key = (formula, shape)
     found = _made.get(key)
     if found is None:
         with _lock:
-            found = _made.get(key) or machine_code(_emitted(formula, shape))
+            found = _made.get(key) or machine_code(emit(formula, shape))
             _made[key] = found
     return found[1]
 

@@ -6,7 +6,6 @@ rests and no stop of a curved law is touched: what such a mode changes are numbe
 
 from __future__ import annotations
 
-import threading
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,12 +17,12 @@ from vibroimpact.engine.assembly.curved import tape as op
 from vibroimpact.engine.compiler import PLAIN, intrinsic, overload, types
 from vibroimpact.engine.jit import Vector
 from vibroimpact.engine.series.code_generation import REAL, WHOLE, Code, Number
-from vibroimpact.engine.series.kernels import machine_code
+from vibroimpact.engine.series.kernels import made_once
 
 MASSES = 8
 """Whose accelerations stand in one block of a mode's matrix."""
 MOST = 4_000
-"""Products and sums that are made code of: above, to compile would take more than a second."""
+"""Products and sums that are made code of: above, to compile would take more than 2 s."""
 _KNOWN = (op.ADD, op.SUBTRACT, op.NEGATE, op.MULTIPLY, op.SCALE, op.SHIFT)
 _POINTERS, _NUMBERS = 9, 2
 
@@ -163,25 +162,14 @@ def prepare(memory: Vector, vector: Vector) -> None:
     shape = None if PLAIN or not vector[at.CURVED] else shape_of(vector)
     if shape is not None:
         cell = int(vector[at.CODE])
-        memory.view(np.int64)[cell : cell + 2] = address(expanded, shape), address(ended, shape)
-        memory[cell + 2] = float(forbidden(vector))
+        codes = [made_once(formula, shape, _emitted) for formula in (expanded, ended)]
+        memory.view(np.int64)[cell : cell + 2] = codes
+        memory[cell + 2] = float(forbidden(vector) + 1)  # 0 where there is none
 
 
 def same_code(vector: Vector, other: Vector) -> bool:
     """Whether one code serves two rigs with curved laws."""
     return shape_of(vector) == shape_of(other) and forbidden(vector) == forbidden(other)
-
-
-_lock = threading.Lock()
-_made: dict[tuple[Any, Shape], tuple[Any, int]] = {}
-
-
-def address(formula: Any, shape: Shape) -> int:
-    """Where the machine code of a formula for a shape stands."""
-    with _lock:
-        if (formula, shape) not in _made:
-            _made[formula, shape] = machine_code(_emitted(formula, shape))
-        return _made[formula, shape][1]
 
 
 def _type() -> Any:

@@ -236,8 +236,8 @@ _expand = expanding(_begin, push, _grow)
 @kernel
 def coded(plan: Vector) -> bool:
     """Whether the series in this mode are written by code that was made for the assembly."""
-    code = int(plan[at.CODE])
-    return bool(plan[code] != 0.0 and int(plan[at.MODE]) & int(plan[code + 2]) == 0)
+    forbidden = int(plan[int(plan[at.CODE]) + 2]) - 1
+    return forbidden >= 0 and int(plan[at.MODE]) & forbidden == 0
 
 
 @kernel
