@@ -31,18 +31,28 @@ def test_one_version():
     assert "## [Unreleased]" in changes or f"## [{vi.__version__}]" in changes
 
 
-def test_import_is_light():
-    heavy = "{'numpy', 'numba', 'xarray', 'pydantic', 'pint', 'matplotlib', 'h5py', 'rich'}"
-    code = f"import sys, vibroimpact; print(*sorted({heavy} & set(sys.modules)))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == []
-
-
-def test_describing_a_rig_needs_no_compiler():
-    code = (
-        "import sys, vibroimpact as vi; vi.laboratory.case('B2-G1-A3')\n"
-        "print(*sorted({'numba', 'xarray', 'pint', 'matplotlib'} & set(sys.modules)))"
-    )
+@pytest.mark.parametrize(
+    ("code", "heavy"),
+    [
+        pytest.param(
+            "import vibroimpact",
+            {"numpy", "numba", "xarray", "pydantic", "pint", "matplotlib", "h5py", "rich"},
+            id="import",
+        ),
+        pytest.param(
+            "import vibroimpact as vi; vi.laboratory.case('B2-G1-A3')",
+            {"numba", "xarray", "pint", "matplotlib"},
+            id="describing a rig needs no compiler",
+        ),
+        pytest.param(
+            "import vibroimpact as vi; [getattr(vi, name) for name in vi.__all__]",
+            {"matplotlib", "rich", "jinja2", "websockets"},
+            id="names load nothing that draws or prints",
+        ),
+    ],
+)
+def test_import_is_light(code, heavy):
+    code = f"{code}\nimport sys; print(*sorted({heavy} & set(sys.modules)))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []
 
@@ -52,15 +62,6 @@ def test_what_tries_a_wheel_exists():
         file, _, function = name.partition("::")
         assert (ROOT / file).exists(), name
         assert not function or f"def {function}(" in (ROOT / file).read_text(encoding="utf-8"), name
-
-
-def test_what_draws_and_prints_is_not_loaded_with_the_names():
-    code = (
-        "import sys, vibroimpact as vi; [getattr(vi, name) for name in vi.__all__]\n"
-        "print(*sorted({'matplotlib', 'rich', 'jinja2', 'websockets'} & set(sys.modules)))"
-    )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.split() == []
 
 
 @pytest.mark.parametrize(

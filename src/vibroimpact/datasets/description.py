@@ -184,7 +184,7 @@ def system_parameters(system: System) -> dict[str, Any]:
     return {"assembly" if isinstance(system, Assembly) else "oscillator": system.model_dump()}
 
 
-def system_of(parameters: Mapping[str, Any]) -> System:
+def system_from(parameters: Mapping[str, Any]) -> System:
     """Return the system in the parameters of a dataset."""
     if "assembly" in parameters:
         return Assembly.model_validate(parameters["assembly"])

@@ -9,12 +9,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from vibroimpact.earthquakes.assembly_demands import RunColumns
-from vibroimpact.earthquakes.peak_demands import Shaken, follow
+from vibroimpact.earthquakes.peak_demands import Shaken, peaks
 from vibroimpact.earthquakes.suites import quantiles
 from vibroimpact.engine.assembly.plan import Drift
-from vibroimpact.engine.earthquakes import OUTCOME
-from vibroimpact.engine.observers import phases
 from vibroimpact.engine.status import Status
 from vibroimpact.errors import InputError
 from vibroimpact.model import Assembly, Harmonic, Record, equilibrium
@@ -55,15 +52,15 @@ def gaps_for_records(
     # What closes at a stop is the drift of its bodies the other way.
     closing = [Drift(*assembly.ends(stop)[::-1]) for stop in assembly.stops.values()]
     runs = [Shaken(free, record, np.ones(1), closing) for record in records.values()]
-    rows = follow(runs, tail=tail, threads=workers, progress=progress)[:, 0]
-    for status in map(Status, rows[:, OUTCOME].astype(int).tolist()):
+    found = peaks(runs, tail=tail, threads=workers, progress=progress)
+    for status in map(Status, found["status"][:, 0].tolist()):
         if status is Status.NOT_FINITE:
             raise InputError(_GROWS)
         if status is not Status.DONE:
             raise InputError(
                 f"shaking: the motion without stops could not be computed: {status.advice}"
             )
-    reached = RunColumns(rows, runs[0].layout).of_drift(phases.D_MOST)
+    reached = found["drift_max"][:, 0]
     (gap,) = quantiles(reached, [fractile], 0)
     return xr.Dataset(
         {"required_gap": ("stop", gap), "peak_closing": (("record", "stop"), reached)},

@@ -135,36 +135,6 @@ def peaks(
         right and the left side as a further axis, 0 where the rig has no stop. Of assemblies the
         peaks are `assembly_demands.PEAKS`, with the masses, links or stops as a further axis.
     """
-    rows = follow(
-        shaken,
-        tail=tail,
-        energies=energies,
-        residuals=residuals,
-        max_events=max_events,
-        threads=threads,
-        progress=progress,
-        by_line=by_line,
-    )
-    if shaken and isinstance(shaken[0].system, Assembly):
-        return peaks_of_assemblies(rows, shaken[0].layout)
-    return _named(shaken, rows, energies, residuals)
-
-
-def follow(
-    shaken: Sequence[Shaken],
-    *,
-    tail: float | None = None,
-    energies: bool = False,
-    residuals: bool = False,
-    max_events: int = MAX_EVENTS,
-    threads: Workers = None,
-    progress: Progress | None = None,
-    by_line: bool = False,
-) -> _Array:
-    """Return what the engine finds of each run, shape (shaken, factor, number).
-
-    Parameters are those of `peaks`.
-    """
     count = len(shaken[0].factors) if shaken else 0
     ready = [_prepared(one) for one in shaken]
     rows = np.full((len(shaken), count, ready[0].numbers if ready else 0), np.nan)
@@ -207,7 +177,9 @@ def follow(
     each_found = each(task, items, steps=steps, threads=threads, progress=told)
     for (n, some), mine in zip(parts, each_found, strict=True):
         rows[n, some] = mine
-    return rows
+    if shaken and isinstance(shaken[0].system, Assembly):
+        return peaks_of_assemblies(rows, shaken[0].layout)
+    return _named(shaken, rows, energies, residuals)
 
 
 def _by_run(progress: Progress, runs: int, done: int, total: int | None) -> None:

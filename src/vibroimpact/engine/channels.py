@@ -7,8 +7,8 @@
         ...
         more = flow.next_piece(plan, before, piece)
 
-Walk to the last piece: then the plan is as it was. A series has the coefficients 0 to `order` in τ,
-which is 0 to 1 over the piece; FADING · exp(−RATE τ) is added.
+The loop must not end early: only after the last piece is the plan as it was. The value of a channel
+is Σ series[j] τʲ, j ≤ order, plus FADING · exp(−RATE τ), with τ from 0 to 1 over the piece.
 """
 
 from __future__ import annotations
@@ -36,8 +36,10 @@ SINCE, LENGTH, OWN = range(3)
 flow keeps there."""
 
 series_room = stack(SERIES)
-piece_room = stack(OWN + ORDER + 18)
-"""Room for them: of one mass a series and a cursor (`one_mass_channels`)."""
+CURSOR_SIZE = 15
+"""Most numbers of a cursor, by which one mass goes from piece to piece (`pieces.keep_cursor`)."""
+piece_room = stack(OWN + 3 + ORDER + CURSOR_SIZE)
+"""Room for them: of one mass three numbers, a series and a cursor (`one_mass_channels`)."""
 
 
 @kernel

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from vibroimpact.datasets.description import motion_parameters, system_of
+from vibroimpact.datasets.description import motion_parameters, system_from
 from vibroimpact.datasets.stops import over_parts
 from vibroimpact.design.design_shaking import fractile_of
 from vibroimpact.design.limits import excesses
@@ -188,7 +188,7 @@ def present_values(data: xr.Dataset, dims: list[str]) -> list[float]:
     parameters = motion_parameters(data)
     if not {"assembly", "oscillator"} & set(parameters):
         return [math.nan for _ in dims]
-    rig, found = Rig(system_of(parameters)), []
+    rig, found = Rig(system_from(parameters)), []
     for dim in dims:
         try:
             value = parameter(dim, rig).read(rig)

@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
-from vibroimpact.datasets.description import motion_parameters, system_of
+from vibroimpact.datasets.description import motion_parameters, system_from
 from vibroimpact.datasets.stops import quantity as of_quantity
 from vibroimpact.earthquakes.suites import fractiles
 from vibroimpact.errors import InputError
@@ -229,4 +229,4 @@ def _curves(ax: Axes, data: xr.Dataset, over: str) -> None:
 
 def _words(data: xr.Dataset, name: str) -> str:
     """Return the name of a parameter in words, as it is in the rig of the dataset."""
-    return parameter(name, system_of(motion_parameters(data))).long_name
+    return parameter(name, system_from(motion_parameters(data))).long_name

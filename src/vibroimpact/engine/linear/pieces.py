@@ -104,7 +104,7 @@ def next_piece(plan: Vector, cursor: Cursor) -> Cursor:
 
 @kernel
 def keep_cursor(plan: Vector, cursor: Cursor, room: Vector) -> None:
-    """Write a cursor into memory, which has 15 places (`channels.piece_room`)."""
+    """Write a cursor into memory, of at most `channels.CURSOR_SIZE` numbers."""
     early, table, i, length, age, t, span, start = cursor
     room[0], room[1], room[2], room[3] = early, table, i, length
     room[4], room[5], room[6] = age, t, span
