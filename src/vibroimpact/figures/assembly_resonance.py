@@ -194,7 +194,7 @@ def mass_branches(
                 width = (2.0 if touched else 0.9) * (1.0 if stable else 0.8)
                 styles[stable, touched] = style = orbit_style(stable, width)
                 ax.plot(x[run], y[run], **style)
-        found = []
+        found = []  # of each panel the same kinds: one legend serves all
         if sweep is not None:
             swept = one.factor * one.of(sweep[one.quantity])
             found += mark_sweep(ax, swept, scale, 0.7, _MARKS)
