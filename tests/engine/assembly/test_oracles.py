@@ -75,7 +75,8 @@ def test_momentum_and_energy_over_many_impacts(tables: bool) -> None:
     count, _ = run(system, state, sections(0.0, 1.0, 2000), tables)
     assert count > 10_000
     u1, v1 = state[2:5], state[5:8]
-    assert abs(np.dot(mass, v1)) <= 1e-12 * np.dot(mass, abs(v1))
+    # Of the momenta at the start: those of the instant at the end may be small by chance.
+    assert abs(np.dot(mass, v1)) <= 1e-12 * np.dot(mass, abs(v))
     energy = [0.5 * np.dot(mass, b**2) + 0.5 * a @ k @ a for a, b in ((u, v), (u1, v1))]
     assert energy[1] == pytest.approx(energy[0], rel=1e-12)
 

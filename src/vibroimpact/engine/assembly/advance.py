@@ -7,7 +7,7 @@ from typing import Any
 
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.events import JUMPED, pack_fresh, speeds, switch_mode, unpack_fresh
-from vibroimpact.engine.assembly.mode import enter_mode
+from vibroimpact.engine.assembly.mode import RATES_KEPT, enter_mode
 from vibroimpact.engine.assembly.roots import first_fall
 from vibroimpact.engine.assembly.series import (
     expand_state,
@@ -77,6 +77,8 @@ def begin(plan: Vector, amplitude: float, omega: float) -> None:
     for i in range(n * w):
         plan[push + i] = factor * plan[shape + i]
     plan[at.MODE] = -1.0
+    for i in range(RATES_KEPT):
+        plan[int(plan[at.RATE_OF]) + 2 * i] = -1.0
     enter_mode(plan, 0)
     plan[at.STIFF_RATE] = plan[at.RATE]
     plan[at.UNIT] = 2.0 ** -math.floor(math.log2(max(plan[at.RATE], 1e-200)))

@@ -121,6 +121,7 @@ from __future__ import annotations
     RATES_SLOTS,
     RATES_MODE,
     RATES_NOW,
+    RATE_OF,
     OUTPUTS,
     SHARE,
     POWERS,
@@ -128,7 +129,7 @@ from __future__ import annotations
     CODE,
     UNIT,
     AT_ONCE,
-) = range(103)
+) = range(104)
 HEADER = 104
 
 LEFT, RIGHT, GAP, KIND, STOP_STIFFNESS, STOP_DAMPING, RESTITUTION, RELAXATION = range(8)

@@ -184,8 +184,8 @@ def staying(range_of: Any) -> Any:
                 travel_by_tables(plan, table_of_flight(plan), piece_length(plan), x, room)
             for c in range(count):
                 rows = int(plan[at.SEEN]) + c * 16 * size
-                combine(beyond(plan, rows), 8, x, size, b)
-                combine(beyond(plan, rows + 8 * size), 8, x, size, beyond(b, 8))
+                combine(beyond(plan, rows), x, size, b)
+                combine(beyond(plan, rows + 8 * size), x, size, beyond(b, 8))
                 least, most = b[0], b[0]
                 for r in range(1, _DEGREE + 1):
                     least, most = min(least, b[r]), max(most, b[r])

@@ -8,6 +8,9 @@ from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
+RATES_KEPT = 8
+"""Modes whose rates are kept, each with its rate."""
+
 _DEPENDENT = 1e-12
 """A stop whose constraint is this close to those of others adds none (both walls touch a mass)."""
 
@@ -32,7 +35,10 @@ def enter_mode(plan: Vector, mode: int) -> None:
                 r += 1
     plan[at.PRESSED], plan[at.RESTING] = float(p), float(r)
     _factorize(plan)
-    plan[at.RATE] = _rate(plan)
+    kept = int(plan[at.RATE_OF]) + 2 * ((mode ^ mode >> 3 ^ mode >> 6) & (RATES_KEPT - 1))
+    if plan[kept] != float(mode):
+        plan[kept], plan[kept + 1] = float(mode), _rate(plan)
+    plan[at.RATE] = plan[kept + 1]
 
 
 @kernel

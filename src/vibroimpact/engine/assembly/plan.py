@@ -18,6 +18,7 @@ from vibroimpact.engine.assembly.curved.laws import (
     initial_stiffness,
     written,
 )
+from vibroimpact.engine.assembly.mode import RATES_KEPT
 from vibroimpact.engine.assembly.rates import rates_size
 from vibroimpact.engine.assembly.tables import RULES, rules, table_size
 from vibroimpact.engine.jit import Vector
@@ -224,7 +225,6 @@ def make_vector(
 
     # What follows is only in a plan.
     room(at.ECONOMY, at.TERMS * (at.DEGREE + 1))
-    room(at.RULES, RULES)
     room(at.PUSH, n * waves)
     room(at.PRESSED_LIST, count)
     room(at.RESTING_LIST, count)
@@ -254,6 +254,7 @@ def make_vector(
     room(at.OUTPUTS, 2 * (row + 2 * count + n + 16) + 48)
     room(at.RATES, slots * size)
     room(at.RATES_MODE, slots)
+    room(at.RATE_OF, 2 * RATES_KEPT)
 
     # Modes with few pressed stops have tables, as many as there is room for.
     size = table_size(n, count, waves)
@@ -263,6 +264,7 @@ def make_vector(
         most += 1
         modes += comb(count, most)
     header[[at.SLOTS, at.MOST_PRESSED, at.TABLE_SIZE]] = modes, most, size
+    room(at.RULES, RULES if modes else 0)
     room(at.KEYS, 2 * max(modes, 1))
     room(at.SLOT_OF, 2 * max(modes, 1))
     room(at.TABLE_ROOM, (8 * 16 + 4) * (width + count + 8) if modes else 0)
@@ -283,9 +285,12 @@ def write_plan(vector: Vector, plan: Vector) -> None:
     plan[:numbers] = vector[:numbers]
     for index, size in ((at.CODE, 3), (at.SERIES, at.TERMS * int(vector[at.ROW]) + 16)):
         plan[int(vector[index]) : int(vector[index]) + size] = 0.0
-    for index, constants in ((at.ECONOMY, _economy()), (at.RULES, _rules())):
+    constants = [(at.ECONOMY, _economy())]
+    if vector[at.SLOTS] > 0.0:
+        constants.append((at.RULES, _rules()))
+    for index, numbers_there in constants:
         begin = int(vector[index])
-        plan[begin : begin + len(constants)] = constants
+        plan[begin : begin + len(numbers_there)] = numbers_there
 
 
 def make_plan(*args: Any, **kwargs: Any) -> Vector:

@@ -13,15 +13,19 @@ from __future__ import annotations
 import math
 
 from vibroimpact.engine.assembly import layout as at
-from vibroimpact.engine.jit import Vector, apart, kernel
-from vibroimpact.engine.memory import beyond
+from vibroimpact.engine.assembly.vectors import halve
+from vibroimpact.engine.jit import Vector, apart, inlined, kernel
+from vibroimpact.engine.memory import beyond, stack
 
 NONE = 9.0
 _D = at.DEGREE
 _BINOMIALS = tuple(float(math.comb(at.DEGREE, i)) for i in range(at.DEGREE + 1))
 _NARROW = 2.0**-46
+_terms = stack(at.DEGREE + 1)
 _MOST_SPLITS = 10_000
 """No polynomial needs so many but by an error; `UNDECIDED` counts those that do."""
+_CLOSE = 2e-6
+"""A step by less than this, as a share of the place, leaves its cube: less than rounding."""
 _LONG = 4.0
 """Relaxation times on a piece from which its memory is left out of the lower bound."""
 
@@ -50,13 +54,14 @@ def first_fall(
     room, widths = int(plan[at.ROOM]), int(plan[at.WIDTHS])
     left, width, waiting, splits = 0.0, 1.0, 0, 0
     while left < end:
-        e = d * math.exp(-x_rate * left) if d > 0.0 else 0.0
+        e = d * math.exp(-x_rate * left) if d > 0.0 and left > 0.0 else d
         x = x_rate * width
         known = zeros if left == 0.0 else 0
         last = e * math.exp(-x) if e > 0.0 else 0.0
         # Coefficients that are off by `noise`, but for the first, are a polynomial below this.
         grown = noise * min(_D * (left + width), 1.0) if grows and zeros > 0 else noise
-        free = positive(b, e, x, last, known, grown)
+        sunk = b[_D] + last <= -grown
+        free = not sunk and positive(b, e, x, last, known, grown)
         if not free and b[_D] + last <= 0.0 and falling(b, e, x, last, known):
             if known > 0:
                 return 0.0
@@ -70,7 +75,10 @@ def first_fall(
                 return NONE
             # With a zero at the left, the exponential must be followed there to its curvature.
             cut = 3.0 / x if e > 0.0 and x > _LONG and known > 0 else 0.5
-            split(b, cut, beyond(plan, room + 16 * waiting))
+            if cut == 0.5:
+                halve(b, beyond(plan, room + 16 * waiting))
+            else:
+                split(b, cut, beyond(plan, room + 16 * waiting))
             plan[widths + waiting] = width * (1.0 - cut)
             width *= cut
             waiting += 1
@@ -113,7 +121,7 @@ def begin_at_zero(b: Vector, d: float, x_rate: float, zeros: int) -> None:
             times *= (j + 1) / (j + 1 - k)
 
 
-@kernel
+@inlined
 def positive(b: Vector, e: float, x: float, last: float, known: int, noise: float) -> bool:
     """Whether f is proved positive on (0, 1], but for its known zeros at 0."""
     found = True
@@ -134,7 +142,7 @@ def positive(b: Vector, e: float, x: float, last: float, known: int, noise: floa
     return found
 
 
-@kernel
+@inlined
 def falling(b: Vector, e: float, x: float, last: float, known: int) -> bool:
     """Whether f is proved to fall all the way; a slope that is zero by construction may be so."""
     found = True
@@ -156,7 +164,7 @@ def split(b: Vector, cut: float, right: Vector) -> None:
 
 @kernel
 def only_root(b: Vector, e: float, x: float) -> float:
-    """The root of a falling f in [0, 1], by Newton's method within a bracket."""
+    """The root of a falling f in [0, 1], by Halley's method within a bracket."""
     low, high, t = 0.0, 1.0, 1.0
     before, memory = b[0] + e, e
     decay = math.exp(-x / _D) if e > 0.0 else 0.0
@@ -167,47 +175,64 @@ def only_root(b: Vector, e: float, x: float) -> float:
             t = (j - 1 + before / (before - here)) / _D if before > 0.0 else 0.0
             break
         before = here
+    near, c = t <= 0.5, _terms()
+    for i in range(_D + 1):
+        c[i] = _BINOMIALS[i] * (b[i] if near else b[_D - i])
     for _ in range(60):
-        f, slope = value(b, t)
+        f, slope, bend = value(c, t if near else 1.0 - t)
+        slope = slope if near else -slope
         if e > 0.0:
             memory = e * math.exp(-x * t)
             f += memory
             slope -= x * memory
+            bend += x * x * memory
         if f > 0.0:
             low = t
         else:
             high = t
-        new = t - f / slope if slope < 0.0 else low
+        # Halley's step, or Newton's where the curve bends too much.
+        new = low
+        if slope < 0.0:
+            square = slope * slope
+            curved = 2.0 * square - f * bend
+            halley = curved > square
+            new = t - (2.0 * f * slope if halley else f) / (curved if halley else slope)
         if not low <= new <= high:
             new = 0.5 * (low + high)
-        if abs(new - t) <= 1e-9 * max(t, 0.0625):  # the next step would be below rounding
+        if abs(new - t) <= _CLOSE * max(t, 0.0625):
             return new
         t = new
     return t
 
 
-@kernel
-def value(b: Vector, x: float) -> tuple[float, float]:
-    """Value and slope of a Bernstein polynomial, by Horner's rule in x / (1 − x)."""
-    near = x <= 0.5
-    small = x if near else 1.0 - x
-    ratio = small / (1.0 - small)
-    rest = 1.0 - small
-    # Σ C(D, j) b_j rʲ and its derivative, the even and the odd powers apart, as each sum waits for
-    # itself.
+@inlined
+def value(c: Vector, x: float) -> tuple[float, float, float]:
+    """Value, slope and second derivative of Σ c_i xⁱ (1 − x)^(D − i), near 0.
+
+    It is (1 − x)^D S(r) with r = x / (1 − x); even and odd powers are summed apart.
+    """
+    rest = 1.0 - x
+    once = 1.0 / rest
+    ratio = x * once
     again = ratio * ratio
-    even, odd, even_slope, odd_slope = 0.0, 0.0, 0.0, 0.0
+    even, odd, even_slope, odd_slope, even_bend, odd_bend = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for i in range(_D - 1, -1, -2):
+        even_bend = even_bend * again + even_slope
+        odd_bend = odd_bend * again + odd_slope
         even_slope = even_slope * again + even
         odd_slope = odd_slope * again + odd
-        even = even * again + _BINOMIALS[i] * (b[i] if near else b[_D - i])
-        odd = odd * again + _BINOMIALS[i + 1] * (b[i + 1] if near else b[_D - i - 1])
+        even = even * again + c[i]
+        odd = odd * again + c[i + 1]
     total = even + ratio * odd
     slope = odd + 2.0 * ratio * (even_slope + ratio * odd_slope)
+    bent = 6.0 * odd_slope + 8.0 * ratio * (even_bend + ratio * odd_bend)
+    bend = 2.0 * even_slope + ratio * bent
     square = rest * rest
     fourth = square * square
-    scale = fourth * fourth * (fourth * square)  # rest^(D − 1)
-    # p = rest^D S(r), dr/dx = 1 / rest²
-    p = scale * rest * total
-    p1 = scale * (slope / rest - _D * total)
-    return p, p1 if near else -p1
+    before = fourth * fourth * fourth * rest  # rest^(D − 2)
+    turned = _D * rest * total - slope
+    return (
+        before * square * total,
+        -before * turned,
+        before * once * (bend * once + (_D - 1.0) * (turned - slope)),
+    )

@@ -24,7 +24,7 @@ import numpy as np
 from vibroimpact.engine.assembly import layout as at
 from vibroimpact.engine.assembly.channels import observed
 from vibroimpact.engine.assembly.series import expand_state, gain_all, to_bernstein, watched_series
-from vibroimpact.engine.assembly.vectors import combine
+from vibroimpact.engine.assembly.vectors import combine, combine_sixteen
 from vibroimpact.engine.jit import Vector, apart, kernel
 from vibroimpact.engine.memory import beyond
 
@@ -33,13 +33,9 @@ _FRACTIONS = 32
 _JETS = 4
 _LOW = 7
 _NODES = 8
-# Places in `rules`.
-_AT_NODES = 0
-_FIT = LEVELS * _NODES * 16
-_LIFT = _FIT + 64
-_PLACES = _LIFT + 128
-RULES = _PLACES + _NODES
-"""How many numbers there are."""
+_RULE = 2 * 8 * 16
+RULES = ((1 << LEVELS) - 1) * _RULE
+"""How many numbers there are in `rules`."""
 # Of a table.
 STEP_LENGTH, WIDTH, LEAPS, FRACTION, FINE, JETS, FULL, LOW, BOUND = range(9)
 _HEAD = 16
@@ -54,27 +50,49 @@ def table_size(n: int, stops: int, waves: int) -> int:
 
 
 def rules() -> Any:
-    """Numbers with which approximations of degree 7 are made, see `_AT_NODES`, `_FIT`, `_LIFT`."""
+    """Numbers with which approximations of degree 7 are made and compared, for each step of a leap.
+
+    What its 16 coefficients add to the eight of the approximation, which meets the function at
+    Chebyshev's nodes; then what each of the eight adds to the 16 of the approximation there.
+    """
 
     def basis(d: int, x: float) -> list[float]:
         return [comb(d, j) * x**j * (1.0 - x) ** (d - j) for j in range(d + 1)]
 
+    def restricted(left: float, right: float) -> Any:
+        """Of a part of the interval, by blossoms."""
+        rows = []
+        for j in range(_LOW + 1):
+            row = np.eye(_LOW + 1)
+            for k in range(_LOW):
+                t = right if k < j else left
+                row = (1.0 - t) * row[:-1] + t * row[1:]
+            rows.append(row[0])
+        return np.array(rows)
+
     nodes = 0.5 - 0.5 * np.cos(np.pi * (np.arange(_NODES) + 0.5) / _NODES)
-    at_nodes = [
-        basis(at.DEGREE, x * 2**level - math.floor(x * 2**level))
-        for level in range(LEVELS)
-        for x in nodes
-    ]
     fit = np.linalg.inv(np.array([basis(_LOW, x) for x in nodes]))
     d = at.DEGREE
-    lift = [
+    lift = np.array(
         [
-            comb(_LOW, i) * comb(d - _LOW, j - i) / comb(d, j) if 0 <= j - i <= d - _LOW else 0.0
-            for i in range(_LOW + 1)
+            [
+                comb(_LOW, i) * comb(d - _LOW, j - i) / comb(d, j)
+                if 0 <= j - i <= d - _LOW
+                else 0.0
+                for i in range(_LOW + 1)
+            ]
+            for j in range(d + 1)
         ]
-        for j in range(d + 1)
-    ]
-    return np.concatenate([np.ravel(at_nodes), np.ravel(fit), np.ravel(lift), nodes])
+    )
+    found = []
+    for level in range(LEVELS):
+        pieces = 1 << level
+        for q in range(pieces):
+            here = [
+                basis(d, x * pieces - q) if int(x * pieces) == q else [0.0] * (d + 1) for x in nodes
+            ]
+            found += [(fit @ here).T, (lift @ restricted(q / pieces, (q + 1) / pieces)).T]
+    return np.concatenate([np.ravel(one) for one in found])
 
 
 @apart
@@ -161,6 +179,7 @@ def make_tables(plan: Vector, place: int) -> None:
     pressed = unit + width + 8
     row, series = int(plan[at.ROW]), int(plan[at.SERIES])
     gained = beyond(plan, int(plan[at.OUTPUTS]))
+    change = beyond(plan, pressed + count)
     a, b = beyond(plan, int(plan[at.COEFFICIENTS])), beyond(plan, int(plan[at.BERNSTEIN]))
     for column in range(width):
         for i in range(width):
@@ -177,15 +196,20 @@ def make_tables(plan: Vector, place: int) -> None:
                 tau = (k - _FRACTIONS) / _FRACTIONS**2
                 start = fine + (k - _FRACTIONS) * square
             gain_all(plan, tau, gained)
-            for i in range(width):
-                value = 0.0
-                if i < base - 1:
-                    value = gained[i if i < n else (i + 1 if i < 2 * n else i + 2)]
-                elif i >= base:
-                    f = int(plan[int(plan[at.PRESSED_LIST]) + i - base])
-                    one = int(plan[at.STOP]) + f * at.STOP_WIDTH
-                    value = gained[int(plan[one + at.LEFT])] - gained[int(plan[one + at.RIGHT])]
-                plan[start + (i // 8 * width + column) * 8 + i % 8] = value
+            for i in range(base - 1):
+                change[i] = gained[i if i < n else (i + 1 if i < 2 * n else i + 2)]
+            change[base - 1] = 0.0
+            for j in range(p):
+                one = int(plan[at.STOP]) + int(plan[int(plan[at.PRESSED_LIST]) + j]) * at.STOP_WIDTH
+                change[base + j] = (
+                    gained[int(plan[one + at.LEFT])] - gained[int(plan[one + at.RIGHT])]
+                )
+            for i in range(width, 8 * blocks):
+                change[i] = 0.0
+            for block in range(blocks):
+                cell = start + (block * width + column) * 8
+                for r in range(8):
+                    plan[cell + r] = change[8 * block + r]
         for j in range(_JETS):
             for i in range(n):
                 r = j * n + i
@@ -205,22 +229,22 @@ def make_tables(plan: Vector, place: int) -> None:
                 seen = int(plan[at.SEEN]) + (2 * c + r // 8) * width * 8
                 plan[seen + column * 8 + r % 8] = b[r]
     for level in range(1, LEVELS):
-        _compose(plan, leaps + (level - 1) * square, leaps + level * square, width)
+        _compose(plan, leaps + (level - 1) * square, leaps + level * square, width, unit)
     _screen(plan, place)
 
 
 @kernel
-def _compose(plan: Vector, source: int, target: int, width: int) -> None:
+def _compose(plan: Vector, source: int, target: int, width: int, room: int) -> None:
     """Twice a propagator, both less the identity: 2 E + E E."""
+    x, out = beyond(plan, room), beyond(plan, room + (width + 7) // 8 * 8)
     for column in range(width):
         for i in range(width):
-            at_i = (i // 8 * width) * 8 + i % 8
-            value = 0.0
-            for q in range(width):
-                cell = source + (q // 8 * width + column) * 8 + q % 8
-                value += plan[source + at_i + q * 8] * plan[cell]
-            value += 2.0 * plan[source + at_i + column * 8]
-            plan[target + at_i + column * 8] = value
+            x[i] = plan[source + (i // 8 * width + column) * 8 + i % 8]
+        for block in range((width + 7) // 8):
+            combine(beyond(plan, source + block * width * 8), x, width, out)
+            cell = (block * width + column) * 8
+            for r in range(8):
+                plan[target + cell + r] = out[r] + 2.0 * plan[source + cell + r]
 
 
 @kernel
@@ -229,74 +253,47 @@ def _screen(plan: Vector, place: int) -> None:
     count = int(plan[at.STOPS])
     width = int(plan[place + WIDTH])
     rules = int(plan[at.RULES])
-    nodes = rules + _PLACES
     full, low, bound = int(plan[place + FULL]), int(plan[place + LOW]), int(plan[place + BOUND])
     leaps = int(plan[place + LEAPS])
-    room = int(plan[at.TABLE_ROOM]) + 2 * (width + count + 8)
-    # The exact rows on each step of the longest leap: 16 rows of width numbers for each.
-    exact = room
+    # The exact coefficients on each step of the longest leap: 16 for each number of x.
+    exact = int(plan[at.TABLE_ROOM]) + 2 * (width + count + 8)
     steps = 1 << (LEVELS - 1)
-    values = exact + steps * 16 * width
-    part = values + 16
+    part = exact + steps * 16 * width
+    moved = part + 16
     for f in range(count):
-        for r in range(16):
-            for c in range(width):
-                plan[exact + r * width + c] = plan[
-                    full + ((2 * f + r // 8) * width + c) * 8 + r % 8
-                ]
-        for q in range(1, steps):
-            before, here = exact + (q - 1) * 16 * width, exact + q * 16 * width
+        for c in range(width):
             for r in range(16):
-                for c in range(width):
-                    value = plan[before + r * width + c]
-                    for k in range(width):
-                        cell = leaps + (k // 8 * width + c) * 8 + k % 8
-                        value += plan[before + r * width + k] * plan[cell]
-                    plan[here + r * width + c] = value
-        for level in range(LEVELS):
-            number = level * count + f
-            pieces = 1 << level
+                plan[exact + 16 * c + r] = plan[full + ((2 * f + r // 8) * width + c) * 8 + r % 8]
+        for q in range(1, steps):
+            before = exact + (q - 1) * 16 * width
             for c in range(width):
-                for i in range(_NODES):
-                    q = int(plan[nodes + i] * pieces)
-                    value = 0.0
-                    weights = rules + _AT_NODES + (level * _NODES + i) * 16
-                    for r in range(16):
-                        value += plan[weights + r] * plan[exact + (q * 16 + r) * width + c]
-                    plan[values + i] = value
+                here = before + 16 * (width + c)
+                for k in range(width):
+                    plan[moved + k] = plan[leaps + (k // 8 * width + c) * 8 + k % 8]
+                combine_sixteen(
+                    beyond(plan, before), beyond(plan, moved), width, beyond(plan, here)
+                )
+                for r in range(16):
+                    plan[here + r] += plan[before + 16 * c + r]
+        for level in range(LEVELS):
+            number, pieces = level * count + f, 1 << level
+            first = rules + (pieces - 1) * _RULE
+            for c in range(width):
+                here = low + (number * width + c) * 8
                 for i in range(8):
-                    value = 0.0
-                    for k in range(8):
-                        value += plan[rules + _FIT + 8 * i + k] * plan[values + k]
-                    plan[low + (number * width + c) * 8 + i] = value
+                    plan[here + i] = 0.0
+                for q in range(pieces):
+                    rule, of = first + q * _RULE, exact + (q * width + c) * 16
+                    combine(beyond(plan, rule), beyond(plan, of), 16, beyond(plan, part))
+                    for i in range(8):
+                        plan[here + i] += plan[part + i]
                 most = 0.0
                 for q in range(pieces):
-                    _restrict(
-                        beyond(plan, low + (number * width + c) * 8),
-                        q / pieces,
-                        (q + 1) / pieces,
-                        beyond(plan, part),
-                    )
+                    rule, of = first + q * _RULE + 128, exact + (q * width + c) * 16
+                    combine_sixteen(beyond(plan, rule), beyond(plan, here), 8, beyond(plan, part))
                     for r in range(16):
-                        value = plan[exact + (q * 16 + r) * width + c]
-                        for i in range(8):
-                            value -= plan[rules + _LIFT + 8 * r + i] * plan[part + i]
-                        most = max(most, abs(value))
+                        most = max(most, abs(plan[of + r] - plan[part + r]))
                 plan[bound + number * width + c] = most
-
-
-@kernel
-def _restrict(b: Vector, left: float, right: float, out: Vector) -> None:
-    """Bernstein coefficients of degree 7 on a part of the interval, by blossoms."""
-    room = beyond(out, 8)
-    for j in range(_LOW + 1):
-        for i in range(_LOW + 1):
-            room[i] = b[i]
-        for k in range(_LOW):
-            t = right if k < j else left
-            for i in range(_LOW - k):
-                room[i] = (1.0 - t) * room[i] + t * room[i + 1]
-        out[j] = room[0]
 
 
 @kernel
@@ -304,7 +301,7 @@ def is_clear(plan: Vector, place: int, level: int, f: int, x: Vector, room: Vect
     """Whether a watched function is proved positive on a leap."""
     width = int(plan[place + WIDTH])
     number = level * int(plan[at.STOPS]) + f
-    combine(beyond(plan, int(plan[place + LOW]) + number * width * 8), 8, x, width, room)
+    combine(beyond(plan, int(plan[place + LOW]) + number * width * 8), x, width, room)
     least = min(
         min(min(room[0], room[1]), min(room[2], room[3])),
         min(min(room[4], room[5]), min(room[6], room[7])),
@@ -324,8 +321,8 @@ def exact_rows(plan: Vector, place: int, f: int, x: Vector, b: Vector) -> None:
     """Write the Bernstein coefficients of a watched function on a step."""
     width = int(plan[place + WIDTH])
     full = int(plan[place + FULL]) + 2 * f * width * 8
-    combine(beyond(plan, full), 8, x, width, b)
-    combine(beyond(plan, full + width * 8), 8, x, width, beyond(b, 8))
+    combine(beyond(plan, full), x, width, b)
+    combine(beyond(plan, full + width * 8), x, width, beyond(b, 8))
 
 
 @kernel
@@ -333,7 +330,7 @@ def propagate(plan: Vector, matrix: int, width: int, x: Vector, room: Vector) ->
     """X += E x."""
     blocks = (width + 7) // 8
     for k in range(blocks):
-        combine(beyond(plan, matrix + k * width * 8), 8, x, width, beyond(room, 8 * k))
+        combine(beyond(plan, matrix + k * width * 8), x, width, beyond(room, 8 * k))
     for i in range(width):
         x[i] += room[i]
 
@@ -364,9 +361,8 @@ def travel_by_tables(plan: Vector, place: int, time: float, x: Vector, room: Vec
     if t == 0.0:
         return
     for k in range((_JETS * n + 7) // 8):
-        combine(
-            beyond(plan, int(plan[place + JETS]) + k * width * 8), 8, x, width, beyond(room, 8 * k)
-        )
+        jets = int(plan[place + JETS]) + k * width * 8
+        combine(beyond(plan, jets), x, width, beyond(room, 8 * k))
     tau = t / h
     base = 2 * n + w + 1
     gains = beyond(room, (_JETS * n + 7) // 8 * 8)

@@ -18,10 +18,10 @@ _WORD = ir.IntType(64)
 _LANE = ir.IntType(32)
 
 
-def combine(rows: Vector, stride: int, x: Vector, n: int, out: Vector) -> None:
-    """Out = Σ x_i rows_i for eight numbers; row i begins at i · stride."""
+def combine(rows: Vector, x: Vector, n: int, out: Vector) -> None:
+    """Out = Σ x_i rows_i for eight numbers; rows follow each other."""
     for r in range(8):
-        out[r] = sum(rows[i * stride + r] * x[i] for i in range(n))
+        out[r] = sum(rows[8 * i + r] * x[i] for i in range(n))
 
 
 def combine_sixteen(rows: Vector, x: Vector, n: int, out: Vector) -> None:
@@ -74,6 +74,15 @@ def slopes(rows: Vector, stride: int, order: int, tau: float, out: Vector) -> No
         for j in range(order, 0, -1):
             total = (total + j * rows[j * stride + r]) * tau
         out[r] = total
+
+
+def halve(b: Vector, right: Vector) -> None:
+    """Sixteen Bernstein coefficients of a polynomial: b becomes those of its left half."""
+    for k in range(15):
+        right[15 - k] = b[15]
+        for j in range(15, k, -1):
+            b[j] = 0.5 * (b[j] + b[j - 1])
+    right[0] = b[15]
 
 
 def convolve(plan: Vector, a: int, b: int, n: int) -> float:
@@ -150,17 +159,26 @@ def _add(builder: Any, total: Any, a: Any, b: Any) -> None:
 
 
 @intrinsic
-def _combine(typing: Any, rows: Any, stride: Any, x: Any, n: Any, out: Any) -> Any:
+def _combine(typing: Any, rows: Any, x: Any, n: Any, out: Any) -> Any:
     def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
-        rows, stride, x, n, out = args
-        total = _total(builder)
-        with cgutils.for_range(builder, n) as loop:
-            row = _eight(builder, rows, builder.mul(loop.index, stride))
-            _add(builder, total, row, _spread(builder, _number(builder, x, loop.index)))
-        _keep(builder, builder.load(total, typ=_EIGHT), out, _word(0))
+        rows, x, n, out = args
+        totals = [_total(builder) for _ in range(2)]
+
+        def add(i: Any, part: int) -> None:
+            row = _eight(builder, rows, builder.shl(i, _word(3)))
+            _add(builder, totals[part], row, _spread(builder, _number(builder, x, i)))
+
+        with cgutils.for_range(builder, builder.lshr(n, _word(1))) as loop:
+            first = builder.shl(loop.index, _word(1))  # two sums, as each waits for itself
+            add(first, 0)
+            add(builder.add(first, _word(1)), 1)
+        with cgutils.for_range(builder, builder.and_(n, _word(1))):
+            add(builder.sub(n, _word(1)), 0)
+        parts = [builder.load(one, typ=_EIGHT) for one in totals]
+        _keep(builder, builder.fadd(*parts), out, _word(0))
         return context.get_dummy_value()
 
-    return types.void(_DOUBLES, types.int64, _DOUBLES, types.int64, _DOUBLES), build
+    return types.void(_DOUBLES, _DOUBLES, types.int64, _DOUBLES), build
 
 
 @intrinsic
@@ -294,6 +312,43 @@ def _slopes(typing: Any, rows: Any, stride: Any, order: Any, tau: Any, out: Any)
     return types.void(_DOUBLES, n, n, types.float64, _DOUBLES), _series_sum(True)
 
 
+@intrinsic
+def _halve(typing: Any, b: Any, right: Any) -> Any:
+    # Coefficient j of a half is the sum over i ≤ j of C(j, i) b_i / 2ʲ; of the other one, mirrored.
+    shares = [[math.comb(j, i) / 2.0**j for i in range(16)] for j in range(16)]
+
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        b, right = args
+        each = [_spread(builder, _number(builder, b, _word(i))) for i in range(16)]
+
+        def block(low: bool, mirrored: bool) -> Any:
+            """Eight of the coefficients; long sums in two parts, as each waits for itself."""
+            rows = range(8) if low else range(8, 16)
+            parts = []
+            for begin in range(0, 8 if low else 16, 8):
+                total = _zero()
+                for i in range(begin, begin + 8):
+                    column = [shares[j][i] for j in rows]
+                    if mirrored:
+                        column.reverse()
+                    one = each[15 - i if mirrored else i]
+                    total = _fused(builder, ir.Constant(_EIGHT, column), one, total)
+                parts.append(total)
+            return builder.fadd(*parts) if len(parts) > 1 else parts[0]
+
+        high = block(False, False)
+        middle = builder.extract_element(high, ir.Constant(_LANE, 7))
+        _keep(builder, block(True, False), b, _word(0))
+        _keep(builder, high, b, _word(8))
+        # Both halves meet in the same number.
+        first = builder.insert_element(block(False, True), middle, ir.Constant(_LANE, 0))
+        _keep(builder, first, right, _word(0))
+        _keep(builder, block(True, True), right, _word(8))
+        return context.get_dummy_value()
+
+    return types.void(_DOUBLES, _DOUBLES), build
+
+
 def _convolving(weighted: bool) -> Any:
     def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         plan, a, b, n, *weights = args
@@ -386,6 +441,7 @@ _replaces(combine_ranges, _combine_ranges)
 _replaces(scale, _scale)
 _replaces(gains, _gains)
 _replaces(slopes, _slopes)
+_replaces(halve, _halve)
 _replaces(convolve, _convolve)
 _replaces(convolve_weighted, _convolve_weighted)
 _replaces(binary_logarithm, _binary_logarithm)
