@@ -36,7 +36,7 @@ def test_comparisons_and_targets_are_those_of_the_page(tmp_path, monkeypatch):
 
 
 def test_the_fixed_part_of_every_command_is_measured():
-    assert {*fixed.COMMANDS, "explore", "init"} == set(_COMMANDS)
+    assert {*fixed.COMMANDS, "explore", "help", "init"} == set(_COMMANDS)
 
 
 def test_the_exponent_of_a_power_is_found():
