@@ -11,7 +11,7 @@ from numbers import Integral
 from typing import Annotated, TypeAlias
 
 from vibroimpact.errors import InputError, shown
-from vibroimpact.model.quantities import DIMENSIONLESS
+from vibroimpact.model.quantities import DIMENSIONLESS, TIME
 from vibroimpact.model.units import to_si
 
 LARGEST = 2**62
@@ -85,6 +85,28 @@ def share(value: object, field: str) -> float:
     return number
 
 
+def fractile(value: object, field: str) -> float:
+    """Return a number from 0 to 1.
+
+    Raises
+    ------
+    InputError
+        If the value is not such a number.
+    """
+    return to_si(value, DIMENSIONLESS, field, minimum=0.0, maximum=1.0)
+
+
+def tail(value: object, field: str) -> float:
+    """Return a duration of free vibration in s.
+
+    Raises
+    ------
+    InputError
+        If the value is not a time of at least 0.
+    """
+    return to_si(value, TIME, field, minimum=0.0, maximum=MOST_TAIL)
+
+
 PositiveInt: TypeAlias = Annotated[int, whole]
 NonNegativeInt: TypeAlias = Annotated[int, partial(whole, least=0)]
 MaxEvents: TypeAlias = Annotated[int, partial(whole, most=MOST_EVENTS)]
@@ -99,3 +121,7 @@ Refinements: TypeAlias = Annotated[int, partial(whole, least=0, most=MOST_REFINE
 """Number of times that a grid is refined."""
 Share: TypeAlias = Annotated[float, share]
 """A number between 0 and 1."""
+Fractile: TypeAlias = Annotated[float, fractile]
+"""A number from 0 to 1."""
+Tail: TypeAlias = Annotated[float | str, tail]
+"""Duration of free vibration after a record, in s or with a unit."""
