@@ -6,9 +6,10 @@ computing parts only when the command runs, so that ``vibroimpact --help`` respo
 A new command is a module with one function, and an entry of `_COMMANDS`. The decorator `calls` of
 `cli/function_options.py` names the library function, from which it copies help and defaults. The
 rig comes from `subject` of `cli/rig.py`, shared options from `cli/options.py`, which a topic of
-`cli/topics.py` explains; `results` of `cli/results.py` writes and prints, and its `draw` saves a further figure. A command checks no
-values and composes no sentences: the library function checks, and `facts` composes.
-`tests/cli/test_function_options.py` lists the options whose default differs, with the reasons.
+`cli/topics.py` explains; `results` of `cli/results.py` writes and prints, and its `draw` saves a
+further figure. A command checks no values and composes no sentences: the library function checks,
+and `facts` composes. `tests/cli/test_function_options.py` lists the options whose default differs,
+with the reasons.
 """
 
 from __future__ import annotations
